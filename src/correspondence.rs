@@ -1,10 +1,10 @@
-//! Which point of one design is which of the other.
+//! Correspondence: pairs the boundary points, parts and holes of two designs.
 //!
-//! Parts and holes are paired by an assignment, boundaries by a cyclic dynamic
-//! program over all starting points ([`match_curves`]), with pins as hard
-//! constraints. A [`BoundaryMatch`] gives both polygons the same number of corresponding
-//! vertices ([`BoundaryMatch::polygons`]). [`match_regions`] does all of that
-//! for two designs, and gives a partner to what one of them has alone.
+//! Parts and holes are paired by an optimal assignment. Boundaries are matched by a cyclic dynamic
+//! program over all starting points ([`match_curves`]), with the user's pins as hard constraints. A
+//! [`BoundaryMatch`] gives both polygons the same number of corresponding vertices
+//! ([`BoundaryMatch::polygons`]). [`match_regions`] does all of this for two designs, and also
+//! handles parts and holes that exist in only one of them.
 
 mod boundary;
 mod boundary_match;

@@ -1,9 +1,9 @@
-//! Triangle meshes in the plane, their connectivity and their subdivision.
+//! Triangle meshes in the plane: connectivity, components, subdivision, triangulation and
+//! natural-neighbour coordinates.
 //!
-//! A [`TriangleMesh`] guarantees positions in range and faces whose indices
-//! exist and differ. It does not promise orientation: that is a matter of
-//! two embeddings and is checked where they meet, in
-//! [`crate::compatible::CompatibleMesh`].
+//! A [`TriangleMesh`] guarantees that positions are in range and that the vertex indices of each
+//! face exist and differ. It does not guarantee positive orientation: that is a property of a pair
+//! of embeddings, checked by [`crate::compatible::CompatibleMesh`].
 
 mod components;
 mod connectivity;
@@ -28,33 +28,33 @@ pub struct TriangleMesh {
     connectivity: Connectivity,
 }
 
-/// Why points and faces do not make a [`TriangleMesh`]. Indices start at 0.
+/// Reason why points and faces do not form a [`TriangleMesh`]. Indices start at 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// There is no face at all.
+    /// The list of faces is empty.
     #[error("the mesh has no faces; give at least one triangle")]
     NoFaces,
-    /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
+    /// A coordinate is not finite, or beyond [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("vertex {} {RANGE_MESSAGE}", .0 + 1)]
     Place(usize),
-    /// All vertices lie on one another, or as good as.
+    /// All vertices coincide, or almost.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
     /// A face names a vertex that does not exist.
-    #[error("face {} names vertex {}, but there are only {vertices}; correct the face", face + 1, u64::from(*vertex) + 1)]
+    #[error("face {} names vertex {}, but the mesh has only {vertices} vertices; correct the face", face + 1, u64::from(*vertex) + 1)]
     OutOfRange {
-        /// The face.
+        /// Index of the face.
         face: usize,
-        /// The vertex it names.
+        /// Vertex index that the face names.
         vertex: u32,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
     /// A face names a vertex twice.
-    #[error("face {} names one vertex twice; remove the face or correct it", .0 + 1)]
+    #[error("face {} names one vertex twice; remove or correct the face", .0 + 1)]
     Repeated(usize),
     /// Faces do not meet edge to edge.
     #[error(transparent)]
@@ -62,8 +62,8 @@ pub enum MeshError {
 }
 
 impl TriangleMesh {
-    /// Takes positions and faces; every face lists its vertices in either
-    /// orientation, the same for neighbouring faces.
+    /// Creates a mesh. Faces may list their vertices in either orientation, as long as neighbouring
+    /// faces agree.
     ///
     /// # Errors
     /// [`MeshError`] names the first vertex or face that cannot be used.
@@ -82,7 +82,7 @@ impl TriangleMesh {
             return Err(MeshError::Place(bad));
         }
         check_faces(&faces, positions.len())?;
-        // A face has vertices, and so there is a box around them.
+        // There is a face, so there are vertices with a bounding box.
         Bounds::of(positions.iter().copied())
             .map_or(Ok(0.0), |all| DesignSizeError::check(&all))?;
         let connectivity = Connectivity::new(&faces)?;
@@ -93,40 +93,40 @@ impl TriangleMesh {
         })
     }
 
-    /// One point for each vertex.
+    /// Returns the position of each vertex.
     #[must_use]
     pub fn positions(&self) -> &[DVec2] {
         &self.positions
     }
 
-    /// Vertex indices, three a face.
+    /// Returns the vertex indices of each face.
     #[must_use]
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
     }
 
-    /// Which faces meet at which edges.
+    /// Returns which faces meet at which edges.
     #[must_use]
     pub fn connectivity(&self) -> &Connectivity {
         &self.connectivity
     }
 
-    /// The closed boundary walks, as vertex indices, with the faces on the
-    /// left of counter-clockwise ones.
+    /// Returns the closed boundary loops as vertex indices. Counter-clockwise faces lie on their
+    /// left.
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
         self.connectivity.boundary_loops(&self.faces)
     }
 
-    /// The smallest box around all vertices.
+    /// Returns the bounding box of all vertices.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.positions.iter().copied())
             .unwrap_or_else(|| unreachable!("a mesh has a face and so a vertex"))
     }
 
-    /// The mesh laid down by a similarity. A mirror reverses every face, so
-    /// that orientations stay.
+    /// Returns the mesh transformed by a similarity. A mirror also reverses the vertices of every
+    /// face, which preserves orientations.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
         let mut mesh = self.clone();
@@ -144,9 +144,12 @@ impl TriangleMesh {
     }
 }
 
-/// Indices in range and different within each face.
+/// Checks that vertex indices are in range and differ within each face.
+///
+/// # Errors
+/// [`MeshError`] for the first face that is invalid.
 pub(crate) fn check_faces(faces: &[[u32; 3]], vertices: usize) -> Result<(), MeshError> {
-    // Both are asked of each face in turn, so that the first bad one is told.
+    // Both checks run face by face, so that the first invalid face is reported.
     for (face, &[a, b, c]) in faces.iter().enumerate() {
         if let Some(&vertex) = [a, b, c].iter().find(|&&v| v as usize >= vertices) {
             return Err(MeshError::OutOfRange {

@@ -1,20 +1,18 @@
-//! Which point of one boundary is which of the other.
+//! Matches the points of two closed boundaries.
 //!
-//! Both curves are sampled by arc length with corners kept, samples are
-//! compared by [`super::features`], and the cheapest closed path through the
-//! pairs is sought over all starting points (Maes 1990). That is done blind to
-//! rotation first; the rotations of its best few paths are the poses for which
-//! tangents and positions are compared too. The path is then made strictly
-//! monotone with even stretch.
+//! Both curves are sampled by arc length with their corners included. Samples are compared by
+//! [`super::features`], and the cheapest closed path through all pairs of samples is found over all
+//! starting points (Maes 1990). The first search ignores rotation; the rotations of its best few
+//! paths become the poses for which tangents and positions are compared too. The resulting path is
+//! then made strictly monotone with evenly distributed stretch.
 //!
-//! Guarantees: the match is strictly monotone both ways, goes once around,
-//! honours each pin exactly, is deterministic, and the match from B to A is
-//! the inverse of that from A to B bit by bit, since the pair is solved in one
-//! order whichever way it is asked for. Equally good matches (a gear's own
-//! symmetry) go to the least rotation.
+//! Guarantees: the match is strictly monotone in both directions, goes around once, satisfies each
+//! pin exactly and is deterministic. The match from B to A is the bitwise inverse of the match from
+//! A to B, because each pair is solved in one canonical order. Among equally good matches (a gear's
+//! symmetries) the one with the smallest rotation is chosen.
 //!
-//! Does not guarantee: that the pose found is the best of all rotations, only
-//! of the few tried; detail finer than the samples is matched by arc length.
+//! Does not guarantee: that the rotation is the best of all, only of the few tried. Detail finer
+//! than the sample spacing is matched by arc length.
 
 use super::boundary_match::BoundaryMatch;
 use super::curve::BoundaryCurve;
@@ -24,17 +22,17 @@ use super::pins::{self, Pin};
 use crate::geometry::{DVec2, lexicographic};
 use std::cmp::Ordering;
 
-/// Matches two boundaries that run the same way around.
+/// Matches two closed boundaries that run in the same direction.
 ///
 /// # Errors
 /// [`MatchError`] for contradictory pins, opposite orientations, or options
 /// out of range.
 ///
 /// ```
-/// use morphospace::correspondence::{Curve, MatchOptions, match_curves};
+/// use morphospace::correspondence::{BoundaryCurve, MatchOptions, match_curves};
 /// use morphospace::geometry::{DVec2, Ring};
 /// let flag = [(0.0, 0.0), (3.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
-/// let curve = Curve::closed(&Ring::new(flag.to_vec())?)?;
+/// let curve = BoundaryCurve::closed(&Ring::new(flag.to_vec())?)?;
 /// let same = match_curves(&curve, &curve, &[], &MatchOptions::default())?;
 /// assert!(same.knots().iter().all(|[a, b]| (a - b).abs() < 1e-12));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -46,21 +44,23 @@ pub fn match_curves(
     options: &MatchOptions,
 ) -> Result<BoundaryMatch, MatchError> {
     check(source, target, options)?;
-    let there = pins::ordered(pins, source, target)?;
-    let inverses: Vec<Pin> = pins.iter().map(|pin| pin.swapped()).collect();
-    let back = pins::ordered(&inverses, target, source)?;
-    // Solved in one order and turned round: sums and ties would else differ.
-    if order(source, &there, target, &back) == Ordering::Greater {
-        return Ok(CurveMatchProblem::new(target, source, back, options)
-            .solve([target, source])
-            .inverse());
+    let forward_pins = pins::ordered(pins, source, target)?;
+    let swapped_pins: Vec<Pin> = pins.iter().map(|pin| pin.swapped()).collect();
+    let backward_pins = pins::ordered(&swapped_pins, target, source)?;
+    // Solve in canonical order and invert if needed: otherwise sums and ties would differ.
+    if canonical_order(source, &forward_pins, target, &backward_pins) == Ordering::Greater {
+        return Ok(
+            CurveMatchProblem::new(target, source, backward_pins, options)
+                .solve([target, source])
+                .inverse(),
+        );
     }
-    Ok(CurveMatchProblem::new(source, target, there, options).solve([source, target]))
+    Ok(CurveMatchProblem::new(source, target, forward_pins, options).solve([source, target]))
 }
 
-/// A total order of curves with their pins, so that a pair is solved in one
-/// order only.
-fn order(
+/// Compares two curves with their pins in a total order, which fixes the order in which a pair is
+/// solved.
+fn canonical_order(
     a: &BoundaryCurve,
     a_pins: &[[f64; 2]],
     b: &BoundaryCurve,

@@ -1,12 +1,12 @@
-//! The match of two curves: a strictly monotone map between their places.
+//! The match of two closed curves: a strictly monotone, piecewise linear map between their places.
 
-/// Which place of one curve is which of the other: linear between knots,
-/// strictly monotone both ways, once around.
+/// Map from the places (fractions of arc length) of one closed curve to those of another. It is
+/// linear between knots, strictly monotone in both directions, and goes around once.
 ///
-/// The match the other way is exactly [`Self::inverse`], bit by bit.
+/// The match in the other direction is exactly [`Self::inverse`], bit by bit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryMatch {
-    /// Ascending in the source, cyclically ascending in the target.
+    /// Pairs of places, ascending in the source, cyclically ascending in the target.
     pub(super) knots: Vec<[f64; 2]>,
     pub(super) rotation: f64,
     pub(super) cost: f64,
@@ -14,28 +14,28 @@ pub struct BoundaryMatch {
 }
 
 impl BoundaryMatch {
-    /// Pairs of places that are the same point, `[source, target]`: ascending
-    /// in the source, and from some knot on in the target. At least one.
+    /// Returns the knots, pairs of corresponding places `[source, target]`: ascending in the
+    /// source, and in the target up to a cyclic shift. There is at least one.
     #[must_use]
     pub fn knots(&self) -> &[[f64; 2]] {
         &self.knots
     }
 
-    /// The rotation that lays the matched source onto the target, least
-    /// squares about the centres, in radians in (−π, π].
+    /// Returns the rotation that best aligns the matched source with the target about their centres
+    /// (least squares), in radians in (−π, π].
     #[must_use]
     pub fn rotation(&self) -> f64 {
         self.rotation
     }
 
-    /// How unlike the curves are as matched: 0 for similar ones, some tenths
-    /// for two poses of a thing, no unit.
+    /// Returns the dissimilarity of the matched curves, dimensionless: 0 for similar curves, up to
+    /// about 0.3 for two poses of one shape, 0.4 and more for unlike shapes.
     #[must_use]
     pub fn cost(&self) -> f64 {
         self.cost
     }
 
-    /// The match from the target to the source.
+    /// Returns the match from the target to the source.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let swapped = |pairs: &[[f64; 2]]| {
@@ -43,11 +43,11 @@ impl BoundaryMatch {
             pairs.sort_by(|a, b| a[0].total_cmp(&b[0]));
             pairs
         };
-        // −π is no rotation in (−π, π].
-        let half_turn = self.rotation == std::f64::consts::PI;
+        // −π is outside (−π, π], so a half turn keeps its sign.
+        let is_half_turn = self.rotation == std::f64::consts::PI;
         Self {
             knots: swapped(&self.knots),
-            rotation: if half_turn {
+            rotation: if is_half_turn {
                 self.rotation
             } else {
                 0.0 - self.rotation
@@ -58,21 +58,22 @@ impl BoundaryMatch {
     }
 }
 
-/// Column `there` of knots that ascend in all columns, where column `here` is
-/// at a place: linear between knots.
+/// Interpolates column `there` of the knots linearly, where column `here` equals `place`. The knots
+/// ascend in all columns.
+///
+/// A place before the first knot or after the last gives that knot's value.
 pub(super) fn interpolated<const N: usize>(
     knots: &[[f64; N]],
     place: f64,
     [here, there]: [usize; 2],
 ) -> f64 {
     let after = knots.partition_point(|knot| knot[here] <= place);
-    // A place before the first knot, or behind the last, is by the nearest two.
+    // Places outside the knots use the first or the last interval.
     let k = after.clamp(1, knots.len() - 1);
     let (from, to) = (knots[k - 1], knots[k]);
     let along = (place - from[here]) / (to[here] - from[here]);
     let (start, end) = (from[there], to[there]);
-    // What lies beyond a knot, by rounding or at an end, is at it to the last
-    // bit.
+    // Return the knot's value bit by bit where the place is at or beyond it.
     if along >= 1.0 {
         end
     } else {

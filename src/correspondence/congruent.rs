@@ -1,41 +1,41 @@
-//! Curves that are nearly the same up to a similarity, matched to within a
-//! fraction of a sample.
+//! Registers curves that are nearly congruent up to a similarity, to within a fraction of a sample.
 //!
-//! A path through pairs of samples is as exact as the samples are close, and
-//! where an outline is smooth nothing but the price of stretch holds it. A
-//! design against another drawing of itself (traced again, simplified, with
-//! other points) can be matched better: the similarity that the match
-//! implies lays one upon the other, and each point belongs where it lands.
-//! That is the iterated closest point (Besl, McKay 1992), kept near the match
-//! that was found.
+//! A path through sample pairs is only as accurate as the sample spacing, and on smooth stretches
+//! only the weight of stretch determines it. For two versions of one design (traced again,
+//! simplified, or with other vertices) a better match exists: the similarity implied by the match
+//! lays one curve on the other, and each point belongs where it lands. This is the iterated closest
+//! point method (Besl, McKay 1992), restricted to the neighbourhood of the given match.
 
 use super::curve::BoundaryCurve;
 use super::knot_order::{is_pin, ordered_knots};
 use crate::geometry::{DVec2, SimilarityFit};
 
-/// Curves count as nearly the same where matched points are off by no more
-/// than this, as a root of the mean square in lengths of the target.
-const ALIKE: f64 = 0.012;
+/// Maximum root mean square distance of matched points, in lengths of the target, at which curves
+/// count as nearly congruent (heuristic).
+const MAX_RESIDUAL: f64 = 0.012;
 
-/// So far along the target a knot may be moved, and so near its own point
-/// must land for that, in lengths of the target.
-const REACH: f64 = 0.025;
-const NEAR: f64 = 0.01;
+/// Maximum shift of a knot along the target, in lengths of the target (heuristic).
+const MAX_SHIFT: f64 = 0.025;
+/// Maximum distance of a transformed source point from the target, in lengths of the target
+/// (heuristic).
+const MAX_DISTANCE: f64 = 0.01;
 
-/// How often the curves are laid upon each other.
-const ROUNDS: usize = 8;
+/// Maximum number of registration rounds (resource limit).
+const MAX_ROUNDS: usize = 8;
 
-/// Half the stretch over which directions are compared, in lengths, and the
-/// least cosine between directions that are the same.
+/// Half-length of the window over which directions are averaged, in fractions of a curve's length
+/// (heuristic).
 const TANGENT_REACH: f64 = 0.005;
+/// Minimum cosine between directions that count as equal: 60° (heuristic).
 const SAME_DIRECTION: f64 = 0.5;
 
-/// A knot that moves less keeps its place to the last bit: corner on corner.
-const EXACT: f64 = 1e-9;
+/// Knots that would move by less than this keep their place bit by bit, so that corners stay
+/// exactly on corners (tolerance: in fractions of the length, above rounding).
+const MIN_SHIFT: f64 = 1e-9;
 
-/// Knots with each source point matched to where it falls on the target,
-/// where the curves are nearly the same; none where they are not. `knots` is
-/// ascending in the source; pins stay.
+/// Moves the target place of each knot to where its source point lands under the best-fitting
+/// similarity. Returns `None` if the curves are not nearly congruent. `knots` ascend in the source;
+/// pins are fixed.
 pub(super) fn registered_knots(
     knots: &[[f64; 2]],
     pins: &[[f64; 2]],
@@ -43,46 +43,52 @@ pub(super) fn registered_knots(
 ) -> Option<Vec<[f64; 2]>> {
     let length = target.length();
     let mut places: Vec<f64> = knots.iter().map(|k| k[1]).collect();
-    let is_held = |k: usize| is_pin(pins, knots[k]);
+    let is_fixed = |k: usize| is_pin(pins, knots[k]);
     let points: Vec<DVec2> = knots.iter().map(|k| source.point_at(k[0])).collect();
-    for round in 0..ROUNDS {
-        let landed: Vec<DVec2> = places.iter().map(|&b| target.point_at(b)).collect();
+    for round in 0..MAX_ROUNDS {
+        let landed: Vec<DVec2> = places
+            .iter()
+            .map(|&nearest| target.point_at(nearest))
+            .collect();
         let fit = SimilarityFit::of(&points, &landed)?;
-        // Later rounds only come nearer.
-        if round == 0 && fit.residual(&points, &landed) > ALIKE * length {
+        // Only the first residual is decisive: later rounds reduce it.
+        if round == 0 && fit.residual(&points, &landed) > MAX_RESIDUAL * length {
             return None;
         }
-        let mut moved: f64 = 0.0;
+        let mut max_move: f64 = 0.0;
         for (k, place) in places.iter_mut().enumerate() {
-            if is_held(k) {
+            if is_fixed(k) {
                 continue;
             }
-            let [from, found] = knots[k];
+            let [from, matched] = knots[k];
             let p = fit.apply(points[k]);
-            let is_same_way = |b: f64| {
+            let is_same_way = |place: f64| {
                 let own = source.direction(from - TANGENT_REACH, from + TANGENT_REACH);
-                let other = target.direction(b - TANGENT_REACH, b + TANGENT_REACH);
+                let other = target.direction(place - TANGENT_REACH, place + TANGENT_REACH);
                 (own + fit.angle() - other).cos() > SAME_DIRECTION
             };
-            // About the place that was found, not the last one: it must not creep away.
-            let (b, distance) = target.nearest_within(p, found - REACH, found + REACH);
-            let lands = distance <= NEAR * length && is_same_way(b);
-            let next = if lands && (b - found).abs() > EXACT {
-                b
+            // Search around the originally matched place, so that the knot cannot drift away over
+            // the rounds.
+            let (low, high) = (matched - MAX_SHIFT, matched + MAX_SHIFT);
+            let (nearest, distance) = target.nearest_within(p, low, high);
+            let lands = distance <= MAX_DISTANCE * length && is_same_way(nearest);
+            let next = if lands && (nearest - matched).abs() > MIN_SHIFT {
+                nearest
             } else {
-                found
+                matched
             };
-            moved = moved.max(target.point_at(next).distance(target.point_at(*place)));
+            max_move = max_move.max(target.point_at(next).distance(target.point_at(*place)));
             *place = next;
         }
-        if moved < 1e-6 * length {
+        // Converged: no knot moves visibly any more.
+        if max_move < 1e-6 * length {
             break;
         }
     }
-    let settled: Vec<[f64; 2]> = knots.iter().zip(places).map(|(k, b)| [k[0], b]).collect();
-    let kept = ordered_knots(knots, &settled, pins);
-    // What loses many knots did not settle.
-    (2 * kept.len() > knots.len()).then_some(kept)
+    let registered: Vec<[f64; 2]> = knots.iter().zip(places).map(|(k, b)| [k[0], b]).collect();
+    let monotone = ordered_knots(knots, &registered, pins);
+    // The registration has failed if half or more of the knots break monotonicity.
+    (2 * monotone.len() > knots.len()).then_some(monotone)
 }
 
 #[cfg(test)]
@@ -96,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn unlike_curves_are_left_alone() {
+    fn dissimilar_curves_are_not_registered() {
         let square = closed(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
         let bar = closed(&[(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (0.0, 1.0)]);
         let knots = [0.0, 0.25, 0.5, 0.75].map(|place| [place, place]);
@@ -104,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn knots_a_little_off_are_put_right() {
+    fn slightly_shifted_knots_are_corrected() {
         let shape = closed(&[(0.0, 0.0), (3.0, 0.0), (2.0, 1.0), (0.5, 1.5)]);
         let knots: Vec<_> = (0..40)
             .map(|k| {

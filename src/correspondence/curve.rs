@@ -1,64 +1,64 @@
-//! Closed curves by arc length, with the unwrapped direction of their tangent.
+//! Closed curves parametrised by arc length, with the unwrapped direction of their tangent.
 //!
-//! A place on a [`BoundaryCurve`] is the fraction of its length from the first point,
-//! in [0, 1); so it keeps its meaning when the curve is moved, turned or
-//! enlarged.
+//! A *place* on a [`BoundaryCurve`] is an arc-length position: the fraction of the curve's length
+//! from its first point, in [0, 1). It does not change when the curve is translated, rotated or
+//! scaled.
 //!
-//! Turning is the mean direction after a place less the mean direction before
-//! it, both over a stated length of the curve. Means over the *unwrapped*
-//! direction know no jump at ±π, and jitter of the outline cancels in them.
+//! *Turning* at a place is the mean direction after it minus the mean direction before it, both
+//! over a given window. Means of the *unwrapped* direction have no jump at ±π, and jitter of the
+//! outline cancels out.
 
 use crate::geometry::{DVec2, Ring, nearest_segment_parameter, perimeter};
 use std::f64::consts::TAU;
 
-/// A bend below this is none, in radians: a pixel over the width of twenty
-/// thousand screens; coordinates with seven digits are straight to it.
-const LEAST_BEND: f64 = 1e-5;
+/// Bends smaller than this, in radians, count as straight (tolerance: far below one pixel over a
+/// screen's width; coordinates rounded to seven digits still count as straight).
+const MIN_BEND: f64 = 1e-5;
 
-/// A closed polyline that knows its places by arc length.
+/// A closed polyline parametrised by arc length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryCurve {
     points: Vec<DVec2>,
-    /// Place of each point, and at the end the place 1.
+    /// Place of each point, followed by 1.
     places: Vec<f64>,
     /// Unwrapped direction of each edge, in radians.
     directions: Vec<f64>,
-    /// Integral of the direction over the place, up to each point.
+    /// Integral of the direction over the place, from 0 to each point.
     integral: Vec<f64>,
-    /// Direction gained in one round: 2π times the turning number.
+    /// Change of direction in one round: 2π times the turning number.
     round: f64,
 }
 
-/// The length of a ring is no positive finite number in floating point.
+/// The length of a ring overflows or underflows floating point.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the outline is too large or too small to be measured; scale it to an ordinary size")]
+#[error("the outline is too large or too small to measure; scale it to an ordinary size")]
 pub struct CurveLengthError;
 
 impl BoundaryCurve {
-    /// A closed boundary.
+    /// Creates the curve along a closed boundary, in the ring's direction.
     ///
     /// # Errors
     /// [`CurveLengthError`] if its length overflows or underflows.
     ///
     /// ```
-    /// use morphospace::{correspondence::Curve, geometry::{DVec2, Ring}};
+    /// use morphospace::{correspondence::BoundaryCurve, geometry::{DVec2, Ring}};
     /// let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
-    /// let curve = Curve::closed(&Ring::new(square.to_vec())?)?;
+    /// let curve = BoundaryCurve::closed(&Ring::new(square.to_vec())?)?;
     /// assert_eq!(curve.point_at(0.625), DVec2::new(0.5, 1.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn closed(ring: &Ring) -> Result<Self, CurveLengthError> {
         let edges = unit_edges(ring).ok_or(CurveLengthError)?;
         let mut places = vec![0.0];
-        let mut sum = 0.0;
+        let mut length = 0.0;
         for edge in &edges {
-            sum += edge.length();
-            places.push(sum);
+            length += edge.length();
+            places.push(length);
         }
-        if !(sum.is_finite() && sum > 0.0) {
+        if !(length.is_finite() && length > 0.0) {
             return Err(CurveLengthError);
         }
-        places.iter_mut().for_each(|place| *place /= sum);
+        places.iter_mut().for_each(|place| *place /= length);
         let directions = unwrapped(&edges);
         let mut integral = vec![0.0];
         for (e, direction) in directions.iter().enumerate() {
@@ -75,36 +75,36 @@ impl BoundaryCurve {
         })
     }
 
-    /// The points in order.
+    /// Returns the points in order.
     #[must_use]
     pub fn points(&self) -> &[DVec2] {
         &self.points
     }
 
-    /// The place of each point, in order; nondecreasing.
+    /// Returns the place of each point, in order, non-decreasing.
     #[must_use]
     pub fn places(&self) -> &[f64] {
         &self.places[..self.points.len()]
     }
 
-    /// Whether the curve bends at a point of its own, by more than rounding.
+    /// Returns whether the curve bends at its `point`-th vertex by more than rounding error.
     pub(super) fn bends_at(&self, point: usize) -> bool {
         let before = match point {
             0 => self.directions[self.directions.len() - 1] - self.round,
             _ => self.directions[point - 1],
         };
-        (self.directions[point] - before).abs() > LEAST_BEND
+        (self.directions[point] - before).abs() > MIN_BEND
     }
 
-    /// The point at a place, exact at the curve's own points. Places
-    /// are taken modulo 1.
+    /// Returns the point at a place, exact at the curve's vertices. Places are taken modulo 1.
     #[must_use]
     pub fn point_at(&self, place: f64) -> DVec2 {
         let place = self.wrapped(place);
         let e = self.edge_at(place);
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
         let along = (place - self.places[e]) / (self.places[e + 1] - self.places[e]);
-        // 0 / 0 on an edge of no length is neither: its first point stands.
+        // On an edge of zero length the ratio is NaN; both comparisons fail and its first point is
+        // returned.
         if along >= 1.0 {
             return to;
         }
@@ -115,20 +115,20 @@ impl BoundaryCurve {
         }
     }
 
-    /// How the point moves with its place: along its edge, by the curve's length.
+    /// Returns the derivative of the point with respect to the place: the edge's direction times
+    /// the curve's length. It is zero on edges of zero length.
     pub(crate) fn velocity_at(&self, place: f64) -> DVec2 {
         let e = self.edge_at(self.wrapped(place));
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
-        let span = self.places[e + 1] - self.places[e];
-        // An edge of no length moves nothing.
-        if span > 0.0 {
-            (to - from) / span
+        let place_span = self.places[e + 1] - self.places[e];
+        if place_span > 0.0 {
+            (to - from) / place_span
         } else {
             DVec2::ZERO
         }
     }
 
-    /// The place nearest to `p`, the first of several: where a pin lands.
+    /// Returns the place nearest to `p`, for example where a pin lands. Ties go to the first.
     #[must_use]
     pub fn nearest(&self, p: DVec2) -> f64 {
         let mut best = (f64::INFINITY, 0.0);
@@ -138,9 +138,8 @@ impl BoundaryCurve {
         self.wrapped(best.1)
     }
 
-    /// The place nearest to `p` among those from one to another, counted on
-    /// over the seam, and how far it is. At least
-    /// `from <= to`; not more than one round.
+    /// Returns the place nearest to `p` between the unwrapped places `from` and `to`, and its
+    /// distance. Requires `from <= to`; only the first round is searched.
     pub(super) fn nearest_within(&self, p: DVec2, from: f64, to: f64) -> (f64, f64) {
         let to = to.min(from + 1.0);
         let mut best = (f64::INFINITY, self.wrapped(from));
@@ -149,9 +148,9 @@ impl BoundaryCurve {
         let mut e = self.edge_at(from - base);
         while base + self.places[e] <= to {
             let [start, end] = [self.places[e], self.places[e + 1]].map(|place| base + place);
-            let share = |place: f64| ((place - start) / (end - start)).clamp(0.0, 1.0);
+            let fraction = |place: f64| ((place - start) / (end - start)).clamp(0.0, 1.0);
             if end > start {
-                best = self.nearer(best, p, e, [share(from), share(to)]);
+                best = self.nearer(best, p, e, [fraction(from), fraction(to)]);
             }
             e += 1;
             if e == count {
@@ -161,8 +160,8 @@ impl BoundaryCurve {
         (self.wrapped(best.1), best.0.sqrt())
     }
 
-    /// The nearest place of an edge between two shares of it, as squared
-    /// distance and place, if it is nearer than `best`.
+    /// Compares `best` with the point of edge `e` nearest to `p`, restricted to the fractions from
+    /// `low` to `high` of the edge. Returns squared distance and place of the nearer one.
     fn nearer(&self, best: (f64, f64), p: DVec2, e: usize, [low, high]: [f64; 2]) -> (f64, f64) {
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
         let along = nearest_segment_parameter(p, from, to).clamp(low, high);
@@ -175,64 +174,68 @@ impl BoundaryCurve {
         }
     }
 
-    /// The length, in the units of the points; may overflow for huge ones.
+    /// Returns the length, in the units of the points. It may overflow for huge coordinates.
     pub(super) fn length(&self) -> f64 {
         perimeter(&self.points)
     }
 
-    /// How often the tangent turns around: 1 for simple counter-clockwise
-    /// boundaries, −1 for clockwise ones.
+    /// Returns the number of turns of the tangent: 1 for simple counter-clockwise boundaries, −1
+    /// for clockwise ones.
     pub(super) fn turning_number(&self) -> i32 {
         (self.round / TAU).round() as i32
     }
 
-    /// `place` in [0, 1).
+    /// Returns `place` modulo 1, in [0, 1).
     pub(crate) fn wrapped(&self, place: f64) -> f64 {
         let place = place.rem_euclid(1.0);
-        if place < 1.0 { place } else { 0.0 } // -1e-20 is rounded up to 1
+        if place < 1.0 { place } else { 0.0 } // rem_euclid rounds -1e-20 up to 1
     }
 
-    /// Direction at the mean over `[from, to]`, in radians, unwrapped.
+    /// Returns the mean unwrapped direction over `[from, to]`, in radians.
     pub(super) fn direction(&self, from: f64, to: f64) -> f64 {
         (self.direction_integral(to) - self.direction_integral(from)) / (to - from)
     }
 
-    /// Mean direction over `reach` after the place less that before it.
+    /// Returns the turning at a place, in radians: the mean direction over `reach` after it minus
+    /// that before it.
     pub(super) fn turning(&self, place: f64, reach: f64) -> f64 {
         self.direction(place, place + reach) - self.direction(place - reach, place)
     }
 
+    /// Returns the integral of the unwrapped direction from place 0 to `place`, which may exceed
+    /// one round.
     fn direction_integral(&self, place: f64) -> f64 {
         let rounds = place.floor();
-        let rest = place - rounds;
+        let partial = place - rounds;
         let whole = rounds * self.integral[self.directions.len()];
-        // Round k lies k times `round` higher: so do `rest` of the last one, and
-        // 0 + 1 + … of the whole ones before it.
-        let gained = self.round * rounds * (rest + 0.5 * (rounds - 1.0));
-        whole + gained + self.integral_within(rest)
+        // In round k the direction is larger by k · `round`. Over whole rounds that sums to 0 + 1 +
+        // … + (rounds − 1); the last, partial round contributes `partial` of it.
+        let gained = self.round * rounds * (partial + 0.5 * (rounds - 1.0));
+        whole + gained + self.integral_within(partial)
     }
 
+    /// Returns the same integral for a place within the first round.
     fn integral_within(&self, place: f64) -> f64 {
         let e = self.edge_at(place);
         self.integral[e] + self.directions[e] * (place - self.places[e])
     }
 
-    /// The last edge that starts at or before the place.
+    /// Returns the index of the last edge that starts at or before the place.
     pub(super) fn edge_at(&self, place: f64) -> usize {
         let after = self.places.partition_point(|&start| start <= place);
         after.clamp(1, self.directions.len()) - 1
     }
 }
 
-/// Edge vectors in units of the larger extent: neither overflows nor
-/// underflows when squared.
+/// Returns the edge vectors divided by the ring's larger extent, so that squares neither overflow
+/// nor underflow. Returns `None` if the extent is zero or not finite.
 fn unit_edges(ring: &Ring) -> Option<Vec<DVec2>> {
     let extent = ring.bounds().size().max_element();
     let is_measurable = extent.is_finite() && extent > 0.0;
     is_measurable.then(|| ring.edges().map(|(a, b)| (b - a) / extent).collect())
 }
 
-/// The direction of each edge, each within π of the one before.
+/// Returns the direction of each edge in radians, each within π of the previous one.
 fn unwrapped(edges: &[DVec2]) -> Vec<f64> {
     let mut direction = edges[0].to_angle();
     let mut directions = vec![direction];
@@ -243,7 +246,7 @@ fn unwrapped(edges: &[DVec2]) -> Vec<f64> {
     directions
 }
 
-/// Exterior angle in (−π, π]; 0 where an edge is nothing.
+/// Returns the exterior angle between two edges in (−π, π]; 0 if one has zero length.
 fn turn(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }

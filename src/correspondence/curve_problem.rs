@@ -1,7 +1,8 @@
-//! Two sampled curves and the cheapest closed paths through their pairs.
+//! The matching problem of two sampled curves: all data that a search needs, and the cheapest
+//! closed paths through the pairs of samples.
 //!
-//! [`super::boundary`] says what is guaranteed. Indices of nodes are counted
-//! on over the seams: sample n is sample 0 one round on.
+//! [`super::boundary`] lists the guarantees. Node indices are unwrapped over the seam: with n
+//! samples, index n is sample 0 one round later.
 
 use super::curve::BoundaryCurve;
 use super::cyclic::all_starts;
@@ -12,30 +13,36 @@ use super::path_grid::{GridPath, PathBuffers, PathGrid};
 use super::samples::CurveSamples;
 use crate::geometry::DVec2;
 
-/// With so many samples the poses are chosen among by a match of fewer.
-/// Below, a coarse search saves less than it costs; at 160 samples it is one
-/// with 80, a quarter of the price.
-const MANY: u32 = 96;
+/// With at least this many samples, poses are pre-selected by a match with half as many, but no
+/// more than this, which takes at most a quarter of the time (heuristic).
+const COARSE_SEARCH_SAMPLES: u32 = 96;
 
-/// Two sampled curves.
+/// Two sampled curves with their features, pins and weights.
 pub(super) struct CurveMatchProblem {
     pub(super) source: CurveSamples,
     pub(super) target: CurveSamples,
     pub(super) source_features: BoundaryFeatures,
     pub(super) target_features: BoundaryFeatures,
+    /// Pairs of places, ascending in the source.
     pub(super) pins: Vec<[f64; 2]>,
+    /// Weight of stretch relative to bending.
     stretch: f64,
+    /// Weight of differing thickness.
     pub(super) thickness: f64,
+    /// Whether directions are compared as drawn.
     pub(super) keep_up: bool,
+    /// Weight of differing inner distances.
     pub(super) price_inside: f64,
-    /// None where they have no price.
+    /// Inner distances of both curves; `None` if their weight is zero, or if a curve has no inside.
     pub(super) inner: Option<[InnerDescriptors; 2]>,
-    /// The same with fewer samples, to tell which poses are worth a full
-    /// search; none where the full one is small.
+    /// The same problem with fewer samples, which selects the poses that are worth a full search.
+    /// `None` if the full search is small.
     pub(super) coarse: Option<Box<Self>>,
 }
 
 impl CurveMatchProblem {
+    /// Samples both curves and computes their features. The pins are ordered as returned by
+    /// [`super::pins::ordered`].
     pub fn new(
         source: &BoundaryCurve,
         target: &BoundaryCurve,
@@ -46,11 +53,10 @@ impl CurveMatchProblem {
         let fixed = |side: usize| pins.iter().map(|pin| pin[side]).collect::<Vec<_>>();
         let a = CurveSamples::of(source, options.samples, &fixed(0));
         let b = CurveSamples::of(target, options.samples, &fixed(1));
-        let is_priced = options.inner > 0.0;
+        let uses_inner_distances = options.inner > 0.0;
         let inner = |curve, samples| {
-            is_priced
-                .then(|| InnerDescriptors::of(curve, samples))
-                .flatten()
+            let rows = uses_inner_distances.then(|| InnerDescriptors::of(curve, samples));
+            rows.flatten()
         };
         Self {
             price_inside: options.inner,
@@ -63,8 +69,8 @@ impl CurveMatchProblem {
             stretch: options.stretch,
             thickness: options.thickness,
             keep_up: options.keep_up,
-            coarse: (options.samples >= MANY).then(|| {
-                let samples = options.samples.div_ceil(2).min(MANY);
+            coarse: (options.samples >= COARSE_SEARCH_SAMPLES).then(|| {
+                let samples = options.samples.div_ceil(2).min(COARSE_SEARCH_SAMPLES);
                 let fewer = MatchOptions {
                     samples,
                     ..options.clone()
@@ -74,8 +80,8 @@ impl CurveMatchProblem {
         }
     }
 
-    /// Visits cost and nodes of the cheapest path of each start; of the one
-    /// path where pins leave no choice.
+    /// Calls `visit` with the cost and the nodes of the cheapest path from each start. With pins
+    /// there is only one path, through all of them.
     pub(super) fn visit_paths(
         &self,
         unlike: &[f64],
@@ -85,8 +91,8 @@ impl CurveMatchProblem {
         if let Some(&first) = fixed.first() {
             let mut nodes = vec![first];
             let mut cost = 0.0;
-            for ends in fixed.windows(2) {
-                let grid = self.grid(unlike, ends[0], ends[1]);
+            for pair in fixed.windows(2) {
+                let grid = self.grid(unlike, pair[0], pair[1]);
                 let width = grid.source.len() - 1;
                 let route = (grid.prices()).shortest(
                     [0, width],
@@ -94,20 +100,20 @@ impl CurveMatchProblem {
                     &mut PathBuffers::default(),
                 );
                 cost += route.cost;
-                nodes.extend(moved(&route, ends[0]).skip(1));
+                nodes.extend(translated_nodes(&route, pair[0]).skip(1));
             }
             return visit(cost, &|| nodes.clone());
         }
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        // The source twice round: a path may begin at any of its samples.
+        // Two rounds of the source, so that a path may begin at any of its samples.
         let grid = self.grid(unlike, [0, 0], [2 * n, m]);
         for route in all_starts(&grid.prices(), n) {
             visit(route.cost, &|| route.nodes());
         }
     }
 
-    /// Nodes that every path visits, ascending, from a first one to its like
-    /// one round on; none without pins.
+    /// Returns the pinned nodes, ascending, from the first to the same node one round later; empty
+    /// without pins.
     pub(super) fn fixed_nodes(&self) -> Vec<[usize; 2]> {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let node =
@@ -115,7 +121,7 @@ impl CurveMatchProblem {
         let mut nodes: Vec<[usize; 2]> = self.pins.iter().filter_map(node).collect();
         if let Some(&first) = nodes.first() {
             for node in &mut nodes {
-                // Counted on over the target's seam, so that they ascend.
+                // Unwrapped over the target's seam, so that they ascend.
                 if node[1] < first[1] {
                     node[1] += m;
                 }
@@ -125,13 +131,13 @@ impl CurveMatchProblem {
         nodes
     }
 
-    /// The window of pairs from one node to another, both included.
+    /// Returns the grid of sample pairs between two nodes, both included.
     pub(super) fn grid(&self, unlike: &[f64], from: [usize; 2], to: [usize; 2]) -> PathGrid {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let mut window = Vec::with_capacity((to[0] + 1 - from[0]) * (to[1] + 1 - from[1]));
         for j in from[1]..=to[1] {
-            let round = &unlike[(j % m) * n..][..n];
-            window.extend((from[0]..=to[0]).map(|i| round[i % n]));
+            let row = &unlike[(j % m) * n..][..n];
+            window.extend((from[0]..=to[0]).map(|i| row[i % n]));
         }
         PathGrid {
             source: (from[0]..=to[0]).map(|i| self.source.unrolled(i)).collect(),
@@ -141,32 +147,33 @@ impl CurveMatchProblem {
         }
     }
 
-    /// The rotation of the source's matched points onto the target's.
+    /// Returns the rotation that best aligns the source's matched points with the target's, in
+    /// radians (least squares, weighted by arc length).
     pub(super) fn rotation(&self, nodes: &[[usize; 2]]) -> f64 {
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        let mut sum = DVec2::ZERO;
+        let mut direction = DVec2::ZERO;
         for step in nodes.windows(2) {
             let [[a, b], [i, j]] = [step[0], step[1]];
-            let walked = self.source.unrolled(i) - self.source.unrolled(a)
+            let length = self.source.unrolled(i) - self.source.unrolled(a)
                 + self.target.unrolled(j)
                 - self.target.unrolled(b);
             for [i, j] in [[a, b], [i, j]] {
                 let p = self.source_features.position(i % n);
                 let q = self.target_features.position(j % m);
-                sum += walked * DVec2::new(p.dot(q), p.perp_dot(q));
+                direction += length * DVec2::new(p.dot(q), p.perp_dot(q));
             }
         }
-        // Shapes without a direction of their own are not turned.
-        if sum.length() < 1e-9 {
+        // The rotation is undefined, for example if all matched points coincide: do not rotate.
+        if direction.length() < 1e-9 {
             0.0
         } else {
-            sum.to_angle()
+            direction.to_angle()
         }
     }
 }
 
-/// The nodes of a route in a window that starts at `from`.
-fn moved(route: &GridPath, from: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
+/// Returns the nodes of a route, translated from its grid, which starts at node `from`.
+fn translated_nodes(route: &GridPath, from: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
     let nodes = route.nodes().into_iter();
     nodes.map(move |[i, j]| [i + from[0], j + from[1]])
 }

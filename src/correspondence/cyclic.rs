@@ -1,29 +1,27 @@
-//! The cheapest closed path through the torus of pairs of samples, for every
-//! starting point at once.
+//! The cheapest closed path through the torus of sample pairs, for every starting point.
 //!
-//! Maes 1990, "On a cyclic string-to-string correction problem": the source is
-//! unrolled twice; a closed path is one from column k of the first row to
-//! column k + n of the last. Cheapest paths of different k need not cross, so
-//! that the path of k lies between those of a smaller and a larger one, and
-//! halving the interval of k solves all n in O(n m log n). Every closed path
+//! Follows Maes 1990, "On a cyclic string-to-string correction problem". The source is unrolled
+//! twice, so a closed path runs from column k of the first row to column k + n of the last.
+//! Cheapest paths of different k need not cross: the path of k lies between those of a smaller and
+//! a larger one. Bisecting the range of k therefore solves all n in O(n m log n). Every closed path
 //! of unit steps visits the first row, so none is missed.
 //!
-//! Guarantees: the cost of each k is the least of all paths that start there.
-//! Among equally cheap paths the choice is deterministic, nothing more.
+//! Guarantees: the cost of each k is the minimum over all paths that start there. Ties between
+//! equally cheap paths are broken deterministically but arbitrarily.
 
 use super::path_grid::{GridPath, PathBuffers, StepCosts};
 
-/// So few starts are solved on one thread.
-const FEW: usize = 16;
+/// Ranges of at most this many starts are solved on one thread (heuristic).
+const MAX_SEQUENTIAL_STARTS: usize = 16;
 
-/// The cheapest path of each starting column 0 ≤ k < n. The grid has
-/// 2n columns at least, a row for each target sample and the first one again.
+/// Returns the cheapest path of each starting column 0 ≤ k < n. The grid has at least 2n columns,
+/// and one row for each target sample plus the first again.
 pub(super) fn all_starts(prices: &StepCosts, n: usize) -> Vec<GridPath> {
     let first = prices.shortest([0, n], |_| [0, n], &mut PathBuffers::default());
     let mut between = vec![None; n.saturating_sub(1)];
-    // The start n columns on is the first one again, one round later.
+    // Start n is start 0 one round later.
     let last = first.shifted(n);
-    halve(
+    bisect(
         prices,
         n,
         0,
@@ -35,12 +33,12 @@ pub(super) fn all_starts(prices: &StepCosts, n: usize) -> Vec<GridPath> {
     first.chain(between.into_iter().flatten()).collect()
 }
 
-/// Solves the starts after `left`, strictly between two solved ones.
-fn halve(
+/// Solves the starts after `left`, which lie strictly between two solved ones.
+fn bisect(
     prices: &StepCosts,
     n: usize,
     left: usize,
-    [low, high]: [&GridPath; 2],
+    [lower, upper]: [&GridPath; 2],
     between: &mut [Option<GridPath>],
     scratch: &mut PathBuffers,
 ) {
@@ -49,23 +47,37 @@ fn halve(
     }
     let half = between.len() / 2;
     let middle = left + 1 + half;
-    // Paths of other starts need not be crossed: so narrow is the search.
-    let window = |j: usize| [low.rows[j][0], high.rows[j][1]];
-    let found = prices.shortest([middle, middle + n], window, scratch);
-    let (before, after) = between.split_at_mut(half);
-    if half > FEW {
+    // Cheapest paths need not cross, so the search is limited to the strip between its neighbours.
+    let window = |j: usize| [lower.rows[j][0], upper.rows[j][1]];
+    let route = prices.shortest([middle, middle + n], window, scratch);
+    let (left_starts, right_starts) = between.split_at_mut(half);
+    if half > MAX_SEQUENTIAL_STARTS {
         rayon::join(
-            || halve(prices, n, left, [low, &found], before, scratch),
+            || bisect(prices, n, left, [lower, &route], left_starts, scratch),
             || {
                 let scratch = &mut PathBuffers::default();
-                halve(prices, n, middle, [&found, high], &mut after[1..], scratch);
+                bisect(
+                    prices,
+                    n,
+                    middle,
+                    [&route, upper],
+                    &mut right_starts[1..],
+                    scratch,
+                );
             },
         );
     } else {
-        halve(prices, n, left, [low, &found], before, scratch);
-        halve(prices, n, middle, [&found, high], &mut after[1..], scratch);
+        bisect(prices, n, left, [lower, &route], left_starts, scratch);
+        bisect(
+            prices,
+            n,
+            middle,
+            [&route, upper],
+            &mut right_starts[1..],
+            scratch,
+        );
     }
-    after[0] = Some(found);
+    right_starts[0] = Some(route);
 }
 
 #[cfg(test)]
@@ -74,17 +86,18 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A torus of random unlikeness with uneven samples.
+    /// Generates a torus of random dissimilarities with uneven samples.
     fn torus() -> impl Strategy<Value = (PathGrid, usize)> {
         (1usize..14, 1usize..14).prop_flat_map(|(n, m)| {
             let gaps = |k| prop::collection::vec(0.1f64..1.0, k);
-            // Few values, so that ties are many.
+            // Few distinct values, so that ties are common.
             let unlike = prop::collection::vec((0u8..5).prop_map(f64::from), n * m);
             (gaps(n), gaps(m), unlike, 0.0f64..2.0)
                 .prop_map(move |(a, b, unlike, stretch)| unrolled(&a, &b, &unlike, stretch))
         })
     }
 
+    /// Unrolls a torus to a grid in which the source occurs twice.
     fn unrolled(a: &[f64], b: &[f64], unlike: &[f64], stretch: f64) -> (PathGrid, usize) {
         let (n, m) = (a.len(), b.len());
         let row = |j: usize| (0..=2 * n).map(move |i| unlike[(j % m) * n + i % n]);
@@ -97,6 +110,7 @@ mod tests {
         (grid, n)
     }
 
+    /// Returns the first `count` partial sums of the repeated gaps.
     fn sums(gaps: &[f64], count: usize) -> Vec<f64> {
         let mut sum = 0.0;
         let mut places = vec![0.0];
@@ -109,7 +123,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_start_is_as_cheap_as_its_own_plain_program((grid, n) in torus()) {
+        fn every_start_costs_as_much_as_when_solved_separately((grid, n) in torus()) {
             let routes = all_starts(&grid.prices(), n);
             prop_assert_eq!(routes.len(), n);
             for (k, route) in routes.iter().enumerate() {

@@ -1,10 +1,9 @@
-//! What makes two boundary points alike.
+//! Local features by which boundary samples are compared.
 //!
-//! Turning at three reaches and the thickness of the shape behind a point
-//! compare the shape itself and do not see rotation. Where a *pose* (the rotation of one design onto the
-//! other) is known, the direction of the tangent and the place about the
-//! centre are compared too: they tell apart what bends alike, such as the
-//! fingers of a hand.
+//! Turning over three window lengths, and the thickness of the shape behind a point, do not depend
+//! on rotation. If a *pose* (the rotation of one design onto the other) is given, the tangent's
+//! direction and the position relative to the centre are compared as well. These distinguish places
+//! that bend alike, such as the fingers of a hand.
 
 use super::curve::BoundaryCurve;
 use super::samples::CurveSamples;
@@ -12,18 +11,20 @@ use super::thickness::log_thickness;
 use crate::geometry::DVec2;
 use std::f64::consts::PI;
 
-/// Reaches of the turning, in fractions of the length, and their weights. The
-/// long reach weighs little: a tail that curls the other way is still a tail.
+/// Half-lengths of the windows over which turning is measured, as fractions of the curve's length,
+/// each with its weight. The longest window has the smallest weight, so that a tail still matches a
+/// tail that curls the other way (heuristic).
 const REACHES: [(f64, f64); 3] = [(0.012, 0.5), (0.035, 0.5), (0.09, 0.2)];
 
-/// The squared logarithm of a ratio of thicknesses that counts half: that of
-/// a factor of two.
+/// Squared logarithm of the thickness ratio at which the saturated difference reaches one half; 0.5
+/// corresponds to about a factor of two (heuristic).
 const HALF_THICKNESS: f64 = 0.5;
 
-/// Half the stretch over which the tangent's direction is a mean.
+/// Half-length of the window over which the tangent's direction is averaged, as a fraction of the
+/// curve's length (heuristic).
 const TANGENT_REACH: f64 = 0.01;
 
-/// How much the direction of tangents and the place about the centre weigh.
+/// Weights of the pose-dependent features.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PoseWeights {
     tangent: f64,
@@ -31,33 +32,38 @@ pub(super) struct PoseWeights {
 }
 
 impl PoseWeights {
-    /// For a pose that was guessed.
+    /// Weights for an estimated pose (heuristic).
     pub const FREE: Self = Self {
         tangent: 0.25,
         position: 0.125,
     };
 
-    /// For a pose that the user asked for.
+    /// Weights for the pose that the user requested with "keep up" (heuristic).
     pub const FIXED: Self = Self {
         tangent: 2.0,
         position: 1.0,
     };
 }
 
-/// Squared distance, in mean squared radii of the outlines, that counts half.
+/// Squared distance between positions, in mean squared radii of the outline, at which the saturated
+/// difference reaches one half: one radius.
 const HALF_DISTANCE: f64 = 1.0;
 
-/// The features of each sample of a curve.
+/// Features of each sample of a curve.
 #[derive(Clone, Debug)]
 pub(super) struct BoundaryFeatures {
+    /// Turning in units of π for each window length.
     turning: Vec<[f64; REACHES.len()]>,
+    /// Logarithm of the thickness, with its mean along the curve subtracted.
     log_thickness: Vec<f64>,
+    /// Unit vector in the mean direction of the boundary.
     tangent: Vec<DVec2>,
-    /// About the centre, in root mean squared radii.
+    /// Position relative to the centre, in units of the root mean squared radius.
     position: Vec<DVec2>,
 }
 
 impl BoundaryFeatures {
+    /// Computes the features of all samples of a curve.
     pub fn of(curve: &BoundaryCurve, samples: &CurveSamples) -> Self {
         let places = &samples.places;
         let direction = |s: f64| curve.direction(s - TANGENT_REACH, s + TANGENT_REACH);
@@ -74,53 +80,57 @@ impl BoundaryFeatures {
         }
     }
 
-    /// How strongly the outline bends about a sample, either way.
+    /// Returns how strongly the outline bends at a sample, regardless of direction: the sum of
+    /// absolute turnings, in units of π.
     pub fn salience(&self, sample: usize) -> f64 {
         self.turning[sample].iter().map(|turn| turn.abs()).sum()
     }
 
+    /// Returns a sample's position relative to the centre, in units of the root mean squared
+    /// radius.
     pub fn position(&self, sample: usize) -> DVec2 {
         self.position[sample]
     }
 
-    /// How unlike the samples are, blind to rotation: at least 0, at
-    /// most 1.2 and the price of differing `thickness`.
+    /// Returns the rotation-invariant dissimilarity of all pairs of samples, one row for each
+    /// sample of `other`. Values lie between 0 and 1.2 plus the weight `thickness`.
     pub fn unlike(&self, other: &Self, thickness: f64) -> Vec<f64> {
-        let mut pairs = Vec::with_capacity(self.turning.len() * other.turning.len());
-        for (b, other_thickness) in other.turning.iter().zip(&other.log_thickness) {
-            for (a, own_thickness) in self.turning.iter().zip(&self.log_thickness) {
+        let mut dissimilarities = Vec::with_capacity(self.turning.len() * other.turning.len());
+        for (other_turning, other_thickness) in other.turning.iter().zip(&other.log_thickness) {
+            for (own_turning, own_thickness) in self.turning.iter().zip(&self.log_thickness) {
                 let mut sum = 0.0;
                 for (k, (_, weight)) in REACHES.iter().enumerate() {
-                    sum += weight * saturated((a[k] - b[k]).powi(2), 0.5);
+                    sum += weight * saturated((own_turning[k] - other_turning[k]).powi(2), 0.5);
                 }
-                let thicker = own_thickness - other_thickness;
-                pairs.push(sum + thickness * saturated(thicker * thicker, HALF_THICKNESS));
+                let log_ratio = own_thickness - other_thickness;
+                let thickness_term = saturated(log_ratio * log_ratio, HALF_THICKNESS);
+                dissimilarities.push(sum + thickness * thickness_term);
             }
         }
-        pairs
+        dissimilarities
     }
 
-    /// `blind` and how unlike tangents and positions are once this curve is
-    /// turned by `pose`.
+    /// Returns the dissimilarities including tangent and position, with this curve rotated by
+    /// `pose`. `invariant` holds the rotation-invariant dissimilarities in the same order.
     pub fn unlike_posed(
         &self,
         other: &Self,
-        blind: &[f64],
+        invariant: &[f64],
         pose: f64,
         weights: PoseWeights,
     ) -> Vec<f64> {
-        let turn = DVec2::from_angle(pose);
-        let tangents: Vec<DVec2> = self.tangent.iter().map(|&t| turn.rotate(t)).collect();
-        let positions: Vec<DVec2> = self.position.iter().map(|&p| turn.rotate(p)).collect();
-        let mut unlike = Vec::with_capacity(blind.len());
-        let rows = blind.chunks_exact(tangents.len());
-        for ((row, tangent), place) in rows.zip(&other.tangent).zip(&other.position) {
-            let mine = row.iter().zip(&tangents).zip(&positions);
-            unlike.extend(mine.map(|((blind, own), position)| {
-                let turned = 0.5 * (1.0 - own.dot(*tangent));
-                let distance = position.distance_squared(*place);
-                blind
-                    + weights.tangent * turned
+        let rotation = DVec2::from_angle(pose);
+        let tangents: Vec<DVec2> = self.tangent.iter().map(|&t| rotation.rotate(t)).collect();
+        let positions: Vec<DVec2> = self.position.iter().map(|&p| rotation.rotate(p)).collect();
+        let mut unlike = Vec::with_capacity(invariant.len());
+        let rows = invariant.chunks_exact(tangents.len());
+        for ((row, tangent), other_position) in rows.zip(&other.tangent).zip(&other.position) {
+            let own_samples = row.iter().zip(&tangents).zip(&positions);
+            unlike.extend(own_samples.map(|((invariant, own), position)| {
+                let tangent_difference = 0.5 * (1.0 - own.dot(*tangent));
+                let distance = position.distance_squared(*other_position);
+                invariant
+                    + weights.tangent * tangent_difference
                     + weights.position * saturated(distance, HALF_DISTANCE)
             }));
         }
@@ -128,14 +138,14 @@ impl BoundaryFeatures {
     }
 }
 
-/// x / (x + half): a gross difference counts, but no more than others.
+/// Returns x / (x + half), which limits the influence of a single large difference.
 fn saturated(x: f64, half: f64) -> f64 {
     x / (x + half)
 }
 
-/// About the mean and in units of the root mean squared distance from it.
+/// Translates the points to their mean and scales them to a root mean squared radius of 1.
 fn centred(mut points: Vec<DVec2>) -> Vec<DVec2> {
-    // Scaled first: squares of very large or small coordinates are not finite.
+    // Scale first: squares of very large or small coordinates overflow or underflow.
     let scale = points
         .iter()
         .fold(0.0, |s: f64, p| s.max(p.abs().max_element()));

@@ -1,48 +1,46 @@
-//! Inner distances: how long the shortest path *within* a shape is, between
-//! places of its boundary.
+//! Inner distances: lengths of the shortest paths *inside* a shape between places of its boundary.
 //!
-//! A limb that bends keeps them (Ling, Jacobs 2007, "Shape classification
-//! using the inner-distance"), and the two sides of a stroke are near each
-//! other by them, which no walk along the boundary tells. In a triangulated
-//! simple polygon a path is a walk through the dual tree; all paths from one
-//! place are found in one walk through all of the tree, that carries the
-//! funnel of shortest paths to the edge just crossed and splits it at the
-//! corner behind (Lee, Preparata 1984; Guibas, Hershberger, Leven, Sharir,
-//! Tarjan 1987).
+//! Bending a limb preserves them (Ling, Jacobs 2007, "Shape classification using the
+//! inner-distance"), and the two sides of a stroke are close to each other in them, unlike along
+//! the boundary. In a triangulated simple polygon, a shortest path follows the dual tree of the
+//! triangulation. One traversal of the tree finds all paths from one place: it carries the funnel
+//! of shortest paths to the edge just crossed and splits it at the opposite corner (Lee, Preparata
+//! 1984; Guibas, Hershberger, Leven, Sharir, Tarjan 1987).
 //!
-//! Guaranteed: deterministic and finite; shortest to rounding. O(n) for each
-//! place, times how many corners a path bends around. Holes are not seen: a
-//! ring that was cut open is a polygon along its slits.
+//! Guaranteed: deterministic, finite and shortest to rounding. The cost for each place is O(n)
+//! times the number of bends of a path. Holes are ignored; a ring that was cut open is a polygon
+//! along its slits.
 
 use super::curve::BoundaryCurve;
 use crate::geometry::{DVec2, twice_signed_area};
 use crate::mesh::Connectivity;
 use crate::mesh::triangulation::constrained_delaunay;
 
-/// The inner distances between places of a boundary.
+/// Inner distances between places of a boundary.
 #[derive(Clone, Debug)]
 pub(super) struct InnerDistances {
+    /// Number of places.
     pub count: usize,
-    /// Symmetric, a row for each place.
+    /// Symmetric matrix of distances, one row for each place.
     pub lengths: Vec<f64>,
 }
 
 impl InnerDistances {
-    /// Between all places of a closed curve; none if it is no simple polygon
-    /// that runs counter-clockwise: inside of a hole there is nothing.
+    /// Computes the distances between all places of a closed curve. Returns `None` unless the curve
+    /// is a simple polygon that runs counter-clockwise: a hole has no inside.
     pub fn of(curve: &BoundaryCurve, places: &[f64]) -> Option<Self> {
-        let inside = TriangulatedPolygon::of(curve, places)?;
+        let polygon = TriangulatedPolygon::of(curve, places)?;
         let count = places.len();
         let mut lengths = vec![0.0; count * count];
         for (place, row) in lengths.chunks_exact_mut(count).enumerate() {
-            inside.walk_from(place, row);
+            polygon.distances_from(place, row);
         }
-        // There and back are sums in another order.
+        // Both directions add up in different orders; the mean makes the matrix exactly symmetric.
         for i in 0..count {
             for k in 0..i {
-                let both = 0.5 * (lengths[i * count + k] + lengths[k * count + i]);
-                lengths[i * count + k] = both;
-                lengths[k * count + i] = both;
+                let mean = 0.5 * (lengths[i * count + k] + lengths[k * count + i]);
+                lengths[i * count + k] = mean;
+                lengths[k * count + i] = mean;
             }
         }
         let is_finite = lengths.iter().all(|length| length.is_finite());
@@ -50,50 +48,58 @@ impl InnerDistances {
     }
 }
 
-/// A triangulated simple polygon with places on its boundary.
+/// Triangulated simple polygon with places on its boundary.
 struct TriangulatedPolygon<'a> {
     points: &'a [DVec2],
     faces: Vec<[u32; 3]>,
     connectivity: Connectivity,
     places: Vec<DVec2>,
-    /// The face that each place lies on an edge of.
+    /// Face with the boundary edge on which each place lies.
     face_of: Vec<usize>,
-    /// For each face the places on its edges.
+    /// Places on the boundary edges of each face.
     places_of: Vec<Vec<usize>>,
 }
 
-/// A corner of a funnel, and how far it is from where all paths begin.
+/// Vertex of a funnel, with its distance from the start of all paths.
 #[derive(Clone, Copy)]
 struct FunnelVertex {
     at: DVec2,
     length: f64,
 }
 
-/// The shortest paths to both ends of an edge that is crossed: from its left
-/// end, seen from where they come, to where they part, to its right end.
+/// The shortest paths from the start to both ends of a crossed edge. `bends` runs from the edge's
+/// left end, as seen along the path, back to the apex where the two paths separate, and on to the
+/// right end.
 struct Funnel {
     bends: Vec<FunnelVertex>,
+    /// Index of the apex in `bends`.
     apex: usize,
-    /// Beyond the edge, and the edge's corner of that face.
+    /// Face beyond the edge.
     face: usize,
+    /// Corner of that face at which the edge begins.
     corner: usize,
 }
 
 impl<'a> TriangulatedPolygon<'a> {
+    /// Triangulates a curve and locates the places; `None` if it is not a simple counter-clockwise
+    /// polygon.
     fn of(curve: &'a BoundaryCurve, places: &[f64]) -> Option<Self> {
         let points = curve.points();
         let faces = constrained_delaunay(&[points]).ok()?;
         let connectivity = Connectivity::new(&faces).ok()?;
-        let face_at = faces_at(&faces, &connectivity, points.len());
+        let face_of_edge = faces_of_edges(&faces, &connectivity, points.len());
         let mut places_of = vec![Vec::new(); faces.len()];
         let mut face_of = Vec::with_capacity(places.len());
-        for (place, &at) in places.iter().enumerate() {
-            let face = face_at[curve.edge_at(at)]?;
+        for (place, &position) in places.iter().enumerate() {
+            let face = face_of_edge[curve.edge_at(position)]?;
             places_of[face].push(place);
             face_of.push(face);
         }
         Some(Self {
-            places: places.iter().map(|&at| curve.point_at(at)).collect(),
+            places: places
+                .iter()
+                .map(|&position| curve.point_at(position))
+                .collect(),
             points,
             faces,
             connectivity,
@@ -102,8 +108,8 @@ impl<'a> TriangulatedPolygon<'a> {
         })
     }
 
-    /// The lengths of the shortest paths from one place to all.
-    fn walk_from(&self, place: usize, lengths: &mut [f64]) {
+    /// Computes the lengths of the shortest paths from one place to all others.
+    fn distances_from(&self, place: usize, lengths: &mut [f64]) {
         let (from, face) = (self.places[place], self.face_of[place]);
         for &other in &self.places_of[face] {
             lengths[other] = from.distance(self.places[other]);
@@ -123,18 +129,20 @@ impl<'a> TriangulatedPolygon<'a> {
                 lengths[other] = funnel.reach(self.places[other]).1.length;
             }
             let Funnel { face, corner, .. } = funnel;
-            let (parts, ahead) = funnel.reach(self.point(face, corner + 2));
-            let (left, right) = funnel.split(parts, ahead);
+            let (exit, ahead) = funnel.reach(self.point(face, corner + 2));
+            let (left, right) = funnel.split(exit, ahead);
             funnels.extend(self.beyond(face, corner + 1, right.0, right.1));
             funnels.extend(self.beyond(face, corner + 2, left.0, left.1));
         }
     }
 
+    /// Returns the position of a face's corner; corners count modulo 3.
     fn point(&self, face: usize, corner: usize) -> DVec2 {
         self.points[self.faces[face][corner % 3] as usize]
     }
 
-    /// A funnel to an edge of a face, if there is a face across.
+    /// Returns the funnel to the edge that begins at a face's corner, or `None` if it is a boundary
+    /// edge.
     fn beyond(
         &self,
         face: usize,
@@ -155,57 +163,57 @@ impl<'a> TriangulatedPolygon<'a> {
 }
 
 impl Funnel {
-    /// Where the shortest path to a point beyond the edge leaves the funnel,
-    /// and its end there.
+    /// Returns where the shortest path to a point beyond the edge leaves the funnel, as an index of
+    /// `bends`, and the path's end.
     fn reach(&self, to: DVec2) -> (usize, FunnelVertex) {
         let at = |k: usize| self.bends[k].at;
-        let mut parts = self.apex;
-        while parts > 0 && twice_signed_area(at(parts), at(parts - 1), to) > 0.0 {
-            parts -= 1;
+        let mut exit = self.apex;
+        while exit > 0 && twice_signed_area(at(exit), at(exit - 1), to) > 0.0 {
+            exit -= 1;
         }
         let last = self.bends.len() - 1;
-        // On one side only: a path does not bend both ways around its end.
-        if parts == self.apex {
-            while parts < last && twice_signed_area(at(parts), at(parts + 1), to) < 0.0 {
-                parts += 1;
+        // Only one side can be active: the last segment does not bend around both.
+        if exit == self.apex {
+            while exit < last && twice_signed_area(at(exit), at(exit + 1), to) < 0.0 {
+                exit += 1;
             }
         }
-        let length = self.bends[parts].length + at(parts).distance(to);
-        (parts, FunnelVertex { at: to, length })
+        let length = self.bends[exit].length + at(exit).distance(to);
+        (exit, FunnelVertex { at: to, length })
     }
 
-    /// The funnels to the edges left and right of the corner ahead, each with
-    /// its apex.
+    /// Splits the funnel at the corner ahead: returns the bends and the apex of the funnels to the
+    /// left and the right edge. `exit` is where the path to the corner leaves the funnel.
     fn split(
         self,
-        parts: usize,
+        exit: usize,
         ahead: FunnelVertex,
     ) -> ((Vec<FunnelVertex>, usize), (Vec<FunnelVertex>, usize)) {
-        let mut left = self.bends[..=parts].to_vec();
+        let mut left = self.bends[..=exit].to_vec();
         left.push(ahead);
         let mut right = vec![ahead];
-        right.extend_from_slice(&self.bends[parts..]);
-        let apex_right = self.apex.max(parts) - parts + 1;
-        // What both ends of the new edge have in common ends where they part.
-        if parts < self.apex {
-            ((left, parts), (right, apex_right))
+        right.extend_from_slice(&self.bends[exit..]);
+        let apex_right = self.apex.max(exit) - exit + 1;
+        // The common part of both paths ends where they separate, which becomes the apex.
+        if exit < self.apex {
+            ((left, exit), (right, apex_right))
         } else {
             ((left, self.apex), (right, 1))
         }
     }
 }
 
-/// The face on each edge of the polygon.
-fn faces_at(faces: &[[u32; 3]], connectivity: &Connectivity, n: usize) -> Vec<Option<usize>> {
-    let mut face_at = vec![None; n];
+/// Returns the face at each edge of the polygon.
+fn faces_of_edges(faces: &[[u32; 3]], connectivity: &Connectivity, n: usize) -> Vec<Option<usize>> {
+    let mut face_of_edge = vec![None; n];
     for (face, corners) in faces.iter().enumerate() {
         for k in 0..3 {
             if connectivity.neighbour(face, k).is_none() {
-                face_at[corners[k] as usize] = Some(face);
+                face_of_edge[corners[k] as usize] = Some(face);
             }
         }
     }
-    face_at
+    face_of_edge
 }
 
 #[cfg(test)]
@@ -218,7 +226,7 @@ mod tests {
         BoundaryCurve::closed(&Ring::new(points).expect("a ring")).expect("a size")
     }
 
-    /// A bar along x and then up: its inner corner is at (3, 1).
+    /// A bar along x that turns upwards; its inner corner is at (3, 1).
     const ELBOW: [(f64, f64); 6] = [
         (0.0, 0.0),
         (4.0, 0.0),
@@ -242,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn what_crosses_itself_and_what_is_a_hole_have_no_inside() {
+    fn self_crossing_curves_and_holes_have_no_inside() {
         let mut hole = ELBOW;
         hole.reverse();
         assert!(InnerDistances::of(&curve(&hole), &[0.0, 0.5]).is_none());
@@ -250,12 +258,13 @@ mod tests {
         assert!(InnerDistances::of(&bow, &[0.0, 0.5]).is_none());
     }
 
-    /// Shortest paths by looking: straight between corners that see each other.
+    /// Returns the length of a shortest path by relaxation over all pairs of corners that see each
+    /// other (slow oracle).
     fn slow(points: &[DVec2], ends: [DVec2; 2]) -> f64 {
         let nodes: Vec<DVec2> = ends.into_iter().chain(points.iter().copied()).collect();
         let ring = Ring::new(points.to_vec()).expect("a ring");
-        // Looked at closely, and not by crossings: a place lies on its edge to
-        // rounding only.
+        // Visibility is sampled and not found by crossings, because a place lies on its edge only
+        // to rounding.
         let sees = |a: DVec2, b: DVec2| {
             (0..200).all(|k| {
                 let p = a.lerp(b, (f64::from(k) + 0.5) / 200.0);
@@ -278,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_are_the_shortest_between_corners_that_see_each_other() {
+    fn paths_are_as_short_as_those_of_the_visibility_graph() {
         let spiral = [
             (0.0, 0.0),
             (9.0, 0.0),

@@ -1,49 +1,48 @@
-//! The match of two boundaries by what is seen of the inside.
+//! Matches two boundaries by the inner distances of their samples.
 //!
-//! Two samples are unlike by how much farther, or nearer, they are within
-//! their shapes from samples that belong together. Which those are is not
-//! known at first: the first path compares each sample's row of inner
-//! distances to what lies ahead along the boundary (Ling, Jacobs 2007). Each
-//! path found then says where to look across, and the next is found with
-//! that: the Gromov–Wasserstein comparison of two metrics (Mémoli 2011)
-//! by alternating, with the cyclic dynamic program in the place of transport.
+//! Two samples are dissimilar if their inner distances to corresponding samples differ. The
+//! correspondence is not known at first, so the first path compares each sample's inner distances
+//! to places evenly spaced along the boundary (Ling, Jacobs 2007). Each path then supplies
+//! corresponding samples for the next. This alternation approximates the Gromov–Wasserstein
+//! comparison of two metrics (Mémoli 2011), with the cyclic dynamic program in place of optimal
+//! transport.
 //!
-//! Guaranteed: deterministic. Not guaranteed: the best of all paths;
-//! alternating ends where nothing more is gained, or after some rounds.
+//! Guaranteed: deterministic. Not guaranteed: the best of all paths; the alternation stops when the
+//! cost no longer decreases, or after a fixed number of rounds.
 
 use super::curve_problem::CurveMatchProblem;
 use super::inner_descriptors::{AHEAD, inner_dissimilarities};
 use super::poses::PathSolution;
 
-/// Pairs that samples are compared at are at least so far apart, as the sum of
-/// both shares of length: some 160 around. No measure fixed it.
-const STRIDE: f64 = 0.012;
+/// Minimum distance between reference pairs along a path, as the sum of both fractions of length:
+/// about 160 pairs in all (heuristic).
+const MIN_PAIR_DISTANCE: f64 = 0.012;
 
-/// How often the pairs of a path are looked across from, if each time gains.
-/// No measure fixed it.
-const ROUNDS: usize = 6;
+/// Maximum number of rounds of alternation (resource limit).
+const MAX_ROUNDS: usize = 6;
 
 impl CurveMatchProblem {
-    /// The best path by inner distances; none where they are not asked for, or
-    /// where a curve has no inside.
+    /// Returns the best path by inner distances. Returns `None` if they have no weight, or if a
+    /// curve has no inside.
     pub(super) fn solution_inside(&self) -> Option<PathSolution> {
         let Some(coarse) = &self.coarse else {
-            return self.settled_inside();
+            return self.alternated_inner_solution();
         };
-        // So few samples tell what belongs together, all of them where exactly.
-        let found = coarse.settled_inside()?;
-        self.seen_from(&coarse.carried(&found.nodes, self))
+        // The coarse problem finds the correspondence; the full one then refines it in a single
+        // round.
+        let found = coarse.alternated_inner_solution()?;
+        self.path_by_pairs(&coarse.resampled(&found.nodes, self))
     }
 
-    /// The path from which the inner distances lead to no better one.
-    fn settled_inside(&self) -> Option<PathSolution> {
+    /// Alternates between path and reference pairs until the cost no longer decreases.
+    fn alternated_inner_solution(&self) -> Option<PathSolution> {
         let [a, b] = self.inner.as_ref()?;
         let rows = [a.ahead(&self.source), b.ahead(&self.target)];
-        let ahead = inner_dissimilarities(&rows[0], &rows[1], &[1.0; AHEAD as usize]);
-        let first = self.path_inside(&ahead);
-        let mut best = self.seen_from(&first.nodes)?;
-        for _ in 1..ROUNDS {
-            let next = self.seen_from(&best.nodes)?;
+        let dissimilarities = inner_dissimilarities(&rows[0], &rows[1], &[1.0; AHEAD as usize]);
+        let first = self.path_by_inner_distances(&dissimilarities);
+        let mut best = self.path_by_pairs(&first.nodes)?;
+        for _ in 1..MAX_ROUNDS {
+            let next = self.path_by_pairs(&best.nodes)?;
             if next.cost >= best.cost {
                 break;
             }
@@ -52,53 +51,55 @@ impl CurveMatchProblem {
         Some(best)
     }
 
-    /// The best path by the distances to the pairs of another.
-    fn seen_from(&self, nodes: &[[usize; 2]]) -> Option<PathSolution> {
+    /// Returns the best path by the inner distances to the pairs of another path.
+    fn path_by_pairs(&self, nodes: &[[usize; 2]]) -> Option<PathSolution> {
         let [a, b] = self.inner.as_ref()?;
-        let (pairs, weights) = self.spaced(nodes);
+        let (pairs, weights) = self.reference_pairs(nodes);
         let rows = [
             a.to(pairs.iter().map(|pair| pair[0])),
             b.to(pairs.iter().map(|pair| pair[1])),
         ];
-        Some(self.path_inside(&inner_dissimilarities(&rows[0], &rows[1], &weights)))
+        Some(self.path_by_inner_distances(&inner_dissimilarities(&rows[0], &rows[1], &weights)))
     }
 
-    fn path_inside(&self, seen: &[f64]) -> PathSolution {
-        let priced = self.unposed().into_iter().zip(seen);
+    /// Returns the best path by the given inner-distance dissimilarities combined with the boundary
+    /// features.
+    fn path_by_inner_distances(&self, inner: &[f64]) -> PathSolution {
+        let combined = self.unposed().into_iter().zip(inner);
         self.best_path(
-            priced
-                .map(|(own, seen)| own + self.price_inside * seen)
+            combined
+                .map(|(boundary, inner)| boundary + self.price_inside * inner)
                 .collect(),
         )
     }
 
-    /// Pairs of a closed path a stride apart, and the length that each stands
-    /// for.
-    fn spaced(&self, nodes: &[[usize; 2]]) -> (Vec<[usize; 2]>, Vec<f64>) {
+    /// Returns the reference pairs of a closed path, spaced apart, with the arc length that each
+    /// represents.
+    fn reference_pairs(&self, nodes: &[[usize; 2]]) -> (Vec<[usize; 2]>, Vec<f64>) {
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        let at = |[i, j]: [usize; 2]| self.source.unrolled(i) + self.target.unrolled(j);
+        let position = |[i, j]: [usize; 2]| self.source.unrolled(i) + self.target.unrolled(j);
         let (mut pairs, mut weights) = (Vec::new(), Vec::new());
-        let mut last = at(nodes[0]);
+        let mut last_position = position(nodes[0]);
         for &node in &nodes[1..] {
-            let walked = at(node) - last;
-            if walked >= STRIDE {
+            let length = position(node) - last_position;
+            if length >= MIN_PAIR_DISTANCE {
                 pairs.push([node[0] % n, node[1] % m]);
-                weights.push(walked);
-                last = at(node);
+                weights.push(length);
+                last_position = position(node);
             }
         }
         (pairs, weights)
     }
 
-    /// A path as one through other samples of the same curves.
-    fn carried(&self, nodes: &[[usize; 2]], to: &Self) -> Vec<[usize; 2]> {
-        let carried = |&[i, j]: &[usize; 2]| {
+    /// Converts a path to the nearest samples of another problem with the same curves.
+    fn resampled(&self, nodes: &[[usize; 2]], to: &Self) -> Vec<[usize; 2]> {
+        let resampled = |&[i, j]: &[usize; 2]| {
             [
                 to.source.nearest(self.source.unrolled(i)),
                 to.target.nearest(self.target.unrolled(j)),
             ]
         };
-        nodes.iter().map(carried).collect()
+        nodes.iter().map(resampled).collect()
     }
 }
 
@@ -110,11 +111,11 @@ mod tests {
     use super::super::options::MatchOptions;
     use crate::geometry::{DVec2, Ring};
 
-    /// How many points draw each side of a limb.
+    /// Number of points on each side of a limb.
     const SIDE: usize = 61;
 
-    /// A limb that grows thinner, with what its middle line turns by at each
-    /// step. Point k of one limb is point k of each.
+    /// Creates a limb that tapers, whose centre line turns by `turn(t)` at each step. Point k is
+    /// the same material point in every limb.
     fn limb(turn: impl Fn(f64) -> f64) -> BoundaryCurve {
         let (mut at, mut direction) = (DVec2::ZERO, DVec2::X);
         let (mut right, mut left) = (Vec::new(), Vec::new());
@@ -137,10 +138,11 @@ mod tests {
         }
     }
 
-    /// The farthest that a point is matched from its own, in lengths.
-    fn off(source: &BoundaryCurve, target: &BoundaryCurve, options: &MatchOptions) -> f64 {
-        let found = match_curves(source, target, &[], options).expect("a match");
-        let mut knots = found.knots().to_vec();
+    /// Returns the largest error of a match between corresponding points, in fractions of the
+    /// length.
+    fn max_error(source: &BoundaryCurve, target: &BoundaryCurve, options: &MatchOptions) -> f64 {
+        let matched = match_curves(source, target, &[], options).expect("a match");
+        let mut knots = matched.knots().to_vec();
         for k in 1..knots.len() {
             if knots[k][1] < knots[0][1] {
                 knots[k][1] += 1.0;
@@ -149,15 +151,15 @@ mod tests {
         knots.push(knots[0].map(|place| place + 1.0));
         let mut worst: f64 = 0.0;
         for (a, b) in source.places().iter().zip(target.places()) {
-            let over = f64::from(u8::from(*a < knots[0][0]));
-            let by = interpolated(&knots, a + over, [0, 1]) - b;
-            worst = worst.max((by - by.round()).abs());
+            let round = f64::from(u8::from(*a < knots[0][0]));
+            let error = interpolated(&knots, a + round, [0, 1]) - b;
+            worst = worst.max((error - error.round()).abs());
         }
         worst
     }
 
     #[test]
-    fn a_limb_is_found_again_however_it_is_bent() {
+    fn limbs_match_however_they_bend() {
         let straight = limb(|_| 0.0);
         let bent = limb(|t| if t < 0.5 { 0.09 } else { -0.09 });
         let curled = limb(|t| 0.16 - 0.1 * t);
@@ -165,14 +167,14 @@ mod tests {
         let limbs = [&straight, &bent, &curled, &spring];
         for (i, source) in limbs.iter().enumerate() {
             for (k, target) in limbs.iter().enumerate() {
-                let off = off(source, target, &inside());
-                assert!(off < 0.03, "limb {i} to limb {k}: {off}");
+                let error = max_error(source, target, &inside());
+                assert!(error < 0.03, "limb {i} to limb {k}: {error}");
             }
         }
     }
 
     #[test]
-    fn the_way_back_is_the_inverse() {
+    fn the_reverse_match_is_the_inverse() {
         let (a, b) = (limb(|t| 0.05 - 0.2 * t), limb(|t| 0.33 * (25.0 * t).sin()));
         let there = match_curves(&a, &b, &[], &inside()).expect("a match");
         let back = match_curves(&b, &a, &[], &inside()).expect("a match");
@@ -180,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn a_design_is_found_again_turned_and_enlarged() {
+    fn a_shape_matches_itself_rotated_and_scaled() {
         let shape = limb(|t| 0.33 * (14.0 * t).sin());
         let turn = DVec2::from_angle(2.0);
         let moved = shape
@@ -189,6 +191,6 @@ mod tests {
             .map(|p| 70.0 * turn.rotate(*p) + DVec2::splat(9.0));
         let moved = Ring::new(moved.collect()).expect("a ring");
         let moved = BoundaryCurve::closed(&moved).expect("a size");
-        assert!(off(&shape, &moved, &inside()) < 1e-9);
+        assert!(max_error(&shape, &moved, &inside()) < 1e-9);
     }
 }

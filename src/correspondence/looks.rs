@@ -1,67 +1,67 @@
-//! How the parts of two designs look, besides their form.
+//! Properties of parts besides their shape, which influence how parts are paired: paint, height,
+//! name and text.
 
 use crate::colour::Paint;
 use crate::geometry::Side;
 
-/// How a part is painted.
+/// Look of one part.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PartLook {
-    /// The coat that it is in, from the lowest, 0.
+    /// Index of the paint layer that contains the part; the bottom layer is 0.
     pub(crate) coat: usize,
-    /// How high that is among the design's coats, in [0, 1].
+    /// Height of that layer among the design's layers: 0 for the bottom layer, 1 for the top.
     pub(crate) height: f64,
-    /// None where the design has no colour of its own.
+    /// Paint of the part; `None` if the design has no colours of its own.
     pub(crate) paint: Option<Paint>,
-    /// Whether a line runs along it, which a cut would be seen by.
+    /// Whether a line is drawn along the part, which would make a cut visible.
     pub(crate) is_lined: bool,
-    /// What somebody calls it; or empty.
+    /// Name of the part in its file; empty if it has none.
     pub(crate) name: String,
-    /// Whether it is a letter of a text.
+    /// Whether the part is a letter of a text.
     pub(crate) is_text: bool,
 }
 
-/// The looks of all parts of both designs; without any, all look alike.
+/// Looks of all parts of both designs. The default is empty: all parts look alike.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PartLooks(pub(crate) [Vec<PartLook>; 2]);
 
-/// What two parts cost to be paired for being unlike in paint, from black to
-/// white, and in height, from the lowest coat to the highest: as far apart in
-/// place as half the design, and a quarter.
-const PAINT: f64 = 0.5;
-const HEIGHT: f64 = 0.25;
+/// Pairing cost of the largest difference in paint, black and white, relative to a distance of the
+/// design's size (heuristic).
+const PAINT_COST: f64 = 0.5;
+/// Pairing cost of the largest difference in height, bottom and top layer (heuristic).
+const HEIGHT_COST: f64 = 0.25;
 
-/// By how much less two parts cost to be paired that have one name: more than any
-/// place, form and paint.
-const NAMED: f64 = 4.0;
+/// Reduction of the pairing cost for parts of the same name; it exceeds any other difference.
+const NAME_BONUS: f64 = 4.0;
 
-/// By how much more a letter and something else cost to be paired: letters become
-/// letters where there are any.
-const TEXT: f64 = 2.0;
+/// Pairing cost of a letter with something else, so that letters are paired with letters if
+/// possible (heuristic).
+const TEXT_COST: f64 = 2.0;
 
 impl PartLook {
-    /// What it costs to pair two parts whose forms and places cost so much.
+    /// Returns the cost of pairing two parts. `form` is their cost in position and shape.
     pub(in crate::correspondence) fn cost(&self, other: &Self, form: f64) -> f64 {
         let paint = self.paint.zip(other.paint);
         let paint = paint.map_or(0.0, |(a, b)| a.unlike(&b));
-        let cost = form + PAINT * paint + HEIGHT * (self.height - other.height).abs();
-        let cost = cost + TEXT * f64::from(u8::from(self.is_text != other.is_text));
+        let cost = form + PAINT_COST * paint + HEIGHT_COST * (self.height - other.height).abs();
+        let cost = cost + TEXT_COST * f64::from(u8::from(self.is_text != other.is_text));
         let is_named = !self.name.is_empty() && self.name == other.name;
-        if is_named { cost - NAMED } else { cost }
+        if is_named { cost - NAME_BONUS } else { cost }
     }
 }
 
 impl PartLooks {
-    /// Whether a line runs along a part.
+    /// Returns whether a line is drawn along a part.
     pub(crate) fn is_lined(&self, side: Side, part: usize) -> bool {
         self.0[side].get(part).is_some_and(|look| look.is_lined)
     }
 
-    /// Whether a part is a letter of a text; none where all look alike.
+    /// Returns whether a part is a letter of a text; `None` if no looks are given.
     pub(in crate::correspondence) fn is_text(&self, side: Side, part: usize) -> Option<bool> {
         self.0[side].get(part).map(|look| look.is_text)
     }
 
-    /// The coat of a part, 0 where all look alike.
+    /// Returns the paint layer of a part; 0 if no looks are given.
     pub(crate) fn coat(&self, side: Side, part: usize) -> usize {
         self.0[side].get(part).map_or(0, |look| look.coat)
     }

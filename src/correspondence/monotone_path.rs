@@ -1,15 +1,15 @@
-//! A path of unit steps made a strictly monotone one with even stretch.
+//! Converts a path of unit steps into a strictly monotone path with evenly distributed stretch.
 //!
-//! Unit steps let one sample stand for many: a stretch of boundary without
-//! length in the other design. Here, near the path found, each step goes
-//! forward in *both* curves, and stretch is priced by (Δa − Δb)² / (Δa + Δb):
-//! as before where all is stretched into one place, cheaper the more evenly
-//! it is shared out.
+//! Unit steps allow one sample to match many, which collapses a stretch of boundary to a point of
+//! the other design. Here, near the given path, each step advances along *both* curves. Stretch
+//! costs (Δa − Δb)² / (Δa + Δb): the same as before if all stretch is in one place, and less the
+//! more evenly it is distributed.
 
 use super::path_grid::PathGrid;
 
-/// Steps in source and target samples that are longer in the target, up to
-/// 1 : 8 and without common factors. All are taken the other way round too.
+/// Steps `[source samples, target samples]` that are longer in the target, up to 1 : 8 and in
+/// lowest terms; their mirror images are used too. Longer steps cost time and are rarely cheapest
+/// (heuristic).
 const LONGER: [[usize; 2]; 10] = [
     [1, 2],
     [1, 3],
@@ -23,32 +23,32 @@ const LONGER: [[usize; 2]; 10] = [
     [1, 8],
 ];
 
-/// The cheapest strictly monotone path from the first to the last of `nodes`,
-/// no farther than `reach` samples from them. Where no such path exists the
-/// unit steps are taken together until they advance in both.
+/// Returns the cheapest strictly monotone path from the first to the last of `nodes` that stays
+/// within `reach` samples of them. If none exists, unit steps are merged until each advances along
+/// both curves.
 pub(super) fn refine(grid: &PathGrid, nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     let windows = windows(nodes, reach);
-    cheapest(grid, &windows).unwrap_or_else(|| blocks(nodes))
+    cheapest(grid, &windows).unwrap_or_else(|| merged_steps(nodes))
 }
 
-/// Unit steps taken together so that each block advances in both. The path
-/// as a whole must do so.
-pub(super) fn blocks(nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
-    let mut kept = vec![nodes[0]];
+/// Merges unit steps into blocks that each advance along both curves. The path as a whole must do
+/// so.
+pub(super) fn merged_steps(nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let mut blocks = vec![nodes[0]];
     for &node in &nodes[1..] {
-        let last = kept[kept.len() - 1];
+        let last = blocks[blocks.len() - 1];
         if node[0] > last[0] && node[1] > last[1] {
-            kept.push(node);
+            blocks.push(node);
         }
     }
-    // What is left over at the end joins the last block.
+    // Steps left over at the end join the last block.
     let end = nodes.len() - 1;
-    let last = kept.len() - 1;
-    kept[last] = nodes[end];
-    kept
+    let last = blocks.len() - 1;
+    blocks[last] = nodes[end];
+    blocks
 }
 
-/// For each row the columns within `reach` of the path, taken as a square.
+/// Returns for each row the range of columns within `reach` of the path, in the maximum norm.
 fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     let [columns, rows] = nodes[nodes.len() - 1];
     let mut first = vec![columns; rows + 1];
@@ -58,8 +58,8 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
         last[j] = last[j].max(i);
     }
     let window = |j: usize| {
-        // First and last columns do not fall from row to row, so that the farthest
-        // row within reach has the least and the greatest.
+        // First and last columns never decrease from row to row. The extreme rows within reach
+        // therefore have the extreme columns.
         let low = first[j.saturating_sub(reach)].saturating_sub(reach);
         let high = (last[(j + reach).min(rows)] + reach).min(columns);
         [low, high]
@@ -67,10 +67,11 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     (0..=rows).map(window).collect()
 }
 
+/// Returns the cheapest strictly monotone path within the windows, or `None` if no path exists.
 fn cheapest(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
     let width = grid.source.len();
     let longer = LONGER.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]);
-    // The even step first: of equally cheap ones the first is taken.
+    // The even step comes first, since ties go to the first step.
     let steps = std::iter::once([1, 1]).chain(longer);
     let steps: Vec<MonotoneStep> = steps.map(|step| MonotoneStep::new(step, width)).collect();
     let mut cost = vec![f64::INFINITY; width * windows.len()];
@@ -95,54 +96,55 @@ fn cheapest(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> 
     Some(nodes)
 }
 
-/// The cheapest way to a node: its cost and the step, none where no step
-/// comes from a node reached.
+/// Returns the cheapest cost of a node and the index of its last step, or `None` if no step comes
+/// from a node that was reached.
 fn best_step(
     grid: &PathGrid,
     steps: &[MonotoneStep],
     cost: &[f64],
     [i, j]: [usize; 2],
 ) -> Option<(f64, usize)> {
-    let mut least = f64::INFINITY;
+    let mut min_cost = f64::INFINITY;
     let mut best = None;
     let node = j * grid.source.len() + i;
     for (k, step) in steps.iter().enumerate() {
         if i < step.source || j < step.target {
             continue;
         }
-        let before = cost[node - step.back];
-        if before >= least {
-            continue; // a step costs something
+        let start_cost = cost[node - step.back];
+        if start_cost >= min_cost {
+            continue; // step costs are not negative
         }
-        let total = before + step.price(grid, [i, j]);
-        if total < least {
-            (least, best) = (total, Some(k));
+        let total = start_cost + step.cost(grid, [i, j]);
+        if total < min_cost {
+            (min_cost, best) = (total, Some(k));
         }
     }
-    best.map(|step| (least, step))
+    best.map(|step| (min_cost, step))
 }
 
-/// A step, and where between its ends the unlikeness is looked up.
+/// A step of several samples, and the nodes between its ends at which the dissimilarity is
+/// interpolated.
 struct MonotoneStep {
     source: usize,
     target: usize,
-    /// From the node at its end back to the one it comes from.
+    /// Offset in the grid from the step's end back to its start.
     back: usize,
-    /// Along the longer side, sample by sample: two nodes, counted from where
-    /// the step begins, and the share of the second.
+    /// One entry for each intermediate sample of the longer side: two node offsets from the step's
+    /// start, and the interpolation weight of the second.
     between: Vec<(usize, usize, f64)>,
 }
 
 impl MonotoneStep {
-    /// In a grid of so many columns.
+    /// Creates a step in a grid of `width` columns.
     fn new([source, target]: [usize; 2], width: usize) -> Self {
-        let pieces = source.max(target);
-        let between = (1..pieces).map(|k| {
-            let [x, y] = [source * k / pieces, target * k / pieces];
-            let [u, v] = [source * k % pieces, target * k % pieces];
-            // One of u and v is 0: the longer side goes sample by sample.
-            let next = y * width + x + usize::from(u > 0) + width * usize::from(v > 0);
-            (y * width + x, next, u.max(v) as f64 / pieces as f64)
+        let count = source.max(target);
+        let between = (1..count).map(|k| {
+            let [i, j] = [source * k / count, target * k / count];
+            let [di, dj] = [source * k % count, target * k % count];
+            // One remainder is 0: the longer side goes sample by sample.
+            let next_node = j * width + i + usize::from(di > 0) + width * usize::from(dj > 0);
+            (j * width + i, next_node, di.max(dj) as f64 / count as f64)
         });
         Self {
             source,
@@ -152,20 +154,21 @@ impl MonotoneStep {
         }
     }
 
-    /// Bending along the straight step by the trapezoid rule, and its stretch.
-    fn price(&self, grid: &PathGrid, [i, j]: [usize; 2]) -> f64 {
-        let walked_source = grid.source[i] - grid.source[i - self.source];
-        let walked_target = grid.target[j] - grid.target[j - self.target];
-        let walked = walked_source + walked_target;
-        let stretch = (walked_source - walked_target).powi(2) / walked;
+    /// Returns the cost of the step that ends at (i, j): bending along the straight step by the
+    /// trapezoidal rule, plus stretch.
+    fn cost(&self, grid: &PathGrid, [i, j]: [usize; 2]) -> f64 {
+        let source_length = grid.source[i] - grid.source[i - self.source];
+        let target_length = grid.target[j] - grid.target[j - self.target];
+        let total_length = source_length + target_length;
+        let stretch = (source_length - target_length).powi(2) / total_length;
         let end = j * grid.source.len() + i;
         let unlike = &grid.unlike[end - self.back..=end];
         let mut bend = 0.5 * (unlike[0] + unlike[self.back]);
         for &(node, next, share) in &self.between {
             bend += (1.0 - share) * unlike[node] + share * unlike[next];
         }
-        let pieces = (1 + self.between.len()) as f64;
-        0.5 * walked * bend / pieces + grid.stretch * stretch
+        let count = (1 + self.between.len()) as f64;
+        0.5 * total_length * bend / count + grid.stretch * stretch
     }
 }
 
@@ -173,7 +176,7 @@ impl MonotoneStep {
 mod tests {
     use super::*;
 
-    /// Even samples and the same unlikeness everywhere.
+    /// Returns a grid with even samples and constant dissimilarity.
     fn plain(n: usize, m: usize) -> PathGrid {
         let even = |count: usize| (0..=count).map(|k| k as f64 / count as f64).collect();
         PathGrid {
@@ -185,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn stretch_is_shared_out_evenly() {
+    fn stretch_is_distributed_evenly() {
         let nodes: Vec<_> = (0..=12)
             .map(|i| [i, 0])
             .chain((1..=6).map(|j| [12, j]))
@@ -196,19 +199,19 @@ mod tests {
     }
 
     #[test]
-    fn a_step_costs_what_its_halves_cost_where_nothing_changes() {
+    fn a_step_costs_as_much_as_its_halves_if_the_dissimilarity_is_constant() {
         let grid = plain(8, 8);
         let step = MonotoneStep::new([1, 2], 9);
-        let whole = step.price(&grid, [1, 2]) + step.price(&grid, [2, 4]);
+        let whole = step.cost(&grid, [1, 2]) + step.cost(&grid, [2, 4]);
         let long = 0.5 * (0.25 + 0.5) + (0.25f64 - 0.5).powi(2) / 0.75;
         assert!((whole - long).abs() < 1e-15);
     }
 
     #[test]
-    fn what_no_step_can_reach_is_taken_in_blocks() {
+    fn a_path_steeper_than_all_steps_is_merged_into_blocks() {
         let nodes: Vec<_> = (0..=40).map(|i| [i, 0]).chain([[40, 1]]).collect();
         assert_eq!(refine(&plain(40, 1), &nodes, 3), vec![[0, 0], [40, 1]]);
         let steps = [[0, 0], [1, 0], [2, 1], [3, 2], [3, 3], [4, 3]];
-        assert_eq!(blocks(&steps), vec![[0, 0], [2, 1], [3, 2], [4, 3]]);
+        assert_eq!(merged_steps(&steps), vec![[0, 0], [2, 1], [3, 2], [4, 3]]);
     }
 }

@@ -1,24 +1,24 @@
-//! How boundaries are matched, and why they cannot be.
+//! Options for matching one pair of boundaries, and the errors of such a match.
 
 use super::curve::{BoundaryCurve, CurveLengthError};
 use super::pins::PinError;
 use serde::{Deserialize, Serialize};
 
-/// How boundaries are matched.
+/// Options for matching one pair of boundary curves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MatchOptions {
-    /// Samples along each curve, in 8..=1000; corners and pins come on top.
-    /// Cost grows as n² log n.
+    /// Number of samples along each curve, in 8..=1000; corners and pins are added to these. The
+    /// cost grows as n² log n.
     pub samples: u32,
-    /// Keep "up": compare directions as drawn instead of up to a rotation.
+    /// Whether "up" stays up: directions are compared as drawn instead of up to a rotation.
     pub keep_up: bool,
-    /// Price of stretch against bending, at least 0; 0.25 unless stated.
+    /// Weight of stretch relative to bending, at least 0; 0.25 by default.
     pub stretch: f64,
-    /// Price of differing thickness, at least 0; 1 unless stated.
+    /// Weight of differing thickness, at least 0; 1 by default.
     pub thickness: f64,
-    /// Price of differing inner distances, at least 0; 0 unless stated, and
-    /// then the boundary alone is compared. With a price no pose is guessed.
+    /// Weight of differing inner distances, at least 0. With 0, the default, only the boundaries
+    /// are compared. With a positive weight no rotation is searched for.
     pub inner: f64,
 }
 
@@ -34,34 +34,37 @@ impl Default for MatchOptions {
     }
 }
 
-/// Why two curves cannot be matched.
+/// Reason why two curves cannot be matched.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatchError {
-    /// A curve has no usable length.
+    /// The length of a curve overflows or underflows.
     #[error(transparent)]
     Curve(#[from] CurveLengthError),
     /// The pins contradict each other.
     #[error(transparent)]
     Pins(#[from] PinError),
     /// One curve runs counter-clockwise and the other clockwise.
-    #[error("the outlines run opposite ways around; reverse the points of one of them")]
+    #[error("the outlines run in opposite directions; reverse the points of one of them")]
     Orientation,
     /// The number of samples is out of range.
-    #[error("{0} samples cannot be matched; choose a number from 8 to 1000")]
+    #[error("cannot match with {0} samples; choose a number from 8 to 1000")]
     Samples(u32),
-    /// The price of stretch is negative or not finite.
-    #[error("the price of stretch {0} is not a number of at least 0; choose one such as 0.25")]
+    /// The weight of stretch is negative or not finite.
+    #[error("the stretch weight {0} is not valid; choose a number of at least 0, such as 0.25")]
     Stretch(f64),
-    /// The price of differing thickness is negative or not finite.
-    #[error("the price of thickness {0} is not a number of at least 0; choose one such as 1")]
+    /// The weight of differing thickness is negative or not finite.
+    #[error("the thickness weight {0} is not valid; choose a number of at least 0, such as 1")]
     Thickness(f64),
-    /// The price of inner distances is negative or not finite.
-    #[error("the price of inner distances {0} is not a number of at least 0; choose one such as 8")]
+    /// The weight of differing inner distances is negative or not finite.
+    #[error("the inner-distance weight {0} is not valid; choose a number of at least 0, such as 8")]
     Inner(f64),
 }
 
-/// Whether two curves can be matched at all, pins aside.
+/// Checks the orientations of two curves and the ranges of the options, but not the pins.
+///
+/// # Errors
+/// [`MatchError`] for opposite orientations or an option out of range.
 pub(super) fn check(
     source: &BoundaryCurve,
     target: &BoundaryCurve,

@@ -1,13 +1,11 @@
-//! Which part of one design is which of the other, and which hole.
+//! Pairs the parts of two designs, and the holes of two parts.
 //!
-//! Parts are paired by the assignment of least cost in position, size and
-//! shape, as many as there are on the side with fewer. What stays alone is
-//! born or dies, which costs the more the larger it is. Parts clicked together
-//! stay together.
+//! The pairing is an assignment of minimum cost in position, size, shape and look. It has as many
+//! pairs as the smaller side has parts. The remaining parts are unmatched, at a cost that grows
+//! with their area. Pairs fixed by the user are preserved.
 //!
-//! Guarantees: the pairing is an optimal assignment, deterministic, and that
-//! from B to A is the same as that from A to B. Does not split one part into
-//! several.
+//! Guarantees: the assignment is optimal and deterministic, and pairing B with A gives the same
+//! result as pairing A with B. It never splits one part into several.
 
 use super::regions::{PartLook, PartLooks};
 use crate::geometry::{DVec2, Region, Regions, Ring, Side, lexicographic};
@@ -15,27 +13,27 @@ use crate::numerics::assignment::assign;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
-/// Parts, or holes, that belong together; indices in the order given.
+/// Pairing of parts or of holes, by their indices in the order given.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Pairing {
-    /// `[source, target]`, ascending in the source.
+    /// Pairs `[source, target]`, ascending in the source.
     pub(super) pairs: Vec<[usize; 2]>,
-    /// Parts of the source alone, ascending: they die into a point.
+    /// Unmatched parts of the source, ascending: they disappear.
     pub(super) dying: Vec<usize>,
-    /// Parts of the target alone, ascending: they are born from a point.
+    /// Unmatched parts of the target, ascending: they appear.
     pub(super) born: Vec<usize>,
 }
 
-/// Pairs made by hand that contradict each other.
+/// Fixed pairs that contradict each other.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PairError {
-    /// No such part.
-    #[error("there is no part {part} to pair, only {count}; remove this pair")]
+    /// A pair names a part that does not exist.
+    #[error("part {part} does not exist: there are {count}, counted from 0; remove this pair")]
     NoSuchPart {
-        /// The index given.
+        /// Index given for the part.
         part: usize,
-        /// How many there are.
+        /// Number of parts in the design.
         count: usize,
     },
     /// A part is in two pairs.
@@ -43,18 +41,19 @@ pub enum PairError {
     Twice(usize),
 }
 
-/// Weights of position, size and shape against each other.
+/// Weight of the distance between centres, in units of the design's size; the reference for the
+/// other weights.
 const POSITION: f64 = 1.0;
+/// Weight of the logarithmic ratio of sizes (heuristic).
 const SIZE: f64 = 0.15;
+/// Weight of each difference in shape: roundness, slenderness, number of holes (heuristic).
 const SHAPE: f64 = 0.25;
 
-/// What it costs that all of a design stays alone, a part by its share of the area. By it
-/// the area up and down of the worst tenth of 60 pairs of icons went from 0.45 to 0.40; it
-/// is the same by thrice as much, by which a bar would become the ring around it and another.
-const ALONE: f64 = 0.3;
+/// Cost of leaving a whole design unmatched; each part costs its fraction of the area (heuristic).
+const UNMATCHED: f64 = 0.3;
 
-/// The centre of each region's outer boundary, relative to the design's box:
-/// what parts are first compared by.
+/// Returns the centre of each region's outer boundary relative to the design's bounding box, in
+/// units of the box's longer side.
 pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
     let bounds = design.bounds();
     let (origin, size) = (bounds.centre(), bounds.size().max_element());
@@ -62,11 +61,11 @@ pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
     design.iter().map(centre).collect()
 }
 
-/// Pairs the regions of two designs; `fixed` pairs are kept, and what is
-/// `taken` is in no list.
+/// Pairs the regions of two designs. `fixed` pairs are preserved; `taken` parts are neither paired
+/// nor listed as unmatched.
 ///
-/// Positions count relative to each design's own box, so that neither where
-/// the designs lie nor how large they are matters.
+/// Positions are relative to each design's bounding box, so the designs' own positions and sizes do
+/// not matter.
 ///
 /// # Errors
 /// [`PairError`] if a fixed pair names no part, or a part twice.
@@ -92,9 +91,9 @@ pub(super) fn pair_parts(
     pair(&source, &target, fixed, taken)
 }
 
-/// Pairs the holes of two regions; `fixed` pairs are kept, and what is `taken`
-/// is in no list. `rotation` turns the source onto the target: that of the
-/// match of their outer boundaries.
+/// Pairs the holes of two regions. `fixed` pairs are preserved; `taken` holes are neither paired
+/// nor listed as unmatched. `rotation`, in radians, is that of the match of their outer boundaries,
+/// from source to target.
 ///
 /// # Errors
 /// As [`pair_parts`].
@@ -106,13 +105,13 @@ pub(super) fn pair_holes(
     taken: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
     let parts = |region: &Region, turn: f64| {
-        // Measures that do not change when the region is turned.
+        // Origin and size must not depend on the region's rotation.
         let origin = moments(&region.outer).centre;
         let size = region.outer.signed_area().abs().sqrt();
         let part = |hole: &Ring| PartFeatures::of(hole, 0, origin, size, turn);
         region.holes.iter().map(part).collect::<Vec<_>>()
     };
-    // Half of the turn each: as exact one way as the other.
+    // Each side is rotated by half, so that rounding is the same in both directions.
     pair(
         &parts(source, 0.5 * rotation),
         &parts(target, -0.5 * rotation),
@@ -121,43 +120,47 @@ pub(super) fn pair_holes(
     )
 }
 
-/// What is compared of a part.
+/// Properties by which parts are compared.
 #[derive(Clone, Debug)]
 struct PartFeatures {
-    /// Centre relative to the design, in its size.
+    /// Centre relative to the design's centre, in units of its size.
     position: DVec2,
-    /// Logarithm of the root of the area relative to the design's size.
+    /// Logarithm of the square root of the area, relative to the design's size.
     log_size: f64,
-    /// 4π area / perimeter²: 1 for a circle.
+    /// 4π · area / perimeter²: 1 for a circle, smaller for other shapes.
     roundness: f64,
-    /// Shorter over longer axis of inertia.
+    /// Ratio of the shorter to the longer axis of inertia, in [0, 1].
     slenderness: f64,
+    /// Number of holes.
     holes: f64,
-    /// How it is painted.
+    /// Paint, height, name and other attributes besides the shape.
     look: PartLook,
 }
 
 impl PartFeatures {
+    /// Measures a part by its outer ring. `origin` and `size` are those of the design; `turn` is a
+    /// rotation in radians about the origin.
     fn of(ring: &Ring, holes: usize, origin: DVec2, size: f64, turn: f64) -> Self {
         let moments = moments(ring);
         let area = ring.signed_area().abs();
-        // A region without area has no size to compare by.
+        // A region without extent has no size to compare with.
         let size = if size > 0.0 { size } else { 1.0 };
-        let round = 2.0 * TAU * area / ring.perimeter().powi(2);
+        let roundness = 2.0 * TAU * area / ring.perimeter().powi(2);
         let position = DVec2::from_angle(turn).rotate((moments.centre - origin) / size);
-        let tame = |x: f64| if x.is_finite() { x } else { 0.0 };
+        let finite_or_zero = |x: f64| if x.is_finite() { x } else { 0.0 };
         Self {
-            position: DVec2::new(tame(position.x), tame(position.y)),
-            // An area that underflows has a logarithm all the same.
-            log_size: tame(0.5 * area.max(f64::MIN_POSITIVE).ln() - size.ln()),
-            roundness: tame(round.min(1.0)),
-            slenderness: tame(moments.slenderness),
+            position: DVec2::new(finite_or_zero(position.x), finite_or_zero(position.y)),
+            // Clamp areas that underflow, so that the logarithm is finite.
+            log_size: finite_or_zero(0.5 * area.max(f64::MIN_POSITIVE).ln() - size.ln()),
+            roundness: finite_or_zero(roundness.min(1.0)),
+            slenderness: finite_or_zero(moments.slenderness),
             holes: holes as f64,
             look: PartLook::default(),
         }
     }
 
-    fn unlike(&self, other: &Self) -> f64 {
+    /// Returns the cost of pairing two parts.
+    fn pairing_cost(&self, other: &Self) -> f64 {
         let holes = (self.holes - other.holes).abs().min(2.0);
         let form = POSITION * self.position.distance(other.position)
             + SIZE * (self.log_size - other.log_size).abs()
@@ -167,6 +170,7 @@ impl PartFeatures {
         self.look.cost(&other.look, form)
     }
 
+    /// Returns the values by which lists of parts are put into a canonical order.
     fn key(&self) -> [f64; 7] {
         let Self {
             position: p,
@@ -186,9 +190,9 @@ struct BoundaryMoments {
     slenderness: f64,
 }
 
-/// Taken along the boundary, which has length even where it has no area.
+/// Computes the moments of the boundary, not of the area, because the area can be zero.
 fn moments(ring: &Ring) -> BoundaryMoments {
-    // About a point of its own: far from the origin sums lose their digits.
+    // Sum relative to a point of the ring: far from the origin, sums would lose precision.
     let base = ring.points()[0];
     let (mut length, mut sum) = (0.0, DVec2::ZERO);
     for (a, b) in ring.edges() {
@@ -212,6 +216,7 @@ fn moments(ring: &Ring) -> BoundaryMoments {
     }
 }
 
+/// Pairs two lists of parts: `fixed` pairs first, then the optimal assignment of the others.
 fn pair(
     source: &[PartFeatures],
     target: &[PartFeatures],
@@ -219,59 +224,69 @@ fn pair(
     taken: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
     check(fixed, source.len(), target.len())?;
-    let without = |pairs: &[[usize; 2]], count: usize, side: usize| -> Vec<usize> {
+    let unpaired = |pairs: &[[usize; 2]], count: usize, side: usize| -> Vec<usize> {
         (0..count)
             .filter(|k| pairs.iter().all(|pair| pair[side] != *k) && !taken[side].contains(k))
             .collect()
     };
     let (a, b) = (
-        without(fixed, source.len(), 0),
-        without(fixed, target.len(), 1),
+        unpaired(fixed, source.len(), 0),
+        unpaired(fixed, target.len(), 1),
     );
     let keys = |parts: &[PartFeatures], free: &[usize]| -> Vec<f64> {
         free.iter().flat_map(|&k| parts[k].key()).collect()
     };
-    // `assign` wants no more rows than columns, and one order whichever way it
-    // is asked.
+    // `assign` requires at most as many rows as columns. The canonical order makes the result the
+    // same in both directions.
     let order = a
         .len()
         .cmp(&b.len())
         .then_with(|| lexicographic(keys(source, &a), keys(target, &b)));
     let mut pairs = fixed.to_vec();
-    // All rows are paired: what a column would cost alone is saved.
+    // All rows are paired. Subtracting a column's unmatched cost therefore accounts for the columns
+    // left over.
     if order == Ordering::Greater {
-        let alone = alone(source);
-        let cost = |r: usize, c: usize| target[b[r]].unlike(&source[a[c]]) - alone[a[c]];
-        let given = assign(b.len(), a.len(), cost);
-        pairs.extend(given.iter().enumerate().map(|(r, &c)| [a[c], b[r]]));
+        let unmatched_cost = unmatched_costs(source);
+        let cost =
+            |r: usize, c: usize| target[b[r]].pairing_cost(&source[a[c]]) - unmatched_cost[a[c]];
+        let assigned = assign(b.len(), a.len(), cost);
+        pairs.extend(assigned.iter().enumerate().map(|(r, &c)| [a[c], b[r]]));
     } else {
-        let alone = alone(target);
-        let cost = |r: usize, c: usize| source[a[r]].unlike(&target[b[c]]) - alone[b[c]];
-        let given = assign(a.len(), b.len(), cost);
-        pairs.extend(given.iter().enumerate().map(|(r, &c)| [a[r], b[c]]));
+        let unmatched_cost = unmatched_costs(target);
+        let cost =
+            |r: usize, c: usize| source[a[r]].pairing_cost(&target[b[c]]) - unmatched_cost[b[c]];
+        let assigned = assign(a.len(), b.len(), cost);
+        pairs.extend(assigned.iter().enumerate().map(|(r, &c)| [a[r], b[c]]));
     }
     pairs.sort_unstable();
     pairs.dedup();
-    let dying = without(&pairs, source.len(), 0);
-    let born = without(&pairs, target.len(), 1);
-    Ok(Pairing { pairs, dying, born })
+    let source_only = unpaired(&pairs, source.len(), 0);
+    let target_only = unpaired(&pairs, target.len(), 1);
+    Ok(Pairing {
+        pairs,
+        dying: source_only,
+        born: target_only,
+    })
 }
 
-/// What each of these parts of a design would cost alone.
-fn alone(parts: &[PartFeatures]) -> Vec<f64> {
-    let areas = parts.iter().map(|part| (2.0 * part.log_size).exp());
-    let areas: Vec<f64> = areas.collect();
-    // What is too small for a square has no share.
+/// Returns the cost of leaving each part of a design unmatched.
+fn unmatched_costs(parts: &[PartFeatures]) -> Vec<f64> {
+    let areas: Vec<f64> = parts
+        .iter()
+        .map(|part| (2.0 * part.log_size).exp())
+        .collect();
+    // Avoid 0 / 0 if all areas underflow.
     let total = areas.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-    areas.iter().map(|area| ALONE * area / total).collect()
+    areas.iter().map(|area| UNMATCHED * area / total).collect()
 }
 
+/// Checks that fixed pairs name existing parts, and each part only once.
 fn check(fixed: &[[usize; 2]], sources: usize, targets: usize) -> Result<(), PairError> {
     for (side, count) in [sources, targets].into_iter().enumerate() {
-        let mut seen = vec![None; count];
+        let mut pair_of = vec![None; count];
         for pair in fixed {
             let part = pair[side];
-            let slot = seen
+            let slot = pair_of
                 .get_mut(part)
                 .ok_or(PairError::NoSuchPart { part, count })?;
             if slot.replace(pair).is_some_and(|other| other != pair) {
@@ -299,7 +314,7 @@ mod tests {
         Regions::from_rings(rings, FillRule::EvenOdd).expect("area")
     }
 
-    /// A plate with holes.
+    /// Returns a plate with holes.
     fn plate(holes: &[Vec<DVec2>]) -> Regions {
         let mut rings = vec![block(0.0, 0.0, 10.0, 6.0)];
         rings.extend_from_slice(holes);
@@ -317,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_keeps_its_order_wherever_it_lies() {
+    fn a_row_keeps_its_order_wherever_it_is() {
         let row = |k: usize| -> Vec<_> {
             (0..k)
                 .map(|i| block(2.0 * i as f64, 0.0, 1.0, 1.5))
@@ -344,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stays_alone_is_reported_and_the_way_back_is_the_inverse() {
+    fn unmatched_parts_are_reported_and_the_reverse_pairing_is_the_inverse() {
         let three = regions(&[
             block(0.0, 0.0, 2.0, 2.0),
             block(5.0, 0.0, 1.0, 1.0),
@@ -365,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn the_large_part_is_not_left_alone_for_a_small_one_that_lies_nearer() {
+    fn a_large_part_is_not_left_unmatched_for_a_closer_small_one() {
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(8.0, 0.0, 2.0, 2.0)]);
         let three = regions(&[
             block(0.0, 0.0, 0.6, 0.6),
@@ -381,7 +396,7 @@ mod tests {
     }
 
     #[test]
-    fn holes_follow_the_turn_of_their_part() {
+    fn holes_follow_the_rotation_of_their_part() {
         let holes = [
             block(1.0, 1.0, 1.0, 1.0),
             block(8.0, 1.0, 1.0, 1.0),
@@ -406,7 +421,7 @@ mod tests {
     }
 
     #[test]
-    fn fixed_pairs_are_kept_and_checked() {
+    fn fixed_pairs_are_preserved_and_checked() {
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
         let crossed =
             pair_parts([&two, &two], &PartLooks::default(), &[[0, 1]], NONE).expect("pairs");

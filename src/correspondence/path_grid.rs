@@ -1,49 +1,56 @@
-//! The grid of pairs of samples, and the cheapest monotone path through it.
+//! The grid of sample pairs, and the cheapest monotone path through it.
 //!
-//! A node (i, j) says that sample i of the source is sample j of the target. A
-//! path takes unit steps: along the source, along the target, or along both.
-//! It pays for bending (how unlike the samples are, times the length walked)
-//! and for stretching (the absolute difference of the lengths walked), as in
-//! Sebastian, Klein and Kimia 2003, "On aligning curves". Both exchange with
-//! the roles of the two curves.
+//! Node (i, j) pairs sample i of the source with sample j of the target. A path takes unit steps
+//! along the source, along the target, or along both. Its cost has two terms, as in Sebastian,
+//! Klein and Kimia 2003, "On aligning curves": bending (dissimilarity times arc length) and
+//! stretching (absolute difference of the two arc lengths). Both terms are symmetric in the two
+//! curves.
 
-/// Places and unlikeness of a window of samples, counted on over the seam.
+/// Places (fractions of arc length) and dissimilarities of a window of samples; places are
+/// unwrapped over the seam.
 #[derive(Clone, Debug)]
 pub(super) struct PathGrid {
     /// Places of the source's samples, ascending.
     pub source: Vec<f64>,
     /// Places of the target's samples, ascending.
     pub target: Vec<f64>,
-    /// How unlike: a row for each sample of the target.
+    /// Dissimilarities of all pairs: one row for each sample of the target.
     pub unlike: Vec<f64>,
-    /// Price of a unit of stretch.
+    /// Weight of stretch relative to bending.
     pub stretch: f64,
 }
 
-/// What each step of a grid costs, a row for each sample of the target:
-/// infinite where the step would come from outside.
+/// Cost of each step of a grid, one row for each sample of the target. Steps that would come from
+/// outside the grid have infinite cost.
 #[derive(Debug)]
 pub(super) struct StepCosts {
     width: usize,
     rows: usize,
+    /// Cost of the step along both curves that ends at each node.
     both: Vec<f64>,
+    /// Cost of the step along the source alone.
     source: Vec<f64>,
+    /// Cost of the step along the target alone.
     target: Vec<f64>,
 }
 
-/// A path: for each row the first and the last column it visits.
+/// A path through the grid: the first and the last column that it visits in each row.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct GridPath {
     pub cost: f64,
     pub rows: Vec<[usize; 2]>,
 }
 
-/// Buffers of the dynamic program, kept between solves.
+/// Buffers of the dynamic program, reused between solves.
 #[derive(Debug, Default)]
 pub(super) struct PathBuffers {
+    /// Costs of the previous row; column i is stored at 1 + i.
     above: Vec<f64>,
+    /// Costs of the current row, stored likewise.
     here: Vec<f64>,
+    /// Step by which each node in the windows was reached, row after row.
     came: Vec<u8>,
+    /// Start of each row in `came`.
     starts: Vec<usize>,
 }
 
@@ -52,22 +59,22 @@ const ALONG_SOURCE: u8 = 1;
 const ALONG_TARGET: u8 = 2;
 
 impl PathGrid {
-    /// How unlike source sample `i` and target sample `j` are.
+    /// Returns the dissimilarity of source sample `i` and target sample `j`.
     pub fn at(&self, i: usize, j: usize) -> f64 {
         self.unlike[j * self.source.len() + i]
     }
 
-    /// Price of the step from `(i − di, j − dj)` to `(i, j)`, di, dj ≤ 1.
+    /// Returns the cost of the step from `(i − di, j − dj)` to `(i, j)`, where di, dj ≤ 1.
     #[inline]
     pub fn step(&self, i: usize, j: usize, di: usize, dj: usize) -> f64 {
-        let walked_source = self.source[i] - self.source[i - di];
-        let walked_target = self.target[j] - self.target[j - dj];
+        let source_length = self.source[i] - self.source[i - di];
+        let target_length = self.target[j] - self.target[j - dj];
         let bend = 0.5 * (self.at(i, j) + self.at(i - di, j - dj));
-        0.5 * (walked_source + walked_target) * bend
-            + self.stretch * (walked_source - walked_target).abs()
+        0.5 * (source_length + target_length) * bend
+            + self.stretch * (source_length - target_length).abs()
     }
 
-    /// The price of each step, for a search that visits them many times.
+    /// Returns the costs of all steps, for searches that visit them many times.
     pub fn prices(&self) -> StepCosts {
         let (width, rows) = (self.source.len(), self.target.len());
         let mut prices = StepCosts {
@@ -101,9 +108,9 @@ impl PathGrid {
 }
 
 impl StepCosts {
-    /// The cheapest path from `start` in row 0 to `end` in the last row that
-    /// keeps to the windows of columns, both ends included and nondecreasing
-    /// from row to row. O(cells in the windows).
+    /// Returns the cheapest path from column `start` of the first row to column `end` of the last
+    /// row, within a window of columns for each row. Both ends of the windows are inclusive and
+    /// non-decreasing. The cost is O(nodes in the windows).
     pub fn shortest(
         &self,
         [start, end]: [usize; 2],
@@ -112,12 +119,12 @@ impl StepCosts {
     ) -> GridPath {
         let window = |j: usize| [window(j)[0].max(start), window(j)[1].min(end)];
         scratch.reset(self.width);
-        // As if a row above the first led to the start, and nowhere else.
+        // Emulate a row above the first from which only the start can be reached.
         scratch.above[1 + start] = 0.0;
         for j in 0..self.rows {
-            let here = window(j);
+            let columns = window(j);
             scratch.starts.push(scratch.came.len());
-            self.row(j, here, scratch);
+            self.row(j, columns, scratch);
             std::mem::swap(&mut scratch.above, &mut scratch.here);
         }
         let cost = scratch.above[1 + end];
@@ -125,22 +132,22 @@ impl StepCosts {
         GridPath { cost, rows }
     }
 
-    /// The costs of one row from those of the row above.
+    /// Computes the costs of one row from those of the row above.
     fn row(&self, j: usize, [low, high]: [usize; 2], scratch: &mut PathBuffers) {
-        let (cells, count) = (j * self.width + low, high + 1 - low);
+        let (first, count) = (j * self.width + low, high + 1 - low);
         let PathBuffers {
             above, here, came, ..
         } = scratch;
-        // Column i is kept at 1 + i; what lies left of the window is not
-        // reached, and right of it nothing was yet.
+        // Nodes left of the window are unreachable; those to its right still hold infinity from the
+        // reset.
         here[low] = f64::INFINITY;
         let here = &mut here[1 + low..][..count];
-        let first = came.len();
-        came.resize(first + count, ALONG_BOTH);
-        let came = &mut came[first..];
-        // From the row above: no cell waits for another.
+        let came_start = came.len();
+        came.resize(came_start + count, ALONG_BOTH);
+        let came = &mut came[came_start..];
+        // Steps from the row above: all nodes are independent.
         let (left, straight) = (&above[low..][..count], &above[1 + low..][..count]);
-        let (both, target) = (&self.both[cells..][..count], &self.target[cells..][..count]);
+        let (both, target) = (&self.both[first..][..count], &self.target[first..][..count]);
         for i in 0..count {
             let (along_both, along_target) = if j == 0 {
                 (straight[i], f64::INFINITY)
@@ -151,22 +158,23 @@ impl StepCosts {
             here[i] = if is_target { along_target } else { along_both };
             came[i] = if is_target { ALONG_TARGET } else { ALONG_BOTH };
         }
-        // Along the row: each cell waits for the one before.
-        let source = &self.source[cells..][..count];
-        let mut before = f64::INFINITY;
+        // Steps along the row: each node depends on its predecessor.
+        let source = &self.source[first..][..count];
+        let mut previous = f64::INFINITY;
         for i in 0..count {
-            let cost = before + source[i];
-            let ties = cost == here[i] && came[i] == ALONG_TARGET;
-            if cost < here[i] || ties {
+            let cost = previous + source[i];
+            let wins_tie = cost == here[i] && came[i] == ALONG_TARGET;
+            if cost < here[i] || wins_tie {
                 here[i] = cost;
                 came[i] = ALONG_SOURCE;
             }
-            before = here[i];
+            previous = here[i];
         }
     }
 }
 
 impl PathBuffers {
+    /// Clears the buffers for a grid of `width` columns.
     fn reset(&mut self, width: usize) {
         for row in [&mut self.above, &mut self.here] {
             row.clear();
@@ -177,7 +185,7 @@ impl PathBuffers {
     }
 }
 
-/// The path walked back from its end.
+/// Traces the path back from its end.
 fn trace(
     scratch: &PathBuffers,
     count: usize,
@@ -202,13 +210,13 @@ fn trace(
 }
 
 impl GridPath {
-    /// The nodes in order, from the start to the end.
+    /// Returns the nodes in order, from the start to the end.
     pub fn nodes(&self) -> Vec<[usize; 2]> {
         let row = |(j, &[first, last]): (usize, &[usize; 2])| (first..=last).map(move |i| [i, j]);
         self.rows.iter().enumerate().flat_map(row).collect()
     }
 
-    /// The same path `by` columns on.
+    /// Returns the same path, moved by `by` columns.
     pub fn shifted(&self, by: usize) -> Self {
         let rows = self.rows.iter().map(|&[a, b]| [a + by, b + by]).collect();
         Self {
@@ -223,7 +231,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_cheapest_of_all_paths_of_a_small_grid_is_found() {
+    fn the_cheapest_path_of_a_small_grid_agrees_with_brute_force() {
         let grid = PathGrid {
             source: vec![0.0, 0.3, 0.5, 1.0],
             target: vec![0.0, 0.2, 1.0],
@@ -232,7 +240,7 @@ mod tests {
         };
         let prices = grid.prices();
         let route = prices.shortest([0, 3], |_| [0, 3], &mut PathBuffers::default());
-        assert!((route.cost - cheapest(&grid, 3, 2)).abs() < 1e-15);
+        assert!((route.cost - brute_force_cost(&grid, 3, 2)).abs() < 1e-15);
         let nodes = route.nodes();
         let price = |w: &[[usize; 2]]| {
             let [[a, b], [i, j]] = [w[0], w[1]];
@@ -242,12 +250,12 @@ mod tests {
         assert!((route.cost - sum).abs() < 1e-15);
     }
 
-    /// All paths, one by one.
-    fn cheapest(grid: &PathGrid, i: usize, j: usize) -> f64 {
+    /// Returns the minimum cost by enumerating all paths.
+    fn brute_force_cost(grid: &PathGrid, i: usize, j: usize) -> f64 {
         let mut best = if i + j == 0 { 0.0 } else { f64::INFINITY };
         for (di, dj) in [(1, 1), (1, 0), (0, 1)] {
             if i >= di && j >= dj {
-                best = best.min(cheapest(grid, i - di, j - dj) + grid.step(i, j, di, dj));
+                best = best.min(brute_force_cost(grid, i - di, j - dj) + grid.step(i, j, di, dj));
             }
         }
         best

@@ -1,34 +1,36 @@
-//! Pins: pairs of places that the user says are the same.
+//! Pins on a pair of curves: sorts them and rejects those that no continuous match can satisfy.
 
 use super::curve::BoundaryCurve;
 use crate::geometry::SourceTarget;
 
-/// A place of the source and one of the target that are the same point, each
-/// as a fraction of its curve's length from the first point.
-/// [`BoundaryCurve::nearest`] gives that of a clicked point.
+/// A pair of corresponding places on two curves, each as a fraction of the curve's length from its
+/// first point. [`BoundaryCurve::nearest`] converts a clicked point to a place.
 pub type Pin = SourceTarget<f64>;
 
-/// Pins that no continuous match can honour; in messages they count from 1.
+/// Pins that no continuous match can satisfy. Indices count from 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PinError {
     /// A place is NaN or infinite.
-    #[error("pin {} does not lie on the outline; place it anew", .0 + 1)]
+    #[error("pin {} does not lie on the outline; place it again", .0 + 1)]
     NotFinite(usize),
     /// Two pins share a point of one outline but not of the other.
-    #[error("pins {} and {} say different things of one point; move or delete one of them", .0 + 1, .1 + 1)]
+    #[error("pins {} and {} tie one point to two different points; move or delete one of them", .0 + 1, .1 + 1)]
     SamePoint(usize, usize),
-    /// The pins follow each other differently on the two outlines.
+    /// The pins have different cyclic orders on the two outlines.
     #[error(
-        "pins {} and {} cross: they follow each other in another order on the other outline; \
+        "pins {} and {} cross: their order differs between the two outlines; \
          move or delete one of them",
         .0 + 1, .1 + 1
     )]
     Crossing(usize, usize),
 }
 
-/// The pins in the order of the source, places wrapped, repetitions left out.
-/// The order of the target may start anywhere.
+/// Returns the pins sorted by their places on the source, with places wrapped to [0, 1) and
+/// duplicates removed. The target places are ascending up to a cyclic shift.
+///
+/// # Errors
+/// [`PinError`] for pins that contradict each other.
 pub(super) fn ordered(
     pins: &[Pin],
     source: &BoundaryCurve,
@@ -43,13 +45,14 @@ pub(super) fn ordered(
         places.push((place, k));
     }
     places.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    // A pin that was set twice says nothing new.
+    // Identical pins are redundant, not contradictory.
     places.dedup_by_key(|(place, _)| *place);
     check_shared(&places)?;
     check_order(&places)?;
     Ok(places.into_iter().map(|(place, _)| place).collect())
 }
 
+/// Checks that no two pins share a place on one curve.
 fn check_shared(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
     for side in 0..2 {
         let mut sorted = pins.to_vec();
@@ -63,43 +66,51 @@ fn check_shared(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
     Ok(())
 }
 
-/// Names a pin outside the longest series in order, and the one it crosses.
+/// Checks that both curves have the pins in the same cyclic order. The error names a pin outside
+/// the longest consistent sequence, and a pin that it crosses.
 fn check_order(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
     let n = pins.len();
-    // In order, the target's places fall once in a round: at its seam.
-    let falls = |k: usize| pins[k].0[1] > pins[(k + 1) % n].0[1];
-    if (0..n).filter(|&k| falls(k)).count() <= 1 {
+    // In cyclic order, the target places decrease exactly once per round: at the seam.
+    let decreases_after = |k: usize| pins[k].0[1] > pins[(k + 1) % n].0[1];
+    if (0..n).filter(|&k| decreases_after(k)).count() <= 1 {
         return Ok(());
     }
-    let series = (0..n).map(|start| rising(pins, start));
-    let kept = series.max_by_key(Vec::len).unwrap_or_default();
-    let odd = (0..n).find(|k| !kept.contains(k)).unwrap_or(0);
-    let turned = |place: f64| (place - pins[kept[0]].0[1]).rem_euclid(1.0);
-    let ahead = |k: usize| (k + n - kept[0]) % n;
-    let crossed =
-        |&&k: &&usize| (ahead(k) < ahead(odd)) != (turned(pins[k].0[1]) < turned(pins[odd].0[1]));
-    let other = kept.iter().find(crossed).copied().unwrap_or(kept[0]);
-    let (a, b) = (pins[odd].1, pins[other].1);
+    let sequences = (0..n).map(|start| longest_ascending(pins, start));
+    let longest = sequences.max_by_key(Vec::len).unwrap_or_default();
+    let offending = (0..n).find(|k| !longest.contains(k)).unwrap_or(0);
+    let target_offset = |place: f64| (place - pins[longest[0]].0[1]).rem_euclid(1.0);
+    let source_offset = |k: usize| (k + n - longest[0]) % n;
+    let is_crossed = |&&k: &&usize| {
+        (source_offset(k) < source_offset(offending))
+            != (target_offset(pins[k].0[1]) < target_offset(pins[offending].0[1]))
+    };
+    let other = longest
+        .iter()
+        .find(is_crossed)
+        .copied()
+        .unwrap_or(longest[0]);
+    let (a, b) = (pins[offending].1, pins[other].1);
     Err(PinError::Crossing(a.min(b), a.max(b)))
 }
 
-/// The longest series from `start` on that rises in the target too.
-fn rising(pins: &[([f64; 2], usize)], start: usize) -> Vec<usize> {
+/// Returns the longest subsequence, beginning at pin `start`, whose target places ascend too
+/// (dynamic program, O(n²)).
+fn longest_ascending(pins: &[([f64; 2], usize)], start: usize) -> Vec<usize> {
     let n = pins.len();
     let base = pins[start].0[1];
     let value = |k: usize| (pins[(start + k) % n].0[1] - base).rem_euclid(1.0);
     let mut best: Vec<(usize, usize)> = Vec::with_capacity(n); // length, predecessor
     for k in 0..n {
-        let before = (0..k).filter(|&b| value(b) < value(k));
-        let longest = before.max_by_key(|&b| best[b].0);
+        let predecessors = (0..k).filter(|&b| value(b) < value(k));
+        let longest = predecessors.max_by_key(|&b| best[b].0);
         best.push(longest.map_or((1, k), |b| (best[b].0 + 1, b)));
     }
     let mut k = (0..n).max_by_key(|&k| best[k].0).unwrap_or(0);
-    let mut series = vec![(start + k) % n];
+    let mut sequence = vec![(start + k) % n];
     while best[k].1 != k {
         k = best[k].1;
-        series.push((start + k) % n);
+        sequence.push((start + k) % n);
     }
-    series.reverse();
-    series
+    sequence.reverse();
+    sequence
 }

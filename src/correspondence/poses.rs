@@ -1,69 +1,76 @@
-//! The rotations of one design onto the other that are worth a search, and
-//! the best path over them.
+//! Finds the best path over the poses (rotations of one design onto the other) that are worth a
+//! search.
 
 use super::curve_problem::CurveMatchProblem;
 use super::features::PoseWeights;
 use rayon::prelude::*;
 
-/// What turning adds to the cost, relative and absolute, times 1 − cos of the
-/// rotation. The relative part settles near ties of unlike designs (a flower
-/// of six petals and another); it vanishes for a design against itself, which
-/// has to be found again however it was turned.
-const REST_RELATIVE: f64 = 0.05;
-const REST: f64 = 0.0005;
+/// Penalty on rotation, times 1 − cos of the rotation, relative to the cost and absolute. The
+/// relative penalty decides near ties of unlike symmetric designs, such as two flowers with six
+/// petals. It vanishes if a design is matched with itself, which must succeed at any rotation
+/// (heuristic).
+const RELATIVE_ROTATION_PENALTY: f64 = 0.05;
+/// Absolute part of the penalty on rotation (heuristic).
+const ROTATION_PENALTY: f64 = 0.0005;
 
-/// Poses nearer than this count as one, in radians.
-/// 20°: within that a search finds the pose by its own rounds.
-const POSE_APART: f64 = 0.35;
+/// Poses closer than this count as one, in radians: 20°. Within this distance a search converges to
+/// the same pose (heuristic).
+const MIN_POSE_DISTANCE: f64 = 0.35;
 
-/// How many poses are tried besides none.
-const POSES: usize = 5;
+/// Maximum number of poses tried, besides rotation 0 (resource limit).
+const MAX_POSES: usize = 5;
 
-/// How often the pose of the match found is put in and the match redone.
+/// Maximum number of rounds that search again at the rotation of the match just found (resource
+/// limit).
 const POSE_ROUNDS: usize = 3;
 
-/// Poses whose coarse score is within this factor of the best are tried again.
+/// Poses whose coarse score is within this factor of the best are searched again with all samples
+/// (heuristic).
 const NEAR_TIE: f64 = 1.15;
 
-/// A pose so near the rotation of its match is not put right, in radians.
+/// A match whose rotation is within this angle of its pose has converged, in radians (tolerance:
+/// one degree).
 const SAME_POSE: f64 = 0.02;
 
-/// A path with the comparison it was found by.
+/// A closed path, with the dissimilarities that it was found with.
 pub(super) struct PathSolution {
-    /// Unit steps, counted on over the seams.
+    /// Nodes at unit steps, unwrapped over the seams.
     pub(super) nodes: Vec<[usize; 2]>,
+    /// Dissimilarities of all sample pairs, including those of pose.
     pub(super) unlike: Vec<f64>,
+    /// Bending and stretching cost of the path.
     pub(super) cost: f64,
-    /// The cost and what the rotation adds to it.
+    /// Cost including the penalty on rotation.
     score: f64,
-    /// The rotation that was assumed, and the one of the match.
+    /// Rotation that was assumed, in radians.
     pose: f64,
+    /// Rotation of the resulting match, in radians.
     rotation: f64,
 }
 
 impl CurveMatchProblem {
-    /// The best path over the poses that a search through fewer samples left.
+    /// Returns the best path over the poses selected by a search with fewer samples.
     pub(super) fn posed_solution(&self) -> PathSolution {
         let blind = self.blind();
         if self.keep_up {
             return self.posed(&blind, 0.0, PoseWeights::FIXED);
         }
-        // A coarse search tells which of many poses are worth a full one.
+        // The coarse search selects the few poses that are worth a full search.
         let poses = match &self.coarse {
             Some(coarse) => coarse.likely_poses(),
             None => self.poses(&blind),
         };
-        let tried = self.solutions(&blind, poses).into_iter();
-        let least = |best: PathSolution, next: PathSolution| {
+        let candidates = self.solutions(&blind, poses).into_iter();
+        let better = |best: PathSolution, next: PathSolution| {
             if next.score < best.score { next } else { best }
         };
-        let best = tried.reduce(least);
+        let best = candidates.reduce(better);
         let mut best = best.unwrap_or_else(|| self.posed(&blind, 0.0, PoseWeights::FREE));
         for _ in 0..POSE_ROUNDS {
             if (best.rotation - best.pose).cos() > SAME_POSE.cos() {
                 break;
             }
-            // The pose was a guess; that of its match is a better one.
+            // The rotation of the match is a better estimate than the pose it was found with.
             let next = self.posed(&blind, best.rotation, PoseWeights::FREE);
             if next.score >= best.score {
                 break;
@@ -73,17 +80,19 @@ impl CurveMatchProblem {
         best
     }
 
-    /// The rotation of the best match, and those of others almost as good.
+    /// Returns the rotation of the best match, and those of other matches almost as good.
     fn likely_poses(&self) -> Vec<f64> {
         let blind = self.blind();
-        let mut found = self.solutions(&blind, self.poses(&blind));
-        found.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let most = found.first().map_or(0.0, |best| NEAR_TIE * best.score);
-        let good = found.iter().take_while(|found| found.score <= most);
-        distinct(good.map(|solution| solution.rotation))
+        let mut solutions = self.solutions(&blind, self.poses(&blind));
+        solutions.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let max_score = solutions.first().map_or(0.0, |best| NEAR_TIE * best.score);
+        let accepted = solutions
+            .iter()
+            .take_while(|solution| solution.score <= max_score);
+        distinct(accepted.map(|solution| solution.rotation))
     }
 
-    /// How unlike samples are where no pose is guessed.
+    /// Returns the dissimilarities for searches without pose estimation.
     pub(super) fn unposed(&self) -> Vec<f64> {
         let blind = self.blind();
         if !self.keep_up {
@@ -93,50 +102,51 @@ impl CurveMatchProblem {
         a.unlike_posed(b, &blind, 0.0, PoseWeights::FIXED)
     }
 
-    /// How unlike samples are whatever the pose.
+    /// Returns the rotation-invariant dissimilarities.
     fn blind(&self) -> Vec<f64> {
         (self.source_features).unlike(&self.target_features, self.thickness)
     }
 
-    /// The best path at each of some poses.
+    /// Returns the best path for each of the given poses.
     fn solutions(&self, blind: &[f64], poses: Vec<f64>) -> Vec<PathSolution> {
         let posed = |pose| self.posed(blind, pose, PoseWeights::FREE);
         poses.into_par_iter().map(posed).collect()
     }
 
+    /// Returns the best path for one pose.
     fn posed(&self, blind: &[f64], pose: f64, weights: PoseWeights) -> PathSolution {
         let [a, b] = [&self.source_features, &self.target_features];
         let found = self.best_path(a.unlike_posed(b, blind, pose, weights));
         PathSolution { pose, ..found }
     }
 
-    /// Rotations worth trying, the likeliest first, none of them near another.
+    /// Returns the rotations worth trying, most likely first, no two of them close to each other.
     fn poses(&self, blind: &[f64]) -> Vec<f64> {
         let mut likely: Vec<(f64, f64)> = Vec::new();
         self.visit_paths(blind, |cost, nodes| {
             let rotation = self.rotation(&nodes());
-            likely.push((scored(cost, rotation), rotation));
+            likely.push((score(cost, rotation), rotation));
         });
         likely.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut poses = distinct(likely.into_iter().map(|(_, pose)| pose));
-        poses.truncate(POSES);
-        // As drawn is always tried: most pairs are drawn upright.
-        if poses.iter().all(|&p| apart(p, 0.0)) {
+        poses.truncate(MAX_POSES);
+        // Rotation 0 is always tried: most pairs are drawn upright.
+        if poses.iter().all(|&p| are_apart(p, 0.0)) {
             poses.push(0.0);
         }
         poses
     }
 
-    /// The best path by how unlike samples are, over all starts.
+    /// Returns the path with the best score over all starts.
     pub(super) fn best_path(&self, unlike: Vec<f64>) -> PathSolution {
         let mut best: Option<PathSolution> = None;
         self.visit_paths(&unlike, |cost, nodes| {
             if best.as_ref().is_some_and(|b| cost >= b.score) {
-                return; // rotation only adds
+                return; // the rotation penalty is not negative
             }
             let nodes = nodes();
             let rotation = self.rotation(&nodes);
-            let score = scored(cost, rotation);
+            let score = score(cost, rotation);
             if best.as_ref().is_none_or(|b| score < b.score) {
                 best = Some(PathSolution {
                     nodes,
@@ -153,22 +163,23 @@ impl CurveMatchProblem {
     }
 }
 
-/// The cost with what the rotation adds.
-fn scored(cost: f64, rotation: f64) -> f64 {
-    cost + (REST_RELATIVE * cost + REST) * (1.0 - rotation.cos())
+/// Returns the cost including the penalty on rotation.
+fn score(cost: f64, rotation: f64) -> f64 {
+    cost + (RELATIVE_ROTATION_PENALTY * cost + ROTATION_PENALTY) * (1.0 - rotation.cos())
 }
 
-/// Those of some poses that are not near an earlier one.
+/// Returns the poses that are not close to an earlier one.
 fn distinct(poses: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut kept: Vec<f64> = Vec::new();
     for pose in poses {
-        if kept.iter().all(|&other| apart(other, pose)) {
+        if kept.iter().all(|&other| are_apart(other, pose)) {
             kept.push(pose);
         }
     }
     kept
 }
 
-fn apart(a: f64, b: f64) -> bool {
-    (a - b).cos() < POSE_APART.cos()
+/// Returns whether two rotations differ by more than the minimum distance.
+fn are_apart(a: f64, b: f64) -> bool {
+    (a - b).cos() < MIN_POSE_DISTANCE.cos()
 }

@@ -1,42 +1,45 @@
-//! Vertices of two polygons in correspondence, and what lies straight between
-//! them.
+//! Vertices of two polygons in correspondence, and the map between them along straight sides.
 
 use super::boundary_match::interpolated;
 use super::curve::BoundaryCurve;
 
-/// Two places that are one: that of the source, that of the target, and the
-/// parameter that both have.
+/// A pair of corresponding places (fractions of arc length) and their common parameter:
+/// `[source, target, parameter]`.
 pub(super) type ParameterKnot = [f64; 3];
 
-/// The column of the parameter.
+/// Column of the common parameter in a [`ParameterKnot`].
 pub(super) const BOTH: usize = 2;
 
-/// A vertex to come: its common parameter and, where it is a curve's own
-/// point or a pin, its place.
+/// A future vertex of both polygons: its common parameter, and its place on each curve if it is a
+/// vertex of that curve or a pin.
 #[derive(Clone, Copy)]
 pub(super) struct SharedVertex {
+    /// Common parameter, in [0, 1).
     pub at: f64,
+    /// Place on the source and on the target; `None` if it follows from the parameter.
     pub places: [Option<f64>; 2],
-    /// Whether an outline bends there, or somebody pinned it.
+    /// Whether one of the outlines bends here, or a pin lies here.
     pub is_bend: bool,
 }
 
 impl SharedVertex {
-    /// Whether its partner is where the match has it.
+    /// Returns whether the match determines both places: at bends, pins and vertices of both
+    /// curves.
     pub fn is_fixed(&self) -> bool {
         self.is_bend || self.places.iter().all(Option::is_some)
     }
 }
 
-/// Straight sides stay straight where both are: between vertices at which one
-/// of the outlines bends, or which both have, the match is proportional.
+/// Map between corresponding places that keeps straight sides straight. Between fixed vertices,
+/// that is bends, pins and vertices of both curves, it is proportional to arc length.
 pub(super) struct ProportionalMap {
-    /// The places of those vertices, counted on over the seam, and their
-    /// parameters; the first again at the end.
+    /// Unwrapped places and parameters of the fixed vertices; the first is repeated one round
+    /// later.
     bends: Vec<ParameterKnot>,
 }
 
 impl ProportionalMap {
+    /// Creates the map through the fixed vertices, whose places `places` returns.
     pub fn between(vertices: &[SharedVertex], places: impl Fn(&SharedVertex) -> [f64; 2]) -> Self {
         let mut bends: Vec<ParameterKnot> = Vec::with_capacity(vertices.len() + 1);
         for vertex in vertices.iter().filter(|vertex| vertex.is_fixed()) {
@@ -45,7 +48,7 @@ impl ProportionalMap {
                 a += f64::from(u8::from(a < first[0]));
                 b += f64::from(u8::from(b < first[1]));
             }
-            // Rounding must not make a step back.
+            // Skip knots that rounding would make non-monotone.
             if bends.last().is_none_or(|last| last[0] < a && last[1] < b) {
                 bends.push([a, b, vertex.at]);
             }
@@ -54,19 +57,22 @@ impl ProportionalMap {
         Self { bends }
     }
 
-    /// The vertices, those between bends at the parameters of their own places.
+    /// Moves each vertex between fixed vertices to the parameter of its own place, and sorts the
+    /// vertices.
     pub fn laid(&self, mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
         for vertex in vertices.iter_mut().filter(|vertex| !vertex.is_fixed()) {
             let own = (0..2).find_map(|side| Some((side, vertex.places[side]?)));
             if let Some((side, place)) = own {
-                let over = f64::from(u8::from(place < self.bends[0][side]));
-                vertex.at = interpolated(&self.bends, place + over, [side, BOTH]);
+                let round = f64::from(u8::from(place < self.bends[0][side]));
+                vertex.at = interpolated(&self.bends, place + round, [side, BOTH]);
             }
         }
         vertices.sort_by(|a, b| a.at.total_cmp(&b.at));
         vertices
     }
 
+    /// Returns the place on a curve at a common parameter. `side` is 0 for the source and 1 for the
+    /// target.
     pub fn place(&self, at: f64, side: usize, curve: &BoundaryCurve) -> f64 {
         let at = at + f64::from(u8::from(at < self.bends[0][BOTH]));
         curve.wrapped(interpolated(&self.bends, at, [BOTH, side]))

@@ -1,20 +1,18 @@
-//! The match of two designs with all their parts and holes.
+//! Matches two designs with all their parts and holes.
 //!
-//! Parts are paired, each pair's outer boundaries and holes are matched, and
-//! what one design alone has is given a partner: a hole closes to a point, its
-//! ring is cut open, or the rest is matched without it; a part is split off the
-//! other design's or is born from a point. The outcome is a list of
-//! [`PieceMatch`]es, each one connected and with as many rings on either side:
-//! what a common triangulation can be made of.
+//! Parts are paired, and the outer boundaries and holes of each pair are matched. A hole that
+//! exists in only one design closes to a point, or its ring is cut open, or the rest is matched
+//! without it. A part that exists in only one design is matched with a piece split off a part of
+//! the other design, or it grows from a point. The result is a list of [`PieceMatch`]es. Each is
+//! connected and has the same number of rings in both designs, so that both can share one
+//! triangulation.
 //!
-//! Guaranteed: corresponding rings have the same number of vertices; all
-//! points of the given outlines are vertices, bit by bit; pins are honoured
-//! exactly or refused in words; the match the other way is made of the same
-//! pieces. A point stands for a ring of at most [`POINT_SIZE`] of the
-//! design's diameter.
+//! Guaranteed: corresponding rings have the same number of vertices, and contain all vertices of
+//! the given outlines bit by bit. Pins are satisfied exactly or rejected with an error. Matching in
+//! the other direction gives the same pieces. A ring that stands for a point has at most
+//! [`POINT_SIZE`] of the diameter of the part that it lies in or stands for.
 //!
-//! Not guaranteed: that the piece split off or the place of a cut is the best
-//! of all, only of those that were tried.
+//! Not guaranteed: that a split or a cut is the best possible, only the best of those tried.
 
 mod automatic_pins;
 mod closing;
@@ -50,26 +48,27 @@ pub use region_match::{
 /// Matches two designs with all their parts and holes.
 ///
 /// # Errors
-/// [`RegionMatchError`] for pins, links or cuts that contradict each other,
-/// sizes that floating point cannot measure, or if the work is cancelled.
+/// [`RegionMatchError`] for pins, links or cuts that contradict each other, for sizes that floating
+/// point cannot represent, or if the work is cancelled.
 ///
 /// ```
-/// use morphospace::correspondence::{Matching, match_regions};
+/// use morphospace::correspondence::{MatchSettings, match_regions};
 /// use morphospace::geometry::{DVec2, FillRule, Regions};
 /// use morphospace::work::progress::Silent;
 /// let square = |s: f64| [(-s, -s), (s, -s), (s, s), (-s, s)].map(DVec2::from).to_vec();
 /// let frame = Regions::from_rings(&[square(2.0), square(1.0)], FillRule::EvenOdd)?;
-/// let matched = match_regions(&frame, &frame, &Matching::default(), &Silent)?;
+/// let matched = match_regions(&frame, &frame, &MatchSettings::default(), &Silent)?;
 /// assert_eq!((matched.pieces.len(), matched.pieces[0].rings.len()), (1, 2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn match_regions(
     source: &Regions,
     target: &Regions,
-    wanted: &MatchSettings,
+    settings: &MatchSettings,
     progress: &dyn Progress,
 ) -> Result<RegionMatch, RegionMatchError> {
     checkpoint(progress, "matching", 0.0)?;
-    let alike = PartLooks::default();
-    MatchPlan::new([source, target], &alike, wanted, progress)?.matched(&wanted.options(), progress)
+    let no_looks = PartLooks::default();
+    MatchPlan::new([source, target], &no_looks, settings, progress)?
+        .matched(&settings.options(), progress)
 }

@@ -1,40 +1,39 @@
-//! Places along a curve at which it is compared: corners, pins, and an even
-//! spacing between them.
+//! Sample places along a curve, as fractions of its arc length: corners, pins, and evenly spaced
+//! places between them.
 //!
-//! A corner is a point where the direction jumps: its turning hardly shrinks
-//! when the reach over which it is taken does. On a smooth bend the turning is
-//! proportional to the reach, however many points draw the bend, so that
-//! corners do not depend on the resolution of the outline.
+//! A corner is a point where the direction jumps: its turning hardly decreases when the window
+//! does. On a smooth bend the turning is proportional to the window, no matter how many points draw
+//! the bend. Corner detection therefore does not depend on the outline's resolution.
 
 use super::curve::BoundaryCurve;
 
-/// Reach of the turning by which corners are found, in fractions of the
-/// length; an outline of 140 even points has this spacing.
+/// Half-length of the window for corner detection, as a fraction of the curve's length: the spacing
+/// of an outline with 140 even points (heuristic).
 const CORNER_REACH: f64 = 0.007;
 
-/// Least turning of a corner, in radians: 40°.
+/// Minimum turning of a corner, in radians: 40° (heuristic).
 const CORNER_TURN: f64 = 0.7;
 
-/// What must be left of the turning at a quarter of the reach. A circular arc
-/// keeps 0.25, a jump 1.
+/// Minimum fraction of a corner's turning that remains in a window of a quarter the size. A
+/// circular arc keeps 0.25, a jump 1; the threshold lies about halfway (heuristic).
 const CORNER_SHARPNESS: f64 = 0.6;
 
-/// Least gap between a corner and its neighbours, in sample spacings; a
-/// denser comb is compared at its strongest corners only.
-const LEAST_GAP: f64 = 0.5;
+/// Minimum gap between a corner and its neighbours, in sample spacings. Of corners that lie closer
+/// together, only the strongest become samples (heuristic).
+const MIN_GAP: f64 = 0.5;
 
-/// Sampled places in ascending order.
+/// Sample places of a curve, ascending.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CurveSamples {
     pub places: Vec<f64>,
 }
 
 impl CurveSamples {
-    /// About `count` places; `fixed` ones (pins) are among them whatever
-    /// their gaps.
+    /// Samples about `count` places. All `fixed` places (pins) are included, however close they
+    /// are.
     pub fn of(curve: &BoundaryCurve, count: u32, fixed: &[f64]) -> Self {
         let spacing = 1.0 / f64::from(count.max(3));
-        let anchors = anchors(curve, spacing, fixed);
+        let anchors = anchor_places(curve, spacing, fixed);
         let mut places = Vec::new();
         for (k, &from) in anchors.iter().enumerate() {
             let to = anchors.get(k + 1).copied().unwrap_or(anchors[0] + 1.0);
@@ -46,12 +45,12 @@ impl CurveSamples {
         Self { places }
     }
 
-    /// The index of a place that is among them.
+    /// Returns the index of a place if it is exactly one of the samples.
     pub fn index_of(&self, place: f64) -> Option<usize> {
         self.places.binary_search_by(|p| p.total_cmp(&place)).ok()
     }
 
-    /// The sample nearest to a place, both counted on over the seam.
+    /// Returns the unwrapped index of the sample nearest to an unwrapped, non-negative place.
     pub fn nearest(&self, place: f64) -> usize {
         let round = place.floor();
         let after = self.places.partition_point(|&p| p < place - round);
@@ -60,14 +59,15 @@ impl CurveSamples {
         after.checked_sub(1).filter(is_before).unwrap_or(after)
     }
 
-    /// Place of a sample counted on over the seam.
+    /// Returns the unwrapped place of an unwrapped index: sample `index % n`, plus one for each
+    /// full round.
     pub fn unrolled(&self, index: usize) -> f64 {
         let n = self.places.len();
         self.places[index % n] + (index / n) as f64
     }
 }
 
-/// `from` and even places up to `to`, exclusive.
+/// Appends `from` and evenly spaced places up to `to`, exclusive.
 fn fill(places: &mut Vec<f64>, from: f64, to: f64, spacing: f64) {
     let pieces = ((to - from) / spacing).round().max(1.0);
     let step = (to - from) / pieces;
@@ -75,56 +75,57 @@ fn fill(places: &mut Vec<f64>, from: f64, to: f64, spacing: f64) {
     places.extend((0..count).map(|k| from + step * f64::from(k)));
 }
 
-/// What is kept exactly: pins and corners; at least one place, so that the
-/// phase of the samples does not depend on where the outline starts.
-fn anchors(curve: &BoundaryCurve, spacing: f64, fixed: &[f64]) -> Vec<f64> {
-    let mut kept = fixed.to_vec();
-    kept.sort_by(f64::total_cmp);
-    kept.dedup();
-    // The strongest first: where corners crowd, the weaker give way.
+/// Returns the places that must be samples exactly: pins and corners. There is at least one, so
+/// that the phase of the samples does not depend on where the outline starts.
+fn anchor_places(curve: &BoundaryCurve, spacing: f64, fixed: &[f64]) -> Vec<f64> {
+    let mut anchors = fixed.to_vec();
+    anchors.sort_by(f64::total_cmp);
+    anchors.dedup();
+    // Strongest first: where corners crowd, the weaker ones are dropped.
     for (place, _) in corners(curve) {
-        insert_apart(&mut kept, place, LEAST_GAP * spacing);
+        insert_apart(&mut anchors, place, MIN_GAP * spacing);
     }
-    if kept.is_empty() {
-        kept.push(bendiest(curve));
+    if anchors.is_empty() {
+        anchors.push(sharpest_bend(curve));
     }
-    kept
+    anchors
 }
 
-/// Inserts in order unless something is nearer than `gap`; tells whether.
-fn insert_apart(kept: &mut Vec<f64>, place: f64, gap: f64) -> bool {
-    let at = kept.partition_point(|&k| k < place);
-    let before = match at.checked_sub(1) {
-        Some(k) => kept[k],
-        None => kept.last().map_or(f64::NEG_INFINITY, |last| last - 1.0),
+/// Inserts a place into the ascending list unless another is closer than `gap`, cyclically. Returns
+/// whether it was inserted.
+fn insert_apart(places: &mut Vec<f64>, place: f64, gap: f64) -> bool {
+    let index = places.partition_point(|&k| k < place);
+    let before = match index.checked_sub(1) {
+        Some(k) => places[k],
+        None => places.last().map_or(f64::NEG_INFINITY, |last| last - 1.0),
     };
-    let first = || kept.first().map_or(f64::INFINITY, |first| first + 1.0);
-    let after = kept.get(at).copied().unwrap_or_else(first);
-    let fits = place - before >= gap && after - place >= gap;
-    if fits {
-        kept.insert(at, place);
+    let first = || places.first().map_or(f64::INFINITY, |first| first + 1.0);
+    let after = places.get(index).copied().unwrap_or_else(first);
+    let is_apart = place - before >= gap && after - place >= gap;
+    if is_apart {
+        places.insert(index, place);
     }
-    fits
+    is_apart
 }
 
-/// Places of corners with their absolute turning, the strongest first. The
-/// points next to a corner see it too: they are left out.
+/// Returns the places of corners with their absolute turning, strongest first. Points next to a
+/// corner, whose windows include it, are suppressed.
 pub(super) fn corners(curve: &BoundaryCurve) -> Vec<(f64, f64)> {
-    let near_reach = 0.25 * CORNER_REACH;
+    let narrow_reach = 0.25 * CORNER_REACH;
     let is_corner = |&place: &f64| {
         let wide = curve.turning(place, CORNER_REACH).abs();
-        let near = curve.turning(place, near_reach).abs();
-        (wide >= CORNER_TURN && near >= CORNER_SHARPNESS * wide).then_some((place, near))
+        let narrow = curve.turning(place, narrow_reach).abs();
+        (wide >= CORNER_TURN && narrow >= CORNER_SHARPNESS * wide).then_some((place, narrow))
     };
-    let mut seen: Vec<(f64, f64)> = curve.places().iter().filter_map(is_corner).collect();
-    seen.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
+    let mut candidates: Vec<(f64, f64)> = curve.places().iter().filter_map(is_corner).collect();
+    candidates.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
     let mut kept = Vec::new();
-    seen.retain(|&(place, _)| insert_apart(&mut kept, place, near_reach));
-    seen
+    candidates.retain(|&(place, _)| insert_apart(&mut kept, place, narrow_reach));
+    candidates
 }
 
-/// The point of greatest turning, taken wide.
-fn bendiest(curve: &BoundaryCurve) -> f64 {
+/// Returns the vertex with the largest turning over a wide window.
+fn sharpest_bend(curve: &BoundaryCurve) -> f64 {
     let turn = |place: f64| curve.turning(place, 4.0 * CORNER_REACH).abs();
     let mut best = (f64::NEG_INFINITY, 0.0);
     for &place in curve.places() {

@@ -1,143 +1,144 @@
-//! What a person may say about a match: pins, pairs of parts, cuts, rules.
+//! The user's settings for matching two designs: pins, linked parts, cuts and rules.
 //!
-//! Everything is said by points of the designs, never by numbers of outlines:
-//! a design that is drawn anew keeps what was said of it.
+//! Parts, holes and boundary points are always identified by coordinates in the designs, never by
+//! index. The settings therefore remain valid when a design is redrawn.
 
 use super::MatchOptions;
 use crate::geometry::{DVec2, RANGE_MESSAGE, Side, Similarity, SourceTarget, is_in_range};
-use crate::settings::choice::named;
+use crate::settings::named;
 use serde::{Deserialize, Serialize};
 
-/// How two designs are matched.
+/// Settings for matching two designs.
 ///
 /// ```
-/// use morphospace::correspondence::{HoleRule, Matching};
-/// assert_eq!(Matching::default().holes, HoleRule::Auto);
+/// use morphospace::correspondence::{HoleRule, MatchSettings};
+/// assert_eq!(MatchSettings::default().holes, HoleRule::Auto);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MatchSettings {
-    /// Keep "up": compare directions as drawn instead of up to a rotation.
+    /// Whether "up" stays up: directions are compared as drawn instead of up to a rotation.
     pub keep_up: bool,
-    /// Price of stretch against bending, at least 0; where it is not given,
-    /// several are tried if the shapes are unlike, and the best film is kept.
+    /// Weight of stretch relative to bending, at least 0. If `None`, and the shapes are dissimilar,
+    /// several weights are tried and the one with the best transition is used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stretch: Option<f64>,
-    /// Price of differing thickness, at least 0; 1 where it is not given.
+    /// Weight of differing thickness, at least 0; 1 if `None`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
-    /// What becomes of holes that only one design has.
+    /// Treatment of holes that exist in only one design.
     pub holes: HoleRule,
-    /// What becomes of parts that only one design has.
+    /// Treatment of parts that exist in only one design.
     pub parts: PartRule,
-    /// Points of the boundaries that are the same. A pin pairs the parts, and
-    /// the holes, that it lies on.
+    /// Pairs of corresponding boundary points. A pin also pairs the parts and the holes that it
+    /// lies on.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pins: Vec<PointPair>,
-    /// Lines that are the same, for warps of the plane: a nose, the edge of a
-    /// wing. Each warp reads pins and lines as it can.
+    /// Pairs of corresponding lines, such as a nose or the edge of a wing, for warps of the plane.
+    /// Each warp uses pins and lines as far as it supports them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lines: Vec<LinePair>,
-    /// Parts that are the same, each named by a point in or near it.
+    /// Pairs of corresponding parts, each identified by a point in or near it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links: Vec<PointPair>,
-    /// Parts without a partner, whatever looks like one.
+    /// Parts that must stay unmatched, even if a similar part exists in the other design.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lone: Vec<UnmatchedPart>,
-    /// Where rings are cut open.
+    /// Cuts that open rings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cuts: Vec<RingCut>,
 }
 
-/// A point of the source and one of the target, in each design's own
+/// A point of the source and the corresponding point of the target, each in its own design's
 /// coordinates.
 pub type PointPair = SourceTarget<DVec2>;
 
-/// A line of the source and one of the target, each from end to end, in each
-/// design's own coordinates.
+/// A line of the source and the corresponding line of the target, each from start to end, in its
+/// own design's coordinates.
 pub type LinePair = SourceTarget<[DVec2; 2]>;
 
-/// A part that has no partner: it appears or vanishes.
+/// A part that must stay unmatched: it appears or disappears.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct UnmatchedPart {
-    /// The design that has it.
+    /// Design that contains the part.
     pub side: Side,
-    /// A point in or near it, in the design's own coordinates.
+    /// Point in or near the part, in the design's own coordinates.
     pub at: DVec2,
 }
 
-/// A cut that opens a ring: straight from a hole to the boundary around it.
+/// A straight cut from a hole to the boundary around it, which opens the ring.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RingCut {
-    /// The design that is cut.
+    /// Design that is cut.
     pub side: Side,
-    /// A point near the end on the outer boundary, or on another hole.
+    /// Point near the cut's end on the outer boundary, or on another hole.
     pub outer: DVec2,
-    /// A point near the end on the hole.
+    /// Point near the cut's end on the hole.
     pub hole: DVec2,
 }
 
-/// A place that cannot be meant. Places count from 1 in messages.
+/// A coordinate that is not finite or out of range. Indices count from 1 in messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what} {} {RANGE_MESSAGE}", index + 1)]
 pub struct MatchPlaceError {
-    /// What has it: a pin, a line, a link or a cut.
+    /// Kind of the setting: "pin", "line", "link", "unmatched part" or "cut".
     pub what: &'static str,
-    /// Its index.
+    /// Index in the list of that kind, from 0.
     pub index: usize,
 }
 
-/// What becomes of a hole without a partner.
+/// Treatment of a hole that has no partner in the other design.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum HoleRule {
-    /// Whichever of these gives the better film; without one, whichever of the
-    /// first two matches better, and where a design has more than 32 rings, it
-    /// closes.
+    /// The rule that gives the best transition. If no transition is built, closing or cutting,
+    /// whichever matches better; designs with more than 32 rings always close.
     #[default]
     Auto,
-    /// The hole closes to a point, or opens from one.
+    /// The hole closes to a point, or opens from one. The part deforms around it.
     Close,
-    /// The ring around it is cut open.
+    /// The ring around the hole is cut open.
     Cut,
-    /// The part moves as if it had no such hole, which shrinks away in it, or
-    /// grows, without bending it.
+    /// The part moves as if it had no such hole. The hole shrinks away inside it, or grows, without
+    /// deforming the part.
     Alone,
 }
 
 named! { HoleRule {
-    Auto: "auto", "Auto", "Whichever of these gives the better film";
-    Close: "close", "Close", "The part flows together around it, or apart";
-    Cut: "cut", "Cut", "The ring around the hole is cut open and uncoils";
-    Alone: "alone", "Alone", "It shrinks away, or grows, in a part that moves as without it";
+    Auto: "auto", "Auto", "Uses the rule that gives the best film";
+    Close: "close", "Close",
+        "The hole closes to a point, or opens from one; the part deforms around it";
+    Cut: "cut", "Cut", "The ring around the hole is cut open and unrolls";
+    Alone: "alone", "Appear or disappear",
+        "The hole grows or shrinks; the part moves as if it had no hole";
 } }
 
-/// What becomes of a part without a partner.
+/// Treatment of a part that has no partner in the other design.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PartRule {
-    /// A single part is split into several, but not for one with less than a
-    /// thousandth of its design's area; of several parts and several, the odd ones
-    /// are born and die.
+    /// A single part is split into several. A part with less than a thousandth of its design's area
+    /// causes no split. If both designs have several parts, unmatched parts appear and disappear.
     #[default]
     Auto,
-    /// The other design's part that fits best is split.
+    /// The part of the other design that fits best is split.
     Split,
-    /// It is born from a point, or dies into one.
+    /// The part grows from a point, or shrinks to one.
     Alone,
 }
 
 named! { PartRule {
     Auto: "auto", "Auto",
-        "One part is split into several; among several, the odd ones appear or vanish";
-    Split: "split", "Split", "The part that fits best is cut in pieces, one for each";
-    Alone: "alone", "Alone", "It grows from a point, or shrinks to one";
+        "A single part is split into several; otherwise unmatched parts appear or disappear";
+    Split: "split", "Split",
+        "The best-fitting part of the other design is cut into one piece for each";
+    Alone: "alone", "Appear or disappear", "The part grows from a point, or shrinks to one";
 } }
 
 impl PointPair {
-    /// The points sent through one map each.
+    /// Returns the pair with each point transformed by its design's similarity.
     #[must_use]
     pub fn placed(&self, [source, target]: &[Similarity; 2]) -> Self {
         Self {
@@ -148,7 +149,7 @@ impl PointPair {
 }
 
 impl LinePair {
-    /// The lines sent through one map each.
+    /// Returns the pair with each line transformed by its design's similarity.
     #[must_use]
     pub fn placed(&self, [source, target]: &[Similarity; 2]) -> Self {
         Self {
@@ -159,7 +160,7 @@ impl LinePair {
 }
 
 impl UnmatchedPart {
-    /// The same part of the designs exchanged.
+    /// Returns the same part after source and target are exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
         Self {
@@ -170,7 +171,7 @@ impl UnmatchedPart {
 }
 
 impl RingCut {
-    /// The same cut of the designs exchanged.
+    /// Returns the same cut after source and target are exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
         Self {
@@ -181,7 +182,8 @@ impl RingCut {
 }
 
 impl MatchSettings {
-    /// The same without all that is said of points: for other designs.
+    /// Returns the settings without anything that refers to coordinates, for use with other
+    /// designs.
     #[must_use]
     pub fn without_places(&self) -> Self {
         Self {
@@ -194,25 +196,27 @@ impl MatchSettings {
         }
     }
 
-    /// Checks that all places are numbers that can be reckoned with.
+    /// Checks that all coordinates are finite and in range.
     ///
     /// # Errors
-    /// [`MatchPlaceError`] names the first pin, line, link, lone part or cut that has others.
+    /// [`MatchPlaceError`] names the first pin, line, link, unmatched part or cut with an invalid
+    /// coordinate.
     pub fn check(&self) -> Result<(), MatchPlaceError> {
-        let of_pair = |pair: &PointPair| [pair.source, pair.target].map(is_in_range) == [true; 2];
-        let of_line = |line: &LinePair| {
+        let is_pair_valid =
+            |pair: &PointPair| [pair.source, pair.target].map(is_in_range) == [true; 2];
+        let is_line_valid = |line: &LinePair| {
             let ends = line.source.iter().chain(&line.target);
             ends.copied().all(is_in_range)
         };
-        let of_cut = |cut: &RingCut| is_in_range(cut.outer) && is_in_range(cut.hole);
-        first("pin", &self.pins, of_pair)?;
-        first("line", &self.lines, of_line)?;
-        first("link", &self.links, of_pair)?;
-        first("lone part", &self.lone, |part| is_in_range(part.at))?;
-        first("cut", &self.cuts, of_cut)
+        let is_cut_valid = |cut: &RingCut| is_in_range(cut.outer) && is_in_range(cut.hole);
+        check_all("pin", &self.pins, is_pair_valid)?;
+        check_all("line", &self.lines, is_line_valid)?;
+        check_all("link", &self.links, is_pair_valid)?;
+        check_all("unmatched part", &self.lone, |part| is_in_range(part.at))?;
+        check_all("cut", &self.cuts, is_cut_valid)
     }
 
-    /// How each pair of boundaries is matched.
+    /// Returns the options with which each pair of boundaries is matched.
     #[must_use]
     pub fn options(&self) -> MatchOptions {
         let default = MatchOptions::default();
@@ -224,33 +228,33 @@ impl MatchSettings {
         }
     }
 
-    /// The same said of designs that were laid down by one similarity each.
+    /// Returns the settings for designs that were transformed by one similarity each.
     #[must_use]
-    pub fn placed(&self, by: &[Similarity; 2]) -> Self {
-        let pairs = |pairs: &[PointPair]| pairs.iter().map(|p| p.placed(by)).collect();
+    pub fn placed(&self, maps: &[Similarity; 2]) -> Self {
+        let pairs = |pairs: &[PointPair]| pairs.iter().map(|p| p.placed(maps)).collect();
         let cut = |cut: &RingCut| {
-            let by = &by[cut.side];
+            let map = &maps[cut.side];
             RingCut {
                 side: cut.side,
-                outer: by.apply(cut.outer),
-                hole: by.apply(cut.hole),
+                outer: map.apply(cut.outer),
+                hole: map.apply(cut.hole),
             }
         };
-        let lone = |part: &UnmatchedPart| UnmatchedPart {
-            at: by[part.side].apply(part.at),
+        let unmatched = |part: &UnmatchedPart| UnmatchedPart {
+            at: maps[part.side].apply(part.at),
             ..*part
         };
         Self {
             pins: pairs(&self.pins),
-            lines: self.lines.iter().map(|line| line.placed(by)).collect(),
+            lines: self.lines.iter().map(|line| line.placed(maps)).collect(),
             links: pairs(&self.links),
-            lone: self.lone.iter().map(lone).collect(),
+            lone: self.lone.iter().map(unmatched).collect(),
             cuts: self.cuts.iter().map(cut).collect(),
             ..*self
         }
     }
 
-    /// The same said of the designs exchanged.
+    /// Returns the settings after source and target are exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
         Self {
@@ -264,13 +268,13 @@ impl MatchSettings {
     }
 }
 
-/// The first that is not good, as an error.
-fn first<T>(
+/// Returns an error that names the first invalid item, if any.
+fn check_all<T>(
     what: &'static str,
-    all: &[T],
-    is_good: impl Fn(&T) -> bool,
+    items: &[T],
+    is_valid: impl Fn(&T) -> bool,
 ) -> Result<(), MatchPlaceError> {
-    match all.iter().position(|one| !is_good(one)) {
+    match items.iter().position(|item| !is_valid(item)) {
         Some(index) => Err(MatchPlaceError { what, index }),
         None => Ok(()),
     }

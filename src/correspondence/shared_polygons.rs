@@ -1,13 +1,11 @@
-//! Two polygons with the same number of corresponding vertices.
+//! Converts a boundary match to two polygons with the same number of corresponding vertices.
 //!
-//! Every vertex of either curve is a vertex of both. A vertex of one curve and
-//! one of the other that lie close to the same place are taken as one,
-//! corners first: else each pair of corners, matched to within a fraction of
-//! a sample, would leave a tiny edge.
+//! Every vertex of either curve becomes a vertex of both polygons. A vertex of one curve and a
+//! vertex of the other are merged if they are close to the same place, corners first. Otherwise
+//! each pair of corners, which are matched only to a fraction of a sample, would leave a tiny edge.
 //!
-//! Both polygons run on their curves exactly, since all of a curve's own
-//! points are kept bit by bit and what is added lies on its edges, to
-//! rounding. Whoever wants fewer vertices simplifies the curves first.
+//! Both polygons follow their curves exactly: all vertices of a curve are preserved bit by bit, and
+//! added vertices lie on its edges to rounding. To get fewer vertices, simplify the curves first.
 
 use super::boundary_match::{BoundaryMatch, interpolated};
 use super::curve::BoundaryCurve;
@@ -15,39 +13,42 @@ use super::proportional_map::{BOTH, ParameterKnot, ProportionalMap, SharedVertex
 use super::samples::corners;
 use crate::geometry::DVec2;
 
-/// Corners of the two curves nearer than this become one vertex, in fractions
-/// of the curves' length.
+/// Corners of the two curves closer than this are merged, in fractions of the curves' length
+/// (heuristic).
 const SNAP_CORNERS: f64 = 0.008;
 
-/// Other vertices nearer than this become one.
+/// Other vertices closer than this are merged, in fractions of the curves' length (heuristic).
 const SNAP: f64 = 0.0025;
 
-/// Corresponding vertices: as many in the source as in the target, no two
-/// neighbours in the same point.
+/// Two polygons with corresponding vertices. No two neighbouring vertices coincide in either
+/// polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SharedPolygons {
-    /// Vertices on the source.
+    /// Vertices on the source curve.
     pub source: Vec<DVec2>,
-    /// Vertices on the target.
+    /// Vertices on the target curve.
     pub target: Vec<DVec2>,
-    /// Their places, `[source, target]`.
+    /// Places of the vertices on their curves, as fractions of arc length, `[source, target]`.
     pub places: Vec<[f64; 2]>,
 }
 
-/// Gap of the common parameter below which two vertices are one.
-const SAME: f64 = 1e-12;
+/// Vertices whose common parameters differ by at most this are one vertex (tolerance: above
+/// rounding, far below any edge).
+const SAME_PARAMETER: f64 = 1e-12;
 
-/// A direction along which no drawing lies.
-const ASKEW: DVec2 = DVec2::new(0.754_877_666, 0.569_840_291);
+/// Direction by whose projection candidate seams are ordered (heuristic: an irrational slope, so
+/// that points of a drawing rarely tie).
+const SEAM_DIRECTION: DVec2 = DVec2::new(0.754_877_666, 0.569_840_291);
 
-/// Most that spacing may add, whatever it says.
-const MOST_ADDED: f64 = 1e5;
+/// Maximum number of vertices that `spacing` adds per round (resource limit).
+const MAX_ADDED: f64 = 1e5;
 
 impl BoundaryMatch {
-    /// Both curves as polygons with corresponding vertices, in order. The
-    /// curves must be those that were matched. No two neighbours are farther
-    /// apart than `spacing`, as a fraction of the mean length of the two;
-    /// infinite to add no vertices.
+    /// Converts both curves to polygons with corresponding vertices, in order. The curves must be
+    /// those that were matched.
+    ///
+    /// Neighbouring vertices are at most `spacing` apart, in fractions of the mean length of the
+    /// two curves; infinity adds no vertices.
     #[must_use]
     pub fn polygons(
         &self,
@@ -57,24 +58,25 @@ impl BoundaryMatch {
     ) -> SharedPolygons {
         let curves = [source, target];
         let common = CommonParameter::new(self, curves);
-        let all = [0, 1].map(|side| common.own(curves[side].places(), side));
-        let sharp = [0, 1].map(|side| {
+        let all_parameters =
+            [0, 1].map(|side| common.sorted_parameters(curves[side].places(), side));
+        let corner_parameters = [0, 1].map(|side| {
             let places: Vec<f64> = corners(curves[side]).iter().map(|c| c.0).collect();
-            common.own(&places, side)
+            common.sorted_parameters(&places, side)
         });
-        let mut joints = vec![[0.0; 3], [1.0; 3]];
+        let mut knots = vec![[0.0; 3], [1.0; 3]];
         for pin in &self.pins {
-            insert(&mut joints, [0, 1].map(|s| common.parameter(pin[s], s)));
+            insert(&mut knots, [0, 1].map(|s| common.parameter(pin[s], s)));
         }
-        join(&mut joints, &sharp, SNAP_CORNERS);
-        join(&mut joints, &all, SNAP);
+        merge_nearest(&mut knots, &corner_parameters, SNAP_CORNERS);
+        merge_nearest(&mut knots, &all_parameters, SNAP);
         let mut vertices: Vec<SharedVertex> = Vec::new();
         for side in 0..2 {
             let curve = curves[side];
             let own = (curve.places().iter().enumerate()).map(|(k, &at)| (at, curve.bends_at(k)));
             let pins = self.pins.iter().map(|pin| (pin[side], true));
             for (place, is_bend) in own.chain(pins) {
-                let at = interpolated(&joints, common.parameter(place, side), [side, BOTH]);
+                let at = interpolated(&knots, common.parameter(place, side), [side, BOTH]);
                 let mut places = [None; 2];
                 places[side] = Some(place);
                 vertices.push(SharedVertex {
@@ -84,14 +86,15 @@ impl BoundaryMatch {
                 });
             }
         }
-        let mut vertices = merged(vertices);
+        let mut vertices = merge_equal(vertices);
         if !vertices.iter().any(SharedVertex::is_fixed) {
-            // So many points that none bends.
+            // With very many points no single one bends by more than the tolerance; then keep them
+            // all.
             vertices.iter_mut().for_each(|vertex| vertex.is_bend = true);
         }
         let straight = ProportionalMap::between(&vertices, |vertex| {
             [0, 1].map(|side| {
-                let own = interpolated(&joints, vertex.at, [BOTH, side]);
+                let own = interpolated(&knots, vertex.at, [BOTH, side]);
                 vertex.places[side].unwrap_or_else(|| common.place(own, side, curves[side]))
             })
         });
@@ -100,29 +103,30 @@ impl BoundaryMatch {
     }
 }
 
-/// The common parameter of both curves: the mean of the lengths walked from
-/// the first knot on, in [0, 1].
+/// Common parameter of both matched curves: the mean of the arc lengths from the first knot, in
+/// [0, 1].
 struct CommonParameter {
+    /// Knots with unwrapped places, ascending; the first is repeated one round later.
     knots: Vec<ParameterKnot>,
 }
 
 impl CommonParameter {
-    /// The seam lies at a knot that is a point of both curves, if there is one.
+    /// Places the seam at a knot that is a vertex of both curves, if there is one.
     fn new(matched: &BoundaryMatch, curves: [&BoundaryCurve; 2]) -> Self {
         let mut knots = matched.knots.clone();
-        let is_own = |place: f64, c: &BoundaryCurve| {
+        let is_vertex = |place: f64, c: &BoundaryCurve| {
             c.places().binary_search_by(|p| p.total_cmp(&place)).is_ok()
         };
-        let both = |k: &[f64; 2]| is_own(k[0], curves[0]) && is_own(k[1], curves[1]);
-        let along = |k: &[f64; 2]| {
+        let is_shared = |k: &[f64; 2]| is_vertex(k[0], curves[0]) && is_vertex(k[1], curves[1]);
+        let projection = |k: &[f64; 2]| {
             let [p, q] = [0, 1].map(|side| curves[side].point_at(k[side]));
-            (p + q).dot(ASKEW)
+            (p + q).dot(SEAM_DIRECTION)
         };
-        // Of points of both, so that the seam adds no vertex of its own; and
-        // the same for the designs exchanged, to the last bit.
+        // Prefer shared vertices, so that the seam adds no vertex of its own. The order is
+        // symmetric, so exchanging the designs gives the same seam bit by bit.
         let order = |a: &[f64; 2], b: &[f64; 2]| {
-            let is_other = both(b).cmp(&both(a));
-            is_other.then(along(a).total_cmp(&along(b)))
+            let by_sharing = is_shared(b).cmp(&is_shared(a));
+            by_sharing.then(projection(a).total_cmp(&projection(b)))
         };
         let seam = (0..knots.len()).min_by(|&a, &b| order(&knots[a], &knots[b]));
         let seam = seam.unwrap_or(0);
@@ -137,74 +141,77 @@ impl CommonParameter {
                 }
             }
         }
-        let joint = |[a, b]: [f64; 2]| [a, b, 0.5 * ((a - start[0]) + (b - start[1]))];
+        let with_parameter = |[a, b]: [f64; 2]| [a, b, 0.5 * ((a - start[0]) + (b - start[1]))];
         Self {
-            knots: knots.into_iter().map(joint).collect(),
+            knots: knots.into_iter().map(with_parameter).collect(),
         }
     }
 
+    /// Returns the common parameter of a curve's place.
     fn parameter(&self, place: f64, side: usize) -> f64 {
-        let over = f64::from(u8::from(place < self.knots[0][side]));
-        interpolated(&self.knots, place + over, [side, BOTH])
+        let round = f64::from(u8::from(place < self.knots[0][side]));
+        interpolated(&self.knots, place + round, [side, BOTH])
     }
 
+    /// Returns a curve's place at a common parameter.
     fn place(&self, parameter: f64, side: usize, curve: &BoundaryCurve) -> f64 {
         curve.wrapped(interpolated(&self.knots, parameter, [BOTH, side]))
     }
 
-    /// Parameters of a curve's places, ascending.
-    fn own(&self, places: &[f64], side: usize) -> Vec<f64> {
-        let mut own: Vec<f64> = places.iter().map(|&p| self.parameter(p, side)).collect();
-        own.sort_by(f64::total_cmp);
-        own
+    /// Returns the common parameters of a curve's places, ascending.
+    fn sorted_parameters(&self, places: &[f64], side: usize) -> Vec<f64> {
+        let mut parameters: Vec<f64> = places.iter().map(|&p| self.parameter(p, side)).collect();
+        parameters.sort_by(f64::total_cmp);
+        parameters
     }
 }
 
-/// Inserts a joint in order, unless it would cross or touch another.
-fn insert(joints: &mut Vec<ParameterKnot>, [a, b]: [f64; 2]) {
-    let joint = [a, b, a.midpoint(b)];
-    let at = joints.partition_point(|j| j[0] < a);
-    let fits = |k: usize| (0..2).all(|s| joints[k - 1][s] < joint[s] && joint[s] < joints[k][s]);
-    if at > 0 && at < joints.len() && fits(at) {
-        joints.insert(at, joint);
+/// Inserts a knot in order, unless it would cross or touch another.
+fn insert(knots: &mut Vec<ParameterKnot>, [a, b]: [f64; 2]) {
+    let knot = [a, b, a.midpoint(b)];
+    let index = knots.partition_point(|j| j[0] < a);
+    let fits = |k: usize| (0..2).all(|s| knots[k - 1][s] < knot[s] && knot[s] < knots[k][s]);
+    if index > 0 && index < knots.len() && fits(index) {
+        knots.insert(index, knot);
     }
 }
 
-/// Joins vertices that are each other's nearest, as the joints so far bend
-/// the parameter, and within `limit` and the joints on either side.
-fn join(joints: &mut Vec<ParameterKnot>, own: &[Vec<f64>; 2], limit: f64) {
-    let bent = [0, 1].map(|side| -> Vec<f64> {
-        let bent = |&t: &f64| interpolated(joints, t, [side, BOTH]);
-        own[side].iter().map(bent).collect()
+/// Adds knots that merge pairs of vertices, one of each curve. A pair is merged if both are each
+/// other's nearest under the current knots, closer than `limit`, and between the same knots.
+fn merge_nearest(knots: &mut Vec<ParameterKnot>, parameters: &[Vec<f64>; 2], limit: f64) {
+    let warped = [0, 1].map(|side| -> Vec<f64> {
+        let warped = |&t: &f64| interpolated(knots, t, [side, BOTH]);
+        parameters[side].iter().map(warped).collect()
     });
-    let mut found = Vec::new();
-    for (k, &at) in bent[0].iter().enumerate() {
-        let Some(other) = nearest(&bent[1], at) else {
+    let mut pairs = Vec::new();
+    for (k, &parameter) in warped[0].iter().enumerate() {
+        let Some(other) = nearest(&warped[1], parameter) else {
             continue;
         };
-        // Mutual, or two vertices would be joined to one.
-        let mutual = nearest(&bent[0], bent[1][other]) == Some(k);
-        if mutual && (at - bent[1][other]).abs() <= limit {
-            found.push([own[0][k], own[1][other]]);
+        // Require mutual neighbours: otherwise two vertices could merge with the same one.
+        let is_mutual = nearest(&warped[0], warped[1][other]) == Some(k);
+        if is_mutual && (parameter - warped[1][other]).abs() <= limit {
+            pairs.push([parameters[0][k], parameters[1][other]]);
         }
     }
-    for joint in found {
-        insert(joints, joint);
+    for pair in pairs {
+        insert(knots, pair);
     }
 }
 
-/// Index of the value nearest to `at` in an ascending list, the first of two.
+/// Returns the index of the value nearest to `at` in an ascending list; ties go to the smaller
+/// value.
 fn nearest(list: &[f64], at: f64) -> Option<usize> {
     let after = list.partition_point(|&x| x < at);
     let candidates = after.saturating_sub(1)..(after + 1).min(list.len());
     candidates.min_by(|&a, &b| (list[a] - at).abs().total_cmp(&(list[b] - at).abs()))
 }
 
-/// In order, with vertices at the same parameter as one.
-fn merged(mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
-    // The seam is one place.
+/// Sorts the vertices and merges those at the same parameter.
+fn merge_equal(mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
+    // Parameters 0 and 1 are the same place.
     for vertex in &mut vertices {
-        if vertex.at >= 1.0 - SAME {
+        if vertex.at >= 1.0 - SAME_PARAMETER {
             vertex.at = 0.0;
         }
     }
@@ -212,7 +219,7 @@ fn merged(mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
     let mut merged: Vec<SharedVertex> = Vec::with_capacity(vertices.len());
     for vertex in vertices {
         match merged.last_mut() {
-            Some(last) if vertex.at - last.at <= SAME => {
+            Some(last) if vertex.at - last.at <= SAME_PARAMETER => {
                 for side in 0..2 {
                     last.places[side] = last.places[side].or(vertex.places[side]);
                 }
@@ -224,7 +231,7 @@ fn merged(mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
     merged
 }
 
-/// With even places between neighbours that are too far apart.
+/// Adds evenly spaced vertices between neighbours that are farther apart than `spacing`.
 fn spaced(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex> {
     let mut spaced = Vec::with_capacity(vertices.len());
     for (k, &vertex) in vertices.iter().enumerate() {
@@ -233,7 +240,7 @@ fn spaced(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex> {
             .get(k + 1)
             .map_or(vertices[0].at + 1.0, |next| next.at);
         let gap = next - vertex.at;
-        let pieces = (gap / spacing).ceil().clamp(1.0, 1.0 + MOST_ADDED * gap) as u32;
+        let pieces = (gap / spacing).ceil().clamp(1.0, 1.0 + MAX_ADDED * gap) as u32;
         let at = |k: u32| vertex.at + gap * f64::from(k) / f64::from(pieces);
         let places = [None; 2];
         spaced.extend((1..pieces).map(|k| SharedVertex {
@@ -245,6 +252,7 @@ fn spaced(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex> {
     spaced
 }
 
+/// Evaluates the vertices on both curves, omitting consecutive duplicates.
 fn assembled(
     vertices: &[SharedVertex],
     straight: &ProportionalMap,
@@ -257,8 +265,8 @@ fn assembled(
     };
     for vertex in vertices {
         let places = [0, 1].map(|side| {
-            let made = || straight.place(vertex.at, side, curves[side]);
-            vertex.places[side].unwrap_or_else(made)
+            let interpolated_place = || straight.place(vertex.at, side, curves[side]);
+            vertex.places[side].unwrap_or_else(interpolated_place)
         });
         let (p, q) = (curves[0].point_at(places[0]), curves[1].point_at(places[1]));
         if shared.source.last() != Some(&p) && shared.target.last() != Some(&q) {
@@ -267,7 +275,7 @@ fn assembled(
             shared.places.push(places);
         }
     }
-    // The last vertex has the first as its neighbour.
+    // The polygons are closed: the last vertex must differ from the first too.
     while shared.source.len() > 3 && closes_twice(&shared) {
         shared.source.pop();
         shared.target.pop();
@@ -276,6 +284,7 @@ fn assembled(
     shared
 }
 
+/// Returns whether the last vertex repeats the first in either polygon.
 fn closes_twice(shared: &SharedPolygons) -> bool {
     shared.source.first() == shared.source.last() || shared.target.first() == shared.target.last()
 }

@@ -1,5 +1,5 @@
-//! The match of two curves: the best path made strictly monotone, and nearly
-//! equal curves settled upon each other.
+//! Solves the matching of two curves: finds the best path, makes it strictly monotone, and
+//! registers nearly congruent curves onto each other.
 
 use super::boundary_match::BoundaryMatch;
 use super::congruent::registered_knots;
@@ -8,22 +8,22 @@ use super::curve_problem::CurveMatchProblem;
 use super::monotone_path::refine;
 use super::poses::PathSolution;
 
-/// Samples by which the refined path may leave the coarse one.
-/// One more than the longest step of the refinement.
+/// Maximum distance of the refined path from the unit-step path, in samples: one more than the
+/// longest refined step.
 const REACH: usize = 9;
 
 impl CurveMatchProblem {
-    /// The match of the two curves, which are those it was made of.
+    /// Returns the match of the two curves, which must be those that the problem was created from.
     pub fn solve(self, curves: [&BoundaryCurve; 2]) -> BoundaryMatch {
         let inside = self.solution_inside();
         let solution = inside.unwrap_or_else(|| self.posed_solution());
-        let nodes = self.strict(&solution);
+        let nodes = self.strictly_monotone(&solution);
         let place = |&[i, j]: &[usize; 2]| {
             let (n, m) = (self.source.places.len(), self.target.places.len());
             [self.source.places[i % n], self.target.places[j % m]]
         };
         let mut knots: Vec<_> = nodes.iter().map(place).collect();
-        knots.pop(); // the first again
+        knots.pop(); // repeats the first
         knots.sort_by(|a, b| a[0].total_cmp(&b[0]));
         BoundaryMatch {
             rotation: self.rotation(&nodes),
@@ -33,23 +33,23 @@ impl CurveMatchProblem {
         }
     }
 
-    /// The solution as a strictly monotone path. One without pins is
-    /// cut at its most telling node, then at the far side, to leave no trace
-    /// of the cut.
-    fn strict(&self, solution: &PathSolution) -> Vec<[usize; 2]> {
+    /// Converts the solution to a strictly monotone path. A path without pins is first cut at its
+    /// most distinctive node, then again on the far side, so that no trace of the first cut
+    /// remains.
+    fn strictly_monotone(&self, solution: &PathSolution) -> Vec<[usize; 2]> {
         let fixed = self.fixed_nodes();
         if fixed.is_empty() {
-            let start = self.most_telling(solution);
+            let start = self.most_distinctive(solution);
             let first = self.refined(solution, &self.cut_at(&solution.nodes, start));
-            // The far side is cut in the refined path, whose steps are longer than one.
-            let filled = unit_steps(&first);
+            // The refined path has longer steps, so it is expanded before the second cut.
+            let expanded = unit_steps(&first);
             let far = first[first.len() / 2];
-            return self.refined(solution, &self.cut_at(&filled, far));
+            return self.refined(solution, &self.cut_at(&expanded, far));
         }
         let mut strict = vec![fixed[0]];
-        for ends in fixed.windows(2) {
+        for pair in fixed.windows(2) {
             let position = |node| solution.nodes.iter().position(|n| *n == node);
-            if let (Some(from), Some(to)) = (position(ends[0]), position(ends[1])) {
+            if let (Some(from), Some(to)) = (position(pair[0]), position(pair[1])) {
                 strict.extend(
                     self.refined(solution, &solution.nodes[from..=to])
                         .into_iter()
@@ -60,7 +60,7 @@ impl CurveMatchProblem {
         strict
     }
 
-    /// A stretch of a path refined; its ends stay.
+    /// Refines a section of a path; its ends are fixed.
     fn refined(&self, solution: &PathSolution, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
         let [from, to] = [nodes[0], nodes[nodes.len() - 1]];
         let grid = self.grid(&solution.unlike, from, to);
@@ -75,30 +75,31 @@ impl CurveMatchProblem {
             .collect()
     }
 
-    /// The node of a path that is bent most, and alike, in both.
-    fn most_telling(&self, solution: &PathSolution) -> [usize; 2] {
+    /// Returns the node at which both curves bend strongly and resemble each other most.
+    fn most_distinctive(&self, solution: &PathSolution) -> [usize; 2] {
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        let tells = |&[i, j]: &[usize; 2]| {
+        let distinctiveness = |&[i, j]: &[usize; 2]| {
             let (i, j) = (i % n, j % m);
-            let bent = (self.source_features.salience(i)).min(self.target_features.salience(j));
-            bent - 4.0 * solution.unlike[j * n + i]
+            let bend = (self.source_features.salience(i)).min(self.target_features.salience(j));
+            // The factor makes similarity dominate over bending (heuristic).
+            bend - 4.0 * solution.unlike[j * n + i]
         };
         let mut best = solution.nodes[0];
         for node in &solution.nodes {
-            if tells(node) > tells(&best) {
+            if distinctiveness(node) > distinctiveness(&best) {
                 best = *node;
             }
         }
         best
     }
 
-    /// A closed path from one of its nodes to the same one round on.
+    /// Rotates a closed path so that it runs from node `start` to the same node one round later.
     fn cut_at(&self, nodes: &[[usize; 2]], start: [usize; 2]) -> Vec<[usize; 2]> {
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        let at = nodes.iter().position(|node| *node == start).unwrap_or(0);
-        let ahead = nodes[at..nodes.len() - 1].iter().copied();
-        let behind = nodes[..=at].iter().map(|&[i, j]| [i + n, j + m]);
-        let mut path: Vec<_> = ahead.chain(behind).collect();
+        let index = nodes.iter().position(|node| *node == start).unwrap_or(0);
+        let ahead = nodes[index..nodes.len() - 1].iter().copied();
+        let next_round = nodes[..=index].iter().map(|&[i, j]| [i + n, j + m]);
+        let mut path: Vec<_> = ahead.chain(next_round).collect();
         let rounds = [path[0][0] / n, path[0][1] / m];
         for node in &mut path {
             *node = [node[0] - rounds[0] * n, node[1] - rounds[1] * m];
@@ -107,14 +108,14 @@ impl CurveMatchProblem {
     }
 }
 
-/// Longer steps as unit steps along the straight line.
+/// Expands longer steps to unit steps along the straight line.
 fn unit_steps(nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
-    let mut filled = vec![nodes[0]];
+    let mut expanded = vec![nodes[0]];
     for step in nodes.windows(2) {
         let [di, dj] = [step[1][0] - step[0][0], step[1][1] - step[0][1]];
-        let pieces = di.max(dj);
-        let at = |k: usize| [step[0][0] + di * k / pieces, step[0][1] + dj * k / pieces];
-        filled.extend((1..=pieces).map(at));
+        let count = di.max(dj);
+        let at = |k: usize| [step[0][0] + di * k / count, step[0][1] + dj * k / count];
+        expanded.extend((1..=count).map(at));
     }
-    filled
+    expanded
 }

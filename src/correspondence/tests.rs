@@ -1,10 +1,11 @@
-//! Exact identities of matching, and input that has no features.
+//! Tests of boundary matching: exact identities, pins, and curves without features.
 
 use super::*;
 use crate::geometry::{DVec2, Ring, Similarity};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
+/// Spacing of the samples with default options, in fractions of the length.
 const SAMPLE: f64 = 1.0 / 160.0;
 
 fn ring(points: Vec<DVec2>) -> Ring {
@@ -28,14 +29,14 @@ fn match_rings(
     match_curves(&source, &target, pins, options)
 }
 
-/// The target's place that is the source's `place`.
+/// Returns the target place that corresponds to the source's `place`.
 fn across(found: &BoundaryMatch, place: f64) -> f64 {
     let knots = found.knots();
     let n = knots.len();
-    // The last knot at or before the place; before the first one, the last.
+    // The last knot at or before the place, cyclically.
     let k = (knots.partition_point(|knot| knot[0] <= place) + n - 1) % n;
     let (from, to) = (knots[k], knots[(k + 1) % n]);
-    // A single knot is a round from itself.
+    // A single knot is one round away from itself.
     let gap = |side: usize| match (to[side] - from[side]).rem_euclid(1.0) {
         0.0 => 1.0,
         gap => gap,
@@ -44,7 +45,7 @@ fn across(found: &BoundaryMatch, place: f64) -> f64 {
     (from[1] + along * gap(1)).rem_euclid(1.0)
 }
 
-/// A shoe: no symmetry, corners and bends.
+/// Returns a shoe: no symmetry, corners and bends.
 fn shoe() -> Ring {
     let points = [
         (0.0, 0.0),
@@ -62,7 +63,7 @@ fn shoe() -> Ring {
     ring(points.map(DVec2::from).to_vec())
 }
 
-/// A smooth closed curve without any symmetry.
+/// Returns a smooth closed curve without symmetry.
 fn blob(count: u32, phase: f64) -> Ring {
     let point = |k: u32| {
         let a = TAU * (f64::from(k) + phase) / f64::from(count);
@@ -72,7 +73,7 @@ fn blob(count: u32, phase: f64) -> Ring {
     ring((0..count).map(point).collect())
 }
 
-/// Radii that alternate between two values.
+/// Returns a star, whose radii alternate between 1 and `inner`.
 fn star(tips: u32, inner: f64) -> Ring {
     let point = |k: u32| {
         let radius = if k.is_multiple_of(2) { 1.0 } else { inner };
@@ -81,6 +82,7 @@ fn star(tips: u32, inner: f64) -> Ring {
     ring((0..2 * tips).map(point).collect())
 }
 
+/// Returns a gear, whose radii alternate in pairs between 1 and 0.8.
 fn gear(teeth: u32) -> Ring {
     let point = |k: u32| {
         let radius = if k % 4 < 2 { 1.0 } else { 0.8 };
@@ -89,7 +91,7 @@ fn gear(teeth: u32) -> Ring {
     ring((0..4 * teeth).map(point).collect())
 }
 
-/// A band wound up by some turns.
+/// Returns a band of constant width, wound up by a number of turns.
 fn spiral(turns: f64, count: u32) -> Ring {
     let along = |k: u32, width: f64| {
         let a = TAU * turns * f64::from(k) / f64::from(count);
@@ -119,8 +121,8 @@ fn resampled(ring: &Ring, count: u32) -> Ring {
     self::ring((0..count).map(place).collect())
 }
 
-/// The largest distance, in perimeters, between a matched point and where the
-/// map says that it ought to be.
+/// Returns the largest distance, in perimeters of the target, between matched points and the points
+/// that `expected` maps the source to.
 fn error(source: &Ring, target: &Ring, expected: impl Fn(DVec2) -> DVec2) -> f64 {
     let found = matched(source, target);
     let (a, b) = (
@@ -135,6 +137,7 @@ fn error(source: &Ring, target: &Ring, expected: impl Fn(DVec2) -> DVec2) -> f64
     (0..500).map(at).fold(0.0, f64::max) / target.perimeter()
 }
 
+/// Asserts that a match is strictly monotone in both directions and goes around once.
 fn assert_sound(found: &BoundaryMatch) {
     let knots = found.knots();
     assert!(knots.windows(2).all(|w| w[0][0] < w[1][0]));
@@ -149,7 +152,7 @@ fn assert_sound(found: &BoundaryMatch) {
 }
 
 #[test]
-fn a_shape_is_matched_to_itself_however_it_lies() {
+fn a_shape_matches_itself_under_any_similarity() {
     for shape in [shoe(), blob(140, 0.0), star(5, 0.4), spiral(2.0, 60)] {
         for (rotation, scale, mirror) in [
             (0.0, 1.0, false),
@@ -163,7 +166,7 @@ fn a_shape_is_matched_to_itself_however_it_lies() {
                 rotation,
                 mirror,
             };
-            // Mirrored back: both are mirrored, one of them also moved.
+            // Mirror both shapes, so that their orientations agree; the target is also moved.
             let flip = Similarity {
                 mirror,
                 ..Similarity::IDENTITY
@@ -172,7 +175,7 @@ fn a_shape_is_matched_to_itself_however_it_lies() {
             let target = turned(&shape, &by);
             let expected = |p: DVec2| by.apply(flip.apply(p));
             if shape.points().len() == 10 {
-                continue; // the star has a symmetry: below
+                continue; // the symmetric star is tested separately
             }
             assert!(
                 error(&source, &target, expected) < 1e-6,
@@ -183,7 +186,7 @@ fn a_shape_is_matched_to_itself_however_it_lies() {
 }
 
 #[test]
-fn started_elsewhere_and_resampled_is_within_a_sample() {
+fn other_starting_points_and_resampling_match_within_a_sample() {
     for shape in [shoe(), blob(140, 0.0), spiral(1.5, 60)] {
         let n = shape.points().len();
         for first in [1, n / 3, n - 1] {
@@ -199,7 +202,7 @@ fn started_elsewhere_and_resampled_is_within_a_sample() {
 }
 
 #[test]
-fn drawings_with_other_points_are_matched_within_a_sample() {
+fn resampled_drawings_match_within_a_sample() {
     const DRAWINGS: [&str; 6] = [
         "gecko-resting",
         "gecko-running",
@@ -233,7 +236,7 @@ fn drawings_with_other_points_are_matched_within_a_sample() {
 }
 
 #[test]
-fn pins_hold_where_designs_are_nearly_the_same() {
+fn pins_are_satisfied_on_nearly_congruent_shapes() {
     let shape = blob(140, 0.0);
     let other = resampled(&shape, 97);
     let pin = Pin {
@@ -250,7 +253,7 @@ fn pins_hold_where_designs_are_nearly_the_same() {
 }
 
 #[test]
-fn symmetric_shapes_turn_least() {
+fn symmetric_shapes_rotate_as_little_as_possible() {
     for (shape, period) in [
         (gear(12), TAU / 12.0),
         (star(5, 0.4), TAU / 5.0),
@@ -276,7 +279,7 @@ fn symmetric_shapes_turn_least() {
 }
 
 #[test]
-fn keeping_up_does_not_turn() {
+fn keep_up_prevents_rotation() {
     let up = MatchOptions {
         keep_up: true,
         ..MatchOptions::default()
@@ -295,7 +298,7 @@ fn keeping_up_does_not_turn() {
 }
 
 #[test]
-fn the_way_back_is_the_inverse_bit_by_bit() {
+fn the_reverse_match_is_the_bitwise_inverse() {
     let shapes = [
         shoe(),
         blob(140, 0.0),
@@ -306,14 +309,14 @@ fn the_way_back_is_the_inverse_bit_by_bit() {
     ];
     for a in &shapes {
         for b in &shapes {
-            let there = matched(a, b);
-            assert_sound(&there);
-            let back = matched(b, a);
-            assert_eq!(back, there.inverse());
-            assert_eq!(there, back.inverse());
+            let forward = matched(a, b);
+            assert_sound(&forward);
+            let backward = matched(b, a);
+            assert_eq!(backward, forward.inverse());
+            assert_eq!(forward, backward.inverse());
             for k in 0..50 {
                 let place = f64::from(k) / 50.0;
-                let round = across(&back, across(&there, place));
+                let round = across(&backward, across(&forward, place));
                 let gap = (round - place).rem_euclid(1.0);
                 assert!(gap.min(1.0 - gap) < 1e-9);
             }
@@ -322,7 +325,7 @@ fn the_way_back_is_the_inverse_bit_by_bit() {
 }
 
 #[test]
-fn pins_are_honoured_exactly() {
+fn pins_are_satisfied_exactly() {
     let pins = [(0.1, 0.5), (0.13, 0.9), (0.7, 0.2)].map(|(source, target)| Pin { source, target });
     let (a, b) = (shoe(), blob(140, 0.0));
     let options = MatchOptions::default();
@@ -356,8 +359,8 @@ fn contradictory_pins_are_named() {
     assert_eq!(crossing, Err(MatchError::Pins(PinError::Crossing(2, 3))));
     let shared = error(&[(0.5, 0.2), (0.1, 0.1), (0.5, 0.3)]);
     assert_eq!(shared, Err(MatchError::Pins(PinError::SamePoint(0, 2))));
-    let nothing = error(&[(0.5, 0.2), (f64::NAN, 0.1)]);
-    assert_eq!(nothing, Err(MatchError::Pins(PinError::NotFinite(1))));
+    let not_finite = error(&[(0.5, 0.2), (f64::NAN, 0.1)]);
+    assert_eq!(not_finite, Err(MatchError::Pins(PinError::NotFinite(1))));
     assert!(error(&[(0.1, 0.9), (0.4, 0.2), (0.6, 0.5), (0.6, 0.5)]).is_ok());
 }
 
@@ -409,27 +412,27 @@ fn shapes_without_features_match_too() {
 }
 
 #[test]
-fn what_cannot_be_matched_is_an_error() {
+fn unmatchable_curves_and_invalid_options_are_errors() {
     let options = MatchOptions::default();
     let reversed = shoe().reversed();
     assert_eq!(
         match_rings(&shoe(), &reversed, &[], &options),
         Err(MatchError::Orientation)
     );
-    let few = MatchOptions {
+    let too_few = MatchOptions {
         samples: 3,
         ..options.clone()
     };
     assert_eq!(
-        match_rings(&shoe(), &shoe(), &[], &few),
+        match_rings(&shoe(), &shoe(), &[], &too_few),
         Err(MatchError::Samples(3))
     );
-    let wrong = MatchOptions {
+    let not_a_number = MatchOptions {
         stretch: f64::NAN,
         ..options.clone()
     };
     assert!(matches!(
-        match_rings(&shoe(), &shoe(), &[], &wrong),
+        match_rings(&shoe(), &shoe(), &[], &not_a_number),
         Err(MatchError::Stretch(_))
     ));
     let huge = ring(
@@ -443,6 +446,8 @@ fn what_cannot_be_matched_is_an_error() {
     );
 }
 
+/// Matches two rings and asserts that their shared polygons contain all vertices and stay on the
+/// curves.
 fn assert_shared(a: &Ring, b: &Ring, spacing: f64) -> SharedPolygons {
     let curves = [a, b].map(|r| BoundaryCurve::closed(r).expect("a size"));
     let shared = matched(a, b).polygons(&curves[0], &curves[1], spacing);
@@ -459,7 +464,7 @@ fn assert_shared(a: &Ring, b: &Ring, spacing: f64) -> SharedPolygons {
 }
 
 #[test]
-fn shared_polygons_keep_all_points_of_both() {
+fn shared_polygons_contain_all_vertices_of_both() {
     let shapes = [
         shoe(),
         blob(140, 0.0),
@@ -479,7 +484,7 @@ fn shared_polygons_keep_all_points_of_both() {
 }
 
 #[test]
-fn spacing_bounds_the_gaps() {
+fn spacing_limits_the_gaps() {
     let shared = assert_shared(&shoe(), &star(5, 0.4), 0.01);
     let n = shared.places.len();
     for k in 0..n {
@@ -488,7 +493,7 @@ fn spacing_bounds_the_gaps() {
     }
 }
 
-/// Radii at even angles: star-shaped, jagged.
+/// Generates star-shaped, jagged polygons: random radii at even angles.
 fn jagged() -> impl Strategy<Value = Ring> {
     prop::collection::vec(0.05f64..1.0, 3..40).prop_map(|radii| {
         let n = radii.len() as f64;
@@ -502,14 +507,14 @@ proptest! {
 
     #[test]
     fn any_two_shapes_match_and_share_vertices(a in jagged(), b in jagged()) {
-        let there = matched(&a, &b);
-        assert_sound(&there);
-        prop_assert_eq!(matched(&b, &a), there.inverse());
+        let forward = matched(&a, &b);
+        assert_sound(&forward);
+        prop_assert_eq!(matched(&b, &a), forward.inverse());
         assert_shared(&a, &b, f64::INFINITY);
     }
 
     #[test]
-    fn any_pins_in_order_are_honoured(
+    fn any_pins_in_order_are_satisfied(
         a in jagged(), b in jagged(), shift in 0.0f64..1.0,
         gaps in prop::collection::vec((1e-6f64..1.0, 1e-6f64..1.0), 1..9),
     ) {

@@ -1,32 +1,30 @@
-//! How thick a shape is behind each point of its boundary.
+//! Thickness of a shape behind each point of its boundary.
 //!
-//! The median length of a few rays into the shape, as in Shapira, Shamir and
-//! Cohen-Or 2008 (the shape diameter function). A limb keeps its thickness
-//! however it is bent, so that it tells where along a tail or an arm a point
-//! is, which turning and position cannot.
+//! The thickness is the median length of a few rays into the shape, as in Shapira, Shamir and
+//! Cohen-Or 2008 (the shape diameter function). A limb keeps its thickness however it bends.
+//! Thickness therefore shows where along a tail or an arm a point lies, which turning and position
+//! cannot.
 //!
-//! Guaranteed: finite, and the same for the shape moved, turned or enlarged,
-//! to rounding. A curve that turns no way around has no inside; its thickness is
-//! the same everywhere.
+//! Guarantees: values are finite and, to rounding, invariant under translation, rotation and
+//! scaling. A curve with turning number 0 has no inside; its thickness is constant.
 
 use super::curve::BoundaryCurve;
 use crate::geometry::{DVec2, EdgeBvh, signed_area};
 use std::f64::consts::FRAC_PI_6;
 
-/// Rays at these multiples of 30° from the inward normal. At a tip those
-/// aslant meet its sides, so that the median is the tip's own thickness.
+/// Directions of the rays, in multiples of 30° from the inward normal. At a tip the oblique rays
+/// hit its sides, so the median is the tip's own thickness (heuristic).
 const RAYS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
-/// Hits nearer than this share of the shape's extent are the point's own edge.
-/// Far above the rounding of a place on an edge, far below any thickness.
-const OWN: f64 = 1e-7;
+/// Ray hits closer than this fraction of the shape's size belong to the point's own edge
+/// (tolerance: far above the rounding of a point on an edge, far below any thickness).
+const OWN_EDGE: f64 = 1e-7;
 
-/// Logarithm of the thickness at each place, less its mean along the curve.
-/// With each place, ascending, comes the mean direction of the boundary there,
-/// in radians.
+/// Returns the logarithm of the thickness at each place, minus its mean along the curve. `places`
+/// holds ascending places, each with the mean direction of the boundary there in radians.
 pub(super) fn log_thickness(curve: &BoundaryCurve, places: &[(f64, f64)]) -> Vec<f64> {
-    let turns = curve.turning_number();
-    if turns == 0 {
+    let turning_number = curve.turning_number();
+    if turning_number == 0 {
         return vec![0.0; places.len()];
     }
     let points = curve.points();
@@ -34,23 +32,23 @@ pub(super) fn log_thickness(curve: &BoundaryCurve, places: &[(f64, f64)]) -> Vec
     if !(size.is_finite() && size > 0.0) {
         return vec![0.0; places.len()];
     }
-    let side = f64::from(turns.signum());
+    let inward_sign = f64::from(turning_number.signum());
     let edges = EdgeBvh::of(points);
-    let at = |&(place, direction): &(f64, f64)| {
+    let log_at = |&(place, direction): &(f64, f64)| {
         let from = curve.point_at(place);
         let mut lengths = RAYS.map(|k| {
-            let angle = direction + side * 3.0 * FRAC_PI_6 + k * FRAC_PI_6;
-            edges.first_beyond(from, DVec2::from_angle(angle), OWN * size)
+            let angle = direction + inward_sign * 3.0 * FRAC_PI_6 + k * FRAC_PI_6;
+            edges.first_beyond(from, DVec2::from_angle(angle), OWN_EDGE * size)
         });
         lengths.sort_by(f64::total_cmp);
         let median = lengths[RAYS.len() / 2].min(size);
-        (median / size).max(OWN).ln()
+        (median / size).max(OWN_EDGE).ln()
     };
-    centred(places.iter().map(at).collect(), places)
+    centred(places.iter().map(log_at).collect(), places)
 }
 
-/// The values less their mean along the curve: a design with long limbs has a
-/// larger area for the same thickness of limbs.
+/// Subtracts the mean along the curve from the values. Otherwise a design with long limbs, which
+/// has a larger area for the same limb thickness, would compare as thinner.
 fn centred(mut values: Vec<f64>, places: &[(f64, f64)]) -> Vec<f64> {
     let n = values.len();
     let gap = |from: usize, to: usize| (places[to].0 - places[from].0).rem_euclid(1.0);

@@ -1,8 +1,7 @@
-//! What hangs together: connected components of a graph.
+//! Connected components of a graph, by disjoint sets with path halving.
 
-/// For each of so many vertices the number of its connected component, counted
-/// from 0 in the order of their first vertices. Nearly linear (disjoint sets
-/// with path halving).
+/// Returns for each of `vertices` vertices the index of its connected component. Components are
+/// numbered from 0 in the order of their first vertices. Nearly linear in the number of links.
 ///
 /// ```
 /// use morphospace::mesh::components;
@@ -32,6 +31,7 @@ pub fn components(vertices: usize, links: impl IntoIterator<Item = [u32; 2]>) ->
         .collect()
 }
 
+/// Returns the representative of a vertex's set, halving the path to it.
 fn root(parent: &mut [u32], mut v: u32) -> u32 {
     while parent[v as usize] != v {
         parent[v as usize] = parent[parent[v as usize] as usize];

@@ -1,33 +1,35 @@
-//! Which faces meet at which edges: half-edges and their twins.
+//! Connectivity of triangle meshes: half-edges and their opposites.
 //!
-//! Half-edge `3 f + k` runs from corner `k` of face `f` to the next corner.
-//! Guaranteed: an edge has one face or two, and two run it in opposite
-//! directions. Vertices where several fans of faces touch are allowed.
+//! Half-edge `3 f + k` runs from corner `k` of face `f` to the next corner. Guaranteed: every edge
+//! has one or two faces, and two faces run along it in opposite directions. Vertices at which
+//! several fans of faces touch are allowed.
 
 use super::components::components;
 use super::edges::{sides, undirected};
 
-/// Twins of the half-edges of a list of faces.
+/// Opposites of the half-edges of a list of faces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Connectivity {
+    /// Opposite of each half-edge, or [`NONE`] at the boundary.
     twins: Vec<u32>,
 }
 
-/// Faces that do not meet edge to edge. Numbers start at 1 in messages.
+/// Faces that do not meet edge to edge. Indices start at 1 in messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConnectivityError {
-    /// Three faces or more at one edge.
+    /// More than two faces meet at an edge.
     #[error("more than two faces meet at the edge between vertices {} and {}; remove the extra ones", u64::from(.0[0]) + 1, u64::from(.0[1]) + 1)]
     TooManyFaces([u32; 2]),
-    /// Two faces run their common edge in the same direction.
+    /// Two faces run along their common edge in the same direction.
     #[error("faces {} and {} are wound in opposite directions; reverse the vertices of one", .0[0] + 1, .0[1] + 1)]
     Opposed([usize; 2]),
 }
 
-/// No half-edge: the other side of the boundary.
+/// Marks a half-edge without an opposite: it lies on the boundary.
 const NONE: u32 = u32::MAX;
 
+/// Returns the next half-edge of the same face.
 fn next(h: u32) -> u32 {
     if h % 3 == 2 { h - 2 } else { h + 1 }
 }
@@ -39,7 +41,7 @@ impl Connectivity {
     /// [`ConnectivityError`] if an edge has more than two faces, or two that
     /// are wound in opposite directions.
     pub fn new(faces: &[[u32; 3]]) -> Result<Self, ConnectivityError> {
-        // Sorted, the half-edges of one edge stand together.
+        // Sorting brings the half-edges of one edge together.
         let mut edges = sorted_edges(faces);
         let mut twins = vec![NONE; 3 * faces.len()];
         for run in edges.chunk_by_mut(|a, b| a.0 == b.0) {
@@ -59,16 +61,16 @@ impl Connectivity {
         Ok(Self { twins })
     }
 
-    /// The face across the edge from corner `k` to the next one of `face`.
+    /// Returns the face across the edge from corner `k` of `face` to the next corner.
     ///
     /// # Panics
-    /// If there is no such face, or `k` is above 2 in the last one.
+    /// If `face` does not exist, or if `k` exceeds 2 in the last face.
     #[must_use]
     pub fn neighbour(&self, face: usize, k: usize) -> Option<usize> {
         Some(self.twin(face, k)? as usize / 3)
     }
 
-    /// The half-edge on the other side of that from corner `k` of `face`.
+    /// Returns the half-edge opposite to that from corner `k` of `face`.
     pub(crate) fn twin(&self, face: usize, k: usize) -> Option<u32> {
         match self.twins[3 * face + k] {
             NONE => None,
@@ -76,9 +78,8 @@ impl Connectivity {
         }
     }
 
-    /// For each face the number of its dual component, counted from 0: faces
-    /// of one component are joined across edges; a common vertex alone does
-    /// not join.
+    /// Returns for each face the index of its dual component, from 0. Faces of one component are
+    /// connected across edges; a common vertex alone does not connect them.
     #[must_use]
     pub fn dual_components(&self) -> Vec<u32> {
         let pairs = self
@@ -92,12 +93,11 @@ impl Connectivity {
         )
     }
 
-    /// The closed boundary walks as vertex indices, in the direction in which
-    /// the faces run them. A vertex where several fans touch is passed once
-    /// for each.
+    /// Returns the closed boundary loops as vertex indices, in the direction of the faces. A vertex
+    /// at which several fans touch occurs once for each fan.
     ///
     /// # Panics
-    /// If there are fewer faces than those whose pairs these are.
+    /// If there are fewer faces than this connectivity was built from.
     #[must_use]
     pub fn boundary_loops(&self, faces: &[[u32; 3]]) -> Vec<Vec<u32>> {
         let from = |h: u32| faces[h as usize / 3][h as usize % 3];
@@ -107,22 +107,22 @@ impl Connectivity {
             if self.twins[start] != NONE || seen[start] {
                 continue;
             }
-            let mut walk = Vec::new();
+            let mut boundary = Vec::new();
             let mut h = start as u32;
             while !seen[h as usize] {
                 seen[h as usize] = true;
-                walk.push(from(h));
+                boundary.push(from(h));
                 h = self.next_on_boundary(h);
             }
-            loops.push(walk);
+            loops.push(boundary);
         }
         loops
     }
 
-    /// Turns about the end of a boundary half-edge, inside its fan, to the
-    /// boundary half-edge that leaves it.
+    /// Returns the boundary half-edge that follows a given one, by rotating about its end inside
+    /// its fan.
     fn next_on_boundary(&self, h: u32) -> u32 {
-        // Ends: a fan that began at the boundary has another end there.
+        // Terminates: a fan that begins at the boundary also ends there.
         let mut out = next(h);
         while self.twins[out as usize] != NONE {
             out = next(self.twins[out as usize]);
@@ -131,9 +131,11 @@ impl Connectivity {
     }
 }
 
-/// (edge with the smaller vertex first, whether run that way, half-edge).
+/// Half-edge for sorting: (undirected edge, whether it runs from the smaller to the larger vertex,
+/// index).
 type SortedHalfEdge = ([u32; 2], bool, u32);
 
+/// Returns all half-edges sorted by edge.
 fn sorted_edges(faces: &[[u32; 3]]) -> Vec<SortedHalfEdge> {
     let mut edges = Vec::with_capacity(3 * faces.len());
     for (f, face) in faces.iter().enumerate() {
@@ -145,12 +147,12 @@ fn sorted_edges(faces: &[[u32; 3]]) -> Vec<SortedHalfEdge> {
     edges
 }
 
-/// By their smaller vertices in one pass, and then the few of each: of six million that
-/// takes a fraction of sorting all.
+/// Sorts by the smaller vertex in one counting pass, then the few edges of each vertex. For six
+/// million edges this takes a fraction of the time of a full sort.
 fn sort(edges: &mut Vec<SortedHalfEdge>) {
     let vertices = edges.iter().map(|([a, _], ..)| *a as usize + 1).max();
     let Some(vertices) = vertices.filter(|count| *count <= edges.len()) else {
-        // Few edges of vertices with large numbers.
+        // Vertex indices far above the number of edges: a counting sort would waste memory.
         return edges.sort_unstable();
     };
     let mut from = vec![0; vertices + 1];
@@ -180,16 +182,16 @@ mod tests {
 
     proptest! {
         #[test]
-        fn edges_are_sorted_as_they_would_be_at_once(
+        fn edges_are_sorted_like_by_the_standard_sort(
             faces in prop::collection::vec(prop::array::uniform3(0_u32..12), 0..40),
             shift in prop::sample::select(vec![0, 1000]),
         ) {
             let faces: Vec<[u32; 3]> = faces.iter().map(|f| f.map(|v| v + shift)).collect();
-            let found = sorted_edges(&faces);
-            let mut wanted = found.clone();
-            wanted.sort_unstable();
-            prop_assert_eq!(found.len(), 3 * faces.len());
-            prop_assert_eq!(found, wanted);
+            let sorted = sorted_edges(&faces);
+            let mut expected = sorted.clone();
+            expected.sort_unstable();
+            prop_assert_eq!(sorted.len(), 3 * faces.len());
+            prop_assert_eq!(sorted, expected);
         }
     }
 
@@ -212,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_edges_are_named() {
+    fn invalid_edges_are_named() {
         assert_eq!(
             Connectivity::new(&[[0, 1, 2], [0, 1, 3]]),
             Err(ConnectivityError::Opposed([0, 1]))

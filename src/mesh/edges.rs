@@ -1,11 +1,11 @@
-//! The edges of faces, by their vertices.
+//! Edges of triangles as pairs of vertex indices.
 
-/// The sides of a face, each from its corner to the next one.
+/// Returns the three edges of a face, each from a corner to the next.
 pub(crate) fn sides([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
-/// An edge whichever way it is run: its smaller vertex first.
+/// Returns an edge independent of its direction: the smaller vertex index first.
 pub(crate) fn undirected([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }

@@ -1,43 +1,45 @@
-//! Natural neighbours: how much of each of some sites there is at a place.
+//! Natural-neighbour coordinates: weights of scattered sites at a point.
 //!
-//! Sibson, "A vector identity for the Dirichlet tessellation" (1980): a site's share is
-//! that of its cell that the place would take over as a site of its own.
+//! Sibson, "A vector identity for the Dirichlet tessellation" (1980): a site's weight is the
+//! fraction of the point's own Voronoi cell that it would take from the site's cell.
 //!
-//! Guaranteed: shares are at least 0 and sum to one; a site has all of itself; they go
-//! along with the place without a jump. Beyond the hull of the sites they are those of
-//! the nearest place on it. Sites on one line share it in pairs.
+//! Guaranteed: weights are at least 0, sum to one, and vary continuously with the point. At a site
+//! its own weight is 1. Outside the convex hull of the sites, the weights are those of the nearest
+//! point of the hull. Sites on a line are interpolated linearly between neighbours.
 
 use crate::geometry::{DVec2, nearest_segment_parameter};
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 
-/// Sites in the plane, at least one.
+/// Scattered sites in the plane, at least one, with their Delaunay triangulation.
 #[derive(Clone, Debug)]
 pub struct NaturalNeighbours {
     sites: Vec<DVec2>,
-    /// None where all sites are on one line.
+    /// `None` if all sites lie on one line.
     triangulation: Option<DelaunayTriangulation<Point2<f64>>>,
-    /// The sites around the hull, or along the line, each to the next.
+    /// Pairs of neighbouring sites along the hull, or along the line.
     hull: Vec<[usize; 2]>,
 }
 
-/// Why sites are none.
+/// Reason why a list of sites is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SitesError {
-    /// There is no site.
-    #[error("there is no site; give at least one")]
+    /// The list is empty.
+    #[error("the list of sites is empty; give at least one site")]
     None,
-    /// A site is nowhere.
-    #[error("site {} is not a finite point", .0 + 1)]
+    /// A coordinate of a site is not finite.
+    #[error("site {} has a coordinate that is not finite; correct it", .0 + 1)]
     NotFinite(usize),
-    /// Two sites are in one place.
-    #[error("sites {} and {} are in one place; move them apart", .0[0] + 1, .0[1] + 1)]
+    /// Two sites coincide.
+    #[error("sites {} and {} coincide; move them apart", .0[0] + 1, .0[1] + 1)]
     Coincide([usize; 2]),
 }
 
 impl NaturalNeighbours {
+    /// Triangulates the sites.
+    ///
     /// # Errors
-    /// [`SitesError`] names the sites that are nowhere or in one place.
+    /// [`SitesError`] names the sites that are not finite or coincide.
     ///
     /// ```
     /// use morphospace::{geometry::DVec2, mesh::NaturalNeighbours};
@@ -62,7 +64,7 @@ impl NaturalNeighbours {
         }
         let mut triangulation = DelaunayTriangulation::new();
         for site in sites {
-            // What cannot be inserted is far out: then the sites are as on a line.
+            // The library rejects extreme coordinates; then the sites are treated as if on a line.
             if triangulation.insert(Point2::new(site.x, site.y)).is_err() {
                 break;
             }
@@ -85,35 +87,35 @@ impl NaturalNeighbours {
         })
     }
 
-    /// The sites.
+    /// Returns the sites.
     #[must_use]
     pub fn sites(&self) -> &[DVec2] {
         &self.sites
     }
 
-    /// The shares of all sites at a place.
+    /// Computes the weights of all sites at a point.
     ///
     /// # Panics
-    /// If there are not as many shares as sites.
+    /// If `shares` does not have one entry for each site.
     pub fn shares(&self, place: DVec2, shares: &mut [f64]) {
         assert_eq!(shares.len(), self.sites.len(), "a share for each site");
         shares.fill(0.0);
         if let Some(triangulation) = &self.triangulation {
-            let mut found = Vec::new();
+            let mut weights = Vec::new();
             let place = Point2::new(place.x, place.y);
             triangulation
                 .natural_neighbor()
-                .get_weights(place, &mut found);
-            let sum: f64 = found.iter().map(|(_, share)| share).sum();
+                .get_weights(place, &mut weights);
+            let sum: f64 = weights.iter().map(|(_, share)| share).sum();
             if sum > 0.0 {
-                for (site, share) in found {
-                    // Rounding may leave a little less than nothing.
+                for (site, share) in weights {
+                    // Rounding can make a weight slightly negative.
                     shares[site.index()] = (share / sum).max(0.0);
                 }
                 return;
             }
         }
-        let near = |&[a, b]: &[usize; 2]| {
+        let on_segment = |&[a, b]: &[usize; 2]| {
             let [p, q] = [a, b].map(|k| self.sites[k]);
             let share = nearest_segment_parameter(place, p, q);
             (p.lerp(q, share).distance_squared(place), [a, b], share)
@@ -121,7 +123,7 @@ impl NaturalNeighbours {
         let nearest = self
             .hull
             .iter()
-            .map(near)
+            .map(on_segment)
             .min_by(|a, b| a.0.total_cmp(&b.0));
         match nearest {
             Some((_, [a, b], share)) => {
@@ -132,43 +134,44 @@ impl NaturalNeighbours {
         }
     }
 
-    /// Whether a place is within the hull of the sites, or nearer to it than `reach`.
+    /// Returns whether a point lies inside the convex hull of the sites, or at most `reach` away
+    /// from it.
     #[must_use]
     pub fn holds(&self, place: DVec2, reach: f64) -> bool {
-        let mut found = Vec::new();
+        let mut weights = Vec::new();
         if let Some(triangulation) = &self.triangulation {
             let place = Point2::new(place.x, place.y);
             triangulation
                 .natural_neighbor()
-                .get_weights(place, &mut found);
+                .get_weights(place, &mut weights);
         }
-        let near = |&[a, b]: &[usize; 2]| {
+        let is_near = |&[a, b]: &[usize; 2]| {
             let [p, q] = [a, b].map(|k| self.sites[k]);
             p.lerp(q, nearest_segment_parameter(place, p, q))
                 .distance(place)
                 <= reach
         };
-        !found.is_empty()
-            || self.hull.iter().any(near)
+        !weights.is_empty()
+            || self.hull.iter().any(is_near)
             || self.sites.iter().any(|site| site.distance(place) <= reach)
     }
 }
 
-/// Sites on a line, each to the next along it.
+/// Returns pairs of neighbouring sites along a line.
 fn along_line(sites: &[DVec2]) -> Vec<[usize; 2]> {
     let farthest = |from: DVec2| {
-        let far = |p: &&DVec2| p.distance_squared(from);
+        let distance = |p: &&DVec2| p.distance_squared(from);
         sites
             .iter()
-            .max_by(|a, b| far(a).total_cmp(&far(b)))
+            .max_by(|a, b| distance(a).total_cmp(&distance(b)))
             .copied()
     };
     let Some(end) = farthest(sites[0]) else {
         return Vec::new();
     };
-    let way = end - farthest(end).unwrap_or(end);
+    let direction = end - farthest(end).unwrap_or(end);
     let mut order: Vec<usize> = (0..sites.len()).collect();
-    order.sort_by(|&a, &b| sites[a].dot(way).total_cmp(&sites[b].dot(way)));
+    order.sort_by(|&a, &b| sites[a].dot(direction).total_cmp(&sites[b].dot(direction)));
     order.windows(2).map(|two| [two[0], two[1]]).collect()
 }
 
@@ -185,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn sites_on_a_line_share_it_in_pairs() {
+    fn sites_on_a_line_are_interpolated_in_pairs() {
         let sites = [0.0, 4.0, 1.0].map(|x| DVec2::new(x, x));
         assert_eq!(shares(&sites, DVec2::splat(2.5)), [0.0, 0.5, 0.5]);
         assert_eq!(shares(&sites, DVec2::new(-9.0, 1.0)), [1.0, 0.0, 0.0]);
@@ -193,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn beyond_the_hull_the_nearest_place_on_it_counts() {
+    fn outside_the_hull_its_nearest_point_counts() {
         let sites = [(0.0, 0.0), (2.0, 0.0), (1.0, 2.0)].map(DVec2::from);
         let below = shares(&sites, DVec2::new(0.5, -3.0));
         assert_eq!(below, [0.75, 0.25, 0.0]);
@@ -201,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_sites_are_named() {
+    fn invalid_sites_are_named() {
         let new = |sites: &[DVec2]| NaturalNeighbours::new(sites).err();
         assert_eq!(new(&[]), Some(SitesError::None));
         assert_eq!(
@@ -214,7 +217,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn shares_give_the_place_back(
+        fn weights_reproduce_the_point(
             sites in prop::collection::vec((-9.0..9.0_f64, -9.0..9.0_f64), 3..9),
             place in (-9.0..9.0_f64, -9.0..9.0_f64),
         ) {
@@ -224,7 +227,7 @@ mod tests {
             prop_assert!(shares.iter().all(|&share| share >= 0.0));
             let neighbours = NaturalNeighbours::new(&sites).expect("sites");
             if neighbours.holds(place, 0.0) {
-                // The identity of Sibson's title.
+                // Sibson's identity: the weighted mean of the sites is the point.
                 let again: DVec2 = sites.iter().zip(&shares).map(|(&p, &w)| p * w).sum();
                 prop_assert!(again.distance(place) < 1e-6, "{again} {place}");
             }

@@ -1,33 +1,33 @@
-//! Midpoint subdivision: each triangle into four, the shape unchanged.
+//! Midpoint subdivision: each triangle becomes four, and the shape does not change.
 //!
-//! Only indices are decided here; the caller takes the midpoints in as many
-//! embeddings as it has, so that compatible meshes stay compatible.
+//! Only indices are computed here. The caller evaluates the midpoints in each of its embeddings, so
+//! that compatible meshes stay compatible.
 
 use super::edges::{sides, undirected};
 use std::collections::HashMap;
 
-/// The most vertices that a subdivision may reach: about 4 GB of factor.
+/// Maximum number of vertices after subdivision (resource limit: about 4 GB for a factored system).
 pub const MAX_VERTICES: usize = 4_000_000;
 
-/// Most rounds: a single triangle has 2 million vertices after 11, and 8 after
-/// one more.
+/// Maximum number of rounds (derived: a single triangle has 2 million vertices after 11 rounds, and
+/// 8 million after 12).
 pub const MAX_ROUNDS: u32 = 11;
 
-/// Faces after subdivision, and where the new vertices lie.
+/// Faces after subdivision, and the origin of the new vertices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Subdivision {
-    /// Four faces for each old one.
+    /// Faces after all rounds; each round turns a face into four.
     pub faces: Vec<[u32; 3]>,
-    /// For each new vertex, numbered on from the old ones, the two whose
-    /// midpoint it is; they may be new ones of an earlier round.
+    /// For each new vertex, the two vertices whose midpoint it is. New vertices are numbered after
+    /// the old ones; the two may be new vertices of an earlier round.
     pub midpoints: Vec<[u32; 2]>,
 }
 
-/// A subdivision would have too many vertices.
+/// A subdivision would exceed [`MAX_VERTICES`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{rounds} subdivisions need more than {MAX_VERTICES} vertices; choose fewer")]
 pub struct TooManyVertices {
-    /// The rounds that were asked for.
+    /// Number of rounds requested.
     pub rounds: u32,
 }
 
@@ -44,12 +44,12 @@ impl Subdivision {
     /// # Ok::<(), morphospace::mesh::TooManyVertices>(())
     /// ```
     pub fn new(faces: &[[u32; 3]], vertices: usize, rounds: u32) -> Result<Self, TooManyVertices> {
-        let (mut most, mut count) = (vertices, faces.len());
-        // All rounds first: what ends as too many need not be begun.
+        let (mut vertex_bound, mut face_count) = (vertices, faces.len());
+        // Estimate all rounds first, so that an excessive subdivision is not begun.
         for _ in 0..rounds.min(32) {
-            most += count * 3 / 2;
-            count *= 4;
-            if most > MAX_VERTICES {
+            vertex_bound += face_count * 3 / 2;
+            face_count *= 4;
+            if vertex_bound > MAX_VERTICES {
                 return Err(TooManyVertices { rounds });
             }
         }
@@ -59,8 +59,8 @@ impl Subdivision {
         };
         for _ in 0..rounds {
             let so_far = vertices + fine.midpoints.len();
-            // Before the memory is taken: each face adds three midpoints that
-            // at most two faces share.
+            // Check before allocating: each face adds three midpoints, which at most two faces
+            // share.
             if so_far + fine.faces.len() * 3 / 2 > MAX_VERTICES {
                 return Err(TooManyVertices { rounds });
             }
@@ -69,12 +69,14 @@ impl Subdivision {
         Ok(fine)
     }
 
+    /// Splits every face once. `first_new` is the index of the first new vertex.
     fn split(&mut self, first_new: u32) {
-        let mut between: HashMap<[u32; 2], u32> = HashMap::with_capacity(self.faces.len() * 2);
+        let mut midpoint_of_edge: HashMap<[u32; 2], u32> =
+            HashMap::with_capacity(self.faces.len() * 2);
         let midpoints = &mut self.midpoints;
         let mut next_vertex = first_new;
         let mut midpoint = |edge: [u32; 2]| {
-            *between.entry(undirected(edge)).or_insert_with(|| {
+            *midpoint_of_edge.entry(undirected(edge)).or_insert_with(|| {
                 midpoints.push(edge);
                 next_vertex += 1;
                 next_vertex - 1
@@ -85,7 +87,7 @@ impl Subdivision {
             .iter()
             .flat_map(|&[a, b, c]| {
                 let [ab, bc, ca] = sides([a, b, c]).map(&mut midpoint);
-                // All four run as the old one does.
+                // All four have the orientation of the old face.
                 [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
             })
             .collect();

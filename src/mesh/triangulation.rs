@@ -1,14 +1,13 @@
-//! Triangulation of one connected piece, bounded by closed walks:
-//! constrained Delaunay (Chew 1989), plain or refined.
+//! Triangulates a connected piece bounded by closed loops, by constrained Delaunay triangulation
+//! (Chew 1989), optionally refined.
 //!
-//! A walk may run along a slit, there and back over the same points: each of
-//! its corners is a vertex of its own, so that the mesh opens along it.
+//! A loop may run along a slit, there and back over the same points. Each of its corners then
+//! becomes a vertex of its own, so that the mesh opens along the slit.
 //!
-//! Guaranteed: the walks' corners come first and in order, faces are
-//! counter-clockwise and fill the piece, which is connected, and its boundary
-//! loops are the walks. What is no such piece is refused. Not guaranteed:
-//! that a refinement reaches its angle; beside sharp corners and unsplit
-//! edges none can.
+//! Guaranteed: the loops' corners come first and in order. Faces are counter-clockwise and fill the
+//! piece, which is connected; its boundary loops are the given ones. Invalid input is rejected. Not
+//! guaranteed: that refinement reaches its minimum angle, which is impossible next to sharp corners
+//! and undivided edges.
 
 mod domain;
 mod refine;
@@ -22,23 +21,22 @@ use domain::TriangulationDomain;
 use spade::handles::{FaceHandle, InnerTag};
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 
-/// Points, the walks' first, and counter-clockwise faces.
+/// Points and counter-clockwise faces of a refined triangulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RefinedTriangulation {
-    /// The walks' corners in order, then the points that were added.
+    /// The loops' corners in order, then the points added by refinement.
     pub points: Vec<DVec2>,
-    /// Three indices into the points each.
+    /// Three point indices for each face.
     pub faces: Vec<[u32; 3]>,
 }
 
-/// The constrained Delaunay triangulation without further points, in
-/// O(n log n): for a single walk n − 2 faces.
+/// Returns the faces of the constrained Delaunay triangulation without added points, in O(n log n).
+/// A single loop of n corners gives n − 2 faces.
 ///
-/// The first walk is the outer boundary, counter-clockwise; the others are
-/// holes, clockwise.
+/// The first loop is the outer boundary, counter-clockwise; the others are holes, clockwise.
 ///
 /// # Errors
-/// [`TriangulationError`] if the walks bound no single piece.
+/// [`TriangulationError`] if the loops do not bound one connected piece.
 ///
 /// ```
 /// use morphospace::{geometry::DVec2, mesh::triangulation::constrained_delaunay};
@@ -47,37 +45,36 @@ pub struct RefinedTriangulation {
 /// # Ok::<(), morphospace::mesh::triangulation::TriangulationError>(())
 /// ```
 pub fn constrained_delaunay<W: AsRef<[DVec2]>>(
-    walks: &[W],
+    loops: &[W],
 ) -> Result<Vec<[u32; 3]>, TriangulationError> {
-    let domain = TriangulationDomain::of(walks)?;
+    let domain = TriangulationDomain::of(loops)?;
     Ok(domain.faces())
 }
 
-/// The constrained Delaunay triangulation, refined; no edge of a walk is
-/// split.
+/// Returns the constrained Delaunay triangulation, refined without splitting any edge of a loop.
 ///
 /// # Errors
-/// [`TriangulationError`] if the walks bound no single piece, or if the work
-/// is cancelled.
+/// [`TriangulationError`] if the loops do not bound one connected piece, or if the work is
+/// cancelled.
 pub fn refined_delaunay<W: AsRef<[DVec2]>>(
-    walks: &[W],
+    loops: &[W],
     refinement: &RefinementOptions,
     progress: &dyn Progress,
 ) -> Result<RefinedTriangulation, TriangulationError> {
-    let mut domain = TriangulationDomain::of(walks)?;
+    let mut domain = TriangulationDomain::of(loops)?;
     domain.refine(refinement, progress)?;
     Ok(RefinedTriangulation {
-        points: domain.points(walks),
+        points: domain.points(loops),
         faces: domain.faces(),
     })
 }
 
-/// The Delaunay triangulation of points, over their convex hull: all of them
-/// are corners, in the order given.
+/// Returns the faces of the Delaunay triangulation of points, which fills their convex hull. All
+/// points are vertices, in the order given.
 ///
 /// # Errors
-/// [`TriangulationError`] for fewer than three points, points out of range,
-/// points that coincide, and points on one line.
+/// [`TriangulationError`] for fewer than three points, points out of range, coinciding points, or
+/// points on one line.
 ///
 /// ```
 /// use morphospace::{geometry::DVec2, mesh::triangulation::delaunay};
@@ -92,7 +89,7 @@ pub fn delaunay(points: &[DVec2]) -> Result<Vec<[u32; 3]>, TriangulationError> {
     let plain: Vec<_> = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let delaunay = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(plain)
         .map_err(|_| TriangulationError::OutOfRange)?;
-    // Equal points have become one; points on a line have no face.
+    // The library merges equal points; points on a line give no face.
     if delaunay.num_vertices() != points.len() || delaunay.num_inner_faces() == 0 {
         return Err(TriangulationError::NotSimple);
     }
@@ -125,7 +122,7 @@ mod tests {
         ])
     }
 
-    /// A square from `low` to `high`, counter-clockwise.
+    /// Returns a counter-clockwise square from `low` to `high`.
     fn square(low: f64, high: f64) -> Vec<DVec2> {
         points([(low, low), (high, low), (high, high), (low, high)])
     }
@@ -152,34 +149,35 @@ mod tests {
 
     #[test]
     fn a_hole_stays_empty() {
-        let walks = [square(0.0, 4.0), hole(1.0, 2.0)];
-        let faces = constrained_delaunay(&walks).expect("a ring");
+        let loops = [square(0.0, 4.0), hole(1.0, 2.0)];
+        let faces = constrained_delaunay(&loops).expect("a ring");
         assert_eq!(faces.len(), 8);
-        assert!((area(&walks.concat(), &faces) - 15.0).abs() < 1e-12);
+        assert!((area(&loops.concat(), &faces) - 15.0).abs() < 1e-12);
     }
 
     #[test]
-    fn a_ring_cut_open_is_a_disc() {
+    fn a_cut_open_ring_is_a_disc() {
         let corners = square(0.0, 4.0);
         let inner = hole(1.0, 2.0);
-        let mut walk = vec![corners[0]];
-        walk.extend([3, 0, 1, 2, 3].map(|k| inner[k]));
-        walk.extend([0, 1, 2, 3].map(|k| corners[k]));
-        let faces = constrained_delaunay(std::slice::from_ref(&walk)).expect("a slit");
-        assert_eq!(faces.len() + 2, walk.len());
-        assert!((area(&walk, &faces) - 15.0).abs() < 1e-12);
+        let mut outline = vec![corners[0]];
+        outline.extend([3, 0, 1, 2, 3].map(|k| inner[k]));
+        outline.extend([0, 1, 2, 3].map(|k| corners[k]));
+        let faces = constrained_delaunay(std::slice::from_ref(&outline)).expect("a slit");
+        assert_eq!(faces.len() + 2, outline.len());
+        assert!((area(&outline, &faces) - 15.0).abs() < 1e-12);
         let fine = RefinementOptions {
             max_edge: Some(0.3),
             max_points: 1000,
         };
-        let mesh = refined_delaunay(std::slice::from_ref(&walk), &fine, &Silent).expect("a slit");
-        assert_eq!(mesh.points[..walk.len()], walk);
+        let mesh =
+            refined_delaunay(std::slice::from_ref(&outline), &fine, &Silent).expect("a slit");
+        assert_eq!(mesh.points[..outline.len()], outline);
         assert!((area(&mesh.points, &mesh.faces) - 15.0).abs() < 1e-9);
-        assert_eq!(mesh.faces.len() + walk.len() + 2, 2 * mesh.points.len());
+        assert_eq!(mesh.faces.len() + outline.len() + 2, 2 * mesh.points.len());
     }
 
     #[test]
-    fn a_refinement_keeps_the_boundary() {
+    fn refinement_preserves_the_boundary() {
         let fine = RefinementOptions {
             max_edge: Some(0.3),
             max_points: 1000,
@@ -192,27 +190,27 @@ mod tests {
     }
 
     #[test]
-    fn what_bounds_no_single_piece_is_refused() {
-        let refused = |walks: &[Vec<DVec2>]| constrained_delaunay(walks).expect_err("no piece");
+    fn loops_that_do_not_bound_one_piece_are_rejected() {
+        let error_of = |loops: &[Vec<DVec2>]| constrained_delaunay(loops).expect_err("no piece");
         let bow = points([(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)]);
-        assert_eq!(refused(&[bow]), TriangulationError::NotSimple);
+        assert_eq!(error_of(&[bow]), TriangulationError::NotSimple);
         let twice = points([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.0, 1.0)]);
-        assert_eq!(refused(&[twice]), TriangulationError::NotSimple);
+        assert_eq!(error_of(&[twice]), TriangulationError::NotSimple);
         let nan = vec![DVec2::ZERO, DVec2::X, DVec2::NAN];
-        assert_eq!(refused(&[nan]), TriangulationError::OutOfRange);
+        assert_eq!(error_of(&[nan]), TriangulationError::OutOfRange);
         let not_one = TriangulationError::NotOnePiece;
-        assert_eq!(refused(&[hole(0.0, 1.0)]), not_one);
-        assert_eq!(refused(&[square(0.0, 1.0), hole(2.0, 3.0)]), not_one);
-        assert_eq!(refused(&[square(0.0, 1.0), square(2.0, 3.0)]), not_one);
-        assert_eq!(refused(&[hole(1.0, 2.0), square(0.0, 4.0)]), not_one);
+        assert_eq!(error_of(&[hole(0.0, 1.0)]), not_one);
+        assert_eq!(error_of(&[square(0.0, 1.0), hole(2.0, 3.0)]), not_one);
+        assert_eq!(error_of(&[square(0.0, 1.0), square(2.0, 3.0)]), not_one);
+        assert_eq!(error_of(&[hole(1.0, 2.0), square(0.0, 4.0)]), not_one);
         let nested = [square(0.0, 9.0), hole(1.0, 8.0), hole(2.0, 3.0)];
-        assert_eq!(refused(&nested), not_one);
+        assert_eq!(error_of(&nested), not_one);
         let touching = [square(0.0, 4.0), hole(0.0, 1.0)];
-        assert_eq!(refused(&touching), TriangulationError::NotSimple);
+        assert_eq!(error_of(&touching), TriangulationError::NotSimple);
     }
 
     #[test]
-    fn an_hourglass_is_two_pieces() {
+    fn an_hourglass_is_rejected_as_two_pieces() {
         let waist = (1.0, 1.0);
         let glass = points([(0.0, 0.0), (2.0, 0.0), waist, (2.0, 2.0), (0.0, 2.0), waist]);
         assert!(constrained_delaunay(&[glass]).is_err());

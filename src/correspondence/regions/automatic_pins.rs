@@ -1,25 +1,24 @@
-//! Pins along matched outlines, for warps that know nothing of outlines.
+//! Creates pins along matched outlines, for warps of the plane that do not use outlines themselves.
 
 use super::super::PointPair;
 use super::region_match::{RegionMatch, RingKind, RingMatch};
 
-/// A ring of little length is pinned at so many points all the same.
-/// Three would say nothing of how a ring is sheared.
-const FEWEST: usize = 4;
+/// Minimum number of pins on a ring, however short (heuristic).
+const MIN_PINS: usize = 4;
 
 impl RegionMatch {
-    /// Pairs of points along the matched rings, where the outlines bend and
-    /// where they change most, some `count` along the longest one and fewer along shorter ones, ring by ring. Rings that
-    /// close to a point or open from one have none: no map of the plane can
-    /// do that.
+    /// Returns pairs of points along the matched rings, one list for each ring. Pins lie where the
+    /// outlines bend and where they change most. The longest ring gets about `count`, shorter ones
+    /// proportionally fewer. Rings that close to a point or open from one get none, because no map
+    /// of the plane can do that.
     ///
     /// ```
-    /// use morphospace::correspondence::{Matching, match_regions};
+    /// use morphospace::correspondence::{MatchSettings, match_regions};
     /// use morphospace::geometry::{DVec2, FillRule, Regions};
     /// use morphospace::work::progress::Silent;
     /// let flag = [(0.0, 0.0), (3.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from).to_vec();
     /// let flag = Regions::from_rings(&[flag], FillRule::EvenOdd)?;
-    /// let matched = match_regions(&flag, &flag, &Matching::default(), &Silent)?;
+    /// let matched = match_regions(&flag, &flag, &MatchSettings::default(), &Silent)?;
     /// let pins = matched.automatic_pins(12);
     /// assert_eq!(pins[0].len(), 12);
     /// assert!(pins[0].iter().all(|pin| pin.source == pin.target));
@@ -29,17 +28,19 @@ impl RegionMatch {
     pub fn automatic_pins(&self, count: usize) -> Vec<Vec<PointPair>> {
         let rings = self.pieces.iter().flat_map(|piece| &piece.rings);
         let matched = rings.filter(|ring| ring.kind == RingKind::Matched);
-        let lengths: Vec<(&RingMatch, f64)> = matched.map(|r| (r, total(&walked(r)))).collect();
-        let longest = lengths.iter().fold(0.0, |most: f64, (_, l)| most.max(*l));
-        let share = |length: f64| (count as f64 * length / longest).round() as usize;
-        let pins = |&(ring, length): &(&RingMatch, f64)| pins(ring, share(length).max(FEWEST));
+        let lengths: Vec<(&RingMatch, f64)> =
+            matched.map(|r| (r, total(&arc_lengths(r)))).collect();
+        let longest = lengths.iter().fold(0.0, |max: f64, (_, l)| max.max(*l));
+        let pin_count = |length: f64| (count as f64 * length / longest).round() as usize;
+        let pins =
+            |&(ring, length): &(&RingMatch, f64)| pins(ring, pin_count(length).max(MIN_PINS));
         lengths.iter().map(pins).collect()
     }
 }
 
-/// The mean length, of both designs, walked from the first vertex to each and
-/// back to it.
-fn walked(ring: &RingMatch) -> Vec<f64> {
+/// Returns the arc length from the first vertex to each vertex and back to the first, averaged over
+/// both designs.
+fn arc_lengths(ring: &RingMatch) -> Vec<f64> {
     let n = ring.source.len();
     let mut sums = vec![0.0];
     for k in 0..n {
@@ -50,18 +51,19 @@ fn walked(ring: &RingMatch) -> Vec<f64> {
     sums
 }
 
+/// Returns the ring's total length.
 fn total(sums: &[f64]) -> f64 {
     sums.last().copied().unwrap_or(0.0)
 }
 
-/// `count` pairs of vertices, or all there are: a few evenly, then one by one
-/// the vertex that is farthest from where its neighbours among the pins would
-/// carry it, in either design.
+/// Selects `count` pairs of vertices, or all there are. It starts with a few even ones and
+/// repeatedly adds the vertex that is farthest, in either design, from where its neighbouring pins
+/// would carry it.
 fn pins(ring: &RingMatch, count: usize) -> Vec<PointPair> {
-    let sums = walked(ring);
+    let sums = arc_lengths(ring);
     let n = ring.source.len();
-    let mut chosen: Vec<usize> = (0..FEWEST)
-        .map(|k| total(&sums) * k as f64 / FEWEST as f64)
+    let mut chosen: Vec<usize> = (0..MIN_PINS)
+        .map(|k| total(&sums) * k as f64 / MIN_PINS as f64)
         .map(|place| sums.partition_point(|sum| *sum < place).min(n - 1))
         .collect();
     chosen.dedup();
@@ -89,26 +91,29 @@ fn pins(ring: &RingMatch, count: usize) -> Vec<PointPair> {
     spans.iter().map(pair).collect()
 }
 
-/// The vertices from one pin to the next, counted on over the seam.
+/// The vertices from one pin to the next, with indices unwrapped over the seam.
 #[derive(Clone, Copy, Debug)]
 struct PinInterval {
     from: usize,
     to: usize,
-    /// The vertex between that the pins carry worst, and how far off.
+    /// Vertex in between that the pins predict worst; `from` if there is none.
     farthest: usize,
+    /// Its squared prediction error, summed over both designs.
     off: f64,
 }
 
 impl PinInterval {
+    /// Finds the vertex with the largest prediction error between two pins. `sums` are the ring's
+    /// arc lengths.
     fn new(ring: &RingMatch, sums: &[f64], from: usize, to: usize) -> Self {
         let n = ring.source.len();
-        let walked = |k: usize| sums[k % n] + total(sums) * (k / n) as f64;
-        let length = walked(to) - walked(from);
+        let position = |k: usize| sums[k % n] + total(sums) * (k / n) as f64;
+        let length = position(to) - position(from);
         let off = |k: usize| {
-            let along = (walked(k) - walked(from)) / length;
+            let along = (position(k) - position(from)) / length;
             let square = [&ring.source, &ring.target].map(|side| {
-                let carried = side[from % n].lerp(side[to % n], along);
-                carried.distance_squared(side[k % n])
+                let predicted = side[from % n].lerp(side[to % n], along);
+                predicted.distance_squared(side[k % n])
             });
             square[0] + square[1]
         };
@@ -136,7 +141,7 @@ mod tests {
 
     #[test]
     fn corners_are_pinned_before_edges() {
-        // A comb with many points along its edges.
+        // A U shape with many vertices along its edges.
         let corners: Vec<DVec2> = [
             (0, 0),
             (6, 0),

@@ -1,46 +1,48 @@
-//! The point that a hole closes to, or a part is born from.
+//! Finds the point to which a hole closes, or from which one opens.
 //!
-//! A hole's centre is carried to the other design by mean value coordinates
-//! of the matched boundary (Floater 2003; signed, as Hormann and Floater 2006
-//! use them for any polygon). Where that leaves the part, or comes near its
-//! boundary, the nearest place with room is taken.
+//! The hole's centre is mapped to the other design by mean value coordinates of the matched
+//! boundary (Floater 2003; signed, as Hormann and Floater 2006 use them for arbitrary polygons). If
+//! the result lies outside the part, or close to its boundary, the nearest point with enough
+//! clearance is used.
 
 use super::region_match::POINT_SIZE;
 use crate::geometry::{Bounds, DVec2, Region, Ring, ray_hit_parameter};
 
-/// A place keeps at least this share of the best clearance there is.
-/// More would draw holes to the middle of the part, less to its rim, where
-/// triangles are thin.
-const LEAST_CLEARANCE: f64 = 0.25;
+/// Minimum clearance of the point, relative to the largest available. More would pull holes to the
+/// middle of the part; less would push them to its boundary, where triangles are thin (heuristic).
+const MIN_CLEARANCE: f64 = 0.25;
 
-/// A tiny ring takes up at most this share of its place's clearance.
-/// Up to ½ would fit; the rest is room for the triangles around it.
-const CLEARANCE_SHARE: f64 = 0.2;
+/// Maximum diameter of the tiny ring, relative to the clearance of its point. Up to ½ would fit;
+/// the rest leaves room for the triangles around it (heuristic).
+const MAX_RING_SIZE: f64 = 0.2;
 
-/// How many places of the boundary are searched for room.
-/// Each costs a look at every edge: a bound for outlines of thousands.
-const SEARCHED: usize = 256;
+/// Maximum number of boundary edges from which interior points are searched (resource limit: each
+/// search visits every edge).
+const MAX_SEARCHED_EDGES: usize = 256;
 
-/// Points of one ring on both sides, vertex by vertex.
+/// Corresponding vertices of one ring.
 pub(super) struct RingVertices<'a> {
+    /// Vertices in the design that contains the hole.
     pub(super) from: &'a [DVec2],
+    /// Vertices in the other design.
     pub(super) to: &'a [DVec2],
 }
 
-/// The room in a part for holes that close to points of it.
+/// Free space inside a part, for holes that close to points in it.
 pub(super) struct FreeSpace<'a> {
     part: &'a Region,
-    /// Places in it with their distance to its boundary.
+    /// Points inside the part, with their distances to its boundary.
     places: Vec<(DVec2, f64)>,
-    /// The middles of what other holes close to.
+    /// Centres of the tiny rings placed so far.
     taken: Vec<DVec2>,
-    /// How large that is at most.
+    /// Maximum diameter of a tiny ring.
     size: f64,
 }
 
 impl<'a> FreeSpace<'a> {
+    /// Collects points inside the part.
     pub(super) fn of(part: &'a Region) -> Self {
-        let places = places(part).map(|p| (p, to_boundary(part, p)));
+        let places = interior_points(part).map(|p| (p, boundary_distance(part, p)));
         Self {
             places: places.collect(),
             part,
@@ -49,59 +51,61 @@ impl<'a> FreeSpace<'a> {
         }
     }
 
-    /// The tiny ring, similar to `hole`, that it closes to in the part, which
-    /// it does not belong to. `outer` are the matched boundaries around both.
+    /// Places the tiny ring that stands for `hole`, similar to it, in the part of the other design.
+    /// `outer` is the matched boundary around it, and `rotation` the rotation of the match in
+    /// radians.
     pub(super) fn point_ring(
         &mut self,
         hole: &Ring,
         outer: &RingVertices,
         rotation: f64,
     ) -> Vec<DVec2> {
-        let wanted = carried(outer, centre(hole));
-        let own = wanted.map(|p| (p, to_boundary(self.part, p)));
-        let goal = wanted.unwrap_or_else(|| self.part.outer.bounds().centre());
-        let nearest = |places: &mut dyn Iterator<Item = (DVec2, f64)>| {
-            let far = |place: &(DVec2, f64)| place.0.distance_squared(goal);
-            places.min_by(|a, b| far(a).total_cmp(&far(b)))
+        let mapped = mapped_by_mean_values(outer, centre(hole));
+        let mapped_point = mapped.map(|p| (p, boundary_distance(self.part, p)));
+        let target = mapped.unwrap_or_else(|| self.part.outer.bounds().centre());
+        let nearest = |points: &mut dyn Iterator<Item = (DVec2, f64)>| {
+            let distance = |place: &(DVec2, f64)| place.0.distance_squared(target);
+            points.min_by(|a, b| distance(a).total_cmp(&distance(b)))
         };
-        let inside = self.places.iter().copied().chain(own);
-        let nearest_inside = nearest(&mut inside.clone().filter(|place| place.1 > 0.0));
-        let beside = nearest_inside.and_then(|place| self.beside(place));
-        let clear = |(p, to_boundary): (DVec2, f64)| (p, self.clear(p, to_boundary));
-        let places: Vec<(DVec2, f64)> = inside.chain(beside).map(clear).collect();
-        let room = places.iter().map(|place| place.1).fold(0.0, f64::max);
-        // Not the roomiest: the hole should close near where it was.
-        let mut roomy = places
+        let points = self.places.iter().copied().chain(mapped_point);
+        let nearest_point = nearest(&mut points.clone().filter(|place| place.1 > 0.0));
+        let shifted = nearest_point.and_then(|place| self.point_next_to(place));
+        let with_clearance = |(p, to_boundary): (DVec2, f64)| (p, self.clearance(p, to_boundary));
+        let clearances: Vec<(DVec2, f64)> = points.chain(shifted).map(with_clearance).collect();
+        let best_clearance = clearances.iter().map(|place| place.1).fold(0.0, f64::max);
+        // Not the point with the most clearance: the hole should close near where it was.
+        let mut candidates = clearances
             .iter()
             .copied()
-            .filter(|place| place.1 >= LEAST_CLEARANCE * room);
-        let (at, clearance) = nearest(&mut roomy).unwrap_or((goal, room));
-        let size = self.size.min(CLEARANCE_SHARE * clearance);
+            .filter(|place| place.1 >= MIN_CLEARANCE * best_clearance);
+        let (at, clearance) = nearest(&mut candidates).unwrap_or((target, best_clearance));
+        let size = self.size.min(MAX_RING_SIZE * clearance);
         self.taken.push(at);
         shrunk(hole.points(), centre(hole), at, size, rotation)
     }
 
-    /// What is left of a distance to the boundary where other holes close.
-    fn clear(&self, p: DVec2, to_boundary: f64) -> f64 {
+    /// Returns the clearance of a point: its distance to the boundary, reduced by the tiny rings
+    /// placed so far.
+    fn clearance(&self, p: DVec2, to_boundary: f64) -> f64 {
         let to_holes = self.taken.iter().map(|q| q.distance(p) - self.size);
         to_holes.fold(to_boundary, f64::min).max(0.0)
     }
 
-    /// The place beside one where another hole closes, as far from it as from
-    /// all else; `None` where none does.
-    fn beside(&self, (p, to_boundary): (DVec2, f64)) -> Option<(DVec2, f64)> {
-        if self.clear(p, to_boundary) > 0.0 {
+    /// If another hole already closes at a point, returns a point next to it, halfway to the
+    /// nearest obstacle. Otherwise returns `None`.
+    fn point_next_to(&self, (p, to_boundary): (DVec2, f64)) -> Option<(DVec2, f64)> {
+        if self.clearance(p, to_boundary) > 0.0 {
             return None;
         }
-        let others = self.taken.iter().map(|q| q.distance(p));
-        let apart = others.filter(|&far| far > self.size);
-        let p = p + DVec2::new(0.5 * apart.fold(to_boundary, f64::min), 0.0);
-        Some((p, self::to_boundary(self.part, p)))
+        let distances = self.taken.iter().map(|q| q.distance(p));
+        let to_others = distances.filter(|&distance| distance > self.size);
+        let p = p + DVec2::new(0.5 * to_others.fold(to_boundary, f64::min), 0.0);
+        Some((p, boundary_distance(self.part, p)))
     }
 }
 
-/// Points about `centre` made as small as `size` across, turned and put down
-/// at `at`.
+/// Returns the points scaled about `centre` to a diameter of `size`, rotated by `rotation` radians
+/// and moved to `at`.
 pub(super) fn shrunk(
     points: &[DVec2],
     centre: DVec2,
@@ -110,11 +114,12 @@ pub(super) fn shrunk(
     rotation: f64,
 ) -> Vec<DVec2> {
     let extent = Bounds::of(points.iter().copied()).map_or(1.0, |b| b.diameter());
-    let turn = DVec2::from_angle(rotation) * (size / extent);
-    let place = |&p: &DVec2| at + turn.rotate(p - centre);
-    points.iter().map(place).collect()
+    let rotation_and_scale = DVec2::from_angle(rotation) * (size / extent);
+    let transformed = |&p: &DVec2| at + rotation_and_scale.rotate(p - centre);
+    points.iter().map(transformed).collect()
 }
 
+/// Returns the mean of a ring's vertices.
 pub(super) fn centre(ring: &Ring) -> DVec2 {
     let count = ring.points().len() as f64;
     let base = ring.points()[0];
@@ -122,8 +127,9 @@ pub(super) fn centre(ring: &Ring) -> DVec2 {
     base + sum / count
 }
 
-/// Where mean value coordinates put `p`.
-fn carried(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
+/// Maps `p` by the mean value coordinates of the boundary. Returns `None` if `p` lies on the
+/// boundary.
+fn mapped_by_mean_values(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
     let n = outer.from.len();
     // tan(α/2) from sine and cosine of α, times both lengths, which cancel.
     let half_tangent = |k: usize| {
@@ -138,15 +144,16 @@ fn carried(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
         sum += weight * (outer.to[k] - outer.to[0]);
         total += weight;
     }
-    // A place on the outline itself gives 0 / 0: then there is none.
+    // On the outline itself the result is 0 / 0.
     let place = outer.to[0] + sum / total;
     place.is_finite().then_some(place)
 }
 
-/// Places inside a part, halfway from boundary to boundary.
-fn places(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
+/// Returns points inside a part: from the middle of each edge inwards, halfway to the opposite
+/// boundary.
+fn interior_points(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
     let count: usize = part.rings().map(|ring| ring.points().len()).sum();
-    let step = count.div_ceil(SEARCHED);
+    let step = count.div_ceil(MAX_SEARCHED_EDGES);
     let edges = part.rings().flat_map(Ring::edges).step_by(step);
     edges.filter_map(move |(a, b)| {
         let inwards = (b - a).perp().normalize_or_zero();
@@ -162,11 +169,11 @@ fn places(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
     })
 }
 
-/// Distance to the boundary; 0 outside.
-fn to_boundary(part: &Region, p: DVec2) -> f64 {
+/// Returns the distance of a point to the part's boundary; 0 outside the part.
+fn boundary_distance(part: &Region, p: DVec2) -> f64 {
     if !part.contains(p) {
         return 0.0;
     }
-    let to_rings = part.rings().map(|ring| ring.distance_squared(p));
-    to_rings.fold(f64::INFINITY, f64::min).sqrt()
+    let squared_distances = part.rings().map(|ring| ring.distance_squared(p));
+    squared_distances.fold(f64::INFINITY, f64::min).sqrt()
 }

@@ -1,4 +1,4 @@
-//! Which parts go together: pairs, one with several, and parts alone.
+//! Groups the parts of two designs: one with one, one with several, or unmatched.
 
 use super::super::pairing::{Pairing, pair_parts, relative_centres};
 use super::super::{MatchSettings, PairError, PartRule};
@@ -7,26 +7,27 @@ use super::region_match::RegionMatchError;
 use crate::correspondence::looks::PartLooks;
 use crate::geometry::{DVec2, Region, Regions, Side};
 
-/// A part with less of its design's area than this is born or dies rather than that
-/// another is cut up for it: a leftover of a millionth had a rectangle cut along all of a
-/// side.
-const SPECK: f64 = 1e-3;
+/// Minimum fraction of its design's area at which an unmatched part may cause a split; smaller
+/// parts appear or disappear. Without it, a negligible leftover could cut a part along its whole
+/// side (heuristic).
+const MIN_SPLIT_AREA: f64 = 1e-3;
 
-/// Parts that belong together: one with one, one with several, or one alone.
+/// Parts that belong together: one with one, one with several, or a single unmatched part.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct PartGroup {
-    /// For source and target, ascending.
+    /// Indices of the parts of source and target, ascending.
     pub(super) parts: [Vec<usize>; 2],
 }
 
 impl PartGroup {
-    /// What groups are sorted by: their first parts, none last.
+    /// Returns the sort key of groups: their first parts; groups without a part on a side come
+    /// last.
     pub(super) fn key(&self) -> [usize; 2] {
         let first = |side: Side| self.parts[side].first().copied().unwrap_or(usize::MAX);
         Side::BOTH.map(first)
     }
 
-    /// Which part it is, of a part alone.
+    /// Returns side and index of the part if the group is a single unmatched part.
     pub(super) fn alone(&self) -> Option<(Side, usize)> {
         match [&self.parts[0][..], &self.parts[1][..]] {
             [&[part], []] => Some((Side::Source, part)),
@@ -36,49 +37,56 @@ impl PartGroup {
     }
 }
 
-/// Who becomes whom, by place, form and look, and as it was said by hand of parts: pairs
-/// of parts, each part in one of them at least; none is the partner of a part alone.
+/// Pairs the parts of two designs by position, shape, look and the user's settings. Each part is in
+/// at least one pair; unmatched parts have `None` as partner.
+///
+/// A group of one with several gives one pair for each of the several.
 ///
 /// # Errors
-/// Where what was said by hand cannot be.
+/// [`RegionMatchError`] for links or pins that contradict each other.
 pub(crate) fn paired_parts(
     designs: [&Regions; 2],
     looks: &PartLooks,
-    wanted: &MatchSettings,
+    settings: &MatchSettings,
 ) -> Result<Vec<[Option<usize>; 2]>, RegionMatchError> {
-    let groups = grouped(designs, looks, wanted, &[])?;
-    // Of one with several each goes its own way; of several with several none is left out.
+    let groups = grouped(designs, looks, settings, &[])?;
+    // Of one with several, the one repeats; of several with several, no part is omitted.
     let pairs = |PartGroup { parts }: &PartGroup| -> Vec<[Option<usize>; 2]> {
         let count = parts.iter().map(Vec::len).max().unwrap_or(0);
-        let of = |side: Side, k: usize| parts[side].get(k).or(parts[side].last()).copied();
+        let part_or_last =
+            |side: Side, k: usize| parts[side].get(k).or(parts[side].last()).copied();
         (0..count)
-            .map(|k| Side::BOTH.map(|side| of(side, k)))
+            .map(|k| Side::BOTH.map(|side| part_or_last(side, k)))
             .collect()
     };
     Ok(groups.iter().flat_map(pairs).collect())
 }
 
-/// All parts of both designs in groups, in the order of the source's parts.
+/// Groups all parts of both designs, in the order of the source's parts.
+///
+/// # Errors
+/// [`RegionMatchError`] for links or pins that contradict each other.
 pub(super) fn grouped(
     designs: [&Regions; 2],
     looks: &PartLooks,
-    wanted: &MatchSettings,
+    settings: &MatchSettings,
     pins: &[LocatedPin],
 ) -> Result<Vec<PartGroup>, RegionMatchError> {
-    let mut groups = said(designs, wanted, pins)?;
+    let mut groups = user_groups(designs, settings, pins)?;
     let fixed: Vec<[usize; 2]> = groups
         .iter()
         .map(|g| [g.parts[0][0], g.parts[1][0]])
         .collect();
-    // Of a group one part is fixed to one; the others are taken.
-    let lone = lone(designs, wanted, &groups);
+    // In each group one pair is passed on as fixed; its other parts are taken.
+    let unmatched = declared_unmatched(designs, settings, &groups);
     let taken = Side::BOTH.map(|side| -> Vec<usize> {
-        let more = groups.iter().flat_map(|g| g.parts[side][1..].to_vec());
-        more.chain(lone.iter().flat_map(|g| g.parts[side].clone()))
+        let additional = groups.iter().flat_map(|g| g.parts[side][1..].to_vec());
+        additional
+            .chain(unmatched.iter().flat_map(|g| g.parts[side].clone()))
             .collect()
     });
     let pairing = pair_parts(designs, looks, &fixed, [&taken[0], &taken[1]])?;
-    let pairing = unmixed(pairing, looks, &fixed);
+    let pairing = without_text_mismatches(pairing, looks, &fixed);
     for pair in &pairing.pairs {
         if !fixed.contains(pair) {
             groups.push(PartGroup {
@@ -86,19 +94,19 @@ pub(super) fn grouped(
             });
         }
     }
-    attach(&mut groups, (designs, looks), wanted.parts, &pairing);
-    groups.extend(lone);
+    assign_unmatched(&mut groups, (designs, looks), settings.parts, &pairing);
+    groups.extend(unmatched);
     for part in groups.iter_mut().flat_map(|g| &mut g.parts) {
         part.sort_unstable();
     }
-    // Parts that are born have no number in the source: they come last.
+    // Parts that exist only in the target have no source index; they come last.
     groups.sort_by_key(PartGroup::key);
     Ok(groups)
 }
 
-/// Lets go of pairs of a letter and something else, where anything else is paired: of a
-/// wave that becomes the second letter of a word neither is recognised.
-fn unmixed(pairing: Pairing, looks: &PartLooks, fixed: &[[usize; 2]]) -> Pairing {
+/// Dissolves pairs of a letter with something else, provided that other pairs remain: a wave that
+/// turns into a letter would make neither recognisable.
+fn without_text_mismatches(pairing: Pairing, looks: &PartLooks, fixed: &[[usize; 2]]) -> Pairing {
     let is_mixed = |pair: &[usize; 2]| {
         let [a, b] = Side::BOTH.map(|side| looks.is_text(side, pair[side]));
         a != b && !fixed.contains(pair)
@@ -107,25 +115,25 @@ fn unmixed(pairing: Pairing, looks: &PartLooks, fixed: &[[usize; 2]]) -> Pairing
     if pairs.is_empty() {
         return pairing;
     }
-    let with = |mut alone: Vec<usize>, side: Side| {
-        alone.extend(mixed.iter().map(|pair| pair[side]));
-        alone.sort_unstable();
-        alone
+    let with_mixed = |mut unmatched: Vec<usize>, side: Side| {
+        unmatched.extend(mixed.iter().map(|pair| pair[side]));
+        unmatched.sort_unstable();
+        unmatched
     };
     Pairing {
-        dying: with(pairing.dying, Side::Source),
-        born: with(pairing.born, Side::Target),
+        dying: with_mixed(pairing.dying, Side::Source),
+        born: with_mixed(pairing.born, Side::Target),
         pairs,
     }
 }
 
-/// The pairs of parts that links and pins name, each once, ascending.
+/// Returns the pairs of parts that links and pins name, each once, ascending.
 pub(super) fn fixed_pairs(
     designs: [&Regions; 2],
-    wanted: &MatchSettings,
+    settings: &MatchSettings,
     pins: &[LocatedPin],
 ) -> Vec<[usize; 2]> {
-    let linked = wanted
+    let linked = settings
         .links
         .iter()
         .map(|link| Side::BOTH.map(|side| part_at(designs[side], link[side])));
@@ -136,14 +144,18 @@ pub(super) fn fixed_pairs(
     pairs
 }
 
-/// The groups that links and pins name.
-fn said(
+/// Returns the groups of parts that links and pins name.
+///
+/// # Errors
+/// [`PairError::Twice`] if several parts would be grouped with several, or with one although the
+/// rule for parts forbids splitting.
+fn user_groups(
     designs: [&Regions; 2],
-    wanted: &MatchSettings,
+    settings: &MatchSettings,
     pins: &[LocatedPin],
 ) -> Result<Vec<PartGroup>, RegionMatchError> {
     let mut groups: Vec<PartGroup> = Vec::new();
-    for pair in fixed_pairs(designs, wanted, pins) {
+    for pair in fixed_pairs(designs, settings, pins) {
         let touching = groups.iter_mut().find(|g| {
             Side::BOTH
                 .iter()
@@ -160,58 +172,63 @@ fn said(
                 parts.push(part);
             }
         }
-        let several = group.parts.iter().all(|parts| parts.len() > 1);
-        let split = group.parts.iter().any(|parts| parts.len() > 1);
-        if several || (split && wanted.parts == PartRule::Alone) {
-            let twice = usize::from(group.parts[1].len() == 1 || several);
-            return Err(PairError::Twice(pair[1 - twice]).into());
+        let has_several_on_both = group.parts.iter().all(|parts| parts.len() > 1);
+        let needs_split = group.parts.iter().any(|parts| parts.len() > 1);
+        if has_several_on_both || (needs_split && settings.parts == PartRule::Alone) {
+            let side = usize::from(group.parts[1].len() == 1 || has_several_on_both);
+            return Err(PairError::Twice(pair[1 - side]).into());
         }
     }
     Ok(groups)
 }
 
-/// The parts that are said to have no partner, each in a group of its own; a
-/// pair that is said of a part counts more.
-fn lone(designs: [&Regions; 2], wanted: &MatchSettings, said: &[PartGroup]) -> Vec<PartGroup> {
-    let mut lone: Vec<PartGroup> = Vec::new();
-    for part in &wanted.lone {
+/// Returns the parts that the user declared unmatched, each as a group of its own. Links and pins
+/// take precedence.
+fn declared_unmatched(
+    designs: [&Regions; 2],
+    settings: &MatchSettings,
+    user_groups: &[PartGroup],
+) -> Vec<PartGroup> {
+    let mut unmatched: Vec<PartGroup> = Vec::new();
+    for part in &settings.lone {
         let mut group = PartGroup::default();
         group.parts[part.side].push(part_at(designs[part.side], part.at));
         let is_in = |g: &PartGroup| g.parts[part.side].contains(&group.parts[part.side][0]);
-        if !said.iter().chain(&lone).any(is_in) {
-            lone.push(group);
+        if !user_groups.iter().chain(&unmatched).any(is_in) {
+            unmatched.push(group);
         }
     }
-    lone
+    unmatched
 }
 
-/// Gives the parts that are left over to a group to be split, of those that are
-/// in their coat, or a group of their own.
-fn attach(
+/// Adds each unmatched part to a group that will be split for it, within the same paint layer, or
+/// gives it a group of its own.
+fn assign_unmatched(
     groups: &mut Vec<PartGroup>,
     (designs, looks): ([&Regions; 2], &PartLooks),
     rule: PartRule,
     pairing: &Pairing,
 ) {
-    let splits = match rule {
+    let may_split = match rule {
         PartRule::Auto => designs.iter().any(|design| design.len() == 1),
         PartRule::Split => true,
         PartRule::Alone => false,
     };
-    let places = designs.map(relative_centres);
+    let centres = designs.map(relative_centres);
     let areas = designs.map(|design| design.iter().map(Region::area).collect::<Vec<f64>>());
-    let wholes = areas.each_ref().map(|areas| areas.iter().sum::<f64>());
-    let is_speck = |side: Side, part: usize| {
-        rule == PartRule::Auto && areas[side][part] < SPECK * wholes[side]
+    let total_areas = areas.each_ref().map(|areas| areas.iter().sum::<f64>());
+    let is_too_small = |side: Side, part: usize| {
+        rule == PartRule::Auto && areas[side][part] < MIN_SPLIT_AREA * total_areas[side]
     };
-    for (side, alone) in [
+    for (side, unmatched) in [
         (Side::Source, &pairing.dying),
         (Side::Target, &pairing.born),
     ] {
-        for &part in alone {
-            let may_cut = splits && !is_speck(side, part);
-            let near = may_cut.then(|| nearest_group(groups, (&places, looks), side, part));
-            match near.flatten() {
+        for &part in unmatched {
+            let may_split_for = may_split && !is_too_small(side, part);
+            let nearest =
+                may_split_for.then(|| nearest_group(groups, (&centres, looks), side, part));
+            match nearest.flatten() {
                 Some(group) => groups[group].parts[side].push(part),
                 None => {
                     let mut group = PartGroup::default();
@@ -223,24 +240,29 @@ fn attach(
     }
 }
 
-/// The group whose single part on the other side lies nearest, of those in the
-/// coat of the part that may be cut.
+/// Returns the group whose single part on the other side is nearest to a part. Only groups in the
+/// part's paint layer whose single part may be cut are considered.
 pub(super) fn nearest_group(
     groups: &[PartGroup],
-    (places, looks): (&[Vec<DVec2>; 2], &PartLooks),
+    (centres, looks): (&[Vec<DVec2>; 2], &PartLooks),
     side: Side,
     part: usize,
 ) -> Option<usize> {
-    let here = places[side][part];
-    let coat = |part: usize| looks.coat(side, part);
-    let is_in_coat = |g: &PartGroup| g.parts[side].iter().all(|&own| coat(own) == coat(part));
-    let is_whole = |g: &PartGroup| looks.is_lined(side.other(), g.parts[side.other()][0]);
-    let single = groups
+    let here = centres[side][part];
+    let layer = |part: usize| looks.coat(side, part);
+    let is_same_layer = |g: &PartGroup| {
+        g.parts[side]
+            .iter()
+            .all(|&member| layer(member) == layer(part))
+    };
+    let is_lined = |g: &PartGroup| looks.is_lined(side.other(), g.parts[side.other()][0]);
+    let candidates = groups
         .iter()
         .enumerate()
-        .filter(|(_, g)| g.parts[side.other()].len() == 1 && is_in_coat(g) && !is_whole(g));
-    let far = |g: &PartGroup| places[side.other()][g.parts[side.other()][0]].distance_squared(here);
-    single
-        .min_by(|a, b| far(a.1).total_cmp(&far(b.1)))
+        .filter(|(_, g)| g.parts[side.other()].len() == 1 && is_same_layer(g) && !is_lined(g));
+    let distance =
+        |g: &PartGroup| centres[side.other()][g.parts[side.other()][0]].distance_squared(here);
+    candidates
+        .min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
         .map(|(k, _)| k)
 }

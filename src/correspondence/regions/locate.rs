@@ -1,31 +1,39 @@
-//! Which part and which ring of it a point of a design belongs to.
+//! Finds the part, and the ring of that part, to which a point of a design belongs.
 
 use super::super::{MatchSettings, PointPair};
 use super::region_match::RegionMatchError;
 use crate::geometry::{DVec2, Regions};
 
-/// A ring of a design: the part, and 0 for its outer ring or 1 + k for hole k.
+/// Identifies a ring of a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct RingIndex {
+    /// Index of the part.
     pub(super) part: usize,
+    /// 0 for the part's outer ring, 1 + k for its hole k.
     pub(super) ring: usize,
 }
 
-/// A pin with the rings it lies on, source first.
+/// A pin with the rings that it lies on, source first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LocatedPin {
-    /// Its number among all pins.
+    /// Index among all pins.
     pub(super) index: usize,
     pub(super) on: [RingIndex; 2],
     pub(super) points: [DVec2; 2],
 }
 
-/// Everything that was said is finite.
-pub(super) fn check(wanted: &MatchSettings) -> Result<(), RegionMatchError> {
-    let pairs = wanted.pins.iter().chain(&wanted.links);
-    let cuts = wanted.cuts.iter().map(|cut| [cut.outer, cut.hole]);
-    let lone = wanted.lone.iter().map(|part| [part.at; 2]);
-    let points = pairs.map(|pair| pair.to_array()).chain(cuts).chain(lone);
+/// Checks that all coordinates in the settings are finite.
+///
+/// # Errors
+/// [`RegionMatchError::NotFinite`] with the index among all pins, links, cuts and unmatched parts.
+pub(super) fn check(settings: &MatchSettings) -> Result<(), RegionMatchError> {
+    let pairs = settings.pins.iter().chain(&settings.links);
+    let cuts = settings.cuts.iter().map(|cut| [cut.outer, cut.hole]);
+    let unmatched = settings.lone.iter().map(|part| [part.at; 2]);
+    let points = pairs
+        .map(|pair| pair.to_array())
+        .chain(cuts)
+        .chain(unmatched);
     for (k, pair) in points.enumerate() {
         if !pair.iter().all(|p| p.is_finite()) {
             return Err(RegionMatchError::NotFinite(k));
@@ -34,17 +42,17 @@ pub(super) fn check(wanted: &MatchSettings) -> Result<(), RegionMatchError> {
     Ok(())
 }
 
-/// Each pin with the rings nearest to its ends.
-pub(super) fn pins(wanted: &MatchSettings, designs: [&Regions; 2]) -> Vec<LocatedPin> {
+/// Returns each pin with the rings nearest to its ends.
+pub(super) fn pins(settings: &MatchSettings, designs: [&Regions; 2]) -> Vec<LocatedPin> {
     let located = |(index, pair): (usize, &PointPair)| {
         let points = pair.to_array();
         let on = [0, 1].map(|s| nearest_ring(designs[s], points[s]));
         LocatedPin { index, on, points }
     };
-    wanted.pins.iter().enumerate().map(located).collect()
+    settings.pins.iter().enumerate().map(located).collect()
 }
 
-/// The ring that runs nearest to a point.
+/// Returns the ring nearest to a point; ties go to the first.
 pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingIndex {
     let mut best = (f64::INFINITY, RingIndex { part: 0, ring: 0 });
     for (part, region) in design.iter().enumerate() {
@@ -58,9 +66,10 @@ pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingIndex {
     best.1
 }
 
-/// The part that a point lies in, the uppermost of several; else the nearest.
+/// Returns the part that contains a point, the topmost if there are several, or else the nearest
+/// part.
 pub(super) fn part_at(design: &Regions, p: DVec2) -> usize {
-    // A link is clicked into a part, and in its hole it lies in none.
+    // Containment comes first: a click inside a part may be nearer to another part's boundary.
     let containing = design
         .iter()
         .enumerate()

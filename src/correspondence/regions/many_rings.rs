@@ -1,44 +1,41 @@
-//! Designs of very many rings: what is not tried for them.
+//! Limits on the effort for designs with very many rings.
 //!
-//! Each ring is matched for itself, in time that grows with the square of its
-//! samples, and each hole without a partner could be cut open in dozens of
-//! ways. What an icon deserves is too much for a net of 100 holes: beyond a
-//! crowd the samples of all rings together stay as many as those of a crowd,
-//! holes without a partner close, and the match that was asked for is the only
-//! one.
+//! The time to match a ring grows with the square of its samples, and each unmatched hole could be
+//! cut open in dozens of ways. Above a number of rings, the samples of all rings together are
+//! limited, unmatched holes close, and only the requested match is tried.
 
 use super::super::{HoleRule, MatchOptions};
 use crate::geometry::Regions;
 
-/// Rings in one design from which on they are a crowd: the public icons and
-/// letters have up to 28, but for a net of 72. 100 holes against none took
-/// 40 s as no crowd.
-const CROWD: usize = 32;
+/// Number of rings in one design above which the limits apply (resource limit: almost all icons and
+/// letters have fewer).
+const MAX_RINGS: usize = 32;
 
-/// The fewest samples of a ring: enough for the corners of a letter.
-const LEAST_SAMPLES: u32 = 24;
+/// Minimum number of samples of a ring, enough for the corners of a letter (heuristic).
+const MIN_SAMPLES: u32 = 24;
 
-fn rings(designs: [&Regions; 2]) -> usize {
+/// Returns the number of rings of the design that has more.
+fn max_ring_count(designs: [&Regions; 2]) -> usize {
     let count = |design: &Regions| design.rings().count();
     designs.map(count).into_iter().max().unwrap_or(0)
 }
 
-/// Whether one of the designs has very many rings.
+/// Returns whether one of the designs has very many rings.
 pub(super) fn has_many_rings(designs: [&Regions; 2]) -> bool {
-    rings(designs) > CROWD
+    max_ring_count(designs) > MAX_RINGS
 }
 
-/// How each ring is matched.
+/// Returns the options with which each ring is matched: with many rings, each gets fewer samples.
 pub(super) fn options(options: &MatchOptions, designs: [&Regions; 2]) -> MatchOptions {
-    let rings = rings(designs).max(CROWD);
-    let share = (options.samples as usize * CROWD / rings) as u32;
+    let rings = max_ring_count(designs).max(MAX_RINGS);
+    let share = (options.samples as usize * MAX_RINGS / rings) as u32;
     MatchOptions {
-        samples: share.max(LEAST_SAMPLES.min(options.samples)),
+        samples: share.max(MIN_SAMPLES.min(options.samples)),
         ..options.clone()
     }
 }
 
-/// What becomes of holes without a partner.
+/// Returns the rule for unmatched holes: with many rings, `Auto` means that they close.
 pub(super) fn hole_rule(rule: HoleRule, is_crowd: bool) -> HoleRule {
     match rule {
         HoleRule::Auto if is_crowd => HoleRule::Close,

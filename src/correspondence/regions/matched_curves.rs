@@ -1,5 +1,5 @@
-//! Two closed curves on which it is known what is matched with what, and the
-//! ring that follows: as long as the curves are kept, the match can be moved.
+//! A pair of matched curves and the places (arc-length positions) of their shared vertices. It is
+//! stored with a matched ring, so that the vertices can be moved along the curves later.
 
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::BoundaryCurve;
@@ -8,22 +8,22 @@ use super::super::shared_polygons::SharedPolygons;
 use super::slit_vertices::mirror_slit_vertices;
 use crate::geometry::{DVec2, Side};
 
-/// Two matched curves.
+/// A pair of matched curves with the places of the shared vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MatchedCurves {
     curves: [BoundaryCurve; 2],
+    /// Match of the two curves.
     matched: BoundaryMatch,
-    /// Longest step between vertices, as a share of the mean length.
+    /// Maximum edge length of the shared polygons, in fractions of the curves' mean length.
     spacing: f64,
-    /// For each design the slits that its curve runs along twice.
+    /// For each design, the slits that its curve follows in both directions.
     slits: [Vec<[DVec2; 2]>; 2],
-    /// The places of the ring's vertices, `[source, target]`.
+    /// Places of the ring's vertices, `[source, target]`.
     places: Vec<[f64; 2]>,
 }
 
 impl MatchedCurves {
-    /// Both curves, each with the slits that it runs along, and the vertices
-    /// of the ring along them.
+    /// Creates the pair and the polygons with its shared vertices.
     pub(super) fn new(
         curves: [BoundaryCurve; 2],
         matched: BoundaryMatch,
@@ -32,37 +32,39 @@ impl MatchedCurves {
     ) -> (Self, SharedPolygons) {
         let mut shared = matched.polygons(&curves[0], &curves[1], spacing);
         for side in Side::BOTH {
+            // Both passages of a slit need the same vertices.
             for &slit in &slits[side] {
                 let other = &curves[side.other()];
                 mirror_slit_vertices(&mut shared, side, &curves[side], slit, other);
             }
         }
-        let course = Self {
+        let pair = Self {
             curves,
             matched,
             spacing,
             slits,
             places: shared.places.clone(),
         };
-        (course, shared)
+        (pair, shared)
     }
 
+    /// Returns the two curves, source and target.
     pub(crate) fn curves(&self) -> &[BoundaryCurve; 2] {
         &self.curves
     }
 
-    /// The places of the ring's vertices, `[source, target]`.
+    /// Returns the places of the ring's vertices, `[source, target]`.
     pub(crate) fn places(&self) -> &[[f64; 2]] {
         &self.places
     }
 
-    /// Whether somebody pinned this vertex.
+    /// Returns whether a vertex is a pin.
     pub(crate) fn is_pinned(&self, vertex: usize) -> bool {
         is_pin(&self.matched.pins, self.places[vertex])
     }
 
-    /// The same once its vertices belong to other places, as many as it has
-    /// and near where they were. What would step back is left out, pins never.
+    /// Returns the pair with its vertices at other places, one for each vertex and close to the
+    /// previous ones. Vertices that would break monotonicity are omitted, except pins.
     pub(super) fn moved(&self, places: &[[f64; 2]]) -> (Self, SharedPolygons) {
         let wrapped = |place: &[f64; 2]| [0, 1].map(|side| self.curves[side].wrapped(place[side]));
         let places: Vec<[f64; 2]> = places.iter().map(wrapped).collect();

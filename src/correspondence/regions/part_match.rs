@@ -1,4 +1,4 @@
-//! One part matched with one part, holes and all.
+//! Matches one part with one part, including holes and cuts, to a [`PieceMatch`].
 
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::BoundaryCurve;
@@ -11,38 +11,41 @@ use crate::geometry::{DVec2, Ring, Side};
 use crate::work::progress::{Cancelled, still_wanted};
 use rayon::prelude::*;
 
-/// Longest edge of a shared outline, as a share of the outer one's length.
-/// 80 edges around: fewer bend coarsely on the way, more cost the inside, which
-/// grows with their square.
-const SPACING: f64 = 0.0125;
+/// Maximum edge length of shared outlines, in fractions of the outer ring's length: 80 edges
+/// around. Fewer would bend coarsely; more cost time in the interior, which grows with their square
+/// (heuristic).
+const MAX_EDGE: f64 = 0.0125;
 
-/// A ring has at least so many vertices.
-/// A small hole would be a triangle by the spacing of the whole.
-const LEAST_VERTICES: f64 = 10.0;
+/// Minimum number of vertices of a ring; the spacing alone would turn a small hole into a triangle
+/// (heuristic).
+const MIN_VERTICES: f64 = 10.0;
 
-/// Matches a part with a part.
+/// Matches a part of the source with a part of the target.
+///
+/// # Errors
+/// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.
 pub(super) fn match_part(task: &PartMatchTask) -> Result<PieceMatch, RegionMatchError> {
-    let mut sides = PartMatcher::new(task);
-    let blunt = sides.outer_match()?;
-    let (pairing, cuts) = sides.paired_and_cut(blunt.rotation())?;
-    // The walks are others once they go around holes.
+    let mut matcher = PartMatcher::new(task);
+    let uncut = matcher.outer_match()?;
+    let (pairing, cuts) = matcher.paired_and_cut(uncut.rotation())?;
+    // Cuts change the boundary loops, so these are matched again.
     let outer = if cuts.is_empty() {
-        blunt
+        uncut
     } else {
-        sides.outer_match()?
+        matcher.outer_match()?
     };
-    let mut rings = vec![sides.outer_ring(&outer)?];
+    let mut rings = vec![matcher.outer_ring(&outer)?];
     let holes = pairing.pairs.par_iter().map(|&pair| {
         still_wanted(task.progress)?;
-        sides.hole_ring(pair, outer.rotation())
+        matcher.hole_ring(pair, outer.rotation())
     });
-    // All first: of several failures it is the first in order that is told.
+    // Collected first, so that the reported error does not depend on the order of completion.
     let holes: Vec<Result<RingMatch, RegionMatchError>> = holes.collect();
     for hole in holes {
         rings.push(hole?);
     }
-    let closing = sides.closing_rings(&rings[0], &pairing.pairs, outer.rotation())?;
-    let lone = if task.holes.leaves_alone() {
+    let closing = matcher.closing_rings(&rings[0], &pairing.pairs, outer.rotation())?;
+    let transient = if task.holes.leaves_alone() {
         closing
     } else {
         rings.extend(closing);
@@ -50,17 +53,18 @@ pub(super) fn match_part(task: &PartMatchTask) -> Result<PieceMatch, RegionMatch
     };
     Ok(PieceMatch {
         rings,
-        lone,
+        lone: transient,
         source_part: Some(task.parts[0]),
         target_part: Some(task.parts[1]),
         cuts,
         rotation: outer.rotation(),
         cost: outer.cost(),
-        notes: sides.notes,
+        notes: matcher.notes,
     })
 }
 
 impl PartMatcher<'_> {
+    /// Returns the matched outer ring with shared vertices.
     fn outer_ring(&self, matched: &BoundaryMatch) -> Result<RingMatch, RegionMatchError> {
         let curves = self.curves()?;
         let slits = Side::BOTH.map(|side| self.walks[side].slits.clone());
@@ -68,8 +72,8 @@ impl PartMatcher<'_> {
         Ok(RingMatch::along(course))
     }
 
-    /// Two holes that belong together. Where their form leaves the rotation
-    /// open, they turn with their part.
+    /// Matches two paired holes. They are rotated like their parts, which decides the rotation of
+    /// holes whose shape leaves it open.
     fn hole_ring(&self, [a, b]: [usize; 2], rotation: f64) -> Result<RingMatch, RegionMatchError> {
         let holes = [
             &self.task.regions[0].holes[a],
@@ -81,20 +85,22 @@ impl PartMatcher<'_> {
             let (turn, middle) = (DVec2::from_angle(by), centre(ring));
             curve(&ring.mapped(|p| turn.rotate(p - middle)))
         };
-        // Half of the turn each, so that the way back is the same to the last bit.
+        // Each side is rotated by half, so that the reverse match is the same bit by bit.
         let posed = [
             turned(holes[0], 0.5 * rotation)?,
             turned(holes[1], -0.5 * rotation)?,
         ];
         let is_here = |pin: &PartPin| pin.rings == [a + 1, b + 1];
         let matched = self.matched(is_here, &curves, &posed)?;
-        let share = |side: Side| holes[side].perimeter() / self.walks[side].ring.perimeter();
-        let spacing = spacing(0.5 * (share(Side::Source) + share(Side::Target)));
+        let [a, b] =
+            Side::BOTH.map(|side| holes[side].perimeter() / self.walks[side].ring.perimeter());
+        let spacing = spacing(0.5 * (a + b));
         let course = MatchedCurves::new(curves, matched, spacing, [vec![], vec![]]);
         Ok(RingMatch::along(course))
     }
 
-    /// What is alone and was not opened closes to a point.
+    /// Returns a ring for each unmatched hole that was not cut open: it closes to a point, or opens
+    /// from one.
     fn closing_rings(
         &self,
         around: &RingMatch,
@@ -107,6 +113,7 @@ impl PartMatcher<'_> {
             if holes.len() == pairs.len() {
                 continue;
             }
+            // Holes close in the part of the other design.
             let mut room = FreeSpace::of(self.task.regions[side.other()]);
             for (number, hole) in numbers.into_iter().zip(holes) {
                 if pairs.iter().any(|pair| pair[side] == number) {
@@ -127,20 +134,21 @@ impl PartMatcher<'_> {
         Ok(rings)
     }
 
-    /// The ring with its long edges divided.
+    /// Returns the ring with its long edges divided.
     fn divided(&self, side: Side, ring: &Ring) -> Ring {
         let outer = self.walks[side].ring.perimeter();
-        let longest = (SPACING * outer).min(ring.perimeter() / LEAST_VERTICES);
+        let longest = (MAX_EDGE * outer).min(ring.perimeter() / MIN_VERTICES);
         let mut points = Vec::new();
         for (a, b) in ring.edges() {
-            let pieces = (a.distance(b) / longest).ceil().clamp(1.0, 1e4) as u32;
-            points.extend((0..pieces).map(|k| a.lerp(b, f64::from(k) / f64::from(pieces))));
+            let count = (a.distance(b) / longest).ceil().clamp(1.0, 1e4) as u32;
+            points.extend((0..count).map(|k| a.lerp(b, f64::from(k) / f64::from(count))));
         }
         Ring::new(points).unwrap_or_else(|_| ring.clone())
     }
 }
 
-/// How far apart vertices are on a ring that is `share` as long as the outer one.
-fn spacing(share: f64) -> f64 {
-    (SPACING / share).min(1.0 / LEAST_VERTICES)
+/// Returns the maximum edge length of a ring, in fractions of its own length. `relative_length` is
+/// the ratio of its length to that of the outer ring.
+fn spacing(relative_length: f64) -> f64 {
+    (MAX_EDGE / relative_length).min(1.0 / MIN_VERTICES)
 }

@@ -1,5 +1,8 @@
-//! Both parts on the way to being matched: which holes their walks go around
-//! by now, and which pins lie on what.
+//! Working state while one part is matched with another: the boundary loops of both, the holes cut
+//! open so far, and the pins on each ring.
+//!
+//! Decides which holes are paired, which are cut open and which close, and matches the resulting
+//! outer boundaries.
 
 use super::super::boundary::match_curves;
 use super::super::boundary_match::BoundaryMatch;
@@ -14,74 +17,77 @@ use super::slit_boundary::SlitBoundary;
 use crate::geometry::{DVec2, Region, Ring, Side};
 use crate::work::progress::{Progress, still_wanted};
 
-/// What it costs a match to close a hole, in its length over the outer one's.
-/// For a hole as long as the outer boundary it is between what two poses of a
-/// thing cost as matched, up to 0.3, and what unlike things do, 0.4 and more.
-const CLOSING_PRICE: f64 = 0.35;
+/// Cost of closing a hole, times the ratio of its length to that of the outer boundary. For a hole
+/// as long as the outer boundary it lies between the match costs of two poses of one shape (up to
+/// 0.3) and of dissimilar shapes (0.4 and more) (heuristic).
+const CLOSING_COST: f64 = 0.35;
 
-/// What is done with the holes of two parts.
+/// Treatment of the holes of two parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum HolePolicy {
-    /// They are paired, and what is left is treated by a rule.
+    /// Holes are paired; unmatched ones follow a rule.
     By(HoleRule),
-    /// None of them is paired; all are alone.
+    /// No holes are paired, except by pins; all others are unmatched and excluded from the piece.
     Unpaired,
 }
 
 impl HolePolicy {
-    /// Whether a ring may be cut open.
+    /// Returns whether rings may be cut open.
     fn cuts(self) -> bool {
         matches!(self, Self::By(HoleRule::Auto | HoleRule::Cut))
     }
 
-    /// Whether holes without a partner are no part of the piece.
+    /// Returns whether unmatched holes are excluded from the piece.
     pub(super) fn leaves_alone(self) -> bool {
         matches!(self, Self::By(HoleRule::Alone) | Self::Unpaired)
     }
 }
 
-/// What was said of one part and its partner.
+/// A part of the source and a part of the target to match, with the settings that apply to them.
 pub(super) struct PartMatchTask<'a> {
-    /// Source and target.
+    /// The two parts, source and target.
     pub(super) regions: [&'a Region; 2],
-    /// Their numbers.
+    /// Indices of the two parts.
     pub(super) parts: [usize; 2],
-    /// Number and points of each pin on them.
+    /// Index and points of each pin on these parts.
     pub(super) pins: Vec<(usize, [DVec2; 2])>,
-    /// Number of each cut through one of them.
+    /// Index of each cut through one of these parts, with the cut.
     pub(super) cuts: Vec<(usize, RingCut)>,
     pub(super) holes: HolePolicy,
     pub(super) options: MatchOptions,
     pub(super) progress: &'a dyn Progress,
 }
 
-/// A pin with the rings it lies on.
+/// A pin with the rings that it lies on.
 pub(super) struct PartPin {
+    /// Index among all pins.
     pub(super) index: usize,
-    /// In each design 0 for the outer one, 1 + k for hole k.
+    /// Ring in each design: 0 for the outer ring, 1 + k for hole k.
     pub(super) rings: [usize; 2],
     points: [DVec2; 2],
 }
 
-/// Both parts on the way to being matched.
+/// Working state of the match of two parts.
 pub(super) struct PartMatcher<'a> {
+    /// Outer boundary loops of both parts, including the slits cut so far.
     pub(super) walks: [SlitBoundary; 2],
-    /// For each side which of its holes the walk goes around by now.
+    /// Holes of each side that its boundary loop runs around, because they were cut open.
     opened: [Vec<usize>; 2],
     pub(super) pins: Vec<PartPin>,
-    /// What was not done as it was asked for.
+    /// Requests that could not be fulfilled.
     pub(super) notes: Vec<MatchNote>,
     pub(super) task: &'a PartMatchTask<'a>,
 }
 
 impl PartPin {
-    /// Whether it ties a hole of one side to the outer ring across.
+    /// Returns whether the pin ties a hole of `side` to the outer ring of the other.
     fn is_across(&self, side: Side) -> bool {
         self.rings[side] > 0 && self.rings[side.other()] == 0
     }
 }
 
 impl<'a> PartMatcher<'a> {
+    /// Starts with plain outer boundaries and locates the pins.
     pub(super) fn new(task: &'a PartMatchTask<'a>) -> Self {
         let nearest = |side: Side, p: DVec2| {
             let distances = task.regions[side]
@@ -90,7 +96,7 @@ impl<'a> PartMatcher<'a> {
             let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
             nearest.map_or(0, |(ring, _)| ring)
         };
-        let pin = |&(index, points): &(usize, [DVec2; 2])| PartPin {
+        let located = |&(index, points): &(usize, [DVec2; 2])| PartPin {
             index,
             rings: Side::BOTH.map(|side| nearest(side, points[side])),
             points,
@@ -98,13 +104,16 @@ impl<'a> PartMatcher<'a> {
         Self {
             walks: task.regions.map(SlitBoundary::around),
             opened: [Vec::new(), Vec::new()],
-            pins: task.pins.iter().map(pin).collect(),
+            pins: task.pins.iter().map(located).collect(),
             notes: Vec::new(),
             task,
         }
     }
 
-    /// For each side the holes that a pin ties to the other's outer ring.
+    /// Returns for each side the holes that a pin ties to the other side's outer ring, ascending.
+    ///
+    /// # Errors
+    /// [`RegionMatchError::PinAcross`] if the holes are to close.
     fn pins_across(&self) -> Result<[Vec<usize>; 2], RegionMatchError> {
         let mut across = [Vec::new(), Vec::new()];
         for pin in &self.pins {
@@ -123,37 +132,41 @@ impl<'a> PartMatcher<'a> {
         Ok(across)
     }
 
-    /// For each side the cuts that were asked for: number, hole, ends.
-    fn asked_cuts(&self) -> [Vec<(usize, usize, [DVec2; 2])>; 2] {
+    /// Returns for each side the requested cuts: index, hole and ends. Each hole is cut at most
+    /// once.
+    fn requested_cuts(&self) -> [Vec<(usize, usize, [DVec2; 2])>; 2] {
         Side::BOTH.map(|side| {
             let region = self.task.regions[side];
-            let here = self.task.cuts.iter().filter(|(_, cut)| cut.side == side);
-            let mut asked: Vec<(usize, usize, [DVec2; 2])> = Vec::new();
-            for &(number, cut) in here {
-                let far = |ring: &Ring| ring.distance_squared(cut.hole);
-                let holes = region.holes.iter().map(far).enumerate();
+            let on_side = self.task.cuts.iter().filter(|(_, cut)| cut.side == side);
+            let mut requested: Vec<(usize, usize, [DVec2; 2])> = Vec::new();
+            for &(number, cut) in on_side {
+                let distance = |ring: &Ring| ring.distance_squared(cut.hole);
+                let holes = region.holes.iter().map(distance).enumerate();
                 let nearest = holes.min_by(|a, b| a.1.total_cmp(&b.1));
                 if let Some((hole, _)) = nearest
-                    && asked.iter().all(|other| other.1 != hole)
+                    && requested.iter().all(|other| other.1 != hole)
                 {
-                    asked.push((number, hole, [cut.outer, cut.hole]));
+                    requested.push((number, hole, [cut.outer, cut.hole]));
                 }
             }
-            asked
+            requested
         })
     }
 
-    /// Pairs the holes, and opens those that are to be, or had better be,
-    /// gone around.
+    /// Pairs the holes, and cuts rings open where that is requested or matches better than closing
+    /// the hole. Returns the pairs and the cuts made.
+    ///
+    /// # Errors
+    /// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.
     pub(super) fn paired_and_cut(
         &mut self,
         rotation: f64,
     ) -> Result<(Pairing, Vec<RingCut>), RegionMatchError> {
         let across = self.pins_across()?;
-        let asked = self.asked_cuts();
+        let requested = self.requested_cuts();
         let taken = Side::BOTH.map(|side| {
             let mut taken: Vec<usize> = across[side].clone();
-            taken.extend(asked[side].iter().map(|&(_, hole, _)| hole));
+            taken.extend(requested[side].iter().map(|&(_, hole, _)| hole));
             taken.sort_unstable();
             taken.dedup();
             taken
@@ -163,7 +176,7 @@ impl<'a> PartMatcher<'a> {
         let taken = [&taken[0][..], &taken[1]];
         let pairing = match self.task.holes {
             HolePolicy::By(_) => pair_holes(source, target, rotation, &fixed, taken)?,
-            // None but those that somebody pinned.
+            // Only holes that pins tie together are paired.
             HolePolicy::Unpaired => Pairing {
                 pairs: fixed,
                 ..Pairing::default()
@@ -171,13 +184,14 @@ impl<'a> PartMatcher<'a> {
         };
         let mut cuts: Vec<(Side, [DVec2; 2])> = Vec::new();
         for side in Side::BOTH {
-            for &(number, hole, ends) in &asked[side] {
-                let slit = self.open_asked(side, hole, ends);
+            for &(number, hole, ends) in &requested[side] {
+                let slit = self.open_requested(side, hole, ends);
                 cuts.push((side, slit.ok_or(RegionMatchError::Cut(number))?));
             }
-            let alone = [&pairing.dying, &pairing.born][side];
-            // Each cut changes the walk: the largest hole matters most to it.
-            for hole in self.largest_first(side, alone) {
+            let unmatched = [&pairing.dying, &pairing.born][side];
+            // Each cut changes the boundary loop, so the largest hole, which matters most, is cut
+            // first.
+            for hole in self.largest_first(side, unmatched) {
                 let slit = self.open_if_better(side, hole, false);
                 still_wanted(self.task.progress)?;
                 cuts.extend(slit.map(|ends| (side, ends)));
@@ -194,6 +208,7 @@ impl<'a> PartMatcher<'a> {
         Ok((pairing, cuts.into_iter().map(cut).collect()))
     }
 
+    /// Returns the pairs of holes that pins tie together, without the holes in `taken`.
     fn pinned_holes(&self, taken: &[Vec<usize>; 2]) -> Vec<[usize; 2]> {
         let mut fixed: Vec<[usize; 2]> = self
             .pins
@@ -207,72 +222,76 @@ impl<'a> PartMatcher<'a> {
         fixed
     }
 
+    /// Returns the holes sorted by area, largest first.
     fn largest_first(&self, side: Side, holes: &[usize]) -> Vec<usize> {
         let area = |hole: usize| self.task.regions[side].holes[hole].signed_area();
         let mut holes = holes.to_vec();
-        holes.sort_by(|&a, &b| area(a).total_cmp(&area(b))); // clockwise: negative
+        // Holes are clockwise, so their areas are negative.
+        holes.sort_by(|&a, &b| area(a).total_cmp(&area(b)));
         holes
     }
 
-    /// The holes that the walk does not go around, with their numbers.
+    /// Returns the holes that are not cut open, with their indices.
     pub(super) fn closed_holes(&self, side: Side) -> (Vec<usize>, Vec<&'a Ring>) {
         let holes = self.task.regions[side].holes.iter().enumerate();
         let closed = holes.filter(|(k, _)| !self.opened[side].contains(k));
         closed.unzip()
     }
 
-    fn open_asked(&mut self, side: Side, hole: usize, ends: [DVec2; 2]) -> Option<[DVec2; 2]> {
+    /// Cuts a hole open near the requested ends. Returns the slit, or `None` if no such slit is
+    /// possible.
+    fn open_requested(&mut self, side: Side, hole: usize, ends: [DVec2; 2]) -> Option<[DVec2; 2]> {
         let (numbers, holes) = self.closed_holes(side);
-        let at = numbers.iter().position(|&k| k == hole)?;
-        let slit = self.walks[side].slit(&holes, at, ends[0], ends[1])?;
-        self.walks[side] = self.walks[side].opened(holes[at], &slit)?;
+        let index = numbers.iter().position(|&k| k == hole)?;
+        let slit = self.walks[side].slit(&holes, index, ends[0], ends[1])?;
+        self.walks[side] = self.walks[side].opened(holes[index], &slit)?;
         self.opened[side].push(hole);
         Some(slit.ends)
     }
 
-    /// Opens a hole where the rules say so, or where that matches better than
-    /// closing it.
+    /// Cuts a hole open if the rule or a pin (`forced`) demands it, or if that matches better than
+    /// closing it. Returns the slit, if any.
     fn open_if_better(&mut self, side: Side, hole: usize, forced: bool) -> Option<[DVec2; 2]> {
         let rule = self.task.holes;
         if !rule.cuts() && !forced {
             return None;
         }
         let (numbers, holes) = self.closed_holes(side);
-        let at = numbers.iter().position(|&k| k == hole)?;
-        // Both walks were measured when they were matched as they are.
+        let index = numbers.iter().position(|&k| k == hole)?;
+        // Lengths were already checked when the boundaries were matched, so this succeeds.
         let other = self.walks[side.other()].curve().ok()?;
         let (options, progress) = (&self.along_boundary(), self.task.progress);
-        let best = ring_cut::best_cut(&self.walks[side], &holes, at, &other, options, progress);
-        let Some(opened) = best else {
-            self.tell_uncut(side, hole, forced);
+        let found = ring_cut::best_cut(&self.walks[side], &holes, index, &other, options, progress);
+        let Some(candidate) = found else {
+            self.note_uncut(side, hole, forced);
             return None;
         };
-        // Both costs are of coarse matches, so that they compare.
+        // Both costs are of coarse matches and therefore comparable.
         if rule == HolePolicy::By(HoleRule::Auto) && !forced {
-            let blunt = self.coarse_cost(side, &other)?;
-            let share = holes[at].perimeter() / self.walks[side].ring.perimeter();
-            if blunt + CLOSING_PRICE * share <= opened.cost {
+            let closed_cost = self.coarse_cost(side, &other)?;
+            let length_ratio = holes[index].perimeter() / self.walks[side].ring.perimeter();
+            if closed_cost + CLOSING_COST * length_ratio <= candidate.cost {
                 return None;
             }
         }
-        self.walks[side] = opened.walk;
+        self.walks[side] = candidate.walk;
         self.opened[side].push(hole);
-        Some(opened.slit.ends)
+        Some(candidate.slit.ends)
     }
 
-    /// Notes that a hole closes although it was to be cut open, and which pin
-    /// that leaves out.
-    fn tell_uncut(&mut self, side: Side, hole: usize, forced: bool) {
+    /// Notes that a hole closes although it should have been cut open, and which pins are ignored
+    /// for that reason.
+    fn note_uncut(&mut self, side: Side, hole: usize, forced: bool) {
         let part = self.task.parts[side];
         if forced || self.task.holes == HolePolicy::By(HoleRule::Cut) {
             self.notes.push(MatchNote::Uncut { side, part, hole });
         }
-        let lost = |pin: &&PartPin| forced && pin.is_across(side) && pin.rings[side] == hole + 1;
-        let pins = self.pins.iter().filter(lost).map(|pin| pin.index);
+        let is_lost = |pin: &&PartPin| forced && pin.is_across(side) && pin.rings[side] == hole + 1;
+        let pins = self.pins.iter().filter(is_lost).map(|pin| pin.index);
         self.notes.extend(pins.map(MatchNote::PinLeftOut));
     }
 
-    /// How matches that are many are tried: by the boundary alone.
+    /// Returns the options for trial matches: without inner distances, which take longer.
     fn along_boundary(&self) -> MatchOptions {
         MatchOptions {
             inner: 0.0,
@@ -280,6 +299,7 @@ impl<'a> PartMatcher<'a> {
         }
     }
 
+    /// Returns the cost of a coarse match of one side's boundary with the other curve.
     fn coarse_cost(&self, side: Side, other: &BoundaryCurve) -> Option<f64> {
         let curve = self.walks[side].curve().ok()?;
         let coarse = ring_cut::coarse_options(&self.along_boundary());
@@ -287,45 +307,47 @@ impl<'a> PartMatcher<'a> {
         Some(matched.cost())
     }
 
+    /// Returns the curves along both boundary loops.
     pub(super) fn curves(&self) -> Result<[BoundaryCurve; 2], RegionMatchError> {
         let curve = |side: Side| self.walks[side].curve().map_err(MatchError::from);
         Ok([curve(Side::Source)?, curve(Side::Target)?])
     }
 
-    /// The match of the walks as they are now.
+    /// Matches the outer boundary loops as they are now, with all pins on them.
     pub(super) fn outer_match(&self) -> Result<BoundaryMatch, RegionMatchError> {
         let curves = self.curves()?;
         let is_outer =
             |side: Side, ring: usize| ring == 0 || self.opened[side].contains(&(ring - 1));
-        let is_here =
+        let is_on_both =
             |pin: &PartPin| (Side::BOTH.into_iter()).all(|side| is_outer(side, pin.rings[side]));
-        self.matched(is_here, &curves, &curves)
+        self.matched(is_on_both, &curves, &curves)
     }
 
-    /// Matches two curves with some of the pins on them as they lie, and names
-    /// pins by their numbers among all.
+    /// Matches two curves with the pins that satisfy `is_here`. Pins are located on the `located`
+    /// curves, which have the same places. Errors refer to pins by their indices among all pins.
     pub(super) fn matched(
         &self,
         is_here: impl Fn(&PartPin) -> bool,
-        lying: &[BoundaryCurve; 2],
+        located: &[BoundaryCurve; 2],
         [source, target]: &[BoundaryCurve; 2],
     ) -> Result<BoundaryMatch, RegionMatchError> {
         let pins: Vec<&PartPin> = self.pins.iter().filter(|pin| is_here(pin)).collect();
-        let place = |pin: &&PartPin| Pin::of(|side| lying[side].nearest(pin.points[side]));
+        let place = |pin: &&PartPin| Pin::of(|side| located[side].nearest(pin.points[side]));
         let places: Vec<Pin> = pins.iter().map(place).collect();
-        let number = |k: usize| pins.get(k).map_or(k, |pin| pin.index);
+        let index_of = |k: usize| pins.get(k).map_or(k, |pin| pin.index);
         let matched = match_curves(source, target, &places, &self.task.options);
         matched.map_err(|error| match error {
-            MatchError::Pins(error) => RegionMatchError::Pins(renumbered(error, number)),
+            MatchError::Pins(error) => RegionMatchError::Pins(renumbered(error, index_of)),
             error => RegionMatchError::Match(error),
         })
     }
 }
 
-fn renumbered(error: PinError, number: impl Fn(usize) -> usize) -> PinError {
+/// Replaces local pin indices in an error with indices among all pins.
+fn renumbered(error: PinError, index_of: impl Fn(usize) -> usize) -> PinError {
     match error {
-        PinError::NotFinite(k) => PinError::NotFinite(number(k)),
-        PinError::SamePoint(a, b) => PinError::SamePoint(number(a), number(b)),
-        PinError::Crossing(a, b) => PinError::Crossing(number(a), number(b)),
+        PinError::NotFinite(k) => PinError::NotFinite(index_of(k)),
+        PinError::SamePoint(a, b) => PinError::SamePoint(index_of(a), index_of(b)),
+        PinError::Crossing(a, b) => PinError::Crossing(index_of(a), index_of(b)),
     }
 }

@@ -1,5 +1,5 @@
-//! Two designs on the way to being matched: all that is settled before the
-//! prices of a match are, so that several matches share it.
+//! Prepares the match of two designs: groups their parts and splits those that need it. The result
+//! is independent of the match options, so that several matches can share it.
 
 use super::super::{MatchOptions, MatchSettings, RingCut};
 use super::closing::{centre, shrunk};
@@ -18,27 +18,29 @@ use crate::geometry::{DVec2, Region, Regions, Ring, Side, SourceTarget};
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, checkpoint, still_wanted};
 use rayon::prelude::*;
 
-/// How much of the work is done once parts are paired and split, as it is told.
+/// Fraction of the progress bar reached once parts are paired and split.
 const PREPARED: f64 = 0.2;
 
-/// Two designs with their parts in groups, and split where they are to be.
+/// Two designs with their parts grouped and, where needed, split.
 #[derive(Clone)]
 pub(crate) struct MatchPlan<'a> {
     pub(super) designs: [&'a Regions; 2],
+    /// Looks of the parts.
     looks: &'a PartLooks,
     pub(super) wanted: &'a MatchSettings,
-    /// Parts that somebody linked or pinned to each other.
+    /// Pairs of parts that the user linked or pinned.
     pub(super) said: Vec<[usize; 2]>,
+    /// Pins with the rings that they lie on.
     pins: Vec<LocatedPin>,
     parts: [DesignParts<'a>; 2],
     pub(super) groups: Vec<PartGroup>,
-    /// For each group the pieces that its single part is cut into; none where
-    /// it is not cut.
+    /// For each group, the pieces into which its single part is cut; `None` if it is not cut.
     pub(super) pieces: Vec<Option<Vec<Region>>>,
+    /// Whether a design has so many rings that effort is limited.
     is_crowd: bool,
 }
 
-/// The parts of a design, and their centres.
+/// Parts of a design, with their centres.
 #[derive(Clone)]
 struct DesignParts<'a> {
     regions: Vec<&'a Region>,
@@ -55,8 +57,11 @@ impl<'a> DesignParts<'a> {
 }
 
 impl<'a> MatchPlan<'a> {
-    /// Pairs the parts, by how they look besides, and splits those that become
+    /// Pairs the parts by position, shape and look, and splits each part that is matched with
     /// several.
+    ///
+    /// # Errors
+    /// [`RegionMatchError`] for settings that contradict each other, or if the work is cancelled.
     pub(crate) fn new(
         designs: [&'a Regions; 2],
         looks: &'a PartLooks,
@@ -65,7 +70,7 @@ impl<'a> MatchPlan<'a> {
     ) -> Result<Self, RegionMatchError> {
         locate::check(wanted)?;
         let pins = locate::pins(wanted, designs);
-        let mut prepared = Self {
+        let mut plan = Self {
             groups: grouped(designs, looks, wanted, &pins)?,
             said: fixed_pairs(designs, wanted, &pins),
             parts: designs.map(DesignParts::of),
@@ -76,38 +81,38 @@ impl<'a> MatchPlan<'a> {
             pins,
             pieces: Vec::new(),
         };
-        let groups = prepared.groups.par_iter();
-        prepared.pieces = groups
-            .map(|group| prepared.split(group, progress))
-            .collect();
+        let groups = plan.groups.par_iter();
+        plan.pieces = groups.map(|group| plan.split(group, progress)).collect();
         still_wanted(progress)?;
-        Ok(prepared)
+        Ok(plan)
     }
 
-    /// Takes groups with the pieces that each is cut into, in their order.
+    /// Replaces the groups and their pieces, sorted canonically.
     pub(super) fn set_groups(&mut self, mut groups: Vec<(PartGroup, Option<Vec<Region>>)>) {
         groups.sort_by_key(|(group, _)| group.key());
         (self.groups, self.pieces) = groups.into_iter().unzip();
     }
 
-    /// Whether a line runs along any part of a group, in which no cut may be seen.
+    /// Returns whether a line is drawn along any part of a group; a cut through such a part would
+    /// be visible.
     pub(crate) fn is_lined(&self, group: usize) -> bool {
         let parts = &self.groups[group].parts;
         let is_lined = |side: Side| parts[side].iter().any(|&k| self.looks.is_lined(side, k));
         Side::BOTH.into_iter().any(is_lined)
     }
 
-    /// How the parts look.
+    /// Returns the looks of the parts.
     pub(crate) fn looks(&self) -> &'a PartLooks {
         self.looks
     }
 
-    /// Whether there are so many rings that only one match is worth its time.
+    /// Returns whether a design has so many rings that only one match is tried.
     pub(crate) fn is_crowd(&self) -> bool {
         self.is_crowd
     }
 
-    /// The pieces of a group in which one part becomes several.
+    /// Cuts the single part of a group into a piece for each part on the other side. Returns `None`
+    /// for other groups, or if no cut is found.
     pub(super) fn split(&self, group: &PartGroup, progress: &dyn Progress) -> Option<Vec<Region>> {
         let regions = self.regions(group);
         match [&regions[0][..], &regions[1][..]] {
@@ -119,11 +124,12 @@ impl<'a> MatchPlan<'a> {
         }
     }
 
-    /// What the outer ring of a part encloses.
+    /// Returns the area enclosed by the outer ring of a part, including its holes.
     pub(super) fn area(&self, side: Side, part: usize) -> f64 {
         self.parts[side].regions[part].outer.signed_area()
     }
 
+    /// Returns the regions of a group's parts, source and target.
     fn regions(&self, group: &PartGroup) -> [Vec<&'a Region>; 2] {
         Side::BOTH.map(|side| {
             let parts = group.parts[side].iter();
@@ -131,24 +137,28 @@ impl<'a> MatchPlan<'a> {
         })
     }
 
+    /// Returns the groups of parts.
     pub(crate) fn groups(&self) -> &[PartGroup] {
         &self.groups
     }
 
-    /// The match at these prices.
+    /// Matches all groups with the given options.
+    ///
+    /// # Errors
+    /// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.
     pub(crate) fn matched(
         &self,
         options: &MatchOptions,
         progress: &dyn Progress,
     ) -> Result<RegionMatch, RegionMatchError> {
         checkpoint(progress, "matching", PREPARED)?;
-        let rest = ProgressSpan::new(progress, PREPARED, 1.0);
-        let shares = ProgressShares::new(&rest, self.groups.len());
+        let remaining = ProgressSpan::new(progress, PREPARED, 1.0);
+        let shares = ProgressShares::new(&remaining, self.groups.len());
         let groups = (0..self.groups.len()).into_par_iter();
         let holes = HolePolicy::By(many_rings::hole_rule(self.wanted.holes, self.is_crowd));
         let pieces =
             groups.map(|group| self.matched_group(group, options, holes, &shares.part(group)));
-        // All first: of several failures it is the first in order that is told.
+        // Collected first, so that the reported error does not depend on the order of completion.
         let pieces: Vec<Result<Vec<PieceMatch>, RegionMatchError>> = pieces.collect();
         let pieces: Vec<_> = pieces.into_iter().collect::<Result<_, _>>()?;
         Ok(RegionMatch {
@@ -156,8 +166,11 @@ impl<'a> MatchPlan<'a> {
         })
     }
 
-    /// The pieces that the group of this number becomes at these prices, in an
-    /// order that does not depend on them.
+    /// Matches one group with the given options. The order of its pieces does not depend on the
+    /// options.
+    ///
+    /// # Errors
+    /// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.
     pub(crate) fn matched_group(
         &self,
         group: usize,
@@ -167,13 +180,14 @@ impl<'a> MatchPlan<'a> {
     ) -> Result<Vec<PieceMatch>, RegionMatchError> {
         let options = many_rings::options(options, self.designs);
         let cut = self.pieces[group].as_deref();
-        let pieces = self.pieces_of(&self.groups[group], cut, (&options, holes), progress)?;
+        let group = &self.groups[group];
+        let pieces = self.match_group_pieces(group, cut, (&options, holes), progress)?;
         checkpoint(progress, "matching", 1.0)?;
         Ok(pieces)
     }
 
-    /// The pieces that a group becomes.
-    fn pieces_of(
+    /// Matches the parts of a group, or the pieces in `cut`.
+    fn match_group_pieces(
         &self,
         group: &PartGroup,
         cut: Option<&[Region]>,
@@ -195,42 +209,46 @@ impl<'a> MatchPlan<'a> {
         };
         let (one, several, side) = match [&regions[0][..], &regions[1][..]] {
             [[a], [b]] => return Ok(vec![task([a, b], [group.parts[0][0], group.parts[1][0]])?]),
-            [[_], []] => return Ok(vec![self.alone(Side::Source, group.parts[0][0])]),
-            [[], [_]] => return Ok(vec![self.alone(Side::Target, group.parts[1][0])]),
+            [[_], []] => return Ok(vec![self.unmatched_piece(Side::Source, group.parts[0][0])]),
+            [[], [_]] => return Ok(vec![self.unmatched_piece(Side::Target, group.parts[1][0])]),
             [[one], several] => (one, several, Side::Source),
             [several, [one]] => (one, several, Side::Target),
             _ => return Ok(Vec::new()),
         };
-        // Pieces come in the order of the parts that they become.
+        // The pieces are in the order of the parts that they match.
         let others = &group.parts[side.other()];
-        let piece = |k: usize, piece: &Region| {
+        let match_piece = |k: usize, piece: &Region| {
             let regions = SourceTarget::on(side, piece, several[k]);
             let parts = SourceTarget::on(side, group.parts[side][0], others[k]);
             task(regions.to_array(), parts.to_array())
         };
         let Some(cut) = cut else {
-            let mut first = piece(0, one)?;
+            let mut first = match_piece(0, one)?;
             let part = group.parts[side][0];
             first.notes.push(MatchNote::Unsplit { side, part });
-            let rest = others[1..].iter().map(|&k| self.alone(side.other(), k));
+            let rest = others[1..]
+                .iter()
+                .map(|&k| self.unmatched_piece(side.other(), k));
             return Ok(std::iter::once(first).chain(rest).collect());
         };
         let shares = ProgressShares::new(progress, cut.len());
         let pieces = cut.par_iter().enumerate().map(|(k, cut)| {
-            let found = piece(k, cut)?;
+            let matched = match_piece(k, cut)?;
             checkpoint(&shares.part(k), "matching", 1.0)?;
-            Ok(found)
+            Ok(matched)
         });
         let pieces: Vec<Result<PieceMatch, RegionMatchError>> = pieces.collect();
         pieces.into_iter().collect()
     }
 
+    /// Returns the index and points of each pin on a pair of parts.
     fn pins_of(&self, parts: [usize; 2]) -> Vec<(usize, [DVec2; 2])> {
         let here = |pin: &&LocatedPin| pin.on.map(|at| at.part) == parts;
         let pins = self.pins.iter().filter(here);
         pins.map(|pin| (pin.index, pin.points)).collect()
     }
 
+    /// Returns the index of each cut through one of two parts, with the cut.
     fn cuts_of(&self, parts: [usize; 2]) -> Vec<(usize, RingCut)> {
         let here =
             |cut: &RingCut| nearest_ring(self.designs[cut.side], cut.hole).part == parts[cut.side];
@@ -238,16 +256,16 @@ impl<'a> MatchPlan<'a> {
         cuts.filter(|(_, cut)| here(cut)).collect()
     }
 
-    /// A part that dies into a point, or is born from one: where it stands,
-    /// moved along with its nearest neighbour.
-    fn alone(&self, side: Side, part: usize) -> PieceMatch {
+    /// Returns the piece of an unmatched part: in the other design it is a point that is displaced
+    /// like its nearest matched neighbour.
+    fn unmatched_piece(&self, side: Side, part: usize) -> PieceMatch {
         let here = self.parts[side].centres[part];
         let mut nearest = (f64::INFINITY, DVec2::ZERO);
         for group in &self.groups {
-            for &own in &group.parts[side] {
-                let a = self.parts[side].centres[own];
-                for &other in &group.parts[side.other()] {
-                    let b = self.parts[side.other()].centres[other];
+            for &neighbour in &group.parts[side] {
+                let a = self.parts[side].centres[neighbour];
+                for &partner in &group.parts[side.other()] {
+                    let b = self.parts[side.other()].centres[partner];
                     if a.distance_squared(here) < nearest.0 {
                         nearest = (a.distance_squared(here), b - a);
                     }
@@ -257,7 +275,7 @@ impl<'a> MatchPlan<'a> {
         let region = self.parts[side].regions[part];
         let parts = SourceTarget::on(side, Some(part), None);
         PieceMatch {
-            rings: point_like(region, side, here, nearest.1),
+            rings: transient_rings(region, side, here, nearest.1),
             source_part: parts.source,
             target_part: parts.target,
             ..PieceMatch::default()
@@ -265,12 +283,18 @@ impl<'a> MatchPlan<'a> {
     }
 }
 
-/// The rings of a part with the similar tiny ones across.
-fn point_like(region: &Region, side: Side, here: DVec2, moved: DVec2) -> Vec<RingMatch> {
+/// Returns the rings of a part. In the other design they are tiny similar rings, at `here`
+/// displaced by `displacement`.
+fn transient_rings(
+    region: &Region,
+    side: Side,
+    here: DVec2,
+    displacement: DVec2,
+) -> Vec<RingMatch> {
     let ring = |ring: &Ring| {
         let whole = ring.points().to_vec();
         let size = POINT_SIZE * ring.bounds().diameter();
-        let point = shrunk(&whole, here, here + moved, size, 0.0);
+        let point = shrunk(&whole, here, here + displacement, size, 0.0);
         RingMatch::alone(side, whole, point)
     };
     region.rings().map(ring).collect()

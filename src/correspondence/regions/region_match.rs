@@ -1,4 +1,5 @@
-//! What the match of two designs is, and why there is none.
+//! The result of matching two designs, the notes about what could not be done as requested, and the
+//! errors.
 
 #[cfg(doc)]
 use super::super::HoleRule;
@@ -9,93 +10,93 @@ use crate::geometry::{DVec2, Side, SourceTarget};
 use crate::work::progress::Cancelled;
 use serde::{Deserialize, Serialize};
 
-/// Diameter of the tiny ring that a hole closes to, and of the part that is
-/// born, as a share of the design's diameter: a pixel on a screen of 4,000.
+/// Diameter of the tiny ring that stands for a point, relative to the diameter of the part that it
+/// lies in or stands for: a pixel on a screen of 4,000 pixels.
 pub const POINT_SIZE: f64 = 2.5e-4;
 
-/// How all of two designs goes together.
+/// Match of two whole designs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionMatch {
-    /// The pieces, in the order of the source's parts; born ones last.
+    /// The pieces, in the order of the source's parts; pieces that exist only in the target come
+    /// last.
     pub pieces: Vec<PieceMatch>,
 }
 
-/// One connected piece in both designs.
+/// Match of one connected piece.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PieceMatch {
-    /// The outer ring first, counter-clockwise, then holes, clockwise.
+    /// Outer ring first, counter-clockwise, then holes, clockwise.
     pub rings: Vec<RingMatch>,
-    /// Holes that one of the designs has alone, clockwise there and a point in
-    /// the other, which the rest is matched without: [`HoleRule::Alone`].
+    /// Holes that exist in only one design and are excluded from the piece ([`HoleRule::Alone`]):
+    /// clockwise in that design, a point in the other.
     pub lone: Vec<RingMatch>,
-    /// Which of the source's parts it is, or is cut from; none if it is born.
+    /// Part of the source that the piece is, or is cut from; `None` if the piece appears.
     pub source_part: Option<usize>,
-    /// Which of the target's parts it is, or is cut from; none if it dies.
+    /// Part of the target that the piece is, or is cut from; `None` if the piece disappears.
     pub target_part: Option<usize>,
-    /// Where rings were cut open: the ends on the outer boundary and on the
-    /// hole.
+    /// Cuts that opened rings, with their ends on the outer boundary and on the hole.
     pub cuts: Vec<RingCut>,
-    /// The rotation that lays the source's outer ring onto the target's, in
-    /// radians in (−π, π].
+    /// Rotation that best aligns the source's outer ring with the target's, in radians in (−π, π].
     pub rotation: f64,
-    /// How unlike the outer rings are as matched; see
-    /// [`crate::correspondence::BoundaryMatch::cost`]. 0 for what is born or dies.
+    /// Dissimilarity of the matched outer rings, see
+    /// [`crate::correspondence::BoundaryMatch::cost`]; 0 for pieces that appear or disappear.
     pub cost: f64,
-    /// What was not done as it was asked for.
+    /// Requests that could not be fulfilled.
     pub notes: Vec<MatchNote>,
 }
 
-/// What a match could not do as it was asked for, and did otherwise. Parts,
-/// holes and pins are counted from 0, and from 1 in words.
+/// Request that a match could not fulfil, and its substitute. Parts, holes and pins count from 0 in
+/// fields and from 1 in messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum MatchNote {
-    /// A hole closes, or opens, since no straight cut leads to it.
-    #[error("hole {} of part {} of the {side} is not cut open: no straight cut leads to it inside the part; draw one", hole + 1, part + 1)]
+    /// A hole closes, or opens, because no straight cut reaches it.
+    #[error("hole {} of part {} of the {side} is not cut open: no straight cut to it stays inside the part; draw a cut", hole + 1, part + 1)]
     Uncut {
-        /// In which design.
+        /// Design that contains the hole.
         side: Side,
-        /// In which part.
+        /// Part that contains the hole.
         part: usize,
-        /// Which hole.
+        /// Index of the hole in the part.
         hole: usize,
     },
-    /// A pin ties a hole to an outer boundary, and the hole is not cut open.
-    #[error("pin {} is left out: the hole that it lies on is not cut open; draw a cut, or delete the pin", .0 + 1)]
+    /// A pin that ties a hole to an outer boundary is ignored, because the hole is not cut open.
+    #[error("pin {} is ignored because its hole is not cut open; draw a cut, or delete the pin", .0 + 1)]
     PinLeftOut(usize),
-    /// A part is matched with one of several; the others are born or die.
-    #[error("part {} of the {side} is not split: no straight cut through it was found; link the parts that belong together", part + 1)]
+    /// A part is matched with only one of several parts; the others appear or disappear.
+    #[error("part {} of the {side} is not split: no suitable straight cut was found; link corresponding parts by hand", part + 1)]
     Unsplit {
-        /// In which design.
+        /// Design that contains the part.
         side: Side,
-        /// Which part.
+        /// Index of the part.
         part: usize,
     },
 }
 
-/// Corresponding vertices of one ring. Vertex k of the source is vertex k of
-/// the target.
+/// Corresponding vertices of one ring: vertex k of the source corresponds to vertex k of the
+/// target.
 ///
-/// A ring that was cut open runs along its cut twice, there and back, through
-/// the same points bit by bit.
+/// A ring that was cut open runs along its slit twice, there and back, through the same points bit
+/// by bit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RingMatch {
     /// Vertices on the source.
     pub source: Vec<DVec2>,
     /// Vertices on the target.
     pub target: Vec<DVec2>,
-    /// What becomes of the ring.
+    /// Whether the ring is matched, closes or opens.
     pub kind: RingKind,
-    /// How it was matched; none where it is alone, or was not matched here.
+    /// The matched curves from which the vertices derive; `None` if the ring exists in only one
+    /// design, or was read from a file.
     #[serde(skip)]
     pub(crate) course: Option<MatchedCurves>,
 }
 
-/// What becomes of a ring.
+/// Way in which a ring changes between the designs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum RingKind {
-    /// It is matched with another.
+    /// It is matched with a ring of the other design.
     Matched,
     /// It closes to a point in the target.
     Closes,
@@ -103,31 +104,29 @@ pub enum RingKind {
     Opens,
 }
 
-/// Why two designs were not matched. Pins are counted from 1 in messages, in
-/// the order given.
+/// Reason why two designs were not matched. Pins count from 1 in messages, in the order given.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegionMatchError {
-    /// Links or pins that contradict each other.
+    /// Links or pins contradict each other.
     #[error(transparent)]
     Pairs(#[from] PairError),
-    /// Pins on one boundary that contradict each other; their indices are
-    /// those of all pins.
+    /// Pins on one boundary contradict each other; their indices are those among all pins.
     #[error("{0}")]
     Pins(PinError),
-    /// A pin, a link or a cut is not finite.
-    #[error("pin, link or cut {} is not finite; place it anew", .0 + 1)]
+    /// A coordinate of a pin, link, cut or unmatched part is not finite.
+    #[error("pin, link or cut {} has a coordinate that is not finite; place it again", .0 + 1)]
     NotFinite(usize),
-    /// A pin ties a hole to an outer boundary although holes close.
-    #[error("pin {} ties a hole to an outer boundary; have the ring cut open, or delete the pin", .0 + 1)]
+    /// A pin ties a hole to an outer boundary, but the rule is that holes close.
+    #[error("pin {} ties a hole to an outer boundary; let the ring be cut open, or delete the pin", .0 + 1)]
     PinAcross(usize),
-    /// A cut does not run inside the ring from its hole to a boundary.
-    #[error("cut {} does not run straight inside the part; move its ends", .0 + 1)]
+    /// A cut does not run straight inside its part from the hole to a boundary.
+    #[error("cut {} leaves its part; move its ends", .0 + 1)]
     Cut(usize),
-    /// Two boundaries cannot be measured.
+    /// Two boundaries cannot be matched.
     #[error(transparent)]
     Match(#[from] MatchError),
-    /// Nobody wants the result.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -139,20 +138,20 @@ impl From<Vec<PieceMatch>> for RegionMatch {
 }
 
 impl RegionMatch {
-    /// What was not done as it was asked for, piece by piece.
+    /// Returns the notes about requests that could not be fulfilled, piece by piece.
     pub fn notes(&self) -> impl Iterator<Item = &MatchNote> {
         self.pieces.iter().flat_map(|piece| &piece.notes)
     }
 }
 
 impl PieceMatch {
-    /// Whether it is a part of both designs, neither born nor dying.
+    /// Returns whether the piece exists in both designs.
     #[must_use]
     pub fn is_in_both(&self) -> bool {
         self.alone().is_none()
     }
 
-    /// The design that has it alone, if one has.
+    /// Returns the design that contains the piece, if only one does.
     pub(crate) fn alone(&self) -> Option<Side> {
         match (self.source_part, self.target_part) {
             (Some(_), Some(_)) => None,
@@ -161,8 +160,8 @@ impl PieceMatch {
         }
     }
 
-    /// The piece with the vertices of its rings at other places, ring by ring as
-    /// `Course::places` has them.
+    /// Returns the piece with the vertices of its rings moved to other places. `places` holds a
+    /// list for each ring, as returned by [`MatchedCurves::places`].
     pub(crate) fn moved(&self, places: &[Vec<[f64; 2]>]) -> Self {
         let mut moved = self.clone();
         for (ring, places) in moved.rings.iter_mut().zip(places) {
@@ -175,7 +174,7 @@ impl PieceMatch {
 }
 
 impl RingMatch {
-    /// The design that has it, and its vertices there, where only one has.
+    /// If the ring exists in only one design, returns that design and the ring's vertices there.
     #[must_use]
     pub fn whole(&self) -> Option<(Side, &[DVec2])> {
         match self.kind {
@@ -185,7 +184,7 @@ impl RingMatch {
         }
     }
 
-    /// Whether both sides have as many vertices, and those a place.
+    /// Returns whether both sides have the same number of vertices, at least three, all finite.
     pub(crate) fn is_sound(&self) -> bool {
         let mut points = self.source.iter().chain(&self.target);
         self.source.len() == self.target.len()
@@ -193,7 +192,7 @@ impl RingMatch {
             && points.all(|point| point.is_finite())
     }
 
-    /// A ring along two matched curves.
+    /// Creates a ring along two matched curves.
     pub(super) fn along((course, shared): (MatchedCurves, SharedPolygons)) -> Self {
         Self {
             source: shared.source,
@@ -203,7 +202,7 @@ impl RingMatch {
         }
     }
 
-    /// A ring of one design that is a point in the other.
+    /// Creates a ring of one design that is a point in the other.
     pub(super) fn alone(side: Side, whole: Vec<DVec2>, point: Vec<DVec2>) -> Self {
         let kind = match side {
             Side::Source => RingKind::Closes,

@@ -1,9 +1,8 @@
-//! Where to cut a ring open: cuts all along it, and the one kept whose strip
-//! matches best.
+//! Finds the best place to cut a ring open.
 //!
-//! From each of a number of places on the walk to the nearest point of the
-//! hole, matched with few samples; the best place is sought again between its
-//! neighbours.
+//! Candidate cuts start at evenly spaced places on the boundary and end at the nearest point of the
+//! hole. Each is rated by a match with few samples. A second round tries places between the best
+//! one's neighbours.
 
 use super::super::boundary::match_curves;
 use super::super::curve::BoundaryCurve;
@@ -13,30 +12,30 @@ use crate::geometry::Ring;
 use crate::work::progress::{Progress, still_wanted};
 use rayon::prelude::*;
 
-/// Places of the first round, and samples of each match.
-/// Few of both, since every place is a match of its own: so the time to cut a
-/// ring stays near that of one full match. No data fixed the numbers.
-const PLACES: u32 = 28;
+/// Number of places in the first round (resource limit: each needs a match of its own).
+const FIRST_PLACES: u32 = 28;
+/// Number of samples of each trial match (resource limit: keeps all trials together about as fast
+/// as one full match).
 const SAMPLES: u32 = 56;
 
-/// Places of the second round, between the best one's neighbours.
-/// Seven times as fine as the first round.
-const FINE: u32 = 6;
+/// Number of places in the second round, between the best one's neighbours (resource limit).
+const SECOND_PLACES: u32 = 6;
 
-/// What a long slit costs, as a share of the walk's length.
-/// It only has to part cuts that match alike; no measure fixed it.
-const LENGTH_PRICE: f64 = 0.25;
+/// Weight of a slit's length, as a fraction of the boundary's length; it decides between cuts that
+/// match equally well (heuristic).
+const LENGTH_WEIGHT: f64 = 0.25;
 
-/// An opened walk and how well it matches.
+/// A cut boundary and how well it matches.
 #[derive(Clone, Debug)]
 pub(super) struct CutCandidate {
     pub(super) walk: SlitBoundary,
     pub(super) slit: Slit,
-    /// Of a coarse match, with the price of the slit.
+    /// Cost of a match with few samples, including the weighted length of the slit.
     pub(super) cost: f64,
 }
 
-/// The best cut of hole `cut`, if there is any; none on a cancel.
+/// Returns the best cut to hole `cut`. Returns `None` if no straight cut reaches it, or if the work
+/// is cancelled.
 pub(super) fn best_cut(
     walk: &SlitBoundary,
     holes: &[&Ring],
@@ -47,25 +46,26 @@ pub(super) fn best_cut(
 ) -> Option<CutCandidate> {
     let curve = walk.curve().ok()?;
     let trials = |places: Vec<f64>| {
-        let tried = places.into_par_iter().filter_map(|place| {
+        let candidates = places.into_par_iter().filter_map(|place| {
             still_wanted(progress).ok()?;
             let slit = walk.slit_from(holes, cut, curve.point_at(place))?;
             let cost = cost(walk, holes[cut], &slit, other, options)?;
             Some((cost, place, slit))
         });
-        let tried: Vec<(f64, f64, Slit)> = tried.collect();
-        tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))
+        let candidates: Vec<(f64, f64, Slit)> = candidates.collect();
+        candidates.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let spacing = 1.0 / f64::from(PLACES);
-    let coarse = trials((0..PLACES).map(|k| f64::from(k) * spacing).collect())?;
-    let between = |k: u32| (f64::from(k) + 1.0) / f64::from(FINE + 1) * 2.0 - 1.0;
-    let near = (0..FINE).map(|k| coarse.1 + between(k) * spacing);
+    let spacing = 1.0 / f64::from(FIRST_PLACES);
+    let coarse = trials((0..FIRST_PLACES).map(|k| f64::from(k) * spacing).collect())?;
+    let offset = |k: u32| (f64::from(k) + 1.0) / f64::from(SECOND_PLACES + 1) * 2.0 - 1.0;
+    let near = (0..SECOND_PLACES).map(|k| coarse.1 + offset(k) * spacing);
     let fine = trials(near.collect());
     let (cost, _, slit) = fine.filter(|fine| fine.0 < coarse.0).unwrap_or(coarse);
     let walk = walk.opened(holes[cut], &slit)?;
     Some(CutCandidate { walk, slit, cost })
 }
 
+/// Returns the cost of one cut, or `None` if the cut boundary cannot be matched.
 fn cost(
     walk: &SlitBoundary,
     hole: &Ring,
@@ -76,10 +76,10 @@ fn cost(
     let open = walk.opened(hole, slit)?;
     let matched = match_curves(&open.curve().ok()?, other, &[], &coarse_options(options)).ok()?;
     let length = slit.ends[0].distance(slit.ends[1]) / open.ring.perimeter();
-    Some(matched.cost() + LENGTH_PRICE * length)
+    Some(matched.cost() + LENGTH_WEIGHT * length)
 }
 
-/// The same options with few samples: for trials, which compare with trials.
+/// Returns the options with few samples, for trial matches that are only compared with each other.
 pub(super) fn coarse_options(options: &MatchOptions) -> MatchOptions {
     MatchOptions {
         samples: SAMPLES.min(options.samples),

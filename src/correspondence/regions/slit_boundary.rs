@@ -1,36 +1,42 @@
-//! Boundaries that are cut open: one closed walk around a part, along the
-//! slit to a hole, around that and back.
+//! Boundary loops of cut-open rings: a single closed loop around a part, along the slit to a hole,
+//! around the hole and back along the slit.
 
 use super::super::curve::{BoundaryCurve, CurveLengthError};
 use crate::geometry::{DVec2, Region, Ring, nearest_segment_parameter, segments_touch};
 
-/// A closed walk, and the slits it runs along there and back.
+/// A closed boundary loop, with the slits that it follows in both directions.
 #[derive(Clone, Debug)]
 pub(super) struct SlitBoundary {
     pub(super) ring: Ring,
-    /// From the boundary to the hole.
+    /// Ends of each slit, from the boundary to the hole.
     pub(super) slits: Vec<[DVec2; 2]>,
 }
 
-/// A straight cut: where it leaves the walk and where it meets the hole.
+/// A straight cut from the boundary loop to a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slit {
-    /// The walk's edge it leaves from, by its first point.
+    /// Edge of the loop at which the slit starts, by the index of its first vertex.
     outer_edge: usize,
+    /// Edge of the hole at which the slit ends.
     hole_edge: usize,
+    /// Ends on the loop and on the hole.
     pub(super) ends: [DVec2; 2],
 }
 
-/// How far a slit keeps from its own ends where it is tested against edges.
+/// Fraction of a slit omitted at both ends when it is tested against edges, because the ends lie on
+/// edges (tolerance: above rounding, far below any edge).
 const END_SHARE: f64 = 1e-6;
 
-/// Where along a slit its distance from the boundary is looked at, and what
-/// share of the way to its nearer end that has to be: a slit that all but runs
-/// along the boundary, as from the leg of an R, would touch it in the digits.
-const LOOKED_AT: [f64; 7] = [0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98];
-const LEAST_CLEARANCE: f64 = 0.1;
+/// Positions along a slit, as fractions of its length, at which its clearance from the boundary is
+/// checked.
+const CLEARANCE_CHECKS: [f64; 7] = [0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98];
+/// Minimum clearance, relative to the distance from the slit's nearer end. It rejects slits that
+/// almost run along the boundary, such as along the stem of an R, which rounding would let touch it
+/// (heuristic).
+const MIN_CLEARANCE: f64 = 0.1;
 
 impl SlitBoundary {
+    /// Returns the outer boundary of a region, without slits.
     pub(super) fn around(region: &Region) -> Self {
         Self {
             ring: region.outer.clone(),
@@ -38,13 +44,17 @@ impl SlitBoundary {
         }
     }
 
+    /// Returns the curve along the loop.
+    ///
+    /// # Errors
+    /// [`CurveLengthError`] if its length overflows or underflows.
     pub(super) fn curve(&self) -> Result<BoundaryCurve, CurveLengthError> {
         BoundaryCurve::closed(&self.ring)
     }
 
-    /// The straight cut from the walk's point nearest to `outer` to the
-    /// hole's point nearest to `hole`; none if it leaves the part, or starts
-    /// where another slit does.
+    /// Returns the straight cut from the loop's point nearest to `outer` to hole `cut`'s point
+    /// nearest to `hole`. Returns `None` if the cut leaves the part, or touches the end of another
+    /// slit.
     pub(super) fn slit(
         &self,
         holes: &[&Ring],
@@ -62,40 +72,44 @@ impl SlitBoundary {
         (!self.touches_slit(a) && self.is_free(holes, &slit)).then_some(slit)
     }
 
-    /// The cut from a place of the walk to the nearest point of the hole.
+    /// Returns the cut from a point of the loop to the nearest point of the hole.
     pub(super) fn slit_from(&self, holes: &[&Ring], cut: usize, outer: DVec2) -> Option<Slit> {
         self.slit(holes, cut, outer, outer)
     }
 
+    /// Returns whether an edge of the loop runs along a slit.
     fn is_slit(&self, (a, b): (DVec2, DVec2)) -> bool {
         let along = |s: &[DVec2; 2]| *s == [a, b] || *s == [b, a];
         self.slits.iter().any(along)
     }
 
+    /// Returns whether a point is the end of a slit.
     fn touches_slit(&self, p: DVec2) -> bool {
         self.slits.iter().flatten().any(|&end| end == p)
     }
 
+    /// Returns whether a slit runs inside the part and keeps clear of all boundaries.
     fn is_free(&self, holes: &[&Ring], slit: &Slit) -> bool {
         let [a, b] = slit.ends;
         let short = [a.lerp(b, END_SHARE), b.lerp(a, END_SHARE)];
         let middle = a.midpoint(b);
         let rings = || std::iter::once(&self.ring).chain(holes.iter().copied());
-        // 1 inside: the walk counts 1, and a hole about the place takes 1 away.
+        // The winding number is 1 inside the part: the loop adds 1, and a hole around the point
+        // subtracts 1.
         let winding: i32 = rings().map(|ring| ring.winding(middle)).sum();
         let touched = |ring: &Ring| ring.edges().any(|(p, q)| segments_touch(short, [p, q]));
         let length = a.distance(b);
         let is_clear = |&along: &f64| {
-            let least = LEAST_CLEARANCE * along.min(1.0 - along) * length;
+            let least = MIN_CLEARANCE * along.min(1.0 - along) * length;
             rings().all(|ring| ring.distance_squared(a.lerp(b, along)) >= least * least)
         };
         short[0] != short[1]
             && winding == 1
             && !rings().any(touched)
-            && LOOKED_AT.iter().all(is_clear)
+            && CLEARANCE_CHECKS.iter().all(is_clear)
     }
 
-    /// The walk that goes along the slit and around the hole as well.
+    /// Returns the loop that also follows the slit and runs around the hole.
     pub(super) fn opened(&self, hole: &Ring, slit: &Slit) -> Option<Self> {
         let [a, b] = slit.ends;
         let mut points = around_from(&self.ring, slit.outer_edge, a);
@@ -107,19 +121,20 @@ impl SlitBoundary {
     }
 }
 
-/// Once around from a point on an edge back to it, that point first and last.
+/// Returns the points once around a ring from a point on an edge; that point is both first and
+/// last.
 fn around_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
     let points = ring.points();
     let n = points.len();
-    let mut walk = vec![from];
-    walk.extend((1..=n).map(|k| points[(edge + k) % n]));
-    walk.push(from);
-    // An end that is a vertex stands twice in a row.
-    walk.dedup();
-    walk
+    let mut loop_points = vec![from];
+    loop_points.extend((1..=n).map(|k| points[(edge + k) % n]));
+    loop_points.push(from);
+    // A start that is a vertex would occur twice in a row.
+    loop_points.dedup();
+    loop_points
 }
 
-/// The edge nearest to a point, among those allowed, and the point on it.
+/// Returns the edge nearest to a point, among those allowed, and the nearest point on it.
 fn nearest(
     ring: &Ring,
     p: DVec2,
@@ -132,7 +147,7 @@ fn nearest(
             continue;
         }
         let q = match nearest_segment_parameter(p, a, b) {
-            // At a vertex that vertex, to the last bit: slits are found again by it.
+            // Return vertices bit by bit: slits are later identified by their ends.
             0.0 => a,
             1.0 => b,
             along => a.lerp(b, along),
@@ -157,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_cut_open_walks_the_slit_twice() {
+    fn the_loop_of_a_cut_open_frame_follows_the_slit_twice() {
         let region = Region {
             outer: square(2.0, true),
             holes: vec![square(1.0, false)],
@@ -175,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slit_through_another_hole_is_refused() {
+    fn a_slit_through_another_hole_is_rejected() {
         let moved = |by: f64| {
             let points = square(0.3, false).points().to_vec();
             let moved = points.iter().map(|p| *p + DVec2::new(by, 0.0));
@@ -192,8 +207,8 @@ mod tests {
     }
 
     #[test]
-    fn a_slit_along_the_boundary_is_refused_however_it_is_rounded() {
-        let leg = [
+    fn a_slit_along_the_boundary_is_rejected_despite_rounding() {
+        let stem = [
             (0.0, 0.0),
             (4.0, 0.0),
             (4.0, 9.0),
@@ -202,7 +217,7 @@ mod tests {
             (0.0, 4.0),
         ];
         let region = Region {
-            outer: Ring::new(leg.map(DVec2::from).to_vec()).expect("a ring"),
+            outer: Ring::new(stem.map(DVec2::from).to_vec()).expect("a ring"),
             holes: vec![],
         };
         let hole = [(1e-15, 6.0), (1e-15, 8.0), (2.0, 8.0), (2.0, 6.0)];

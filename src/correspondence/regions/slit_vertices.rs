@@ -1,49 +1,53 @@
-//! The two sides of a slit given the same vertices.
+//! Gives the two sides of a slit the same vertices.
 //!
-//! A walk runs along its slit twice, and the other design's vertices fall on
-//! either passage as they will. Both get all of them, in the same points bit
-//! by bit: a mesh of the part before it was cut has those points once.
+//! A boundary loop follows its slit twice, and vertices of the other design fall on either passage
+//! arbitrarily. This module gives both passages all of these vertices, at the same points bit by
+//! bit. A mesh of the part before it was cut has these points once.
 
 use super::super::boundary_match::interpolated;
 use super::super::curve::BoundaryCurve;
 use super::super::shared_polygons::SharedPolygons;
 use crate::geometry::{DVec2, Side, SourceTarget};
 
-/// Vertices of the two passages nearer than this share of the slit divided by
-/// their number become one.
-/// Below ½, so that none is near to two of an even row.
-const NEAR: f64 = 0.35;
+/// Maximum distance at which vertices of the two passages are merged, in units of the even spacing
+/// along the slit. Below ½, so that no vertex is close to two of an even row (heuristic).
+const MERGE_DISTANCE: f64 = 0.35;
 
 /// A vertex on one passage.
 #[derive(Clone, Copy)]
 struct PassageVertex {
-    /// From the slit's outer end, in (0, 1).
+    /// Position along the slit from its outer end, in (0, 1).
     along: f64,
-    /// Its index among the shared vertices.
+    /// Index among the shared vertices.
     vertex: usize,
 }
 
-/// One of the points that both passages get.
+/// A point of the slit that both passages contain as a vertex.
 struct SlitVertex {
+    /// Position along the slit from its outer end, in (0, 1).
     along: f64,
-    /// The vertices that are there already: on the way there and back.
-    there: [Option<usize>; 2],
+    /// Existing vertices on the outward and on the return passage.
+    existing: [Option<usize>; 2],
 }
 
-/// One way along a slit: from its outer end, or back to it.
+/// One passage along a slit: outward from its outer end, or the return to it.
 struct SlitPassage<'a> {
-    /// The design that was cut, its walk's curve and the other design's.
+    /// Design that was cut.
     side: Side,
+    /// Curve along the cut boundary loop.
     curve: &'a BoundaryCurve,
+    /// Curve of the other design.
     other: &'a BoundaryCurve,
+    /// Outer and inner end of the slit.
     slit: [DVec2; 2],
+    /// Whether this is the return passage.
     is_back: bool,
-    /// The places at which it begins and ends.
+    /// Places at which the passage begins and ends.
     span: [f64; 2],
 }
 
-/// Gives both passages of a slit the same vertices. `side` is the design that
-/// was cut, with its walk's `curve`; `other` is the other design's curve.
+/// Gives both passages of a slit the same vertices. `side` is the design that was cut, `curve` its
+/// boundary loop, and `other` the curve of the other design.
 pub(super) fn mirror_slit_vertices(
     shared: &mut SharedPolygons,
     side: Side,
@@ -62,18 +66,18 @@ pub(super) fn mirror_slit_vertices(
         is_back,
         span: spans[usize::from(is_back)],
     });
-    let rungs = spread(paired(&[
-        passages[0].stops(shared),
-        passages[1].stops(shared),
+    let vertices = spread(merged(&[
+        passages[0].existing_vertices(shared),
+        passages[1].existing_vertices(shared),
     ]));
     let mut added = Vec::new();
     for passage in &passages {
-        passage.place(shared, &rungs, &mut added);
+        passage.place(shared, &vertices, &mut added);
     }
     insert(shared, side, curve, added);
 }
 
-/// Places between which the curve runs along the slit: out, then back.
+/// Returns the intervals of places in which the curve runs along the slit: outward, then back.
 fn passages(curve: &BoundaryCurve, [a, b]: [DVec2; 2]) -> Option<[[f64; 2]; 2]> {
     let points = curve.points();
     let n = points.len();
@@ -85,109 +89,119 @@ fn passages(curve: &BoundaryCurve, [a, b]: [DVec2; 2]) -> Option<[[f64; 2]; 2]> 
     Some([find(a, b)?, find(b, a)?])
 }
 
-/// Both passages' stops in one order, near ones together.
-fn paired([there, back]: &[Vec<PassageVertex>; 2]) -> Vec<SlitVertex> {
-    let near = NEAR / (there.len().max(back.len()) + 1) as f64;
+/// Merges the vertices of both passages into one ascending list; close pairs become one.
+fn merged([outward, back]: &[Vec<PassageVertex>; 2]) -> Vec<SlitVertex> {
+    let near = MERGE_DISTANCE / (outward.len().max(back.len()) + 1) as f64;
     let (mut i, mut j) = (0, 0);
-    let mut rungs = Vec::new();
-    while i < there.len() || j < back.len() {
-        let (a, b) = (there.get(i), back.get(j));
-        let rung = match (a, b) {
+    let mut vertices = Vec::new();
+    while i < outward.len() || j < back.len() {
+        let (a, b) = (outward.get(i), back.get(j));
+        let vertex = match (a, b) {
             (Some(a), Some(b)) if (a.along - b.along).abs() <= near => SlitVertex {
                 along: a.along.midpoint(b.along),
-                there: [Some(a.vertex), Some(b.vertex)],
+                existing: [Some(a.vertex), Some(b.vertex)],
             },
             (Some(a), b) if b.is_none_or(|b| a.along < b.along) => SlitVertex {
                 along: a.along,
-                there: [Some(a.vertex), None],
+                existing: [Some(a.vertex), None],
             },
             (_, Some(b)) => SlitVertex {
                 along: b.along,
-                there: [None, Some(b.vertex)],
+                existing: [None, Some(b.vertex)],
             },
             _ => break,
         };
-        i += usize::from(rung.there[0].is_some());
-        j += usize::from(rung.there[1].is_some());
-        rungs.push(rung);
+        i += usize::from(vertex.existing[0].is_some());
+        j += usize::from(vertex.existing[1].is_some());
+        vertices.push(vertex);
     }
-    rungs
+    vertices
 }
 
-/// Strictly ascending, with room between neighbours. Where a slit's inner
-/// vertices lie is free: no outline runs there.
-fn spread(mut rungs: Vec<SlitVertex>) -> Vec<SlitVertex> {
-    let count = rungs.len() as f64 + 1.0;
-    let mut alongs: Vec<f64> = rungs.iter().map(|rung| rung.along).collect();
-    alongs.sort_by(f64::total_cmp);
-    let ends = std::iter::once(0.0)
-        .chain(alongs.iter().copied())
+/// Makes the positions strictly ascending, with space between neighbours. Inner vertices of a slit
+/// may move along it, because no outline runs there.
+fn spread(mut vertices: Vec<SlitVertex>) -> Vec<SlitVertex> {
+    let count = vertices.len() as f64 + 1.0;
+    let mut positions: Vec<f64> = vertices.iter().map(|vertex| vertex.along).collect();
+    positions.sort_by(f64::total_cmp);
+    let bounds = std::iter::once(0.0)
+        .chain(positions.iter().copied())
         .chain(std::iter::once(1.0))
         .collect::<Vec<_>>();
-    // Even ones instead: a sliver along a slit has no good triangle.
-    let crowded = ends.windows(2).any(|w| w[1] - w[0] < 0.1 / count);
-    for (k, rung) in rungs.iter_mut().enumerate() {
-        rung.along = if crowded {
+    // Crowded vertices are spaced evenly instead, because slivers along a slit have no good
+    // triangles.
+    let is_crowded = bounds.windows(2).any(|w| w[1] - w[0] < 0.1 / count);
+    for (k, vertex) in vertices.iter_mut().enumerate() {
+        vertex.along = if is_crowded {
             (k + 1) as f64 / count
         } else {
-            alongs[k]
+            positions[k]
         };
     }
-    rungs
+    vertices
 }
 
-/// A vertex to come: its place on either side and its points.
+/// A pair of corresponding vertices to be inserted.
 struct NewVertexPair {
+    /// Places on source and target.
     places: [f64; 2],
+    /// Points on source and target.
     points: [DVec2; 2],
 }
 
 impl SlitPassage<'_> {
-    /// Its vertices strictly inside, from the slit's outer end on.
-    fn stops(&self, shared: &SharedPolygons) -> Vec<PassageVertex> {
+    /// Returns the vertices strictly inside the passage, sorted from the slit's outer end.
+    fn existing_vertices(&self, shared: &SharedPolygons) -> Vec<PassageVertex> {
         let [from, to] = self.span;
         let places = shared.places.iter().map(|place| place[self.side]);
         let inside = places.enumerate().filter(|(_, at)| from < *at && *at < to);
-        let stop = |(vertex, at): (usize, f64)| PassageVertex {
-            along: self.outer_share((at - from) / (to - from)),
+        let passage_vertex = |(vertex, at): (usize, f64)| PassageVertex {
+            along: self.outer_fraction((at - from) / (to - from)),
             vertex,
         };
-        let mut stops: Vec<PassageVertex> = inside.map(stop).collect();
-        stops.sort_by(|a, b| a.along.total_cmp(&b.along));
-        stops
+        let mut vertices: Vec<PassageVertex> = inside.map(passage_vertex).collect();
+        vertices.sort_by(|a, b| a.along.total_cmp(&b.along));
+        vertices
     }
 
-    /// A share of the passage as one of the slit, and back.
-    fn outer_share(&self, share: f64) -> f64 {
-        if self.is_back { 1.0 - share } else { share }
+    /// Converts a fraction of the passage to a fraction of the slit from its outer end, and vice
+    /// versa.
+    fn outer_fraction(&self, fraction: f64) -> f64 {
+        if self.is_back {
+            1.0 - fraction
+        } else {
+            fraction
+        }
     }
 
-    /// The vertex of a rung that it has already.
-    fn vertex(&self, rung: &SlitVertex) -> Option<usize> {
-        rung.there[usize::from(self.is_back)]
+    /// Returns the index of the vertex that this passage already has at a point of the slit.
+    fn existing_index(&self, vertex: &SlitVertex) -> Option<usize> {
+        vertex.existing[usize::from(self.is_back)]
     }
 
-    /// Moves the vertices that it has to the rungs, and collects those that
-    /// it lacks.
+    /// Moves the passage's existing vertices to the points of the slit, and collects those that are
+    /// missing.
     fn place(
         &self,
         shared: &mut SharedPolygons,
-        rungs: &[SlitVertex],
-        added: &mut Vec<NewVertexPair>,
+        vertices: &[SlitVertex],
+        missing: &mut Vec<NewVertexPair>,
     ) {
-        let known = self.anchors(shared, rungs);
+        let anchors = self.anchors(shared, vertices);
         let ([a, b], [from, to]) = (self.slit, self.span);
-        for rung in rungs {
-            let point = a.lerp(b, rung.along);
-            let own = from + self.outer_share(rung.along) * (to - from);
-            if let Some(vertex) = self.vertex(rung) {
-                points_of(shared, self.side)[vertex] = point;
-                shared.places[vertex][self.side] = own;
+        for vertex in vertices {
+            let point = a.lerp(b, vertex.along);
+            let own = from + self.outer_fraction(vertex.along) * (to - from);
+            if let Some(index) = self.existing_index(vertex) {
+                points_of(shared, self.side)[index] = point;
+                shared.places[index][self.side] = own;
             } else {
-                let across = self.other.wrapped(interpolated(&known, rung.along, [0, 1]));
+                let across = self
+                    .other
+                    .wrapped(interpolated(&anchors, vertex.along, [0, 1]));
                 let here = SourceTarget::on(self.side, own, across);
                 let points = SourceTarget::on(self.side, point, self.other.point_at(across));
-                added.push(NewVertexPair {
+                missing.push(NewVertexPair {
                     places: here.to_array(),
                     points: points.to_array(),
                 });
@@ -195,39 +209,41 @@ impl SlitPassage<'_> {
         }
     }
 
-    /// Share of the slit and the other side's place, unwrapped, of all
-    /// vertices that it has, its ends among them, by the share.
-    fn anchors(&self, shared: &SharedPolygons, rungs: &[SlitVertex]) -> Vec<[f64; 2]> {
+    /// Returns the passage's existing vertices and its ends, each as a pair: fraction of the slit,
+    /// and unwrapped place on the other side. Pairs ascend in the fraction.
+    fn anchors(&self, shared: &SharedPolygons, vertices: &[SlitVertex]) -> Vec<[f64; 2]> {
         let across = |vertex: usize| shared.places[vertex][self.side.other()];
-        let at = |place: f64| {
+        let across_at = |place: f64| {
             let wrapped = self.curve.wrapped(place);
-            let apart = |k: &usize| (shared.places[*k][self.side] - wrapped).abs();
+            let distance = |k: &usize| (shared.places[*k][self.side] - wrapped).abs();
             (0..shared.places.len())
-                .min_by(|j, k| apart(j).total_cmp(&apart(k)))
+                .min_by(|j, k| distance(j).total_cmp(&distance(k)))
                 .map_or(0.0, across)
         };
-        let inner = |rung: &SlitVertex| Some([rung.along, across(self.vertex(rung)?)]);
+        let inner =
+            |vertex: &SlitVertex| Some([vertex.along, across(self.existing_index(vertex)?)]);
         let [from, to] = self.span;
-        let mut known = vec![[self.outer_share(0.0), at(from)]];
+        let mut anchors = vec![[self.outer_fraction(0.0), across_at(from)]];
         if self.is_back {
-            known.extend(rungs.iter().rev().filter_map(inner));
+            anchors.extend(vertices.iter().rev().filter_map(inner));
         } else {
-            known.extend(rungs.iter().filter_map(inner));
+            anchors.extend(vertices.iter().filter_map(inner));
         }
-        known.push([self.outer_share(1.0), at(to)]);
-        // In the walk's order the other side's places ascend.
-        for k in 1..known.len() {
-            if known[k][1] < known[k - 1][1] {
-                known[k][1] += 1.0;
+        anchors.push([self.outer_fraction(1.0), across_at(to)]);
+        // In the direction of the boundary loop, places on the other side ascend.
+        for k in 1..anchors.len() {
+            if anchors[k][1] < anchors[k - 1][1] {
+                anchors[k][1] += 1.0;
             }
         }
         if self.is_back {
-            known.reverse();
+            anchors.reverse();
         }
-        known
+        anchors
     }
 }
 
+/// Returns the shared vertices on one side.
 fn points_of(shared: &mut SharedPolygons, side: Side) -> &mut Vec<DVec2> {
     match side {
         Side::Source => &mut shared.source,
@@ -235,7 +251,7 @@ fn points_of(shared: &mut SharedPolygons, side: Side) -> &mut Vec<DVec2> {
     }
 }
 
-/// Inserts the new vertices in the walk's order.
+/// Inserts the new vertices in the order of the boundary loop.
 fn insert(
     shared: &mut SharedPolygons,
     side: Side,
@@ -245,15 +261,15 @@ fn insert(
     let first = shared.places.first().map_or(0.0, |place| place[side]);
     let ahead = |place: f64| curve.wrapped(place - first);
     added.sort_by(|a, b| ahead(a.places[side]).total_cmp(&ahead(b.places[side])));
-    // From the last on, so that earlier ones do not move where later ones go.
+    // Insert from the last to the first, so that earlier positions stay valid.
     for new in added.into_iter().rev() {
-        let at = shared
+        let index = shared
             .places
             .iter()
             .position(|place| ahead(place[side]) > ahead(new.places[side]))
             .unwrap_or(shared.places.len());
-        shared.places.insert(at, new.places);
-        shared.source.insert(at, new.points[0]);
-        shared.target.insert(at, new.points[1]);
+        shared.places.insert(index, new.places);
+        shared.source.insert(index, new.points[0]);
+        shared.target.insert(index, new.points[1]);
     }
 }

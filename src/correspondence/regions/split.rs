@@ -1,11 +1,10 @@
-//! One part cut into as many pieces as the other design has parts.
+//! Splits one part into as many pieces as the other design has parts.
 //!
-//! Cuts are straight, from boundary to boundary. They are ranked by how well
-//! the areas and the places of the two sides agree with what is wanted and by
-//! their length; the best few are then matched, and the best match is kept.
-//! More than two pieces are cut off one after another, along the line on
-//! which the wanted parts lie. Many are halved and halved again, and only
-//! ranked: their form says little of a part of a part.
+//! Cuts are straight, from boundary to boundary. They are ranked by how well areas and positions of
+//! the two sides agree with the wanted parts, and by their length. The best few are then matched,
+//! and the best match wins. Several pieces are cut off one after another, along the line on which
+//! the wanted parts lie. Many pieces are found by bisection with the ranking alone, because the
+//! shape of a group of parts says little about its members.
 
 use super::super::boundary::match_curves;
 use super::super::curve::BoundaryCurve;
@@ -15,43 +14,40 @@ use crate::geometry::{DVec2, Region, Ring, segments_touch};
 use crate::work::progress::Progress;
 use rayon::prelude::*;
 
-/// Places of the boundary between which cuts are tried.
-/// The cuts grow with its square; a limb thinner than a fiftieth of the
-/// boundary may find none at its root.
-const PLACES: u32 = 56;
+/// Number of places on the boundary between which cuts are tried (resource limit: the number of
+/// cuts grows with its square).
+const CUT_PLACES: u32 = 56;
 
-/// Cuts that are matched.
-/// Ranking is cheap and matching is not: more would cost time, fewer trust
-/// the ranking more than it deserves.
-const TRIED: usize = 10;
+/// Number of best-ranked cuts that are matched (resource limit).
+const MATCHED_CUTS: usize = 10;
 
-/// What areas, places and length count in the ranking; and what the ranking
-/// counts against the match.
-/// Areas rule, since a piece of the wrong size must grow; no measure fixed
-/// the shares.
-const AREA: f64 = 1.0;
-const PLACE: f64 = 0.6;
-const LENGTH: f64 = 0.35;
-const RANK: f64 = 0.15;
+/// Weight of areas in the ranking of cuts; the reference for the other weights.
+const AREA_WEIGHT: f64 = 1.0;
+/// Weight of positions in the ranking (heuristic).
+const POSITION_WEIGHT: f64 = 0.6;
+/// Weight of a cut's length in the ranking (heuristic).
+const LENGTH_WEIGHT: f64 = 0.35;
+/// Weight of the ranking relative to the match cost (heuristic).
+const RANK_WEIGHT: f64 = 0.15;
 
-/// Up to so many pieces are cut off one after another, each cut with the
-/// matches of the best few: a second for 16, 40 for 100, and a first film waits for it.
-const FEW: usize = 8;
+/// Maximum number of pieces that are cut off one after another, with matches of the best cuts; more
+/// are bisected (resource limit: 100 pieces would take 40 s).
+const MAX_SEQUENTIAL_PIECES: usize = 8;
 
-/// The pieces in the order of `wanted`, or none if no straight cut is found,
-/// or on a cancel.
+/// Splits a region into pieces in the order of `wanted`. Returns `None` if no straight cut is
+/// found, or if the work is cancelled.
 pub(super) fn split(
     region: &Region,
     wanted: &[&Region],
     progress: &dyn Progress,
 ) -> Option<Vec<Region>> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
-    let line = line_of(wanted);
-    let along = |k: usize| middle(wanted[k]).dot(line);
-    order.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
+    let line = main_direction(wanted);
+    let position = |k: usize| middle(wanted[k]).dot(line);
+    order.sort_by(|&a, &b| position(a).total_cmp(&position(b)));
     let mut pieces = vec![None; wanted.len()];
-    if wanted.len() > FEW {
-        halve(region.clone(), wanted, &order, &mut pieces, progress)?;
+    if wanted.len() > MAX_SEQUENTIAL_PIECES {
+        bisect(region.clone(), wanted, &order, &mut pieces, progress)?;
         return pieces.into_iter().collect();
     }
     let mut rest = region.clone();
@@ -59,17 +55,17 @@ pub(super) fn split(
         let others: Vec<&Region> = order[step + 1..].iter().map(|&k| wanted[k]).collect();
         let first = [wanted[order[step]]];
         let goal = SplitGoal::of(&first, &others);
-        let [first, left] = cut_in_two(&rest, &goal, TRIED, progress)?;
+        let [first, remainder] = cut_in_two(&rest, &goal, MATCHED_CUTS, progress)?;
         pieces[order[step]] = Some(first);
-        rest = left;
+        rest = remainder;
     }
-    // `wanted` has two parts at least: one alone is not split.
+    // `wanted` has at least two parts.
     pieces[order[order.len() - 1]] = Some(rest);
     pieces.into_iter().collect()
 }
 
-/// Cuts a region for the parts in `order` into halves, and these again.
-fn halve(
+/// Bisects a region recursively into pieces for the parts in `order`.
+fn bisect(
     region: Region,
     wanted: &[&Region],
     order: &[usize],
@@ -80,25 +76,26 @@ fn halve(
         pieces[only] = Some(region);
         return Some(());
     }
-    let (near, far) = order.split_at(order.len() / 2);
-    let those = |order: &[usize]| order.iter().map(|&k| wanted[k]).collect::<Vec<_>>();
-    let (first, others) = (those(near), those(far));
-    // One cut: there is nothing to match it by.
-    let [first, rest] = cut_in_two(&region, &SplitGoal::of(&first, &others), 1, progress)?;
-    halve(first, wanted, near, pieces, progress)?;
-    halve(rest, wanted, far, pieces, progress)
+    let (first_half, second_half) = order.split_at(order.len() / 2);
+    let parts = |order: &[usize]| order.iter().map(|&k| wanted[k]).collect::<Vec<_>>();
+    let (first_parts, other_parts) = (parts(first_half), parts(second_half));
+    // A single candidate: the best-ranked cut is taken without matching.
+    let goal = SplitGoal::of(&first_parts, &other_parts);
+    let [first, rest] = cut_in_two(&region, &goal, 1, progress)?;
+    bisect(first, wanted, first_half, pieces, progress)?;
+    bisect(rest, wanted, second_half, pieces, progress)
 }
 
-/// The direction along which parts lie: from one of the two farthest apart to
-/// the other.
-fn line_of(parts: &[&Region]) -> DVec2 {
+/// Returns the direction along which parts lie: that between the two parts farthest apart, pointing
+/// towards positive x.
+fn main_direction(parts: &[&Region]) -> DVec2 {
     let mut best = DVec2::X;
-    let mut far = 0.0;
+    let mut max_squared = 0.0;
     for (k, a) in parts.iter().enumerate() {
         for b in &parts[k + 1..] {
             let apart = middle(b) - middle(a);
-            if apart.length_squared() > far {
-                far = apart.length_squared();
+            if apart.length_squared() > max_squared {
+                max_squared = apart.length_squared();
                 best = if apart.x < 0.0 { -apart } else { apart };
             }
         }
@@ -106,16 +103,21 @@ fn line_of(parts: &[&Region]) -> DVec2 {
     best
 }
 
+/// Returns the centre of a region's bounding box.
 fn middle(region: &Region) -> DVec2 {
     region.outer.bounds().centre()
 }
 
-/// What a cut is to bring about.
+/// The areas and positions that a cut should produce.
 struct SplitGoal<'a> {
+    /// Parts wanted on one side of the cut.
     first: &'a [&'a Region],
+    /// Parts wanted on the other side.
     others: &'a [&'a Region],
+    /// Fraction of the area wanted for `first`.
     share: f64,
-    /// From the first's middle to the others', in units of the root of the area.
+    /// Vector from the centre of `first` to that of `others`, in units of the square root of the
+    /// area.
     apart: DVec2,
 }
 
@@ -137,53 +139,56 @@ impl<'a> SplitGoal<'a> {
     }
 }
 
-/// The best cut of the `tried` first in rank; of one it is the first.
+/// Returns the two sides of the best cut, the one for `goal.first` first. The `matched_cuts`
+/// best-ranked cuts are matched; with 1 the best-ranked cut is returned without matching.
 fn cut_in_two(
     region: &Region,
     goal: &SplitGoal,
-    tried: usize,
+    matched_cuts: usize,
     progress: &dyn Progress,
 ) -> Option<[Region; 2]> {
     let mut ranked: Vec<(f64, [Region; 2])> = Vec::new();
     for pieces in cuts(region, progress) {
         let [a, b] = &pieces.1;
-        let (straight, swapped) = (rank(goal, a, b), rank(goal, b, a));
-        let price = LENGTH * pieces.0 / region.area().sqrt();
-        // Which of the pieces is the first is free: the better way round counts.
-        if straight <= swapped {
-            ranked.push((straight + price, pieces.1));
+        let (forward, swapped) = (rank(goal, a, b), rank(goal, b, a));
+        let length_cost = LENGTH_WEIGHT * pieces.0 / region.area().sqrt();
+        // Either side may serve as the first; take the assignment that ranks better.
+        if forward <= swapped {
+            ranked.push((forward + length_cost, pieces.1));
         } else {
             let [a, b] = pieces.1;
-            ranked.push((swapped + price, [b, a]));
+            ranked.push((swapped + length_cost, [b, a]));
         }
     }
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    ranked.truncate(tried);
-    let costed = ranked.into_par_iter().map(|(rank, pieces)| {
-        let cost = match tried {
+    ranked.truncate(matched_cuts);
+    let rated = ranked.into_par_iter().map(|(rank, pieces)| {
+        let cost = match matched_cuts {
             1 => rank,
-            _ => match_cost(goal, &pieces, progress) + RANK * rank,
+            _ => match_cost(goal, &pieces, progress) + RANK_WEIGHT * rank,
         };
         (cost, pieces)
     });
-    // In their order, so that of equals the first in rank is the best.
-    let costed: Vec<(f64, [Region; 2])> = costed.collect();
-    costed
+    // Collected in order of rank, so that ties go to the better-ranked cut.
+    let rated: Vec<(f64, [Region; 2])> = rated.collect();
+    rated
         .into_iter()
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, pieces)| pieces)
 }
 
+/// Returns how much areas and positions of two pieces deviate from the goal.
 fn rank(goal: &SplitGoal, first: &Region, rest: &Region) -> f64 {
     let total = first.area() + rest.area();
-    let share = first.area() / total;
-    let off = (share / goal.share).ln().abs() + ((1.0 - share) / (1.0 - goal.share)).ln().abs();
+    let fraction = first.area() / total;
+    let area_error =
+        (fraction / goal.share).ln().abs() + ((1.0 - fraction) / (1.0 - goal.share)).ln().abs();
     let apart = (middle(rest) - middle(first)) / total.sqrt();
-    AREA * off + PLACE * apart.distance(goal.apart)
+    AREA_WEIGHT * area_error + POSITION_WEIGHT * apart.distance(goal.apart)
 }
 
-/// How unlike the pieces are to what is wanted; only those that stand alone
-/// are matched.
+/// Returns the match cost of the pieces with the wanted parts, weighted by area. Only pieces for a
+/// single part are matched.
 fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Progress) -> f64 {
     let cost = |piece: &Region, wanted: &Region| {
         if progress.is_cancelled() {
@@ -199,22 +204,21 @@ fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Prog
         let options = coarse_options(&MatchOptions::default());
         match_curves(&a, &b, &[], &options).map_or(f64::INFINITY, |m| m.cost())
     };
-    let alone = |share: f64, piece: &Region, wanted: &[&Region]| match wanted {
-        [wanted] => share * cost(piece, wanted),
+    let single_cost = |weight: f64, piece: &Region, wanted: &[&Region]| match wanted {
+        [wanted] => weight * cost(piece, wanted),
         _ => 0.0,
     };
-    alone(goal.share, first, goal.first) + alone(1.0 - goal.share, rest, goal.others)
+    single_cost(goal.share, first, goal.first) + single_cost(1.0 - goal.share, rest, goal.others)
 }
 
-/// All straight cuts tried, with their lengths and the two pieces; fewer on a
-/// cancel.
+/// Returns all straight cuts tried, with their lengths and pieces; fewer if the work is cancelled.
 fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
     let Ok(curve) = BoundaryCurve::closed(&region.outer) else {
         return Vec::new();
     };
-    let place = |k: u32| f64::from(k) / f64::from(PLACES);
-    let ends: Vec<(f64, DVec2)> = (0..PLACES)
-        .map(|k| (place(k), curve.point_at(place(k))))
+    let place_of = |k: u32| f64::from(k) / f64::from(CUT_PLACES);
+    let ends: Vec<(f64, DVec2)> = (0..CUT_PLACES)
+        .map(|k| (place_of(k), curve.point_at(place_of(k))))
         .collect();
     let from = |(k, &a): (usize, &(f64, DVec2))| -> Vec<(f64, [Region; 2])> {
         let others = match progress.is_cancelled() {
@@ -230,6 +234,8 @@ fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
     ends.par_iter().enumerate().flat_map_iter(from).collect()
 }
 
+/// Cuts a region along the segment between two places of its outer boundary. Returns `None` if the
+/// segment leaves the region, or a piece has no area.
 fn cut_between(
     region: &Region,
     curve: &BoundaryCurve,
@@ -243,14 +249,14 @@ fn cut_between(
         let inner = curve.places().iter().zip(curve.points());
         inner.filter(move |(place, _)| from < **place && **place < to)
     };
-    let mut near = vec![a];
-    near.extend(between(from, to).map(|(_, p)| *p));
-    near.push(b);
-    let mut far = vec![b];
-    far.extend(between(to, 2.0).map(|(_, p)| *p));
-    far.extend(between(-1.0, from).map(|(_, p)| *p));
-    far.push(a);
-    let [Ok(near), Ok(far)] = [near, far].map(Ring::new) else {
+    let mut first_side = vec![a];
+    first_side.extend(between(from, to).map(|(_, p)| *p));
+    first_side.push(b);
+    let mut second_side = vec![b];
+    second_side.extend(between(to, 2.0).map(|(_, p)| *p));
+    second_side.extend(between(-1.0, from).map(|(_, p)| *p));
+    second_side.push(a);
+    let [Ok(first_side), Ok(second_side)] = [first_side, second_side].map(Ring::new) else {
         return None;
     };
     let holes_in = |ring: &Ring| -> Vec<Ring> {
@@ -261,17 +267,18 @@ fn cut_between(
         holes: holes_in(&outer),
         outer,
     };
-    let pieces = [piece(near), piece(far)];
+    let pieces = [piece(first_side), piece(second_side)];
     pieces
         .iter()
         .all(|piece| piece.area() > 0.0)
         .then_some(pieces)
 }
 
-/// Whether the open segment runs inside the region.
+/// Returns whether the open segment runs inside the region.
 fn is_free(region: &Region, a: DVec2, b: DVec2) -> bool {
+    /// Fraction of the segment omitted at each end, which lies on the boundary (tolerance: above
+    /// rounding, far below any edge).
     const END_SHARE: f64 = 1e-6;
-    // Its own ends lie on the boundary.
     let short = [a.lerp(b, END_SHARE), b.lerp(a, END_SHARE)];
     let mut edges = region.rings().flat_map(Ring::edges);
     region.contains(a.midpoint(b)) && !edges.any(|(p, q)| segments_touch(short, [p, q]))

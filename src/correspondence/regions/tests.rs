@@ -1,4 +1,4 @@
-//! Whole designs matched: parts, holes, cuts.
+//! Tests of the match of whole designs: parts, holes, cuts, pins and links.
 
 use super::*;
 use crate::correspondence::{HoleRule, PartRule, PointPair, RingCut, UnmatchedPart};
@@ -15,15 +15,16 @@ fn design(rings: &[Vec<DVec2>]) -> Regions {
     Regions::from_rings(rings, FillRule::EvenOdd).expect("area")
 }
 
-/// A plate with square holes at the given places.
+/// Returns a plate with square holes at the given places.
 fn plate(holes: &[(f64, f64)]) -> Regions {
     let mut rings = vec![block(0.0, 0.0, 10.0, 6.0)];
     rings.extend(holes.iter().map(|&(x, y)| block(x, y, 1.5, 1.5)));
     design(&rings)
 }
 
-fn run(a: &Regions, b: &Regions, wanted: &MatchSettings) -> RegionMatch {
-    let matched = match_regions(a, b, wanted, &Silent).expect("matched");
+/// Matches two designs and checks that corresponding rings have as many vertices.
+fn run(a: &Regions, b: &Regions, settings: &MatchSettings) -> RegionMatch {
+    let matched = match_regions(a, b, settings, &Silent).expect("matched");
     for piece in &matched.pieces {
         for ring in &piece.rings {
             assert_eq!(ring.source.len(), ring.target.len());
@@ -41,9 +42,9 @@ fn kinds(piece: &PieceMatch) -> Vec<RingKind> {
 }
 
 #[test]
-fn holes_close_beside_each_other_and_not_in_one_another() {
-    // An odd grid: the middle is wanted by the hole there, and taken by the
-    // first, which has little room of its own.
+fn closing_holes_keep_apart_from_each_other() {
+    // In an odd grid the middle suits the hole there best, but is taken by the first hole, which
+    // has little space of its own.
     let places = (0..25).map(|k| (f64::from(k % 5), f64::from(k / 5)));
     let holes = places.map(|(x, y)| block(2.0 * x + 0.5, 2.0 * y + 0.5, 1.0, 1.0));
     let rings: Vec<_> = [block(0.0, 0.0, 10.0, 10.0)]
@@ -51,13 +52,13 @@ fn holes_close_beside_each_other_and_not_in_one_another() {
         .chain(holes)
         .collect();
     let (full, bare) = (design(&rings), design(&rings[..1]));
-    let wanted = MatchSettings {
+    let settings = MatchSettings {
         holes: HoleRule::Close,
         ..MatchSettings::default()
     };
     for (matched, side) in [
-        (run(&full, &bare, &wanted), Side::Target),
-        (run(&bare, &full, &wanted), Side::Source),
+        (run(&full, &bare, &settings), Side::Target),
+        (run(&bare, &full, &settings), Side::Source),
     ] {
         let points = |ring: &RingMatch| Bounds::of([&ring.source, &ring.target][side].clone());
         let closed = matched.pieces[0].rings[1..].iter().filter_map(points);
@@ -73,13 +74,13 @@ fn holes_close_beside_each_other_and_not_in_one_another() {
 }
 
 #[test]
-fn equal_holes_are_matched_and_odd_ones_close() {
-    let wanted = MatchSettings {
+fn equal_holes_are_matched_and_unmatched_ones_close() {
+    let settings = MatchSettings {
         holes: HoleRule::Close,
         ..MatchSettings::default()
     };
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(7.0, 2.5)]));
-    let matched = run(&two, &one, &wanted);
+    let matched = run(&two, &one, &settings);
     let piece = &matched.pieces[0];
     assert_eq!(
         kinds(piece),
@@ -88,7 +89,7 @@ fn equal_holes_are_matched_and_odd_ones_close() {
     let point = &piece.rings[2].target;
     assert!(area(point) < 0.0 && area(point) > -1e-5);
     assert!((point[0] - DVec2::new(1.75, 2.75)).length() < 1.0);
-    let back = run(&one, &two, &wanted);
+    let back = run(&one, &two, &settings);
     assert_eq!(
         kinds(&back.pieces[0]),
         [RingKind::Matched, RingKind::Matched, RingKind::Opens]
@@ -96,22 +97,22 @@ fn equal_holes_are_matched_and_odd_ones_close() {
 }
 
 #[test]
-fn a_ring_cut_open_keeps_its_area_and_its_slit_point_by_point() {
+fn a_cut_open_ring_keeps_its_area_and_follows_its_slit_twice() {
     let ring = design(&[block(-3.0, -3.0, 6.0, 6.0), block(-2.0, -2.0, 4.0, 4.0)]);
     let strip = design(&[block(0.0, 0.0, 20.0, 1.0)]);
-    let wanted = MatchSettings {
+    let settings = MatchSettings {
         holes: HoleRule::Cut,
         ..MatchSettings::default()
     };
-    let matched = run(&ring, &strip, &wanted);
+    let matched = run(&ring, &strip, &settings);
     let piece = &matched.pieces[0];
     assert_eq!((piece.rings.len(), piece.cuts.len()), (1, 1));
-    let walk = &piece.rings[0];
-    assert!((area(&walk.source) - 20.0).abs() < 1e-9);
-    assert!((area(&walk.target) - 20.0).abs() < 1e-9);
-    let n = walk.source.len();
+    let outline = &piece.rings[0];
+    assert!((area(&outline.source) - 20.0).abs() < 1e-9);
+    assert!((area(&outline.target) - 20.0).abs() < 1e-9);
+    let n = outline.source.len();
     let edges: Vec<[DVec2; 2]> = (0..n)
-        .map(|k| [walk.source[k], walk.source[(k + 1) % n]])
+        .map(|k| [outline.source[k], outline.source[(k + 1) % n]])
         .collect();
     let cut = piece.cuts[0];
     let on_slit = |p: DVec2| {
@@ -129,25 +130,25 @@ fn a_ring_cut_open_keeps_its_area_and_its_slit_point_by_point() {
 }
 
 #[test]
-fn a_cut_that_was_asked_for_is_made_there() {
+fn a_requested_cut_is_made_where_requested() {
     let ring = design(&[block(-3.0, -3.0, 6.0, 6.0), block(-2.0, -2.0, 4.0, 4.0)]);
     let strip = design(&[block(0.0, 0.0, 20.0, 1.0)]);
-    let mut wanted = MatchSettings::default();
-    wanted.cuts.push(RingCut {
+    let mut settings = MatchSettings::default();
+    settings.cuts.push(RingCut {
         side: Side::Source,
         outer: DVec2::new(1.0, 3.4),
         hole: DVec2::new(1.2, 1.9),
     });
-    let piece = &run(&ring, &strip, &wanted).pieces[0];
+    let piece = &run(&ring, &strip, &settings).pieces[0];
     assert_eq!(piece.cuts[0].outer, DVec2::new(1.0, 3.0));
     assert!(piece.cuts[0].hole.distance(DVec2::new(1.2, 2.0)) < 1e-12);
-    wanted.cuts[0].outer = DVec2::new(1.0, -3.0);
-    let error = match_regions(&ring, &strip, &wanted, &Silent).expect_err("through the hole");
+    settings.cuts[0].outer = DVec2::new(1.0, -3.0);
+    let error = match_regions(&ring, &strip, &settings, &Silent).expect_err("through the hole");
     assert_eq!(error, RegionMatchError::Cut(0));
 }
 
 #[test]
-fn a_single_part_is_split_and_of_several_the_odd_one_is_born() {
+fn a_single_part_is_split_and_an_extra_part_among_several_appears() {
     let one = design(&[block(0.0, 0.0, 9.0, 1.0)]);
     let three = design(&[
         block(0.0, 0.0, 2.0, 1.0),
@@ -162,40 +163,43 @@ fn a_single_part_is_split_and_of_several_the_odd_one_is_born() {
     for piece in &split.pieces {
         assert!((area(&piece.rings[0].source) - 3.0).abs() < 0.7);
     }
-    let born = run(&two, &three, &MatchSettings::default());
-    let odd: Vec<_> = born
+    let with_extra = run(&two, &three, &MatchSettings::default());
+    let appearing: Vec<_> = with_extra
         .pieces
         .iter()
         .filter(|p| p.source_part.is_none())
         .collect();
-    assert_eq!((born.pieces.len(), odd.len()), (3, 1));
-    let wanted = MatchSettings {
+    assert_eq!((with_extra.pieces.len(), appearing.len()), (3, 1));
+    let settings = MatchSettings {
         parts: PartRule::Alone,
         ..MatchSettings::default()
     };
-    assert_eq!(run(&one, &three, &wanted).pieces.len(), 3);
+    assert_eq!(run(&one, &three, &settings).pieces.len(), 3);
 }
 
 #[test]
-fn a_part_is_not_cut_up_for_a_mark_beside_another() {
+fn a_part_is_not_split_for_a_tiny_mark() {
     let one = design(&[block(0.0, 0.0, 9.0, 1.0)]);
     let marked = design(&[block(0.0, 0.0, 9.0, 1.0), block(9.2, 0.9, 0.08, 0.08)]);
-    let born = |parts: PartRule| {
-        let wanted = MatchSettings {
+    let appearing_count = |parts: PartRule| {
+        let settings = MatchSettings {
             parts,
             ..MatchSettings::default()
         };
-        let pieces = run(&one, &marked, &wanted).pieces;
+        let pieces = run(&one, &marked, &settings).pieces;
         pieces.iter().filter(|p| p.source_part.is_none()).count()
     };
-    assert_eq!([PartRule::Auto, PartRule::Split].map(born), [1, 0]);
+    assert_eq!(
+        [PartRule::Auto, PartRule::Split].map(appearing_count),
+        [1, 0]
+    );
 }
 
 #[test]
-fn pins_pair_their_parts_and_links_do() {
+fn pins_and_links_pair_their_parts() {
     let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
-    let mut wanted = MatchSettings::default();
-    wanted.links.push(PointPair {
+    let mut settings = MatchSettings::default();
+    settings.links.push(PointPair {
         source: DVec2::new(1.0, 0.5),
         target: DVec2::new(5.0, 0.5),
     });
@@ -203,45 +207,45 @@ fn pins_pair_their_parts_and_links_do() {
         let both = |p: &PieceMatch| [p.source_part, p.target_part];
         matched.pieces.iter().map(both).collect()
     };
-    let crossed = run(&two, &two, &wanted);
+    let crossed = run(&two, &two, &settings);
     for [a, b] in parts(&crossed) {
         assert_ne!(a, b);
     }
     let pinned = MatchSettings {
-        pins: wanted.links.drain(..).collect(),
+        pins: settings.links.drain(..).collect(),
         ..MatchSettings::default()
     };
     assert_eq!(parts(&run(&two, &two, &pinned)), parts(&crossed));
 }
 
 #[test]
-fn parts_said_to_be_alone_have_no_partner_unless_one_is_said() {
+fn parts_declared_unmatched_stay_unmatched_unless_linked() {
     let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
     let one = design(&[block(0.0, 0.0, 2.0, 1.0)]);
-    let parts = |a: &Regions, b: &Regions, wanted: &MatchSettings| -> Vec<_> {
+    let parts = |a: &Regions, b: &Regions, settings: &MatchSettings| -> Vec<_> {
         let both = |p: &PieceMatch| [p.source_part, p.target_part];
-        run(a, b, wanted).pieces.iter().map(both).collect()
+        run(a, b, settings).pieces.iter().map(both).collect()
     };
     let at = DVec2::new(1.0, 0.5);
-    let mut wanted = MatchSettings::default();
+    let mut settings = MatchSettings::default();
     for side in Side::BOTH {
-        wanted.lone.push(UnmatchedPart { side, at });
+        settings.lone.push(UnmatchedPart { side, at });
     }
-    // A single part of several on the other side is not split for the lone one.
-    let found = parts(&two, &one, &wanted);
+    // The single part is declared unmatched, so it is not split for the parts of the other side.
+    let found = parts(&two, &one, &settings);
     assert_eq!(found, [[Some(0), None], [Some(1), None], [None, Some(0)]]);
-    let found = parts(&two, &two, &wanted);
+    let found = parts(&two, &two, &settings);
     assert_eq!(
         found,
         [[Some(0), None], [Some(1), Some(1)], [None, Some(0)]]
     );
-    wanted.links.push(PointPair {
+    settings.links.push(PointPair {
         source: at,
         target: at,
     });
-    let found = parts(&two, &two, &wanted);
+    let found = parts(&two, &two, &settings);
     assert_eq!(found, [[Some(0), Some(0)], [Some(1), Some(1)]]);
-    let swapped = wanted.swapped().lone;
+    let swapped = settings.swapped().lone;
     assert_eq!(
         swapped
             .iter()
@@ -252,13 +256,13 @@ fn parts_said_to_be_alone_have_no_partner_unless_one_is_said() {
 }
 
 #[test]
-fn contradictory_pins_are_named_by_their_numbers_among_all() {
+fn contradictory_pins_are_named_by_their_index_among_all_pins() {
     let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
     let pin = |a: (f64, f64), b: (f64, f64)| PointPair {
         source: a.into(),
         target: b.into(),
     };
-    let wanted = MatchSettings {
+    let settings = MatchSettings {
         pins: vec![
             pin((0.0, 0.0), (0.0, 0.0)),
             pin((4.0, 0.0), (4.0, 0.0)),
@@ -267,7 +271,7 @@ fn contradictory_pins_are_named_by_their_numbers_among_all() {
         ],
         ..MatchSettings::default()
     };
-    let error = match_regions(&two, &two, &wanted, &Silent).expect_err("crossing");
+    let error = match_regions(&two, &two, &settings, &Silent).expect_err("crossing");
     assert!(matches!(error, RegionMatchError::Pins(_)), "{error}");
     assert!(
         error.to_string().contains('4') || error.to_string().contains('3'),
@@ -276,8 +280,8 @@ fn contradictory_pins_are_named_by_their_numbers_among_all() {
 }
 
 #[test]
-fn a_hole_that_no_straight_cut_reaches_closes_and_is_told() {
-    // A small hole within a hole that winds around it.
+fn a_hole_that_no_straight_cut_reaches_closes_and_is_reported() {
+    // A small hole inside a hole that winds around it.
     let winding = [
         (5.25, 13.0),
         (5.25, 5.25),
@@ -296,7 +300,7 @@ fn a_hole_that_no_straight_cut_reaches_closes_and_is_told() {
     let plate = block(0.0, 0.0, 20.0, 20.0);
     let source = design(&[plate.clone(), winding.clone(), block(9.0, 9.0, 2.0, 2.0)]);
     let target = design(&[plate, winding]);
-    let mut wanted = MatchSettings {
+    let mut settings = MatchSettings {
         holes: HoleRule::Cut,
         ..MatchSettings::default()
     };
@@ -313,25 +317,25 @@ fn a_hole_that_no_straight_cut_reaches_closes_and_is_told() {
         ));
         notes[1..].to_vec()
     };
-    assert_eq!(uncut(&run(&source, &target, &wanted)), []);
-    wanted.pins.push(PointPair {
+    assert_eq!(uncut(&run(&source, &target, &settings)), []);
+    settings.pins.push(PointPair {
         source: DVec2::new(9.0, 9.0),
         target: DVec2::ZERO,
     });
-    let notes = uncut(&run(&source, &target, &wanted));
+    let notes = uncut(&run(&source, &target, &settings));
     assert_eq!(notes, [MatchNote::PinLeftOut(0)]);
 }
 
 #[test]
-fn holes_that_are_alone_are_left_out_of_the_piece() {
+fn transient_holes_are_excluded_from_the_piece() {
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
-    let wanted = MatchSettings {
+    let settings = MatchSettings {
         holes: HoleRule::Alone,
         ..MatchSettings::default()
     };
     for (matched, side) in [
-        (run(&two, &one, &wanted), Side::Source),
-        (run(&one, &two, &wanted), Side::Target),
+        (run(&two, &one, &settings), Side::Source),
+        (run(&one, &two, &settings), Side::Target),
     ] {
         let piece = &matched.pieces[0];
         assert_eq!(kinds(piece), [RingKind::Matched; 2]);
@@ -346,13 +350,13 @@ fn holes_that_are_alone_are_left_out_of_the_piece() {
 }
 
 #[test]
-fn without_pairs_all_holes_are_alone() {
+fn unpaired_holes_are_all_excluded_from_the_piece() {
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
-    let wanted = MatchSettings::default();
-    let alike = PartLooks::default();
-    let prepared = MatchPlan::new([&two, &one], &alike, &wanted, &Silent).expect("prepared");
-    let options = wanted.options();
-    let pieces = prepared.matched_group(0, &options, HolePolicy::Unpaired, &Silent);
+    let settings = MatchSettings::default();
+    let no_looks = PartLooks::default();
+    let plan = MatchPlan::new([&two, &one], &no_looks, &settings, &Silent).expect("prepared");
+    let options = settings.options();
+    let pieces = plan.matched_group(0, &options, HolePolicy::Unpaired, &Silent);
     let pieces = pieces.expect("matched");
     assert_eq!((pieces[0].rings.len(), pieces[0].lone.len()), (1, 3));
 }

@@ -1,5 +1,4 @@
-//! Pieces that are let go: what was matched there dies, and what it was to
-//! become is born.
+//! Unpairs pieces of a match: their source parts disappear, and their target parts appear.
 
 use super::super::PartRule;
 use super::groups::PartGroup;
@@ -9,43 +8,45 @@ use crate::geometry::Side;
 use crate::work::progress::Progress;
 
 impl MatchPlan<'_> {
-    /// Lets the pieces of these numbers go, of a match that was made of this.
-    /// A part that was split is split anew for what is left to it, and keeps
-    /// the largest where nothing would be. Whether anything was let go: what
-    /// somebody linked or pinned stays together, and so does all where somebody
-    /// wanted parts to be split.
+    /// Unpairs the given pieces of a match that was made from these groups, and returns whether
+    /// anything changed.
+    ///
+    /// A part that was split is split again for the partners left to it. It keeps its largest
+    /// partner if none would be left. Parts that the user linked or pinned stay together, and so do
+    /// all if the rule for parts is to split.
     pub(crate) fn let_go(
         &mut self,
         matched: &RegionMatch,
-        gone: &[usize],
+        unpaired: &[usize],
         progress: &dyn Progress,
     ) -> bool {
-        if gone.is_empty() || self.wanted.parts == PartRule::Split {
+        if unpaired.is_empty() || self.wanted.parts == PartRule::Split {
             return false;
         }
-        let gone = |group: &PartGroup| of_pieces(matched, gone, group);
+        let unpaired = |group: &PartGroup| parts_of_pieces(matched, unpaired, group);
         let pieces = std::mem::take(&mut self.pieces);
         let mut groups = Vec::new();
-        let mut is_other = false;
+        let mut has_changed = false;
         for (group, cut) in std::mem::take(&mut self.groups).into_iter().zip(pieces) {
-            let gone = gone(&group);
-            if gone == PartGroup::default() || self.is_said(&group) {
+            let unpaired = unpaired(&group);
+            if unpaired == PartGroup::default() || self.is_user_fixed(&group) {
                 groups.push((group, cut));
                 continue;
             }
-            let (kept, alone) = self.parted(&group, &gone);
-            is_other |= kept != group;
-            if kept != PartGroup::default() {
-                let pieces = self.split(&kept, progress);
-                groups.push((kept, pieces));
+            let (remaining, released) = self.separated(&group, &unpaired);
+            has_changed |= remaining != group;
+            if remaining != PartGroup::default() {
+                let pieces = self.split(&remaining, progress);
+                groups.push((remaining, pieces));
             }
-            groups.extend(each(&alone).map(|group| (group, None)));
+            groups.extend(single_groups(&released).map(|group| (group, None)));
         }
         self.set_groups(groups);
-        is_other
+        has_changed
     }
 
-    fn is_said(&self, group: &PartGroup) -> bool {
+    /// Returns whether the user linked or pinned any part of the group.
+    fn is_user_fixed(&self, group: &PartGroup) -> bool {
         let is_in = |pair: &[usize; 2]| {
             Side::BOTH
                 .into_iter()
@@ -54,35 +55,36 @@ impl MatchPlan<'_> {
         self.said.iter().any(is_in)
     }
 
-    /// What stays together of a group, and what is alone then.
-    fn parted(&self, group: &PartGroup, gone: &PartGroup) -> (PartGroup, PartGroup) {
+    /// Splits a group into the parts that stay together and those that become unmatched. `unpaired`
+    /// holds the parts of the pieces to unpair.
+    fn separated(&self, group: &PartGroup, unpaired: &PartGroup) -> (PartGroup, PartGroup) {
         if group.parts.iter().all(|parts| parts.len() == 1) {
             return (PartGroup::default(), group.clone());
         }
-        let (mut kept, mut alone) = (group.clone(), PartGroup::default());
+        let (mut remaining, mut released) = (group.clone(), PartGroup::default());
         for side in Side::BOTH {
             if group.parts[side].len() == 1 {
                 continue;
             }
-            let is_gone = |part: &usize| gone.parts[side].contains(part);
-            (alone.parts[side], kept.parts[side]) =
-                group.parts[side].iter().partition(|p| is_gone(p));
-            if kept.parts[side].is_empty() {
+            let is_unpaired = |part: &usize| unpaired.parts[side].contains(part);
+            (released.parts[side], remaining.parts[side]) =
+                group.parts[side].iter().partition(|p| is_unpaired(p));
+            if remaining.parts[side].is_empty() {
                 let area = |part: usize| self.area(side, part);
-                let largest = alone.parts[side]
+                let largest = released.parts[side]
                     .iter()
                     .copied()
                     .reduce(|a, b| if area(b) > area(a) { b } else { a });
-                alone.parts[side].retain(|&part| Some(part) != largest);
-                kept.parts[side].extend(largest);
+                released.parts[side].retain(|&part| Some(part) != largest);
+                remaining.parts[side].extend(largest);
             }
         }
-        (kept, alone)
+        (remaining, released)
     }
 }
 
-/// The parts of some pieces, of those in a group.
-fn of_pieces(matched: &RegionMatch, pieces: &[usize], group: &PartGroup) -> PartGroup {
+/// Returns the parts of the given pieces that belong to a group.
+fn parts_of_pieces(matched: &RegionMatch, pieces: &[usize], group: &PartGroup) -> PartGroup {
     let parts = |k: usize| [matched.pieces[k].source_part, matched.pieces[k].target_part];
     let is_here = |k: &usize| {
         let parts = parts(*k);
@@ -92,8 +94,8 @@ fn of_pieces(matched: &RegionMatch, pieces: &[usize], group: &PartGroup) -> Part
     };
     PartGroup {
         parts: Side::BOTH.map(|side| {
-            let here = pieces.iter().copied().filter(is_here);
-            let mut parts: Vec<usize> = here.filter_map(|k| parts(k)[side]).collect();
+            let in_group = pieces.iter().copied().filter(is_here);
+            let mut parts: Vec<usize> = in_group.filter_map(|k| parts(k)[side]).collect();
             parts.sort_unstable();
             parts.dedup();
             parts
@@ -101,14 +103,14 @@ fn of_pieces(matched: &RegionMatch, pieces: &[usize], group: &PartGroup) -> Part
     }
 }
 
-/// Every part of a group for itself.
-fn each(group: &PartGroup) -> impl Iterator<Item = PartGroup> {
+/// Returns a group of its own for each part.
+fn single_groups(group: &PartGroup) -> impl Iterator<Item = PartGroup> {
     let sides = Side::BOTH.into_iter();
     sides.flat_map(|side| {
         group.parts[side].iter().map(move |&part| {
-            let mut alone = PartGroup::default();
-            alone.parts[side].push(part);
-            alone
+            let mut single = PartGroup::default();
+            single.parts[side].push(part);
+            single
         })
     })
 }

@@ -1,5 +1,5 @@
-//! A piece as a constrained Delaunay triangulation whose coincident points
-//! are merged, and how it is cut open again along its walks.
+//! The constrained Delaunay triangulation of a piece with coinciding points merged, and its
+//! conversion back to one vertex for each corner of a loop.
 
 use crate::geometry::DVec2;
 use crate::mesh::{components, undirected};
@@ -8,70 +8,77 @@ use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 use std::collections::{HashMap, HashSet};
 
-/// Why a piece was not triangulated.
+/// Reason why a piece cannot be triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TriangulationError {
-    /// Fewer than three points.
+    /// A loop has fewer than three points.
     #[error("an outline needs at least 3 points, this one has {0}; add points")]
     TooFewPoints(usize),
-    /// NaN, infinite or beyond the range of the arithmetic.
-    #[error("a point of the outline is not finite or beyond 1e60; scale the design")]
+    /// A coordinate is NaN, infinite or beyond the range of the arithmetic.
+    #[error("a point of the outline is not finite or beyond 1e60; correct it or scale the design")]
     OutOfRange,
-    /// Two edges cross or overlap, or points coincide beside no slit.
+    /// Two edges cross or overlap, or points coincide other than along a slit.
     #[error("the outline crosses or touches itself; repair it first")]
     NotSimple,
-    /// The walks bound no single piece with holes.
+    /// The loops do not bound one connected piece with holes.
     #[error(
-        "the outlines bound no single piece; the outer one has to run counter-clockwise around all others, those clockwise and beside each other"
+        "the outlines do not bound one connected piece; the outer one must run counter-clockwise around all others, and those clockwise without enclosing each other"
     )]
     NotOnePiece,
-    /// Nobody wants the result.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
+/// The library's constrained Delaunay triangulation.
 pub(super) type ConstrainedDelaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
-/// No corner of a walk.
+/// Marks a face corner without a loop corner, or a missing vertex.
 const NONE: u32 = u32::MAX;
 
-/// The merged points before, at and after a corner of a walk.
+/// Merged points before, at and after a corner of a loop.
 type LoopCorner = [u32; 3];
 
+/// A connected piece as a constrained Delaunay triangulation of its distinct points.
 pub(super) struct TriangulationDomain {
     pub(super) delaunay: ConstrainedDelaunay,
+    /// Corners of all loops, one loop after another.
     merged: Vec<LoopCorner>,
-    /// How many merged points there are; added ones follow them.
-    fixed: usize,
-    /// The walks' edges between merged points, as they are run: a slit's in
-    /// both directions.
-    walked: HashSet<[u32; 2]>,
+    /// Number of merged points; added points follow them.
+    point_count: usize,
+    /// Directed edges of the loops between merged points; those of a slit occur in both directions.
+    directed_edges: HashSet<[u32; 2]>,
 }
 
 impl TriangulationDomain {
-    pub(super) fn of<W: AsRef<[DVec2]>>(walks: &[W]) -> Result<Self, TriangulationError> {
-        let (points, merged) = merged_points(walks)?;
-        let mut walked = HashSet::new();
-        // Once each way: more would leave no wedge of the piece between them.
-        let is_new = |&[_, a, b]: &LoopCorner| a != b && walked.insert([a, b]);
+    /// Triangulates the piece bounded by the loops, the outer one first.
+    ///
+    /// # Errors
+    /// [`TriangulationError`] if the loops do not bound one connected piece.
+    pub(super) fn of<W: AsRef<[DVec2]>>(loops: &[W]) -> Result<Self, TriangulationError> {
+        let (points, merged) = merged_points(loops)?;
+        let mut directed_edges = HashSet::new();
+        // Each direction at most once: more would leave no wedge of the piece in between.
+        let is_new = |&[_, a, b]: &LoopCorner| a != b && directed_edges.insert([a, b]);
         if !merged.iter().all(is_new) {
             return Err(TriangulationError::NotSimple);
         }
-        let mut edges: Vec<[usize; 2]> = (walked.iter())
+        let mut edges: Vec<[usize; 2]> = (directed_edges.iter())
             .map(|&edge| undirected(edge).map(|v| v as usize))
             .collect();
-        // In order: hashing would make another triangulation on every run.
+        // Sorted, because the order of a hash set would make results differ between runs.
         edges.sort_unstable();
         edges.dedup();
-        let (fixed, constraints) = (points.len(), edges.len());
-        let mut conflict = false;
-        let delaunay = ConstrainedDelaunay::try_bulk_load_cdt(points, edges, |_| conflict = true)
-            .map_err(|_| TriangulationError::OutOfRange)?;
-        // Crossings are conflicts; edges along each other change the count.
-        if conflict
-            || delaunay.num_vertices() != fixed
-            || delaunay.num_constraints() != constraints
+        let (point_count, constraint_count) = (points.len(), edges.len());
+        let mut has_conflict = false;
+        let delaunay =
+            ConstrainedDelaunay::try_bulk_load_cdt(points, edges, |_| has_conflict = true)
+                .map_err(|_| TriangulationError::OutOfRange)?;
+        // Crossing edges are conflicts; overlapping edges change the number of constraints.
+        if has_conflict
+            || delaunay.num_vertices() != point_count
+            || delaunay.num_constraints() != constraint_count
             || delaunay.num_inner_faces() == 0
         {
             return Err(TriangulationError::NotSimple);
@@ -79,105 +86,112 @@ impl TriangulationDomain {
         let domain = Self {
             delaunay,
             merged,
-            fixed,
-            walked,
+            point_count,
+            directed_edges,
         };
         let edges = domain.delaunay.undirected_edges();
-        let mut kept = (edges.filter(|edge| edge.is_constraint_edge()))
+        let mut constraint_edges = (edges.filter(|edge| edge.is_constraint_edge()))
             .map(|edge| edge.vertices().map(|v| v.index() as u32));
-        // A point on an edge has cut it in two, and neither half was walked.
-        let was_walked = |way: [u32; 2]| domain.walked.contains(&way);
-        if kept.any(|[a, b]| !was_walked([a, b]) && !was_walked([b, a])) {
+        // A point on an edge divides it into halves that are not edges of any loop.
+        let is_loop_edge = |edge: [u32; 2]| domain.directed_edges.contains(&edge);
+        if constraint_edges.any(|[a, b]| !is_loop_edge([a, b]) && !is_loop_edge([b, a])) {
             return Err(TriangulationError::NotSimple);
         }
-        domain.check(walks[0].as_ref().len())?;
+        domain.check(loops[0].as_ref().len())?;
         Ok(domain)
     }
 
-    /// The walks' corners, then the added points.
-    pub(super) fn points<W: AsRef<[DVec2]>>(&self, walks: &[W]) -> Vec<DVec2> {
-        let corners = walks.iter().flat_map(|w| w.as_ref().iter().copied());
-        let added = self.delaunay.vertices().skip(self.fixed);
+    /// Returns the loops' corners, then the added points.
+    pub(super) fn points<W: AsRef<[DVec2]>>(&self, loops: &[W]) -> Vec<DVec2> {
+        let corners = loops.iter().flat_map(|w| w.as_ref().iter().copied());
+        let added = self.delaunay.vertices().skip(self.point_count);
         corners
             .chain(added.map(|v| DVec2::new(v.position().x, v.position().y)))
             .collect()
     }
 
-    /// Whether the walks bound one piece, the first from outside.
+    /// Checks that the loops bound one connected piece, and that the first loop, with `outer`
+    /// corners, is its outer boundary.
+    ///
+    /// # Errors
+    /// [`TriangulationError`] if they do not.
     fn check(&self, outer: usize) -> Result<(), TriangulationError> {
         let winding = self.winding();
-        // The first face is the outer one.
+        // Face 0 is the outer face.
         if winding[1..].iter().any(|w| !(0..=1).contains(w)) {
             return Err(TriangulationError::NotOnePiece);
         }
-        // What no corner refuses is labelled all: every wedge of the piece
-        // begins at an edge by which some walk leaves.
+        // If every corner bounds a single wedge, all face corners are assigned, because every wedge
+        // of the piece begins at an outgoing loop edge.
         self.corners(&winding)
             .ok_or(TriangulationError::NotSimple)?;
-        // No hole reaches as far left as the outline does.
-        let places = self.delaunay.vertices().map(|v| v.position()).enumerate();
-        let first = places.min_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-        let first = first.map_or(NONE, |(v, _)| v as u32);
+        // The leftmost point belongs to the outer boundary.
+        let positions = self.delaunay.vertices().map(|v| v.position()).enumerate();
+        let leftmost =
+            positions.min_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        let leftmost = leftmost.map_or(NONE, |(v, _)| v as u32);
         let mut outer = self.merged[..outer].iter();
-        if !outer.any(|corner| corner[1] == first) || !self.is_connected(&winding) {
+        if !outer.any(|corner| corner[1] == leftmost) || !self.is_connected(&winding) {
             return Err(TriangulationError::NotOnePiece);
         }
         Ok(())
     }
 
-    /// For each face how often the walks run around it.
+    /// Returns the winding number of the loops around each face.
     pub(super) fn winding(&self) -> Vec<i32> {
+        // Marks faces that were not visited yet.
         const UNKNOWN: i32 = i32::MAX;
         let mut winding = vec![UNKNOWN; self.delaunay.num_all_faces()];
         winding[self.delaunay.outer_face().index()] = 0;
-        // Edges with a face on their left that is known: the hull's have the
-        // outer one there.
-        let mut open: Vec<_> = self.delaunay.convex_hull().collect();
-        while let Some(edge) = open.pop() {
-            let beyond = edge.rev().face();
-            if winding[beyond.index()] != UNKNOWN {
+        // Edges whose left face has a known winding number. At first these are the hull's edges,
+        // with the outer face on their left.
+        let mut pending: Vec<_> = self.delaunay.convex_hull().collect();
+        while let Some(edge) = pending.pop() {
+            let across = edge.rev().face();
+            if winding[across.index()] != UNKNOWN {
                 continue;
             }
             let [a, b] = edge.vertices().map(|v| v.index() as u32);
-            let runs = |way: [u32; 2]| i32::from(self.walked.contains(&way));
-            // A walk goes once more around what is on its left.
-            winding[beyond.index()] = winding[edge.face().index()] - runs([a, b]) + runs([b, a]);
-            let inner = beyond.as_inner().into_iter();
-            open.extend(inner.flat_map(|face| face.adjacent_edges()));
+            let count = |direction: [u32; 2]| i32::from(self.directed_edges.contains(&direction));
+            // The winding number is larger by one on the left of a loop.
+            winding[across.index()] = winding[edge.face().index()] - count([a, b]) + count([b, a]);
+            let inner = across.as_inner().into_iter();
+            pending.extend(inner.flat_map(|face| face.adjacent_edges()));
         }
         winding
     }
 
+    /// Returns whether the faces inside are connected across edges that are not on a loop.
     fn is_connected(&self, winding: &[i32]) -> bool {
         let edges = self.delaunay.undirected_edges();
-        let free = edges.filter(|edge| !edge.is_constraint_edge());
-        let across = free.map(|edge| {
+        let unconstrained = edges.filter(|edge| !edge.is_constraint_edge());
+        let across = unconstrained.map(|edge| {
             let edge = edge.as_directed();
             [edge, edge.rev()].map(|side| side.face().index() as u32)
         });
-        let part = components(winding.len(), across);
-        let mut inside = part.iter().zip(winding).filter(|(_, w)| **w == 1);
+        let component = components(winding.len(), across);
+        let mut inside = component.iter().zip(winding).filter(|(_, w)| **w == 1);
         let first = inside.next();
         first.is_some_and(|(first, _)| inside.all(|(other, _)| other == first))
     }
 
-    /// For each face which corners of the walks stand at its vertices; `None`
-    /// if a walk's two edges at a corner do not bound one wedge of the piece.
+    /// Returns for each face the loop corners at its vertices. Returns `None` if the two edges of a
+    /// loop at a corner do not bound exactly one wedge of the piece.
     fn corners(&self, winding: &[i32]) -> Option<Vec<[u32; 3]>> {
         let mut corners = vec![[NONE; 3]; winding.len()];
         for (corner, points) in (0..).zip(&self.merged) {
             let [before, here, after] = points.map(|v| FixedVertexHandle::from_index(v as usize));
             let mut edge = self.delaunay.get_edge_from_neighbors(here, after)?;
-            // Counter-clockwise from the walk's next edge to its previous one
-            // lies the piece, since that is on the left of its walks.
+            // The piece lies on the left of its loops: counter-clockwise from a corner's outgoing
+            // edge to its incoming edge.
             loop {
                 let face = edge.face().as_inner()?;
                 let k = (0..3).find(|&k| face.vertices()[k].fix() == here)?;
-                let place = &mut corners[face.index()][k];
-                if winding[face.index()] != 1 || *place != NONE {
+                let slot = &mut corners[face.index()][k];
+                if winding[face.index()] != 1 || *slot != NONE {
                     return None;
                 }
-                *place = corner;
+                *slot = corner;
                 edge = edge.ccw();
                 if edge.is_constraint_edge() {
                     break;
@@ -190,17 +204,17 @@ impl TriangulationDomain {
         Some(corners)
     }
 
-    /// The faces of the piece by corners of the walks and added points.
+    /// Returns the faces of the piece, with indices of loop corners and added points.
     pub(super) fn faces(&self) -> Vec<[u32; 3]> {
         let winding = self.winding();
-        // Some: they were checked, and a refinement cuts no edge of a walk.
+        // Always `Some`: the corners were checked, and refinement splits no loop edge.
         let corners = self.corners(&winding).unwrap_or_default();
         let count = self.merged.len();
         let numbered = |v: usize, corner: u32| {
-            if v < self.fixed {
+            if v < self.point_count {
                 corner
             } else {
-                (v - self.fixed + count) as u32
+                (v - self.point_count + count) as u32
             }
         };
         self.delaunay
@@ -215,18 +229,18 @@ impl TriangulationDomain {
     }
 }
 
-/// Different points, and which of them each corner has.
+/// Returns the distinct points, and the merged points at each corner of the loops.
 fn merged_points<W: AsRef<[DVec2]>>(
-    walks: &[W],
+    loops: &[W],
 ) -> Result<(Vec<Point2<f64>>, Vec<LoopCorner>), TriangulationError> {
-    let least = walks.iter().map(|w| w.as_ref().len()).min().unwrap_or(0);
-    if least < 3 {
-        return Err(TriangulationError::TooFewPoints(least));
+    let fewest = loops.iter().map(|w| w.as_ref().len()).min().unwrap_or(0);
+    if fewest < 3 {
+        return Err(TriangulationError::TooFewPoints(fewest));
     }
     let mut numbers: HashMap<[u64; 2], u32> = HashMap::new();
     let mut points = Vec::new();
     let mut number = |p: &DVec2| {
-        let [x, y] = p.to_array().map(tame);
+        let [x, y] = p.to_array().map(flush_to_zero);
         *numbers
             .entry([x.to_bits(), y.to_bits()])
             .or_insert_with(|| {
@@ -235,17 +249,16 @@ fn merged_points<W: AsRef<[DVec2]>>(
             })
     };
     let mut merged = Vec::new();
-    for walk in walks {
-        let own: Vec<u32> = walk.as_ref().iter().map(&mut number).collect();
-        let n = own.len();
-        merged.extend((0..n).map(|i| [own[(i + n - 1) % n], own[i], own[(i + 1) % n]]));
+    for outline in loops {
+        let indices: Vec<u32> = outline.as_ref().iter().map(&mut number).collect();
+        let n = indices.len();
+        merged.extend((0..n).map(|i| [indices[(i + n - 1) % n], indices[i], indices[(i + 1) % n]]));
     }
     Ok((points, merged))
 }
 
-/// Coordinates below the arithmetic's range become zero, as negative zero
-/// does.
-fn tame(x: f64) -> f64 {
+/// Replaces coordinates below the range of the arithmetic, and negative zero, by zero.
+fn flush_to_zero(x: f64) -> f64 {
     if x.abs() < spade::MIN_ALLOWED_VALUE {
         0.0
     } else {

@@ -1,6 +1,6 @@
-//! Delaunay refinement that splits no edge of the boundary (Chew 1993,
-//! Ruppert 1995): circumcentres of bad faces, largest circle first, unless
-//! they lie beyond the boundary or too near to it.
+//! Delaunay refinement that splits no edge of the boundary (Chew 1993, Ruppert 1995): inserts
+//! circumcentres of bad faces, largest circle first, unless they lie beyond the boundary or too
+//! close to it.
 
 use super::domain::{ConstrainedDelaunay, TriangulationDomain};
 use crate::geometry::{Bounds, DVec2, orient2d};
@@ -10,40 +10,47 @@ use spade::{Point2, Triangulation as _};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashSet};
 
+/// Directed edge of the library's triangulation.
 type SpadeEdge<'a> = DirectedEdgeHandle<'a, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+/// Inner face of the library's triangulation.
 type SpadeFace<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
 
-/// How fine a triangulation is to be.
+/// Fineness of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefinementOptions {
-    /// Longest edge wanted, roughly; `None` leaves it to the angles.
+    /// Approximate maximum edge length; `None` refines for angles only.
     pub max_edge: Option<f64>,
-    /// The most points that may be added.
+    /// Maximum number of points to add.
     pub max_points: usize,
 }
 
-/// Smallest angle wanted, in radians: 23°. Up to about 0.5 it can be reached;
-/// nearer to that, points are spent on little.
+/// Minimum angle to aim for, in radians: 23°. Refinement terminates up to about 0.5; close to that
+/// it adds many points for little improvement (heuristic).
 const MIN_ANGLE: f64 = 0.4;
 
-/// Faces of less than this share of the bounding square stay as they are:
-/// below some 1e-15 the centre of the circumcircle is rounding alone.
-const SMALLEST_SHARE: f64 = 1e-14;
+/// Faces below this fraction of the bounding square's area are not refined (tolerance: below about
+/// 1e-15 the circumcentre is dominated by rounding).
+const MIN_AREA_FRACTION: f64 = 1e-14;
 
-/// A face's place among the bad ones: the bits of its circumcircle's squared
-/// radius, which order as it does since it is not negative, and its vertices,
-/// so that of equal circles one is always the first.
+/// Priority of a bad face: the bits of its squared circumradius, which sort like the non-negative
+/// number itself, then its vertices, which break ties deterministically.
 type BadFaceRank = (u64, Reverse<[FixedVertexHandle; 3]>);
 
-/// What makes a face bad.
+/// Limits beyond which a face counts as bad.
 struct FaceLimits {
-    /// Least squared ratio of the shortest edge to the circumradius.
+    /// Minimum squared ratio of the shortest edge to the circumradius.
     ratio: f64,
+    /// Maximum area.
     area: f64,
+    /// Area below which a face is never refined.
     least_area: f64,
 }
 
 impl TriangulationDomain {
+    /// Inserts points until no bad face can be improved, or the maximum number is reached.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the work is cancelled.
     pub(super) fn refine(
         &mut self,
         refinement: &RefinementOptions,
@@ -62,8 +69,8 @@ impl TriangulationDomain {
             && let Some(((_, Reverse(vertices)), centre)) = bad.pop_last()
         {
             still_wanted(progress)?;
-            // A face that cannot be bettered is not asked again: only faces at
-            // new vertices come into the queue.
+            // Faces that cannot be improved are dropped: only faces at new vertices enter the
+            // queue.
             let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {
                 continue;
             };
@@ -75,13 +82,14 @@ impl TriangulationDomain {
         Ok(())
     }
 
+    /// Converts the options to limits for faces.
     fn limits(&self, refinement: &RefinementOptions) -> FaceLimits {
         let positions = self.delaunay.vertices().map(|v| at(v.position()));
         let size = Bounds::of(positions).map_or(0.0, |bounds| bounds.size().max_element());
-        let least_area = SMALLEST_SHARE * size * size;
+        let least_area = MIN_AREA_FRACTION * size * size;
         let equilateral = |edge: f64| (0.25 * 3f64.sqrt() * edge * edge).max(least_area);
         FaceLimits {
-            // The least angle α lies opposite the shortest side l: l = 2 R sin α.
+            // The smallest angle α is opposite the shortest edge l: l = 2 R sin α.
             ratio: (2.0 * MIN_ANGLE.sin()).powi(2),
             area: refinement.max_edge.map_or(f64::INFINITY, equilateral),
             least_area,
@@ -90,7 +98,7 @@ impl TriangulationDomain {
 }
 
 impl FaceLimits {
-    /// The rank of a bad face, and its circumcentre.
+    /// Returns priority and circumcentre of a face if it is bad.
     fn judge(&self, face: SpadeFace<'_>) -> Option<(BadFaceRank, DVec2)> {
         let area = face.area();
         if area <= self.least_area {
@@ -109,20 +117,20 @@ impl FaceLimits {
     }
 }
 
-/// Puts a vertex into a circumcentre, if the face is still there and the
-/// place is inside and no nearer to the boundary than half its edge.
+/// Inserts a vertex at a circumcentre, if the face still exists and the position is inside the
+/// piece and keeps the minimum distance from the boundary.
 fn insert(
     delaunay: &mut ConstrainedDelaunay,
     [a, b, c]: [FixedVertexHandle; 3],
     centre: DVec2,
 ) -> Option<FixedVertexHandle> {
-    // Insertions since it was judged may have taken the face away.
+    // Insertions since the face was queued may have removed it.
     let edge = delaunay.get_edge_from_neighbors(a, b)?;
     let face = edge.face().as_inner()?;
     if !face.vertices().iter().any(|v| v.fix() == c) || !is_free(face, centre) {
         return None;
     }
-    // On a point that is there, the library gives that one back.
+    // At an existing point the library returns that vertex.
     let before = delaunay.num_vertices();
     let vertex = delaunay
         .insert_with_hint(Point2::new(centre.x, centre.y), c)
@@ -130,17 +138,17 @@ fn insert(
     (delaunay.num_vertices() > before).then_some(vertex)
 }
 
-/// Whether no edge of the boundary that a new point's faces would meet hides
-/// the point or has it in its diametral circle.
+/// Returns whether a new point is inside the piece, and outside the diametral circle of every
+/// boundary edge near it.
 fn is_free(face: SpadeFace<'_>, centre: DVec2) -> bool {
-    let mut seen: HashSet<usize> = HashSet::from([face.index()]);
-    let mut open = vec![face];
-    let mut reached = false;
-    while let Some(face) = open.pop() {
-        // The faces that the point will take away: one of them holds it, or it
-        // lies behind an edge of the boundary.
-        let inside = face.adjacent_edges().iter().all(|edge| sees(*edge, centre));
-        reached |= inside;
+    let mut visited: HashSet<usize> = HashSet::from([face.index()]);
+    let mut pending = vec![face];
+    let mut is_inside = false;
+    while let Some(face) = pending.pop() {
+        // Visits the faces that the insertion would remove. One of them contains the point, unless
+        // it lies beyond a boundary edge.
+        let contains_point = face.adjacent_edges().iter().all(|edge| sees(*edge, centre));
+        is_inside |= contains_point;
         for edge in face.adjacent_edges() {
             if edge.is_constraint_edge() {
                 if encroaches(edge, centre) {
@@ -148,33 +156,36 @@ fn is_free(face: SpadeFace<'_>, centre: DVec2) -> bool {
                 }
                 continue;
             }
-            if let Some(beyond) = edge.rev().face().as_inner()
-                && !seen.contains(&beyond.index())
-                && in_circle(beyond, centre)
+            if let Some(across) = edge.rev().face().as_inner()
+                && !visited.contains(&across.index())
+                && in_circle(across, centre)
             {
-                seen.insert(beyond.index());
-                open.push(beyond);
+                visited.insert(across.index());
+                pending.push(across);
             }
         }
     }
-    reached
+    is_inside
 }
 
+/// Converts a point of the library.
 fn at(p: Point2<f64>) -> DVec2 {
     DVec2::new(p.x, p.y)
 }
 
-/// Whether a point is on the face's side of an edge, or on it.
+/// Returns whether a point lies on the face's side of an edge, or on the edge.
 fn sees(edge: SpadeEdge<'_>, p: DVec2) -> bool {
     let [a, b] = edge.positions().map(at);
     orient2d(a, b, p) >= 0.0
 }
 
+/// Returns whether a point lies in the diametral circle of an edge.
 fn encroaches(edge: SpadeEdge<'_>, p: DVec2) -> bool {
     let [a, b] = edge.positions().map(at);
     (a - p).dot(b - p) <= 0.0
 }
 
+/// Returns whether a point lies in a face's circumcircle.
 fn in_circle(face: SpadeFace<'_>, p: DVec2) -> bool {
     let (centre, radius_squared) = face.circumcircle();
     p.distance_squared(at(centre)) < radius_squared
