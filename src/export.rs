@@ -1,24 +1,31 @@
-//! Frames as files: SVG, PNG and DXF, contact sheets, numbered pictures, GIF,
-//! animated PNG and MP4, and films as motion. Needs no graphics card and no display.
+//! Writes transitions to files: single frames (PNG, SVG, DXF), contact sheets, numbered frames,
+//! GIF, animated PNG, MP4, and animated vector graphics (SVG, HTML, Lottie). Needs neither a GPU
+//! nor a display.
 //!
-//! Everything goes through one [`Drawing`], so no two formats can disagree.
-//! Guarantees: files are written whole or not at all, and read again before they
-//! take the place of earlier ones, whatever an encoder says; the same transition gives
-//! the same bytes on every run (MP4 apart, which is ffmpeg's); frames are drawn
-//! on all cores and written in order. It knows nothing of windows or command
-//! lines.
+//! All formats are written from one [`Drawing`], so they cannot disagree. Guarantees: files are
+//! written atomically, and films are read back and verified before they replace an earlier file;
+//! the same transition gives the same bytes on every run, except for MP4, which ffmpeg encodes;
+//! frames are drawn on all cores and written in order. This module does not depend on the window or
+//! the command line.
 //!
 //! ```no_run
-//! use morphospace::export::{Camera, Film, PixelSize, Target, View, framing, write_film};
+//! use morphospace::export::{Camera, ExportTarget, FilmSpec, PixelSize, PlaneView};
+//! use morphospace::export::{framing, write_film};
 //! use morphospace::work::progress::Silent;
 //! # fn transition() -> morphospace::transition::Transition { unreachable!() }
 //!
 //! let transition = transition();
-//! let film = Film::evenly(0.0, 1.0, 24, 24.0)?;
+//! let film = FilmSpec::evenly(0.0, 1.0, 24, 24.0)?;
 //! let bounds = framing(&transition, film.times());
-//! let view = View::fit(bounds, PixelSize::of_shape(bounds, 960));
-//! let camera = Camera { sequence: transition.into(), style: Default::default(), view, ground: None, captions: None };
-//! let target = Target::of_path("film.gif".as_ref())?;
+//! let view = PlaneView::fit(bounds, PixelSize::of_shape(bounds, 960));
+//! let camera = Camera {
+//!     sequence: transition.into(),
+//!     style: Default::default(),
+//!     view,
+//!     ground: None,
+//!     captions: None,
+//! };
+//! let target = ExportTarget::of_path("film.gif".as_ref())?;
 //! write_film(&camera, &film, &target, &Silent)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -96,12 +103,11 @@ pub use target::{
 pub use vector_animation::VectorAnimation;
 pub use view::PlaneView;
 
-/// Writes a film to wherever the target says, and returns the paths of what it
-/// wrote. A still target gets the film's first frame.
+/// Writes a film to the given target and returns the paths of the files written. A target for a
+/// single image gets the film's first frame.
 ///
 /// # Errors
-/// [`ExportError`] where something cannot be written or nobody wants it any
-/// more.
+/// [`ExportError`] if a file cannot be written or the export is cancelled.
 pub fn write_film(
     camera: &Camera,
     film: &FilmSpec,

@@ -1,5 +1,9 @@
 //! Time: easing functions, and the timing of a film (duration, pauses, stops).
 
-pub mod easing;
-pub(crate) mod easing_curve;
-pub(crate) mod timing;
+mod easing;
+mod easing_curve;
+mod timing;
+
+pub use easing::NamedEasing;
+pub use easing_curve::{EasingBezier, EasingBezierError, EasingFunction};
+pub use timing::{PlayMode, Timing, TimingError, TransitionStop};

@@ -1,8 +1,8 @@
-//! A film as an animated PNG.
+//! Writes a film as an animated PNG.
 //!
-//! Guarantees: every colour and soft transparency are kept; holds are one long
-//! frame; delays are exact at whole frame rates and in milliseconds, without
-//! drift, at others. The first frame is what a reader without animation shows.
+//! Guarantees: colours and smooth transparency are lossless; a pause is one long frame; delays are
+//! exact at whole frame rates, and otherwise rounded to milliseconds without drift. Readers without
+//! animation support show the first frame.
 
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -18,19 +18,17 @@ use super::film_spec::{FilmSpec, FrameRun};
 use super::raster::{rasterise, samples};
 use super::readback::{DRAWN_FRACTION, check_apng};
 
-/// Writes the film.
+/// Writes the film and verifies it.
 ///
 /// # Errors
-/// [`ExportError`] where the file cannot be written or nobody wants it any
-/// more.
+/// [`ExportError`] if the file cannot be written or the export is cancelled.
 pub fn write_apng(
     camera: &Camera,
     film: &FilmSpec,
     path: &Path,
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
-    // Before anything is drawn: a folder that cannot be written to is told at
-    // once.
+    // Created before anything is drawn, so that an unwritable folder is reported at once.
     let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let runs = film.runs();
     let mut output = BufWriter::new(file.file_mut());
@@ -50,8 +48,7 @@ pub fn write_apng(
         },
     )?;
     writer.finish().map_err(ExportError::encode(path))?;
-    // Dropped with bytes in it, the buffer would lose the error of writing
-    // them.
+    // Flushed explicitly, because dropping the buffer would ignore write errors.
     output.flush().map_err(ExportError::write(path))?;
     drop(output);
     let written = file.written().map_err(ExportError::write(path))?;
@@ -60,6 +57,7 @@ pub fn write_apng(
     file.commit().map_err(ExportError::write(path))
 }
 
+/// Returns a PNG writer that has written the header of the animation.
 fn writer<W: Write>(
     output: W,
     camera: &Camera,
@@ -75,13 +73,13 @@ fn writer<W: Write>(
     encoder.set_depth(BitDepth::Eight);
     let plays = if film.repeats() { 0 } else { 1 };
     encoder.set_animated(frames as u32, plays)?;
-    // Laid over each other, transparent frames would pile up.
+    // Each frame replaces the previous one; blending would accumulate transparent frames.
     encoder.set_blend_op(BlendOp::Source)?;
     encoder.set_dispose_op(DisposeOp::None)?;
     encoder.write_header()
 }
 
-/// Seconds as a fraction of 16-bit numbers.
+/// Delay of a run in seconds, as a fraction of 16-bit numbers.
 fn delay(film: &FilmSpec, run: FrameRun) -> (u16, u16) {
     let fps = film.fps();
     if fps.fract() == 0.0
@@ -89,7 +87,7 @@ fn delay(film: &FilmSpec, run: FrameRun) -> (u16, u16) {
     {
         return (count, fps as u16);
     }
-    // A hold beyond 65 s leaves no room for milliseconds.
+    // Pauses longer than 65 s do not fit into 16 bits as milliseconds.
     let millis = film.ticks(run, 1000.0);
     match u16::try_from(millis) {
         Ok(millis) => (millis, 1000),
@@ -112,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_rates_do_not_drift() {
+    fn fractional_rates_do_not_drift() {
         let film = FilmSpec::evenly(0.0, 1.0, 300, 29.97).expect("a film");
         let runs = film.runs();
         let millis = runs.iter().map(|&run| u32::from(delay(&film, run).0));
@@ -120,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_are_those_of_the_raster() {
+    fn decoded_frames_equal_the_rasterised_drawings() {
         for ground in [
             None,
             Some(crate::transition::TransitionStyle::default().ground),

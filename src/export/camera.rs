@@ -1,8 +1,8 @@
-//! Takes pictures of a transition: one at a time, or a film over all cores.
+//! Renders frames of a transition as drawings, one at a time or a whole film on all cores.
 //!
-//! Guarantees: frames come out in order; at most [`BATCH_BYTES`] of raster
-//! pictures are in memory at once (or one frame, where that is larger); a cancel
-//! is noticed before each frame.
+//! Guarantees: frames are delivered in order; at most [`BATCH_BYTES`] of raster frames are in
+//! memory at once (or one frame, if a single frame is larger); a cancellation is noticed before
+//! each frame.
 
 use image::RgbaImage;
 use rayon::prelude::*;
@@ -21,36 +21,36 @@ use super::size::PixelSize;
 use super::svg::to_svg;
 use super::view::PlaneView;
 
-/// Memory for frames that are drawn ahead of being written, in bytes: 32 of
-/// 1920 × 1080.
+/// Memory limit for frames drawn ahead of being written, in bytes (resource limit: holds 32 frames
+/// of 1920 × 1080).
 pub const BATCH_BYTES: u64 = 256 << 20;
 
-/// The most frames at which [`framing`] looks: both ends, and what is between
-/// them halved five times.
+/// Maximum number of frames that [`framing`] evaluates (resource limit: both ends and five
+/// bisections between them).
 const FRAMING_SAMPLES: usize = 33;
 
-/// The stage of drawing a film's frames, as [`Progress`] is told.
+/// Name of the progress stage in which frames are drawn.
 pub(super) const DRAWING_STAGE: &str = "drawing frames";
 
-/// A transition or several in sequence, how they look, and from where they are seen.
+/// A transition (or several in sequence) together with its style and the part of the plane to show.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// What is shown.
+    /// The transitions to show.
     pub sequence: Sequence,
-    /// In which colours.
+    /// Colours and joints.
     pub style: TransitionStyle,
-    /// Which part of the plane, at which size.
+    /// Part of the plane to show, and image size.
     pub view: PlaneView,
-    /// On which ground; `None` is transparent.
+    /// Background colour; `None` is transparent.
     pub ground: Option<Rgb>,
-    /// What stands below.
+    /// Captions below the frames.
     pub captions: Option<Captions>,
 }
 
 impl Camera {
-    /// A camera that sees every frame from the first design to the last whole, with the
-    /// longer side of its pictures given in pixels, in the usual colours and on a
-    /// transparent ground.
+    /// Creates a camera that shows every frame from the first design to the last without cropping,
+    /// with default colours on a transparent background. The longer side of the image has the given
+    /// number of pixels.
     pub fn around(shown: impl Into<Sequence>, longer_side_px: u32) -> Self {
         let sequence = shown.into();
         let times = even_times(0.0, sequence.end(), FRAMING_SAMPLES);
@@ -64,22 +64,22 @@ impl Camera {
         }
     }
 
-    /// The frame at `t` as an SVG document.
+    /// Returns the frame at `t` as an SVG document.
     pub fn svg(&self, t: f64) -> String {
         to_svg(&self.shoot(t))
     }
 
-    /// The frame at `t` as pixels with straight alpha.
+    /// Returns the frame at `t` as pixels with straight alpha.
     pub fn pixels(&self, t: f64) -> RgbaImage {
         rasterise(&self.shoot(t))
     }
 
-    /// The drawing of one frame.
+    /// Returns the frame at `t` as a drawing.
     pub fn shoot(&self, t: f64) -> Drawing {
         self.drawn(&self.sequence.frame(t))
     }
 
-    /// The drawing of a frame of what is shown.
+    /// Returns the drawing of an evaluated frame of this sequence.
     pub(super) fn drawn(&self, frame: &SequenceFrame) -> Drawing {
         let style = frame.style(&self.style);
         let mut drawing = Drawing::of_frame(frame.now(), &style, &self.view, self.ground);
@@ -89,12 +89,12 @@ impl Camera {
         drawing
     }
 
-    /// Draws each run's frame once, makes something of it on any thread, and
-    /// hands the results over in order on this one. `stage` is what
-    /// `progress` is told.
+    /// Draws the frame of each run once. `make` processes the drawings on any thread; `take`
+    /// receives the results in order on the calling thread. `stage` is the progress stage to
+    /// report.
     ///
     /// # Errors
-    /// [`ExportError::Cancelled`], or what `make` and `take` return.
+    /// [`ExportError::Cancelled`], or the first error of `make` or `take`.
     pub fn shoot_runs<T: Send>(
         &self,
         runs: &[FrameRun],
@@ -104,8 +104,8 @@ impl Camera {
         mut take: impl FnMut(FrameRun, T) -> Result<(), ExportError>,
     ) -> Result<(), ExportError> {
         let mut done = 0;
-        // Cores finish frames in any order, files want them in theirs: a batch
-        // is drawn on all, then handed over.
+        // Threads finish frames in any order but files need them in sequence, so each batch is
+        // drawn in parallel and then delivered in order.
         for batch in runs.chunks(batch_len(self.view.size())) {
             checkpoint(progress, stage, done as f64 / runs.len() as f64)?;
             let shoot = |frame: &mut SequenceFrame, run: &FrameRun| {
@@ -115,13 +115,14 @@ impl Camera {
                 frame.seek(run.t);
                 make(self.drawn(frame))
             };
-            // A frame owns the memory that it is evaluated in: one for each
-            // thread.
-            let frames = || self.sequence.frame(batch[0].t);
-            let made = batch.par_iter().map_init(frames, shoot);
-            let made: Vec<T> = made.collect::<Result<_, ExportError>>()?;
-            for (run, made) in batch.iter().zip(made) {
-                take(*run, made)?;
+            // A frame owns its working memory, so each thread gets one.
+            let frame_of_thread = || self.sequence.frame(batch[0].t);
+            let results: Vec<T> = batch
+                .par_iter()
+                .map_init(frame_of_thread, shoot)
+                .collect::<Result<_, ExportError>>()?;
+            for (run, result) in batch.iter().zip(results) {
+                take(*run, result)?;
             }
             done += batch.len();
         }
@@ -130,40 +131,40 @@ impl Camera {
     }
 }
 
-/// Room around the shapes, as a fraction of their longer side.
+/// Margin around the shapes, as a fraction of their longer side (heuristic).
 const MARGIN: f64 = 0.04;
 
-/// The part of the plane that holds the bounds of what is shown and every one
-/// of some frames spread evenly over `times`, so that a shape that swings wide
-/// on its way is not cut off; with a little room around.
+/// Returns the part of the plane that contains the bounds of the sequence and of frames sampled
+/// evenly over `times`, plus a small margin. Sampling keeps shapes that swing far out between the
+/// designs from being cropped.
 pub fn framing(shown: impl Into<Sequence>, times: &[f64]) -> Bounds {
     let sequence = shown.into();
     let step = times.len().div_ceil(FRAMING_SAMPLES).max(1);
-    // The last one stays in, which the steps may jump over.
+    // The last time is always included, since the stride may skip it.
     let sampled = times.iter().step_by(step).chain(times.last());
     let mut frame = sequence.frame(times.first().copied().unwrap_or_default());
-    let mut all = sequence.bounds();
+    let mut framed = sequence.bounds();
     for &t in sampled {
         frame.seek(t);
         let figure = frame.now().figure();
-        let reach = 0.5 * figure.bar_width;
-        let on_rings = Bounds::of(figure.rings.iter().flatten().copied());
-        let on_bars = Bounds::of(figure.bars.iter().flatten().copied());
-        let on_bars = on_bars.map(|bounds| bounds.padded(reach));
-        for bounds in [on_rings, on_bars].into_iter().flatten() {
-            // Far outside [0, 1] a film overflows, and such a frame would leave
-            // no room for any other.
+        let half_width = 0.5 * figure.bar_width;
+        let ring_bounds = Bounds::of(figure.rings.iter().flatten().copied());
+        let axis_bounds = Bounds::of(figure.bars.iter().flatten().copied());
+        let bar_bounds = axis_bounds.map(|bounds| bounds.padded(half_width));
+        for bounds in [ring_bounds, bar_bounds].into_iter().flatten() {
+            // Far outside [0, 1] coordinates overflow. Such a frame must not affect the framing of
+            // the others.
             if bounds.min.is_finite() && bounds.max.is_finite() {
-                all = all.union(&bounds);
+                framed = framed.union(&bounds);
             }
         }
     }
-    all.padded(MARGIN * all.size().max_element())
+    framed.padded(MARGIN * framed.size().max_element())
 }
 
+/// Number of frames to draw in parallel before delivering them.
 fn batch_len(size: PixelSize) -> usize {
     let in_memory = (BATCH_BYTES / (size.pixels() * 4)).max(1);
-    // A few frames for each core even out those that take longer; more would
-    // only make a cancel and the progress wait.
+    // A few frames per thread balance out slow ones. More would delay cancellation and progress.
     (in_memory as usize).min(4 * rayon::current_num_threads())
 }

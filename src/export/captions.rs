@@ -1,35 +1,39 @@
-//! Words below a film: the names of its stops, each while the film is near it.
+//! Captions below the frames of a film: the name of the nearest stop, faded in and out around it.
 
 use super::drawing::Drawing;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
 use crate::transition::TransitionStop;
 
-/// The share of the way to the middle between two names that one stays whole, and that
-/// at which it is gone.
-const WHOLE: f64 = 0.5;
-const GONE: f64 = 0.9;
+/// Fraction of the way to the midpoint between two names up to which a caption is fully opaque
+/// (heuristic).
+const OPAQUE_UNTIL: f64 = 0.5;
 
-/// What stands below a film, and when.
+/// Fraction of the way to the midpoint from which a caption is hidden (heuristic).
+const HIDDEN_FROM: f64 = 0.9;
+
+/// Captions with the times at which they appear, and their colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Captions {
-    /// Names by ascending t.
+    /// Captions by ascending t.
     names: Vec<(f64, String)>,
     colour: Rgb,
 }
 
 impl Captions {
-    /// How much of a picture's width a caption may have.
+    /// Maximum width of a caption, as a fraction of the image width (heuristic).
     pub const WIDEST: f64 = 0.92;
 
-    /// The height of a line of letters, of the shorter side.
+    /// Text height of a caption, as a fraction of the image's shorter side (heuristic).
     pub const LETTERS: f64 = 0.055;
 
-    /// The height of the band that captions stand in, of a picture's shorter side.
+    /// Height of the band reserved for captions, as a fraction of the image's shorter side
+    /// (heuristic).
     pub const BAND: f64 = 0.12;
 
-    /// The names of the stops; where none has one, those of the designs, one at each whole
-    /// t. They are dark or light, whichever can be read on that ground.
+    /// Creates captions from the names of the stops, or, if no stop has a name, from the names of
+    /// the designs, one at each whole t. The text is dark or light, whichever is readable on the
+    /// background.
     #[must_use]
     pub fn new<'a>(
         stops: &[TransitionStop],
@@ -45,7 +49,7 @@ impl Captions {
                 .collect();
         }
         names.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // As bright as a middle grey looks.
+        // Threshold on relative luminance: 0.2 is about a middle grey in sRGB.
         let [r, g, b] = ground.to_linear();
         let is_light = 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.2;
         Self {
@@ -58,29 +62,33 @@ impl Captions {
         }
     }
 
-    /// The name at `t`, and how much of it is seen, in [0, 1].
+    /// Returns the caption at `t` and its opacity in (0, 1], or `None` where no caption is visible.
     #[must_use]
     pub fn at(&self, t: f64) -> Option<(&str, f64)> {
-        let far = |name: &&(f64, String)| (name.0 - t).abs();
-        let nearest = self.names.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?;
+        let distance = |name: &&(f64, String)| (name.0 - t).abs();
+        let nearest = self
+            .names
+            .iter()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let beyond = |name: &&(f64, String)| (name.0 - nearest.0) * (t - nearest.0) > 0.0;
         let next = self.names.iter().filter(beyond);
         let gap = next.map(|name| (name.0 - nearest.0).abs()).reduce(f64::min);
-        // Beyond the last one it stays.
-        let way = gap.map_or(0.0, |gap| 2.0 * (t - nearest.0).abs() / gap);
-        let seen = 1.0 - ((way - WHOLE) / (GONE - WHOLE)).clamp(0.0, 1.0);
-        (seen > 0.0).then_some((nearest.1.as_str(), seen))
+        // Before the first and after the last caption there is no neighbour to fade towards.
+        let to_midpoint = gap.map_or(0.0, |gap| 2.0 * (t - nearest.0).abs() / gap);
+        let opacity =
+            1.0 - ((to_midpoint - OPAQUE_UNTIL) / (HIDDEN_FROM - OPAQUE_UNTIL)).clamp(0.0, 1.0);
+        (opacity > 0.0).then_some((nearest.1.as_str(), opacity))
     }
 
-    /// What they are written in.
+    /// Text colour.
     #[must_use]
     pub fn colour(&self) -> Rgb {
         self.colour
     }
 
-    /// Adds what stands below the frame at `t`.
+    /// Draws the caption of the frame at `t`.
     pub(super) fn push(&self, drawing: &mut Drawing, t: f64) {
-        let Some((words, seen)) = self.at(t) else {
+        let Some((words, opacity)) = self.at(t) else {
             return;
         };
         let size = drawing.size.as_dvec2();
@@ -88,7 +96,7 @@ impl Captions {
         let room = [Self::WIDEST * size.x, Self::LETTERS * shorter];
         let base = DVec2::new(0.5 * size.x, size.y - 0.45 * Self::BAND * shorter);
         let paint = Paint {
-            opacity: seen,
+            opacity,
             ..self.colour.into()
         };
         drawing.push_label_within(words, base, room, paint);
@@ -104,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_seen_near_its_stop_and_gone_between_two() {
+    fn a_name_is_visible_near_its_stop_and_hidden_midway_between_two() {
         let stops = [stop(1.0, "end"), stop(0.0, "start"), stop(0.5, "")];
         let captions = Captions::new(&stops, ["a", "b"], Rgb([255; 3]));
         assert_eq!(captions.at(0.0), Some(("start", 1.0)));
@@ -112,8 +120,8 @@ mod tests {
         assert_eq!(captions.at(0.5), None);
         assert_eq!(captions.at(0.9), Some(("end", 1.0)));
         assert_eq!(captions.at(7.0), Some(("end", 1.0)));
-        let (words, seen) = captions.at(0.35).expect("half of it");
-        assert!(words == "start" && (0.4..0.6).contains(&seen));
+        let (words, opacity) = captions.at(0.35).expect("half of it");
+        assert!(words == "start" && (0.4..0.6).contains(&opacity));
         let plain = Captions::new(&[], ["a", "b"], Rgb([0; 3]));
         assert_eq!(plain.at(0.0), Some(("a", 1.0)));
         assert_ne!(plain.colour, captions.colour);

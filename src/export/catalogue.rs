@@ -1,5 +1,5 @@
-//! The places of a map that are kept, as files: each as SVG and, where it has outlines, as DXF;
-//! all as a sheet, and their measures as a table.
+//! Exports the saved places of a map: one SVG and (if it has outlines) one DXF per place, an
+//! overview sheet (`catalogue.png`), and a table of measures (`catalogue.csv`).
 
 use std::path::{Path, PathBuf};
 
@@ -17,90 +17,91 @@ use crate::io::file_name::safe;
 use crate::io::sanitize::SanitizedLine;
 use crate::measure::{BlendMeasures, BlendSampler};
 use crate::project::SavedPlace;
-use crate::settings::choice::named;
+use crate::settings::named;
 use crate::space::{DesignSpace, WeightMap};
 use crate::transition::TransitionStyle;
 use crate::work::progress::{Progress, checkpoint};
 
-/// Pixels along the longer side of a single picture.
+/// Longer side of the image of one place, in pixels (heuristic).
 const LONGER_SIDE_PX: u32 = 960;
 
-/// In which order kept places are listed.
+/// Order in which saved places are listed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CatalogueOrder {
-    /// As they were kept.
+    /// In the order in which they were saved.
     #[default]
     Kept,
-    /// The best first.
+    /// Highest rating first.
     Stars,
-    /// By their names.
+    /// Alphabetically by name.
     Name,
-    /// The least area first.
+    /// Smallest area first.
     Area,
-    /// The shortest outlines first.
+    /// Shortest outline first.
     Perimeter,
-    /// The least distorted first.
+    /// Least distorted first.
     Distortion,
 }
 
 named! { CatalogueOrder {
-    Kept: "kept", "As kept", "In the order in which they were kept";
-    Stars: "stars", "Stars", "The best first";
-    Name: "name", "Name", "By their names";
-    Area: "area", "Area", "The least area first";
-    Perimeter: "perimeter", "Perimeter", "The shortest outlines first";
-    Distortion: "distortion", "Distortion", "The least distorted first";
+    Kept: "kept", "As saved", "In the order in which they were saved";
+    Stars: "stars", "Stars", "Highest rating first";
+    Name: "name", "Name", "Alphabetically by name";
+    Area: "area", "Area", "Smallest area first";
+    Perimeter: "perimeter", "Perimeter", "Shortest outline first";
+    Distortion: "distortion", "Distortion", "Least distorted first";
 } }
 
-/// Kept places with what is measured of them.
+/// Saved places with their measures, filtered and sorted.
 #[derive(Clone, Debug)]
 pub struct Catalogue {
     entries: Vec<CatalogueEntry>,
 }
 
-/// One of them.
+/// One saved place with its blend weights and measures.
 #[derive(Clone, Debug)]
 struct CatalogueEntry {
-    kept: SavedPlace,
+    saved: SavedPlace,
     weights: Vec<f64>,
     measures: BlendMeasures,
 }
 
 impl Catalogue {
-    /// Those of at least so many stars, in that order; equal ones as they were kept.
+    /// Selects the places with at least `least_stars` stars and sorts them; ties keep the order in
+    /// which they were saved. Places without a name are named after their blend.
     ///
     /// # Panics
-    /// If the map has not as many sites as the space has designs.
+    /// If the map does not have one site per design of the space.
     #[must_use]
     pub fn new(
         (space, map): (&DesignSpace, &WeightMap),
-        kept: &[SavedPlace],
+        saved: &[SavedPlace],
         least_stars: u8,
         order: CatalogueOrder,
     ) -> Self {
         let mut sampler = BlendSampler::of(space);
-        let entry = |kept: &SavedPlace| {
+        let entry = |saved: &SavedPlace| {
             let mut weights = vec![0.0; space.designs().len()];
-            map.weights(kept.at, &mut weights);
-            let mut kept = kept.clone();
-            if kept.name.is_empty() {
-                kept.name = space.told(&weights);
+            map.weights(saved.at, &mut weights);
+            let mut saved = saved.clone();
+            if saved.name.is_empty() {
+                saved.name = space.told(&weights);
             }
             CatalogueEntry {
                 measures: sampler.at(&weights),
                 weights,
-                kept,
+                saved,
             }
         };
-        let wanted = kept.iter().filter(|kept| kept.stars >= least_stars);
+        let wanted = saved.iter().filter(|saved| saved.stars >= least_stars);
         let mut entries: Vec<CatalogueEntry> = wanted.map(entry).collect();
         let distortion =
             |entry: &CatalogueEntry| entry.measures.quality.conformal_p95.unwrap_or(1.0);
         entries.sort_by(|a, b| match order {
             CatalogueOrder::Kept => std::cmp::Ordering::Equal,
-            CatalogueOrder::Stars => b.kept.stars.cmp(&a.kept.stars),
-            CatalogueOrder::Name => a.kept.name.cmp(&b.kept.name),
+            CatalogueOrder::Stars => b.saved.stars.cmp(&a.saved.stars),
+            CatalogueOrder::Name => a.saved.name.cmp(&b.saved.name),
             CatalogueOrder::Area => a.measures.area.total_cmp(&b.measures.area),
             CatalogueOrder::Perimeter => a.measures.perimeter.total_cmp(&b.measures.perimeter),
             CatalogueOrder::Distortion => distortion(a).total_cmp(&distortion(b)),
@@ -108,23 +109,24 @@ impl Catalogue {
         Self { entries }
     }
 
-    /// How many there are.
+    /// Number of selected places.
     #[must_use]
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether no place was selected.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
 
-    /// Writes all of it into a folder, which is made where it is missing, and returns what it
-    /// wrote. Files of the same names are written over.
+    /// Writes all files into a folder, which is created if missing, and returns their paths. Files
+    /// with the same names are overwritten.
     ///
     /// # Errors
-    /// [`ExportError`] names the file that cannot be written; those before it are whole.
+    /// [`ExportError`] naming the file that cannot be written. Files written before it are
+    /// complete.
     pub fn write(
         &self,
         space: &DesignSpace,
@@ -141,7 +143,7 @@ impl Catalogue {
             checkpoint(progress, "writing", k as f64 / self.len() as f64)?;
             let mut drawing = Drawing::new(view.size(), ground);
             self.draw(space, k, style, &view, &mut drawing);
-            let stem = stem(k, &entry.kept);
+            let stem = stem(k, &entry.saved);
             for kind in [StillKind::Svg, StillKind::Dxf] {
                 let path = folder.join(format!("{stem}.{kind}"));
                 match encoded(&drawing, kind, &path) {
@@ -149,7 +151,8 @@ impl Catalogue {
                         write_atomically(&path, &bytes)?;
                         written.push(path);
                     }
-                    // Nothing of a field may be left.
+                    // Some blends of distance fields have no outline, so they cannot be written as
+                    // DXF.
                     Err(ExportError::NoOutlines) => {}
                     Err(error) => return Err(error),
                 }
@@ -170,7 +173,7 @@ impl Catalogue {
         Ok(written)
     }
 
-    /// All side by side, with their names and stars.
+    /// Draws all places side by side, with their names and stars.
     #[must_use]
     pub fn sheet(
         &self,
@@ -178,12 +181,12 @@ impl Catalogue {
         style: &TransitionStyle,
         ground: Option<Rgb>,
     ) -> Drawing {
-        // Names are long where nobody gave one: the cells of slender designs are wider.
-        let own = space.bounds();
-        let beside = 0.5 * (own.size().y - own.size().x).max(0.0) * DVec2::X;
+        // Automatic names are long, so the cells of slender designs are widened to square.
+        let bounds = space.bounds();
+        let padding = 0.5 * (bounds.size().y - bounds.size().x).max(0.0) * DVec2::X;
         let bounds = Bounds {
-            min: own.min - beside,
-            max: own.max + beside,
+            min: bounds.min - padding,
+            max: bounds.max + padding,
         };
         let layout = SheetLayout::new(self.len().max(1), bounds, None);
         let mut drawing = Drawing::new(layout.size, ground);
@@ -191,9 +194,9 @@ impl Catalogue {
             let (corner, inner, base) = layout.cell(k);
             let view = PlaneView::fit_cell(bounds, layout.size, corner, inner);
             self.draw(space, k, style, &view, &mut drawing);
-            let words = match entry.kept.stars {
-                0 => SanitizedLine(&entry.kept.name).to_string(),
-                stars => format!("{}, {stars} of 5", SanitizedLine(&entry.kept.name)),
+            let words = match entry.saved.stars {
+                0 => SanitizedLine(&entry.saved.name).to_string(),
+                stars => format!("{}, {stars} of 5", SanitizedLine(&entry.saved.name)),
             };
             let [width, height] = layout.label_room(inner);
             let room = [width, 0.8 * height];
@@ -202,6 +205,7 @@ impl Catalogue {
         drawing
     }
 
+    /// Draws the blend of place `k` into a drawing.
     fn draw(
         &self,
         space: &DesignSpace,
@@ -216,13 +220,14 @@ impl Catalogue {
         drawing.push_blend(&frame, style, view);
     }
 
-    /// A row for each, its weights by the names of the designs.
+    /// Returns the CSV table: one row per place, with a column of weights for each design.
     fn table(&self, space: &DesignSpace) -> Result<Vec<u8>, String> {
         let mut table = csv::Writer::from_writer(Vec::new());
-        let before = ["file", "name", "stars", "note", "x", "y"].map(str::to_owned);
-        let weights = space.designs().iter();
-        let weights = weights.map(|design| format!("weight of {}", SanitizedLine(&design.name)));
-        let behind = [
+        let place_header = ["file", "name", "stars", "note", "x", "y"].map(str::to_owned);
+        let designs = space.designs().iter();
+        let weights_header =
+            designs.map(|design| format!("weight of {}", SanitizedLine(&design.name)));
+        let measures_header = [
             "area",
             "perimeter",
             "conformal_p95",
@@ -230,45 +235,50 @@ impl Catalogue {
             "folds",
             "crossings",
         ];
-        let header = before
+        let header = place_header
             .into_iter()
-            .chain(weights)
-            .chain(behind.map(str::to_owned));
-        let wrong = |error: csv::Error| error.to_string();
-        table.write_record(header).map_err(wrong)?;
+            .chain(weights_header)
+            .chain(measures_header.map(str::to_owned));
+        let message = |error: csv::Error| error.to_string();
+        table.write_record(header).map_err(message)?;
         for (k, entry) in self.entries.iter().enumerate() {
-            let CatalogueEntry { kept, measures, .. } = entry;
+            let CatalogueEntry {
+                saved, measures, ..
+            } = entry;
             let number = |value: f64| value.to_string();
-            let maybe = |value: Option<f64>| value.map_or_else(String::new, number);
-            let before = [
-                stem(k, kept),
-                SanitizedLine(&kept.name).to_string(),
-                kept.stars.to_string(),
-                SanitizedLine(&kept.note).to_string(),
-                number(kept.at.x),
-                number(kept.at.y),
+            let number_or_empty = |value: Option<f64>| value.map_or_else(String::new, number);
+            let place_cells = [
+                stem(k, saved),
+                SanitizedLine(&saved.name).to_string(),
+                saved.stars.to_string(),
+                SanitizedLine(&saved.note).to_string(),
+                number(saved.at.x),
+                number(saved.at.y),
             ];
             let weights = entry.weights.iter().copied().map(number);
-            let behind = [
+            let measure_cells = [
                 number(measures.area),
                 number(measures.perimeter),
-                maybe(measures.quality.conformal_p95),
-                maybe(measures.travel),
+                number_or_empty(measures.quality.conformal_p95),
+                number_or_empty(measures.travel),
                 measures.quality.folds.to_string(),
                 measures.quality.crossings.to_string(),
             ];
-            let row = before.into_iter().chain(weights).chain(behind);
-            table.write_record(row).map_err(wrong)?;
+            let row = place_cells.into_iter().chain(weights).chain(measure_cells);
+            table.write_record(row).map_err(message)?;
         }
         table.into_inner().map_err(|error| error.to_string())
     }
 }
 
-/// The name of its files without an ending: no two have the same, and none has blanks or signs.
-fn stem(k: usize, kept: &SavedPlace) -> String {
-    let name = safe(&kept.name);
-    let words = name.split(|c: char| !c.is_alphanumeric());
-    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+/// File name without extension: the number of the place and the words of its name. The number makes
+/// it unique; the words have no spaces or punctuation.
+fn stem(k: usize, saved: &SavedPlace) -> String {
+    let name = safe(&saved.name);
+    let words: Vec<&str> = name
+        .split(|c: char| !c.is_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .collect();
     format!("{:02}-{}", k + 1, words.join("-"))
 }
 
@@ -293,7 +303,7 @@ mod tests {
         (space, map)
     }
 
-    fn kept(map: &WeightMap) -> Vec<SavedPlace> {
+    fn saved(map: &WeightMap) -> Vec<SavedPlace> {
         let place = |site: DVec2, name: &str, stars: u8| SavedPlace {
             name: name.to_owned(),
             stars,
@@ -307,12 +317,12 @@ mod tests {
     }
 
     #[test]
-    fn all_that_is_kept_is_written_and_measured() {
+    fn all_saved_places_are_written_and_measured() {
         let (space, map) = space();
-        let kept = kept(&map);
+        let saved = saved(&map);
         let folder = tempfile::tempdir().expect("a folder");
         let to = folder.path().join("new/catalogue");
-        let catalogue = Catalogue::new((&space, &map), &kept, 0, CatalogueOrder::Area);
+        let catalogue = Catalogue::new((&space, &map), &saved, 0, CatalogueOrder::Area);
         let look = (&TransitionStyle::default(), None);
         let written = catalogue.write(&space, look, &to, &Silent).expect("files");
         assert_eq!(written.len(), 3 * 2 + 2);
@@ -325,22 +335,22 @@ mod tests {
     }
 
     #[test]
-    fn the_best_can_be_asked_for_alone() {
+    fn places_can_be_filtered_by_stars() {
         let (space, map) = space();
-        let all = Catalogue::new((&space, &map), &kept(&map), 1, CatalogueOrder::Stars);
-        let stars = all.entries.iter().map(|entry| entry.kept.stars);
+        let all = Catalogue::new((&space, &map), &saved(&map), 1, CatalogueOrder::Stars);
+        let stars = all.entries.iter().map(|entry| entry.saved.stars);
         assert_eq!(stars.collect::<Vec<_>>(), [5, 2]);
     }
 
     #[test]
-    fn long_names_keep_to_their_own_cells() {
+    fn long_names_stay_within_their_cells() {
         let (space, map) = space();
         let long = |site: DVec2| SavedPlace {
             name: "a name that says of which designs it is how much".to_owned(),
             ..SavedPlace::new(site)
         };
-        let kept: Vec<SavedPlace> = map.sites().iter().map(|site| long(*site)).collect();
-        let catalogue = Catalogue::new((&space, &map), &kept, 0, CatalogueOrder::Kept);
+        let saved: Vec<SavedPlace> = map.sites().iter().map(|site| long(*site)).collect();
+        let catalogue = Catalogue::new((&space, &map), &saved, 0, CatalogueOrder::Kept);
         let sheet = catalogue.sheet(&space, &TransitionStyle::default(), None);
         let spans = sheet.items.iter().filter_map(|item| match item {
             DrawingItem::Fill {

@@ -1,9 +1,8 @@
-//! A contact sheet of one pair by several methods: a row for each, the same t
-//! in each column.
+//! Contact sheet that compares methods on one pair of designs: one row per method, the same t in
+//! each column.
 //!
-//! Guarantees: all rows show the plane at one scale; names, frames and values
-//! of t do not overlap; a method that failed has its reason in place of
-//! frames.
+//! Guarantees: all rows show the plane at the same scale; names, frames and labels do not overlap;
+//! a method that failed shows its error message instead of frames.
 
 use crate::colour::Rgb;
 use crate::content::ContentKind;
@@ -20,49 +19,51 @@ use super::labels::{ERROR_COLOUR, LabelStyle, text_colour_on, time_label};
 use super::size::{MAX_SHEET_SIDE_PX, PixelSize, PixelSizeError};
 use super::view::PlaneView;
 
-/// The longer side of a frame, in pixels, where there is room for it.
+/// Longer side of a frame in pixels, unless the sheet would become too large (heuristic).
 const CELL_PX: f64 = 220.0;
 
-/// Room between frames and around them, in pixels.
+/// Gap between frames and around them, in pixels (heuristic).
 const GAP_PX: f64 = 16.0;
 
-/// Width of the names, in pixels.
+/// Width of the column of method names, in pixels (heuristic).
 const NAMES_PX: f64 = 180.0;
 
-/// How the words are set.
-const TYPE: LabelStyle = LabelStyle {
+/// Style of names, labels and error messages.
+const LABEL_STYLE: LabelStyle = LabelStyle {
     letters_px: 15.0,
     line_px: 20.0,
 };
-const LINE_PX: f64 = TYPE.line_px;
 
-/// How it is told how much trouble a film is.
-const REMARK: LabelStyle = LabelStyle {
+/// Line height of names and labels, in pixels.
+const LINE_PX: f64 = LABEL_STYLE.line_px;
+
+/// Style of the rating below a method's name.
+const REMARK_STYLE: LabelStyle = LabelStyle {
     letters_px: 12.0,
     line_px: 15.0,
 };
 
-/// The colour of the one with the least: readable on light and on dark.
-const BEST: Rgb = Rgb([0x2e, 0x8b, 0x57]);
+/// Text colour of the best rating (heuristic: readable on light and on dark).
+const BEST_COLOUR: Rgb = Rgb([0x2e, 0x8b, 0x57]);
 
-/// A method on the sheet.
+/// One method on the sheet.
 #[derive(Clone, Debug)]
 pub struct MethodRow {
-    /// What it is called.
+    /// Name of the method.
     pub name: String,
-    /// The pair by this method, or why there is none, in words.
+    /// The transition, or the error message if it could not be built.
     pub transition: Result<Transition, String>,
-    /// How much trouble its film is; none of pictures, and where there is none.
+    /// Rating of the animation; `None` for raster images and for methods that failed.
     pub rating: Option<FilmRating>,
 }
 
 impl MethodRow {
-    /// A pair by every method that can show it: the specification by each cell
-    /// of the table. Pictures are compared with pictures, shapes with shapes:
-    /// silhouettes of photographs say little.
+    /// Builds a pair of designs with every applicable method. Methods for raster images are
+    /// compared only with each other, and likewise methods for shapes: silhouettes of photographs
+    /// are not meaningful.
     ///
     /// # Errors
-    /// [`Cancelled`]; a method that fails has its reason in its row.
+    /// [`Cancelled`]. A method that fails keeps its error message in its row.
     pub fn all(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Vec<Self>, Cancelled> {
         let is_colours = |cell: TransitionMethod| cell.content() == ContentKind::Colours;
         let suits = |cell: &TransitionMethod| {
@@ -93,11 +94,11 @@ impl MethodRow {
     }
 }
 
-/// Draws a row for each method at the given t, tells of each how much trouble its
-/// film is, and marks the one with the least.
+/// Draws one row per method with frames at the given t and its rating, and highlights the best
+/// rating.
 ///
 /// # Errors
-/// [`PixelSizeError`] for more frames than a sheet can have.
+/// [`PixelSizeError`] if there are more frames than fit on a sheet.
 pub fn comparison_sheet(
     rows: &[MethodRow],
     style: &TransitionStyle,
@@ -105,9 +106,9 @@ pub fn comparison_sheet(
     ground: Option<Rgb>,
 ) -> Result<Drawing, PixelSizeError> {
     let built = rows.iter().filter_map(|row| row.transition.as_ref().ok());
-    let bounds = built.map(|transition| framing(transition, times));
-    // One frame around all methods, so that they can be compared by eye.
-    let bounds = bounds.reduce(|a, b| a.union(&b));
+    let all_bounds = built.map(|transition| framing(transition, times));
+    // All methods share one framing so that they can be compared by eye.
+    let bounds = all_bounds.reduce(|a, b| a.union(&b));
     let cell = cell(bounds, rows.len(), times.len());
     let step = cell + DVec2::splat(GAP_PX);
     let corner = DVec2::new(NAMES_PX + 2.0 * GAP_PX, GAP_PX);
@@ -119,15 +120,15 @@ pub fn comparison_sheet(
     let best = FilmRating::best(&ratings);
     for (k, row) in rows.iter().enumerate() {
         let left = DVec2::new(corner.x, corner.y + k as f64 * step.y);
-        let name_at = DVec2::new(GAP_PX, left.y + 0.5 * cell.y - 2.0 * LINE_PX);
-        let named = TYPE.push(&mut drawing, &row.name, (NAMES_PX, 2), name_at, ink);
+        let name_corner = DVec2::new(GAP_PX, left.y + 0.5 * cell.y - 2.0 * LINE_PX);
+        let name_lines = LABEL_STYLE.push(&mut drawing, &row.name, (NAMES_PX, 2), name_corner, ink);
         if let Some(rating) = &row.rating {
             let (words, colour) = match best == Some(k) {
-                true => (format!("Least trouble: {rating}"), BEST),
+                true => (format!("Best: {rating}"), BEST_COLOUR),
                 false => (rating.to_string(), ink),
             };
-            let below = name_at + DVec2::new(0.0, named as f64 * LINE_PX);
-            REMARK.push(&mut drawing, &words, (NAMES_PX, 3), below, colour);
+            let below = name_corner + DVec2::new(0.0, name_lines as f64 * LINE_PX);
+            REMARK_STYLE.push(&mut drawing, &words, (NAMES_PX, 3), below, colour);
         }
         match (&row.transition, bounds) {
             (Ok(transition), Some(bounds)) => {
@@ -141,28 +142,29 @@ pub fn comparison_sheet(
             }
             (Err(reason), _) => {
                 let room = times.len() as f64 * step.x;
-                let at = DVec2::new(left.x, name_at.y);
-                TYPE.push(&mut drawing, reason, (room, 4), at, ERROR_COLOUR);
+                let at = DVec2::new(left.x, name_corner.y);
+                LABEL_STYLE.push(&mut drawing, reason, (room, 4), at, ERROR_COLOUR);
             }
-            // Where one was built there are bounds.
+            // Bounds exist as soon as one transition was built, so this case does not occur.
             (Ok(_), None) => {}
         }
     }
-    let middle = DVec2::new(0.5 * cell.x, count.y * step.y + TYPE.letters_px);
+    let middle = DVec2::new(0.5 * cell.x, count.y * step.y + LABEL_STYLE.letters_px);
     for (i, &t) in times.iter().enumerate() {
         let base = corner + middle + DVec2::new(i as f64 * step.x, 0.0);
-        drawing.push_label(&time_label(t), base, TYPE.letters_px, ink);
+        drawing.push_label(&time_label(t), base, LABEL_STYLE.letters_px, ink);
     }
     Ok(drawing)
 }
 
-/// Width and height of a frame.
+/// Width and height of a frame in pixels.
 fn cell(bounds: Option<Bounds>, rows: usize, columns: usize) -> DVec2 {
     let size = bounds.map_or(DVec2::ONE, |bounds| bounds.size());
+    // Elongated designs get cells of at most 5:1.
     let shape = (size / size.max_element()).max(DVec2::splat(0.2));
     let count = DVec2::new(columns.max(1) as f64, rows.max(1) as f64);
     let room = (DVec2::splat(MAX_SHEET_SIDE_PX - NAMES_PX - 8.0 * GAP_PX) / count - GAP_PX) / shape;
-    // Rows are high enough for a name and what is told of it.
-    let words = 2.0 * LINE_PX + 3.0 * REMARK.line_px;
-    (shape * CELL_PX.min(room.min_element()).max(16.0)).max(DVec2::new(16.0, words))
+    // Rows are high enough for a two-line name and a three-line rating.
+    let min_height = 2.0 * LINE_PX + 3.0 * REMARK_STYLE.line_px;
+    (shape * CELL_PX.min(room.min_element()).max(16.0)).max(DVec2::new(16.0, min_height))
 }

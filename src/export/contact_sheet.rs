@@ -1,9 +1,8 @@
-//! A contact sheet: frames side by side with their t below, as the paper's
-//! figures print them.
+//! Contact sheet: frames side by side with their t below, as printed in figures of papers.
 //!
-//! Guarantees: one scale for all cells, frames left to right and top to bottom,
-//! a last row that is not full starts at the left. It is a [`Drawing`] like any
-//! other, so PNG and SVG show the same.
+//! Guarantees: all cells have the same scale; frames run left to right and top to bottom, and an
+//! incomplete last row is aligned left. The result is a [`Drawing`] like any other, so PNG and SVG
+//! show the same.
 
 use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
@@ -14,44 +13,47 @@ use super::labels::{text_colour_on, time_label};
 use super::size::{MAX_SHEET_SIDE_PX, PixelSize};
 use super::view::PlaneView;
 
-/// The longer side of a cell where the sheet's size is free, in pixels.
+/// Longer side of a cell in pixels if the size of the sheet is not given (heuristic).
 const CELL_PX: u32 = 240;
 
-/// The most cells in a row where the sheet's size is free.
+/// Maximum number of cells per row if the size of the sheet is not given (heuristic).
 const MAX_COLUMNS: usize = 6;
 
-/// Height of a label's line, in longer sides of a cell: 17 pixels at 240, so
-/// that labels of flat designs can be read as well as those of square ones.
+/// Height of a label line, as a fraction of the longer side of a cell (heuristic: 17 pixels at
+/// 240). Relative to the longer side, labels of flat designs are as legible as those of square
+/// ones.
 const LABEL_SHARE: f64 = 0.07;
 
-/// The most of a cell's height that a label takes.
+/// Maximum fraction of a cell's height for its label, and of its shorter side for the gap
+/// (heuristic).
 const MAX_LABEL_SHARE: f64 = 0.3;
 
-/// Height of a label's line in a grid, in longer sides of all its rows.
-const OF_GRID: f64 = 0.013;
+/// Height of a label line in a grid of many rows, as a fraction of the longer side of a cell, per
+/// row (heuristic).
+const GRID_LABEL_SHARE: f64 = 0.013;
 
-/// Gap between cells, in longer sides of a cell.
+/// Gap between cells, as a fraction of the longer side of a cell (heuristic).
 const GAP_SHARE: f64 = 0.06;
 
-/// Cells in columns and rows, and how large each is.
+/// Arrangement of the cells of a sheet, and their size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheetLayout {
     /// Size of the whole sheet.
     pub size: PixelSize,
-    /// Cells in a row.
+    /// Number of columns.
     pub columns: usize,
-    /// Rows.
+    /// Number of rows.
     pub rows: usize,
-    /// Height of a label's line, in pixels.
+    /// Height of a label line, in pixels.
     label_px: f64,
     /// Gap between cells, in pixels.
     gap_px: f64,
 }
 
 impl SheetLayout {
-    /// A layout for `count` cells that show `bounds` (both at least 1): in the
-    /// given size with the cells as large as can be, or as large as it comes,
-    /// with up to six in a row and rows of even length.
+    /// Arranges `count` cells (at least 1) that show `bounds`. In a given size, the number of
+    /// columns with the largest cells is chosen. Otherwise rows have equal length and at most six
+    /// cells, and the sheet is as large as they need.
     pub fn new(count: usize, bounds: Bounds, size: Option<PixelSize>) -> Self {
         let count = count.max(1);
         let cell = PixelSize::of_shape(bounds, CELL_PX).as_dvec2();
@@ -61,12 +63,12 @@ impl SheetLayout {
         }
     }
 
-    /// So many columns and rows (both at least 1) of cells that show `bounds`, in the
-    /// given size, or as large as it comes.
+    /// Arranges a grid of `columns` × `rows` cells (both at least 1) that show `bounds`, in the
+    /// given size or as large as the cells need.
     pub fn grid([columns, rows]: [usize; 2], bounds: Bounds, size: Option<PixelSize>) -> Self {
         let (columns, rows) = (columns.max(1), rows.max(1));
-        // A large grid is looked at as a whole: its words must be read from as far.
-        let label = (OF_GRID * rows as f64).clamp(LABEL_SHARE, MAX_LABEL_SHARE);
+        // A large grid is viewed as a whole, so its labels must be legible from farther away.
+        let label = (GRID_LABEL_SHARE * rows as f64).clamp(LABEL_SHARE, MAX_LABEL_SHARE);
         match size {
             Some(size) => Self::filling(size, [columns, rows], label),
             None => {
@@ -76,12 +78,13 @@ impl SheetLayout {
         }
     }
 
-    /// Height of a label's letters, in pixels.
+    /// Font size of a label, in pixels.
     pub(super) fn letters_px(&self) -> f64 {
         0.8 * self.label_px
     }
 
-    /// So many columns and rows in a given size.
+    /// Fills a sheet of the given size with `columns` × `rows` cells; `label` is the label height
+    /// as a fraction of the longer side of a cell.
     fn filling(size: PixelSize, [columns, rows]: [usize; 2], label: f64) -> Self {
         let whole = size.as_dvec2() / DVec2::new(columns as f64, rows as f64);
         let unit = whole.max_element();
@@ -94,13 +97,14 @@ impl SheetLayout {
         }
     }
 
-    /// Width and height of a label below a picture so large: nearly to the next one.
+    /// Maximum width and the font size of a label below an image of the given size. The label may
+    /// extend almost to its neighbour.
     pub(super) fn label_room(&self, picture: DVec2) -> [f64; 2] {
         [picture.x + 0.8 * self.gap_px, self.letters_px()]
     }
 
-    /// Corner and size of a cell's picture, and where its label's base line
-    /// has its middle.
+    /// Upper left corner and size of the image in a cell, and the centre of the baseline of its
+    /// label, all in pixels.
     pub(super) fn cell(&self, index: usize) -> (DVec2, DVec2, DVec2) {
         let counts = DVec2::new(self.columns as f64, self.rows as f64);
         let whole = self.size.as_dvec2() / counts;
@@ -108,39 +112,38 @@ impl SheetLayout {
         let corner = place * whole + DVec2::splat(0.5 * self.gap_px);
         let inner = whole - DVec2::new(self.gap_px, self.gap_px + self.label_px);
         let base = corner + DVec2::new(0.5 * inner.x, inner.y + 0.8 * self.label_px);
-        // A sheet of a few pixels has no room left for pictures.
+        // A sheet of a few pixels has no room for images.
         (corner, inner.max(DVec2::ONE), base)
     }
 }
 
-/// Cells of their natural size in balanced rows, on a sheet that is not too
-/// large.
+/// Rows of balanced length with cells of their natural size, on a sheet within the size limit.
 fn free(count: usize, cell: DVec2) -> SheetLayout {
     let rows = count.div_ceil(MAX_COLUMNS);
     natural([count.div_ceil(rows), rows], cell, LABEL_SHARE)
 }
 
-/// So many cells of their natural size, on a sheet that is not too large.
+/// `columns` × `rows` cells of their natural size, on a sheet within the size limit.
 fn natural([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout {
     let unit = f64::from(CELL_PX);
     let (label_px, gap_px) = (label * unit, GAP_SHARE * unit);
     let whole = cell + DVec2::new(gap_px, gap_px + label_px);
     let wanted = whole * DVec2::new(columns as f64, rows as f64);
-    // Scaled as a whole, with its labels and gaps.
-    let fitting = (MAX_SHEET_SIDE_PX / wanted.max_element()).min(1.0);
-    let sides = (wanted * fitting).round().max(DVec2::ONE);
+    // Labels and gaps are scaled along with the cells.
+    let scale = (MAX_SHEET_SIDE_PX / wanted.max_element()).min(1.0);
+    let sides = (wanted * scale).round().max(DVec2::ONE);
     let size = PixelSize::holding(sides)
-        .unwrap_or_else(|error| unreachable!("a sheet keeps within its longest side: {error}"));
+        .unwrap_or_else(|error| unreachable!("the sheet was scaled to fit: {error}"));
     SheetLayout {
         size,
         columns,
         rows,
-        label_px: label_px * fitting,
-        gap_px: gap_px * fitting,
+        label_px: label_px * scale,
+        gap_px: gap_px * scale,
     }
 }
 
-/// The number of columns at which the pictures are largest.
+/// Arrangement with the number of columns that gives the largest images.
 fn largest_cells(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
     let layout = |columns: usize| {
         SheetLayout::filling(size, [columns, count.div_ceil(columns)], LABEL_SHARE)
@@ -149,14 +152,14 @@ fn largest_cells(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
         let (_, inner, _) = layout.cell(0);
         (inner / cell).min_element()
     };
-    // Of equals the first stays: fewer columns.
+    // Ties go to fewer columns.
     let better = |a: SheetLayout, b: SheetLayout| if scale(&b) > scale(&a) { b } else { a };
     (2..=count).map(layout).fold(layout(1), better)
 }
 
 /// Draws the frames at the given values of t into one sheet.
 ///
-/// `bounds` is what each cell shows, in the design's units.
+/// `bounds` is the part of the plane that each cell shows, in the units of the designs.
 pub fn contact_sheet(
     sequence: &Sequence,
     style: &TransitionStyle,
@@ -206,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_given_size_takes_the_largest_cells() {
+    fn a_given_size_is_filled_with_the_largest_cells() {
         let given = |n, w, h| {
             let size = PixelSize::new(w, h).expect("a legal size");
             let layout = SheetLayout::new(n, square(), Some(size));
@@ -234,12 +237,12 @@ mod tests {
     }
 
     #[test]
-    fn labels_of_flat_designs_are_as_large_as_of_square_ones() {
+    fn labels_of_flat_designs_are_as_large_as_those_of_square_ones() {
         let flat = Bounds {
             min: DVec2::ZERO,
             max: DVec2::new(8.0, 1.0),
         };
         let label = |bounds| SheetLayout::new(5, bounds, None).label_px;
-        assert_eq!(time_label(flat), time_label(square()));
+        assert_eq!(label(flat), label(square()));
     }
 }

@@ -1,14 +1,13 @@
-//! The one drawing that SVG and raster pictures are made from, so that they
-//! cannot disagree.
+//! Display list from which the SVG, DXF and raster writers all work, so that they cannot disagree.
 //!
-//! A [`Drawing`] is a short list of plain shapes in pixels, y **down**: filled
-//! outlines, round-ended bars, discs, glyph outlines and pictures. The flip
-//! from the core's upward y happens in [`PlaneView::to_px`] and nowhere else.
+//! A [`Drawing`] is a short list of shapes in pixels, y **down**: filled outlines, strokes,
+//! round-ended bars, discs, glyph outlines and raster images. The flip from the core's upward y
+//! happens in [`PlaneView::to_px`] and nowhere else.
 //!
-//! Guarantees: solids are closed outlines filled by the nonzero rule, never
-//! triangles with hairlines between them; every coordinate is finite and at
-//! most [`MAX_COORDINATE_PX`](crate::export::MAX_COORDINATE_PX) in size, shapes beyond that are left out.
-//! It does not clip: what lies outside the picture is cut by its reader.
+//! Guarantees: solids are closed outlines filled by the nonzero rule, never triangles with hairline
+//! gaps between them; every coordinate is finite and at most
+//! [`MAX_COORDINATE_PX`](crate::export::MAX_COORDINATE_PX) in magnitude, and shapes beyond that are
+//! omitted. Shapes are not clipped to the image; the reader or rasteriser clips them.
 
 use std::collections::HashSet;
 
@@ -26,34 +25,35 @@ use super::outline::{OutlinePath, is_drawable};
 use super::size::PixelSize;
 use super::view::PlaneView;
 
-/// Radius of a joint's disc, in bar widths.
+/// Radius of the disc at a joint, in bar widths (heuristic).
 pub const JOINT_RADIUS: f64 = 0.9;
 
-/// Radius of the lighter core of a joint, in bar widths.
+/// Radius of the lighter core of a joint, in bar widths (heuristic).
 pub const JOINT_CORE_RADIUS: f64 = 0.5;
 
-/// How far a joint's core runs from the bars' colour to white, in linear light.
+/// Mixing fraction in [0, 1] from the bars' colour to white for a joint's core, in linear light
+/// (heuristic).
 const JOINT_CORE_LIGHTNESS: f64 = 0.6;
 
-/// One shape of a [`Drawing`]; what has a colour and no paint is opaque.
+/// One shape of a [`Drawing`]. Variants with a colour instead of a paint are opaque.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DrawingItem {
-    /// A filled outline; `label` says in words what it shows, where it is text.
+    /// A filled outline. Text is a filled outline with a `label`.
     Fill {
-        /// What is filled.
+        /// Contours, filled by the nonzero rule.
         outline: OutlinePath,
-        /// With what.
+        /// Colour and opacity; the mean of the gradient if there is one.
         paint: Paint,
-        /// The gradient that the paint is the mean of, in pixels, y down.
+        /// Gradient to fill with instead of the plain paint, in pixels, y down.
         gradient: Option<Gradient>,
-        /// The words that the outline spells, for readers that cannot see.
+        /// The text that the outline spells, for screen readers.
         label: Option<String>,
     },
-    /// A line along closed outlines.
+    /// A stroke along closed outlines.
     Line {
-        /// The outlines.
+        /// Contours that the stroke is centred on.
         outline: OutlinePath,
-        /// Paint, corners, and the width in pixels.
+        /// Paint, corner joins, and width in pixels.
         line: StrokeStyle,
     },
     /// Straight bars with round ends.
@@ -62,29 +62,29 @@ pub enum DrawingItem {
         segments: Vec<[DVec2; 2]>,
         /// Width in pixels.
         width_px: f64,
-        /// Their colour.
+        /// Common colour.
         colour: Rgb,
     },
-    /// Discs of one radius.
+    /// Discs of equal radius.
     Discs {
         /// Centres in pixels.
         centres: Vec<DVec2>,
         /// Radius in pixels.
         radius_px: f64,
-        /// Their colour.
+        /// Common colour.
         colour: Rgb,
     },
-    /// A picture, pixel for pixel.
+    /// A raster image, copied pixel for pixel.
     Picture {
-        /// Straight (not premultiplied) alpha.
+        /// Pixels with straight (not premultiplied) alpha.
         image: RgbaImage,
-        /// The pixel in its upper left corner.
+        /// Pixel of the drawing at which its upper left corner lies.
         corner: UVec2,
     },
 }
 
-/// A picture in shapes: what [`to_svg`](crate::export::to_svg) writes and
-/// [`rasterise`](crate::export::rasterise) paints.
+/// An image as a list of shapes: [`to_svg`](crate::export::to_svg) writes it and
+/// [`rasterise`](crate::export::rasterise) paints it.
 ///
 /// ```
 /// use morphospace::export::{Drawing, PixelSize, rasterise, to_svg};
@@ -92,22 +92,22 @@ pub enum DrawingItem {
 /// let drawing = Drawing::new(PixelSize::new(8, 4)?, None);
 /// assert_eq!(rasterise(&drawing).dimensions(), (8, 4));
 /// assert!(to_svg(&drawing).starts_with("<svg "));
-/// # Ok::<(), morphospace::export::SizeError>(())
+/// # Ok::<(), morphospace::export::PixelSizeError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
-    /// Size of the picture.
+    /// Size of the image.
     pub size: PixelSize,
-    /// The colour behind everything; `None` is transparent.
+    /// Background colour; `None` is transparent.
     pub ground: Option<Rgb>,
-    /// Shapes, the lowest first.
+    /// Shapes in painting order, the lowest first.
     pub items: Vec<DrawingItem>,
-    /// How the shapes were seen, where they are one frame.
+    /// Map from the plane to pixels if the drawing shows one frame, `None` for sheets.
     pub view: Option<PlaneView>,
 }
 
 impl Drawing {
-    /// An empty drawing.
+    /// Creates an empty drawing.
     pub fn new(size: PixelSize, ground: Option<Rgb>) -> Self {
         Self {
             size,
@@ -117,7 +117,7 @@ impl Drawing {
         }
     }
 
-    /// A frame as it is seen through `view`, over the whole picture.
+    /// Creates the drawing of one frame seen through `view`, as large as the view.
     pub fn of_frame(
         frame: &Frame,
         style: &TransitionStyle,
@@ -130,7 +130,7 @@ impl Drawing {
         drawing
     }
 
-    /// Adds a frame as it is seen through `view`.
+    /// Adds a frame seen through `view`.
     pub fn push_frame(&mut self, frame: &Frame, style: &TransitionStyle, view: &PlaneView) {
         if matches!(frame.transition().content(), Content::Colours(_)) {
             let places = frame.figure().rings.concat();
@@ -139,7 +139,7 @@ impl Drawing {
         self.push_figure(&frame.figure(), frame.t(), style, view);
     }
 
-    /// Adds a blend of many designs as it is seen through `view`.
+    /// Adds a blend of several designs seen through `view`.
     pub fn push_blend(&mut self, blend: &SpaceFrame, style: &TransitionStyle, view: &PlaneView) {
         match blend.window() {
             Some(window) => {
@@ -152,7 +152,8 @@ impl Drawing {
         }
     }
 
-    /// Adds the pixels of pictures that cover these places.
+    /// Adds a raster image that covers the bounding box of `places` (in the plane), clipped to the
+    /// drawing. `picture` renders it, or returns `None` if nothing is visible.
     fn push_pixels(
         &mut self,
         places: &[DVec2],
@@ -162,8 +163,7 @@ impl Drawing {
         let Some(covered) = Bounds::of(places.iter().map(|&p| view.to_px(p))) else {
             return;
         };
-        // Whole pixels, so that the picture is drawn without being sampled
-        // again.
+        // Snapping to whole pixels avoids a second resampling of the image.
         let (low, high) = (covered.min.floor(), covered.max.ceil());
         let low = low.clamp(DVec2::ZERO, self.size.as_dvec2());
         let high = high.clamp(low, self.size.as_dvec2());
@@ -182,8 +182,8 @@ impl Drawing {
         }
     }
 
-    /// Adds a figure as it looks at `t`: coat by coat, or in the style's one
-    /// colour; joints as discs with a lighter core.
+    /// Adds a figure as it looks at `t`: one paint layer after the other, or all in the colour of
+    /// the style. Bar joints are discs with a lighter core.
     pub fn push_figure(
         &mut self,
         figure: &VectorFigure,
@@ -194,15 +194,16 @@ impl Drawing {
         let colour = style.fill_at(t);
         match figure.coats.as_slice() {
             [] => self.push_rings(&figure.rings, (colour.into(), None), view),
-            coats => self.push_coats(coats, figure, style, view),
+            coats => self.push_layers(coats, figure, style, view),
         }
         let width_px = figure.bar_width * view.px_per_unit();
-        let all = InkedBars::all(figure.bars.len(), &figure.bar_paints).into_iter();
-        let inked = all.map(|inked| {
+        let by_paint = InkedBars::all(figure.bars.len(), &figure.bar_paints).into_iter();
+        let inked = by_paint.map(|inked| {
             let bars = inked.bars.iter().map(|&bar| figure.bars[bar]);
             let segments: Vec<[DVec2; 2]> = bars
                 .map(|bar| bar.map(|p| view.to_px(p)))
-                // As rings are: far out, 32-bit rasterisers lose all their digits.
+                // Like rings, bars far outside are omitted: 32-bit rasterisers lose all precision
+                // there.
                 .filter(|bar| bar.iter().copied().all(is_drawable))
                 .collect();
             (segments, style.paint_at(inked.paints, t).colour)
@@ -210,7 +211,7 @@ impl Drawing {
         self.push_bars(inked.collect(), width_px, style.joints);
     }
 
-    /// Adds words with the middle of their base line at `base_px`.
+    /// Adds a line of text centred on `base_px`, a point on its baseline.
     pub fn push_label(
         &mut self,
         words: &str,
@@ -226,7 +227,7 @@ impl Drawing {
         });
     }
 
-    /// The same, smaller where they would be wider than that.
+    /// Like [`Self::push_label`], but reduces the text height where needed to fit into `width_px`.
     pub(super) fn push_label_within(
         &mut self,
         words: &str,
@@ -234,37 +235,37 @@ impl Drawing {
         [width_px, height_px]: [f64; 2],
         paint: impl Into<Paint>,
     ) {
-        // Of no width where there is nothing to be seen.
+        // Empty text has width 0, which must not become a divisor.
         let width = glyph_outlines::width(words, height_px).max(f64::MIN_POSITIVE);
         let height_px = height_px * (width_px / width).min(1.0);
         self.push_label(words, base_px, height_px, paint);
     }
 
-    /// Coats that lie on each other in one opaque paint are filled as one: the
-    /// smooth edges of parts that touch would show what is below.
-    fn push_coats(
+    /// Adds paint layers. Consecutive layers of the same opaque paint are filled together, because
+    /// the anti-aliased edges of touching parts would let the background show through.
+    fn push_layers(
         &mut self,
-        coats: &[FigureLayer],
+        layers: &[FigureLayer],
         figure: &VectorFigure,
         style: &TransitionStyle,
         view: &PlaneView,
     ) {
-        let mut coats = coats.iter().map(|coat| {
-            let gradients = coat.gradients.each_ref().map(Option::as_ref);
-            let gradient = style.gradient_at(gradients, coat.paints, coat.t);
-            let paint = style.paint_at(coat.paints, coat.t);
-            let line = StrokeStyle::between(coat.lines, coat.t);
-            (coat.rings.clone(), (paint, gradient), line)
+        let mut layers = layers.iter().map(|layer| {
+            let gradients = layer.gradients.each_ref().map(Option::as_ref);
+            let gradient = style.gradient_at(gradients, layer.paints, layer.t);
+            let paint = style.paint_at(layer.paints, layer.t);
+            let line = StrokeStyle::between(layer.lines, layer.t);
+            (layer.rings.clone(), (paint, gradient), line)
         });
-        let mut next = coats.next();
+        let mut next = layers.next();
         while let Some((mut rings, ink, line)) = next {
-            next = coats.next();
+            next = layers.next();
             let is_plain = ink.0.is_opaque() && line.is_none();
             while let Some((more, ..)) =
                 next.take_if(|(_, other, line)| is_plain && line.is_none() && *other == ink)
             {
                 rings.end = more.end;
-                next = coats.next();
+                next = layers.next();
             }
             self.push_rings(&figure.rings[rings.clone()], ink, view);
             if let Some(line) = line {
@@ -301,7 +302,8 @@ impl Drawing {
         }
     }
 
-    /// Bars of one colour after the other; all cores lie over all of them.
+    /// Adds bars and their joints, one colour after the other. The joint cores are added last, so
+    /// they lie over all bars.
     fn push_bars(&mut self, inked: Vec<(Vec<[DVec2; 2]>, Rgb)>, width_px: f64, joints: bool) {
         let mut cores = Vec::new();
         for (segments, colour) in inked {
@@ -330,6 +332,7 @@ impl Drawing {
     }
 }
 
+/// Converts rings of the plane to closed contours in pixels.
 fn outline_of(rings: &[Vec<DVec2>], view: &PlaneView) -> OutlinePath {
     let mut outline = OutlinePath::default();
     for ring in rings {
@@ -338,15 +341,15 @@ fn outline_of(rings: &[Vec<DVec2>], view: &PlaneView) -> OutlinePath {
     outline
 }
 
-/// The lighter colour of a joint's core, for bars of the given colour.
+/// Returns the lighter colour of a joint core, for bars of the given colour.
 pub fn joint_core(colour: Rgb) -> Rgb {
     colour.mixed(Rgb([255; 3]), JOINT_CORE_LIGHTNESS)
 }
 
-/// Where the bars meet: each end point once, in the order of the bars.
+/// Distinct end points of the bars, in the order of the bars.
 fn joint_centres(segments: &[[DVec2; 2]]) -> Vec<DVec2> {
     let mut seen = HashSet::new();
-    // Bars that share a node have its place to the last bit.
+    // Bars that share a node have bit-identical end points.
     let is_new = |p: &DVec2| seen.insert([p.x.to_bits(), p.y.to_bits()]);
     segments.iter().flatten().copied().filter(is_new).collect()
 }
@@ -366,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn coats_are_filled_one_over_the_other_and_touching_ones_as_one() {
+    fn layers_are_filled_in_order_and_equal_neighbours_together() {
         let square = |x: f64| {
             [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0)]
                 .map(DVec2::from)
@@ -393,11 +396,11 @@ mod tests {
         drawing.push_figure(&figure, 0.0, &blue(), &view());
         let filled = |item: &DrawingItem| match item {
             DrawingItem::Fill { outline, paint, .. } => (outline.steps.len(), *paint),
-            other => panic!("only fills were expected: {other:?}"),
+            other => panic!("expected only fills: {other:?}"),
         };
-        let found: Vec<_> = drawing.items.iter().map(filled).collect();
-        assert_eq!(found, [(8, red), (4, BLUE.into())]);
-        // A line is over its own coat and under the next.
+        let fills: Vec<_> = drawing.items.iter().map(filled).collect();
+        assert_eq!(fills, [(8, red), (4, BLUE.into())]);
+        // A stroke lies over its own layer and under the next.
         let line = StrokeStyle {
             paint: red,
             width: 0.02,
@@ -414,7 +417,10 @@ mod tests {
             DrawingItem::Fill { .. },
         ] = drawing.items.as_slice()
         else {
-            panic!("a line over the first coat: {:?}", drawing.items);
+            panic!(
+                "expected a stroke over the first layer: {:?}",
+                drawing.items
+            );
         };
         assert!((line.width - 2.0).abs() < 1e-12);
     }
@@ -445,7 +451,7 @@ mod tests {
             DrawingItem::Discs { colour, .. },
         ] = drawing.items.as_slice()
         else {
-            panic!("bars, joints and cores were expected: {:?}", drawing.items);
+            panic!("expected bars, joints and cores: {:?}", drawing.items);
         };
         assert!((width_px - 10.0).abs() < 1e-12);
         assert_eq!(centres.len(), 3);
@@ -453,7 +459,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_drawn_is_left_out() {
+    fn undrawable_shapes_are_omitted() {
         let far = DVec2::new(1e300, 0.0);
         let nan = DVec2::new(f64::NAN, 0.0);
         let figure = VectorFigure {

@@ -1,11 +1,11 @@
-//! A [`Drawing`] as a DXF document: release 12 in text, which every program of its
-//! kind reads.
+//! Writes a [`Drawing`] as a DXF document (release 12, ASCII), which practically every CAD program
+//! reads.
 //!
-//! Guarantees: closed outlines as closed polylines, bars as lines, discs as circles; y
-//! up, and the units of the designs where the drawing is one frame, else pixels; a
-//! layer for each colour, called by it (`PAINT_2F6FB3`), since the release knows but
-//! 255 colours. Curves of letters become polylines. What it does not keep: fills,
-//! opacity and gradients, which the format does not have.
+//! Guarantees: outlines become closed polylines, bars become lines, discs become circles; y points
+//! up; coordinates are in the units of the designs if the drawing is a single frame, otherwise in
+//! pixels; each colour has its own layer, named after it (`PAINT_2F6FB3`), because the release
+//! knows only 255 colours. Curves of letters become polylines. Fills, opacity and gradients are
+//! lost, since the format does not have them.
 
 use std::collections::BTreeSet;
 
@@ -16,10 +16,11 @@ use super::drawing::{Drawing, DrawingItem};
 use super::outline::{OutlinePath, PathCommand};
 use super::view::PlaneView;
 
-/// Straight steps that a curve becomes.
-const STEPS: usize = 12;
+/// Number of line segments that replace a Bézier curve (heuristic).
+const CURVE_SEGMENTS: usize = 12;
 
-/// A drawing as a document; `None` where it holds a picture, which has no outlines.
+/// Returns a drawing as a DXF document, or `None` if it contains a raster image, which has no
+/// outlines.
 pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
     let paper = DxfCoordinates {
         view: drawing.view,
@@ -73,8 +74,9 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
     ))
 }
 
-/// From pixels, y down, to what is written.
+/// Conversion from pixels (y down) to the coordinates of the document (y up).
 struct DxfCoordinates {
+    /// Map to the plane; without one, coordinates stay in pixels.
     view: Option<PlaneView>,
     height_px: f64,
 }
@@ -91,13 +93,14 @@ impl DxfCoordinates {
         px / self.view.map_or(1.0, |view| view.px_per_unit())
     }
 
-    /// A place by a group code and that ten higher.
+    /// Formats a point with the group code of its x coordinate; that of y is ten higher.
     fn at(&self, px: DVec2, code: usize) -> String {
         let DVec2 { x, y } = self.place(px);
         let (x, y, next) = (number(x), number(y), code + 10);
         format!("{code}\n{x}\n{next}\n{y}\n")
     }
 
+    /// Formats the contours of an outline as closed polylines, with a width if they are strokes.
     fn polylines(&self, outline: &OutlinePath, colour: Rgb, width_px: Option<f64>) -> String {
         let layer = layer(colour);
         let width = width_px.map_or_else(String::new, |width| {
@@ -115,7 +118,7 @@ impl DxfCoordinates {
     }
 }
 
-/// The contours as polygons.
+/// Flattens the contours to polygons.
 fn rings(outline: &OutlinePath) -> Vec<Vec<DVec2>> {
     let mut rings: Vec<Vec<DVec2>> = Vec::new();
     for step in &outline.steps {
@@ -143,45 +146,48 @@ fn rings(outline: &OutlinePath) -> Vec<Vec<DVec2>> {
     rings
 }
 
+/// Curve parameters of the end points of the segments of a flattened curve.
 fn shares() -> impl Iterator<Item = f64> {
-    (1..=STEPS).map(|k| k as f64 / STEPS as f64)
+    (1..=CURVE_SEGMENTS).map(|k| k as f64 / CURVE_SEGMENTS as f64)
 }
 
+/// Layer name of a colour.
 fn layer(Rgb([r, g, b]): Rgb) -> String {
     format!("PAINT_{r:02X}{g:02X}{b:02X}")
 }
 
+/// Layer table entry of a colour.
 fn layer_entry(colour: Rgb) -> String {
     let (name, nearest) = (layer(colour), nearest(colour));
     format!("0\nLAYER\n2\n{name}\n70\n0\n62\n{nearest}\n6\nCONTINUOUS\n")
 }
 
-/// The number of the most like of the first colours that all such programs share.
+/// AutoCAD colour index (1 to 9) closest to a colour.
 fn nearest(Rgb(rgb): Rgb) -> usize {
-    const FIRST: [[u8; 3]; 9] = [
+    const INDEX_COLOURS: [[u8; 3]; 9] = [
         [255, 0, 0],
         [255, 255, 0],
         [0, 255, 0],
         [0, 255, 255],
         [0, 0, 255],
         [255, 0, 255],
-        // White on black paper, black on white.
+        // Index 7 is drawn white on a black background and black on a white one.
         [0, 0, 0],
         [128, 128, 128],
         [192, 192, 192],
     ];
-    let off = |other: &[u8; 3]| -> u32 {
+    let squared_distance = |other: &[u8; 3]| -> u32 {
         let channels = rgb.iter().zip(other);
         channels
             .map(|(a, b)| u32::from(a.abs_diff(*b)).pow(2))
             .sum()
     };
-    let all = FIRST.iter().enumerate();
-    let found = all.min_by_key(|(_, other)| off(other));
-    found.map_or(7, |(k, _)| k + 1)
+    let all = INDEX_COLOURS.iter().enumerate();
+    let closest = all.min_by_key(|(_, other)| squared_distance(other));
+    closest.map_or(7, |(k, _)| k + 1)
 }
 
-/// At most six decimals.
+/// Formats a number with at most six decimals, without trailing zeros or negative zero.
 fn number(x: f64) -> String {
     let fixed = format!("{x:.6}");
     let short = fixed.trim_end_matches('0').trim_end_matches('.');
@@ -195,7 +201,7 @@ mod tests {
     use crate::export::test_camera::camera;
 
     #[test]
-    fn a_frame_comes_back_as_large_as_it_is() {
+    fn a_frame_read_back_has_the_same_area() {
         let camera = camera(300, 200, None);
         let text = to_dxf(&camera.shoot(0.5)).expect("outlines");
         let read = import("half.dxf", text.as_bytes(), &ImportOptions::default());
@@ -210,15 +216,15 @@ mod tests {
             0.5 * twice
         };
         let wanted: f64 = figure.rings.iter().map(|ring| area(ring)).sum();
-        let found: f64 = regions.rings().map(|ring| area(ring.points())).sum();
+        let actual: f64 = regions.rings().map(|ring| area(ring.points())).sum();
         assert!(
-            (wanted - found).abs() < 1e-4 * wanted,
-            "{found} for {wanted}"
+            (wanted - actual).abs() < 1e-4 * wanted,
+            "{actual} instead of {wanted}"
         );
     }
 
     #[test]
-    fn colours_name_their_layers() {
+    fn layers_are_named_after_their_colours() {
         assert_eq!(layer(Rgb([0x2f, 0x6f, 0xb3])), "PAINT_2F6FB3");
         assert_eq!(nearest(Rgb([250, 4, 9])), 1);
         assert_eq!(nearest(Rgb([20, 20, 20])), 7);

@@ -1,4 +1,4 @@
-//! What can go wrong while pictures and films are written.
+//! Errors of image and film export, and the conversion from the errors of the encoder libraries.
 
 use std::fmt::Display;
 use std::io;
@@ -7,79 +7,81 @@ use std::path::{Path, PathBuf};
 use crate::io::atomic_file::refusal;
 use crate::work::progress::Cancelled;
 
-/// Why an export did not come to its end. Nothing half-written is left.
+/// Reason why an export failed. Partly written files have been removed; finished frames of a
+/// numbered sequence remain.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// The operating system refused.
+    /// The operating system refused to write.
     #[error("cannot write `{}`: {}", .path.display(), refusal(.source))]
     Write {
-        /// The file that was to be written.
+        /// Path of the output file.
         path: PathBuf,
-        /// The system's reason.
+        /// Reason given by the operating system.
         source: io::Error,
     },
-    /// A picture could not be encoded.
+    /// An encoder rejected the image.
     #[error("cannot encode `{}`: {reason}; try a smaller size or another format", .path.display())]
     Encode {
-        /// The file that was to be written.
+        /// Path of the output file.
         path: PathBuf,
-        /// The encoder's reason.
+        /// Reason given by the encoder.
         reason: String,
     },
-    /// What is there is not what was to be written.
+    /// Reading the written file back showed that it is damaged or incomplete.
     #[error(
-        "`{}` did not come out whole: {reason}; see whether the disk is full or broken, and write it once more",
+        "`{}` was not written completely: {reason}; check the disk for free space and errors, then export again",
         .path.display()
     )]
     NotWhole {
-        /// The file that was to be written.
+        /// Path of the output file.
         path: PathBuf,
-        /// What is wrong with what was written.
+        /// Defect found when the file was read back.
         reason: String,
     },
-    /// GIF counts hundredths of a second, and readers slow one of them down to
-    /// ten.
+    /// The frame rate is above what GIF players support: delays are in hundredths of a second, and
+    /// players slow delays below two hundredths down to ten hundredths.
     #[error(
-        "a GIF cannot run at {0} frames a second: choose 50 or fewer, or write an .apng or .mp4"
+        "a GIF cannot play {0} frames per second: choose 50 or fewer, or write an .apng or .mp4"
     )]
     GifRate(f64),
-    /// A kind of film without transparency was asked for a transparent ground.
-    #[error("an MP4 cannot be transparent: choose a coloured ground, or write an .apng")]
+    /// An MP4, which has no transparency, was requested with a transparent background.
+    #[error("an MP4 cannot be transparent: choose a background colour, or write an .apng")]
     Mp4Transparent,
-    /// Pictures were to leave as outlines.
+    /// A vector format was requested for raster images.
     #[error(
-        "pictures have no outlines that could move: write a .gif, .apng or .mp4, or numbered .png"
+        "raster images have no outlines, which this format needs: write a .gif, .apng or .mp4, or numbered .png"
     )]
     NoOutlines,
-    /// No ffmpeg on the path.
+    /// No ffmpeg program was found on the PATH.
     #[error(
-        "an MP4 needs ffmpeg, which is not on the path: install it from your system's packages or ffmpeg.org, or write a .gif or .apng"
+        "an MP4 needs ffmpeg, which was not found on the PATH: install it from your system's packages or ffmpeg.org, or write a .gif or .apng"
     )]
     NoFfmpeg,
-    /// ffmpeg ran and failed.
+    /// ffmpeg started and failed.
     #[error(
-        "ffmpeg could not write `{}`: {last_line}; try another size or rate, or write a .gif or .apng",
+        "ffmpeg could not write `{}`: {last_line}; try another size or frame rate, or write a .gif or .apng",
         .path.display()
     )]
     Ffmpeg {
-        /// The file that was to be written.
+        /// Path of the output file.
         path: PathBuf,
-        /// The last line that it said.
+        /// Last line of its error output.
         last_line: String,
     },
-    /// Nobody wanted the result any more.
+    /// The export was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
 impl ExportError {
-    /// The system refused to write `path`.
+    /// Returns a function that wraps an I/O error for `path`.
     pub(super) fn write(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> Self {
         let path = path.into();
         move |source| Self::Write { path, source }
     }
 
-    /// An encoder refused to write `path`, or the system did.
+    /// Returns a function that wraps an encoder error for `path`, and separates I/O errors from
+    /// those of the encoder itself.
     pub(super) fn encode<E: Into<EncodeFailure>>(
         path: impl Into<PathBuf>,
     ) -> impl FnOnce(E) -> Self {
@@ -90,7 +92,7 @@ impl ExportError {
         }
     }
 
-    /// What was written to `path` is not what belongs there.
+    /// Error for a file at `path` that failed verification, for the given reason.
     pub(super) fn not_whole(path: &Path, reason: impl Display) -> Self {
         Self::NotWhole {
             path: path.to_owned(),
@@ -99,8 +101,7 @@ impl ExportError {
     }
 }
 
-/// Who did not want to write: the libraries pass the system's reasons on among
-/// their own.
+/// Error of an encoder library, split by cause: these libraries report I/O errors among their own.
 pub(super) enum EncodeFailure {
     BySystem(io::Error),
     ByEncoder(String),
@@ -126,7 +127,7 @@ impl From<png::EncodingError> for EncodeFailure {
 
 impl From<image::ImageError> for EncodeFailure {
     fn from(error: image::ImageError) -> Self {
-        // Its pictures are encoded in memory.
+        // These images are encoded in memory, so there is no I/O error to separate.
         Self::ByEncoder(error.to_string())
     }
 }

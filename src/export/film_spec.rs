@@ -1,29 +1,29 @@
-//! Which values of t a film shows, in which order and at what rate.
+//! Schedule of a film: the value of t for each frame, the frame rate, and whether it loops.
 //!
-//! Guarantees: the first frame is exactly the first t and the last frame of a
-//! pass exactly the last one; a part of a film has the same frames, numbers
-//! and delays as the whole. Nothing is rendered here.
+//! Guarantees: the first frame shows exactly the first t, and the last frame of a pass (one run
+//! from source to target) exactly the last. A range of frames has the same times, numbers and
+//! delays as in the whole film. Nothing is rendered here.
 
 use std::ops::Range;
 
 use crate::transition::{PlayMode, Timing, TransitionStop};
 
-/// The most frames of one film: an hour at 30 frames a second.
+/// Maximum number of frames of a film (resource limit: one hour at 30 frames per second).
 pub const MAX_FRAMES: usize = 108_000;
 
-/// The highest frame rate, in frames a second.
+/// Maximum frame rate, in frames per second (resource limit: no display refreshes faster).
 pub const MAX_FPS: f64 = 1_000.0;
 
-/// Why a film cannot be had.
+/// Reason why a film is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FilmSpecError {
-    /// A frame rate of nothing, or beyond [`MAX_FPS`].
-    #[error("a film cannot run at {0} frames a second: choose more than 0 and at most {MAX_FPS}")]
+    /// The frame rate is not positive, or above [`MAX_FPS`].
+    #[error("a film cannot play {0} frames per second: choose more than 0 and at most {MAX_FPS}")]
     Rate(f64),
-    /// No frames at all, or more than [`MAX_FRAMES`].
-    #[error("a film of {0} frames cannot be made: it needs at least 1 and at most {MAX_FRAMES}")]
+    /// There are no frames, or more than [`MAX_FRAMES`].
+    #[error("a film cannot have {0} frames: choose at least 1 and at most {MAX_FRAMES}")]
     Count(usize),
-    /// A t that is no number.
+    /// A value of t is NaN or infinite.
     #[error("t runs from {from} to {to}: both must be finite numbers")]
     Ends {
         /// First t.
@@ -31,40 +31,41 @@ pub enum FilmSpecError {
         /// Last t.
         to: f64,
     },
-    /// A part that is empty or beyond the film's end.
+    /// The range of frames is empty or extends beyond the film.
     #[error(
-        "there are no frames {}..{}: the film has {count}, numbered 0 to {last}, and the end of a range is not part of it",
+        "there are no frames {}..{}: the film has {count} frames, numbered 0 to {last}, and the end of a range is exclusive",
         .range.start, .range.end
     )]
     Part {
-        /// The part asked for.
+        /// Requested range of frame numbers.
         range: Range<usize>,
-        /// The film's number of frames.
+        /// Number of frames of the film.
         count: usize,
-        /// The film's last number.
+        /// Number of the last frame.
         last: usize,
     },
 }
 
-/// Frames that show the same t and follow each other.
+/// Consecutive frames that show the same t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameRun {
-    /// What they show.
+    /// The t that they show.
     pub t: f64,
-    /// Number of the first of them within the whole film.
+    /// Number of the first frame, counted within the whole film.
     pub first: usize,
-    /// How many there are, at least 1.
+    /// Number of frames, at least 1.
     pub count: usize,
 }
 
-/// The t of each frame, the rate, and whether the film starts again at its end.
+/// Schedule of a film: the t of each frame, the frame rate, whether it loops, its title and its
+/// named stops.
 ///
 /// ```
-/// use morphospace::export::Film;
-/// let film = Film::evenly(0.0, 1.0, 5, 25.0)?;
+/// use morphospace::export::FilmSpec;
+/// let film = FilmSpec::evenly(0.0, 1.0, 5, 25.0)?;
 /// assert_eq!(film.times(), [0.0, 0.25, 0.5, 0.75, 1.0]);
 /// assert_eq!(film.part(2..4)?.first_number(), 2);
-/// # Ok::<(), morphospace::export::FilmError>(())
+/// # Ok::<(), morphospace::export::FilmSpecError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmSpec {
@@ -77,11 +78,11 @@ pub struct FilmSpec {
 }
 
 impl FilmSpec {
-    /// The film that the window plays: one pass with its easing, holds and
-    /// stops, and the way back where it plays ping-pong.
+    /// Returns the film that the window plays: one pass with its easing, pauses and stops, and the
+    /// way back if it plays ping-pong.
     ///
     /// # Errors
-    /// [`FilmSpecError`] for a rate or a length that cannot be had.
+    /// [`FilmSpecError`] if the frame rate, the length or an end of t is out of range.
     pub fn of_timing(
         timing: &Timing,
         stops: &[TransitionStop],
@@ -90,12 +91,11 @@ impl FilmSpec {
         check(fps, timing.from, timing.to)?;
         let pass_secs = timing.pass_secs(stops);
         let steps = (pass_secs * fps).round().max(1.0) as usize;
-        // `as` saturates: a pass of aeons, too, ends here.
+        // `as` saturates, so even an absurdly long pass is refused here.
         if steps >= MAX_FRAMES {
             return Err(FilmSpecError::Count(steps.saturating_add(1)));
         }
-        // An easing may miss the ends by rounding; the first and the last frame
-        // do not.
+        // Easing can miss the ends by a rounding error; the first and the last frame must not.
         let t_of = |i: usize| match i {
             0 => timing.from,
             i if i == steps => timing.to,
@@ -109,11 +109,11 @@ impl FilmSpec {
         })
     }
 
-    /// `count` frames evenly from one t to the other, both ends included; a
-    /// single frame shows `from`. It runs once.
+    /// Returns `count` frames spread evenly from one t to the other, both ends included. A single
+    /// frame shows `from`. The film does not loop.
     ///
     /// # Errors
-    /// [`FilmSpecError`] for a rate, a count or a t that cannot be had.
+    /// [`FilmSpecError`] if the frame rate, the count or a t is out of range.
     pub fn evenly(from: f64, to: f64, count: usize, fps: f64) -> Result<Self, FilmSpecError> {
         check(fps, from, to)?;
         if count == 0 || count > MAX_FRAMES {
@@ -122,8 +122,8 @@ impl FilmSpec {
         Ok(Self::new(even_times(from, to, count), fps))
     }
 
-    /// The same pass, as it plays: ping-pong adds the way back, without the two
-    /// ends, which would show twice.
+    /// Applies a play mode to a single pass. Ping-pong appends the way back without the two end
+    /// frames, which would otherwise show twice.
     #[must_use]
     pub fn playing(mut self, play: PlayMode) -> Self {
         self.repeats = play != PlayMode::Once;
@@ -135,10 +135,11 @@ impl FilmSpec {
         self
     }
 
-    /// The frames with the given numbers, as a film that keeps the numbers.
+    /// Returns the frames with the given numbers as a film of their own; the frames keep their
+    /// numbers.
     ///
     /// # Errors
-    /// [`FilmSpecError::Part`] where the range is empty or leaves the film.
+    /// [`FilmSpecError::Part`] if the range is empty or extends beyond the film.
     pub fn part(&self, range: Range<usize>) -> Result<Self, FilmSpecError> {
         let end = self.first_number + self.times.len();
         if range.is_empty() || range.start < self.first_number || range.end > end {
@@ -156,10 +157,11 @@ impl FilmSpec {
         })
     }
 
-    /// Frames at these t, in this order. It runs once.
+    /// Returns a film with one frame at each of the given values of t, in this order. It does not
+    /// loop.
     ///
     /// # Errors
-    /// [`FilmSpecError`] for a rate, a number of frames or a t that cannot be had.
+    /// [`FilmSpecError`] if the frame rate, the number of frames or a t is out of range.
     pub fn at(times: Vec<f64>, fps: f64) -> Result<Self, FilmSpecError> {
         for &t in &times {
             check(fps, t, t)?;
@@ -170,7 +172,7 @@ impl FilmSpec {
         Ok(Self::new(times, fps))
     }
 
-    /// The same under a title; formats that know none do without.
+    /// Sets the title. Formats without titles ignore it.
     #[must_use]
     pub fn titled(self, title: impl Into<String>) -> Self {
         Self {
@@ -179,38 +181,38 @@ impl FilmSpec {
         }
     }
 
-    /// What it is called.
+    /// Title of the film.
     pub fn title(&self) -> Option<&str> {
         self.title.as_deref()
     }
 
-    /// The stops of its timing that have a name, each with its t.
+    /// Named stops of the timing, each with its t.
     pub fn stops(&self) -> &[(f64, String)] {
         &self.stops
     }
 
-    /// The t of each frame.
+    /// Value of t of each frame.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// The number of the first frame: 0, or more for a part.
+    /// Number of the first frame: 0 for a whole film, more for a range of one.
     pub fn first_number(&self) -> usize {
         self.first_number
     }
 
-    /// Frames a second.
+    /// Frames per second.
     pub fn fps(&self) -> f64 {
         self.fps
     }
 
-    /// Whether the film starts again at its end.
+    /// Returns whether the film loops.
     pub fn repeats(&self) -> bool {
         self.repeats
     }
 
-    /// The frames with equal neighbours taken together (holds, for example), so
-    /// that each is drawn once.
+    /// Groups consecutive frames with equal t (during pauses, for example), so that each group is
+    /// drawn once.
     pub fn runs(&self) -> Vec<FrameRun> {
         let mut first = self.first_number;
         let run_of = |ts: &[f64]| {
@@ -225,12 +227,12 @@ impl FilmSpec {
         self.times.chunk_by(|a, b| a == b).map(run_of).collect()
     }
 
-    /// How long a run stays, in whole ticks of which `ticks_per_sec` make a
-    /// second. Ends are rounded, not lengths, so nothing drifts.
+    /// Duration of a run in whole ticks of 1 / `ticks_per_sec` seconds. Start and end times are
+    /// rounded rather than durations, so no drift accumulates.
     pub fn ticks(&self, run: FrameRun, ticks_per_sec: f64) -> u64 {
-        // By the number in the whole film, so that parts fit together.
-        let at = |number: usize| (number as f64 * ticks_per_sec / self.fps).round() as u64;
-        at(run.first + run.count) - at(run.first)
+        // Counted from the start of the whole film, so that ranges of it join without gaps.
+        let tick_at = |number: usize| (number as f64 * ticks_per_sec / self.fps).round() as u64;
+        tick_at(run.first + run.count) - tick_at(run.first)
     }
 
     fn new(times: Vec<f64>, fps: f64) -> Self {
@@ -245,19 +247,21 @@ impl FilmSpec {
     }
 }
 
-/// `count` values evenly from `from` to `to`, met exactly; one value is `from`.
+/// Returns `count` values spread evenly from `from` to `to`, both ends exact. A single value is
+/// `from`.
 pub fn even_times(from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1).max(1);
     let t_of = |i: usize| {
         let s = i as f64 / last as f64;
-        // Exact at both ends, which from + s (to − from) is not.
+        // Exact at both ends, unlike from + s (to − from).
         (1.0 - s) * from + s * to
     };
     (0..count).map(t_of).collect()
 }
 
+/// Checks the frame rate and the ends of t.
 fn check(fps: f64, from: f64, to: f64) -> Result<(), FilmSpecError> {
-    // Asked this way round NaN is refused.
+    // Written this way round, the comparison also refuses NaN.
     if !(fps > 0.0 && fps <= MAX_FPS) {
         return Err(FilmSpecError::Rate(fps));
     }
@@ -281,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pass_meets_both_ends_and_holds_them() {
+    fn a_pass_shows_both_ends_exactly_and_pauses_there() {
         let film = FilmSpec::of_timing(&timing(PlayMode::Once), &[], 10.0).expect("a film");
         assert_eq!(film.times().len(), 31);
         assert_eq!(film.times()[0], 0.0);
@@ -296,11 +300,11 @@ mod tests {
     }
 
     #[test]
-    fn ping_pong_comes_back_without_showing_an_end_twice() {
+    fn ping_pong_returns_without_repeating_the_ends() {
         let once = FilmSpec::evenly(0.0, 1.0, 4, 10.0).expect("a film");
         let film = once.clone().playing(PlayMode::PingPong);
         let [a, b, c, d] = once.times() else {
-            panic!("four frames were asked for");
+            panic!("expected four frames");
         };
         assert_eq!(film.times(), [*a, *b, *c, *d, *c, *b]);
         assert!(film.repeats());
@@ -309,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_make_the_whole() {
+    fn ranges_join_to_the_whole_film() {
         let film = FilmSpec::of_timing(&timing(PlayMode::PingPong), &[], 7.0).expect("a film");
         let n = film.times().len();
         let parts = [0..3, 3..n - 1, n - 1..n].map(|r| film.part(r).expect("a part"));
@@ -333,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_refused() {
+    fn invalid_rates_counts_and_ranges_are_refused() {
         for fps in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
             assert!(matches!(
                 FilmSpec::evenly(0.0, 1.0, 2, fps),

@@ -1,9 +1,9 @@
-//! A film as an animated GIF, as small as the picture allows.
+//! Writes a film as a compact animated GIF.
 //!
-//! Guarantees: one palette for the whole film; each frame holds what differs from
-//! the one before; delays in hundredths of a second
-//! whose sum is the film's length to the nearest one; holds are one long frame.
-//! Transparency in GIF is all or nothing: edges are cut at half coverage.
+//! Guarantees: all frames share one palette; over a background each frame stores only what differs
+//! from the previous one; delays are in hundredths of a second, and their sum is the duration of
+//! the film to the nearest hundredth; a pause is one long frame. Transparency in GIF is all or
+//! nothing, so edges are cut at half coverage.
 
 mod changes;
 
@@ -25,25 +25,26 @@ use super::raster::rasterise;
 use super::readback::{DRAWN_FRACTION, check_gif};
 use changes::{FramePatch, GifCanvas, IndexedFrame, TRANSPARENT};
 
-/// The highest rate that readers play as written: they take a delay below two
-/// hundredths of a second for a mistake and slow it down to ten.
+/// Maximum frame rate that players play as written, in frames per second (derived: players take
+/// delays below 0.02 s for errors and use 0.1 s instead).
 pub const MAX_GIF_FPS: f64 = 50.0;
 
+/// GIF delay units per second.
 const TICKS_PER_SEC: f64 = 100.0;
 
-/// The most frames whose colours make the palette. They are drawn once more for
-/// it; a colour that only others have gets its nearest.
+/// Number of frames whose colours determine the palette (resource limit: they are drawn twice).
+/// Colours that occur only in other frames are replaced by the nearest.
 const PALETTE_SAMPLES: usize = 24;
 
-/// How much is done once the colours are chosen, as it is told: three seconds
-/// have some 90 frames, and 24 of them are drawn for it.
-const CHOSEN: f64 = 0.2;
+/// Progress fraction reported once the palette is chosen (heuristic: 24 of about 90 frames of a
+/// typical film are drawn for it).
+const PALETTE_FRACTION: f64 = 0.2;
 
-/// Writes the film.
+/// Writes the film and verifies it.
 ///
 /// # Errors
-/// [`ExportError`] where the rate is beyond [`MAX_GIF_FPS`], the file cannot be
-/// written, or nobody wants it any more.
+/// [`ExportError`] if the frame rate is above [`MAX_GIF_FPS`], the file cannot be written, or the
+/// export is cancelled.
 pub fn write_gif(
     camera: &Camera,
     film: &FilmSpec,
@@ -53,31 +54,32 @@ pub fn write_gif(
     if film.fps() > MAX_GIF_FPS {
         return Err(ExportError::GifRate(film.fps()));
     }
-    // Before anything is drawn: a folder that cannot be written to is told at
-    // once.
+    // Created before anything is drawn, so that an unwritable folder is reported at once.
     let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
-    let choosing = ProgressSpan::new(progress, 0.0, CHOSEN);
+    let choosing = ProgressSpan::new(progress, 0.0, PALETTE_FRACTION);
     let palette = film_palette(camera, &film.runs(), &choosing)?;
     let writer = BufWriter::new(file.file_mut());
     let mut encoder = encoder(writer, camera, film, &palette).map_err(ExportError::encode(path))?;
     let mut canvas = camera.ground.map(|_| GifCanvas::default());
-    // At its ends, and where it rests, a film is looked at.
+    // The first and last frames and pauses are shown long enough to be looked at, so they get exact
+    // colours.
     let frames = film.times().len();
-    let is_held =
+    let is_still =
         |run: FrameRun| run.count > 1 || run.first == 0 || run.first + run.count == frames;
     camera.shoot_runs(
         &film.runs(),
         DRAWING_STAGE,
-        &ProgressSpan::new(progress, CHOSEN, DRAWN_FRACTION),
+        &ProgressSpan::new(progress, PALETTE_FRACTION, DRAWN_FRACTION),
         |drawing| Ok(indexed(rasterise(&drawing), &palette)),
         |run, drawn| {
-            let mut frame = pictured(&drawn, canvas.as_mut(), is_held(run), &palette);
+            let mut frame = pictured(&drawn, canvas.as_mut(), is_still(run), &palette);
             frame.delay = u16::try_from(film.ticks(run, TICKS_PER_SEC)).unwrap_or(u16::MAX);
             let written = encoder.write_lzw_pre_encoded_frame(&frame);
             written.map_err(ExportError::encode(path))
         },
     )?;
-    // Dropped instead, it would lose the error of writing the end.
+    // Taken back explicitly, because dropping the encoder would ignore errors of writing the
+    // trailer.
     let mut writer = encoder.into_inner().map_err(ExportError::encode(path))?;
     writer.flush().map_err(ExportError::write(path))?;
     drop(writer);
@@ -87,6 +89,7 @@ pub fn write_gif(
     file.commit().map_err(ExportError::write(path))
 }
 
+/// Returns an encoder that has written the header and the palette.
 fn encoder<W: Write>(
     writer: W,
     camera: &Camera,
@@ -94,7 +97,7 @@ fn encoder<W: Write>(
     palette: &GifPalette,
 ) -> Result<Encoder<W>, gif::EncodingError> {
     let mut table = palette.colours().as_flattened().to_vec();
-    // All indices up to the transparent one stand in the table.
+    // The palette must cover all indices up to that of the transparent colour.
     table.resize(3 * 256, 0);
     let size = camera.view.size();
     // Sides fit in 16 bits: `MAX_SIDE_PX` is 16,384.
@@ -105,7 +108,7 @@ fn encoder<W: Write>(
     Ok(encoder)
 }
 
-/// The colours of frames that are spread evenly over the film.
+/// Chooses the palette from frames spread evenly over the film.
 fn film_palette(
     camera: &Camera,
     runs: &[FrameRun],
@@ -113,7 +116,7 @@ fn film_palette(
 ) -> Result<GifPalette, ExportError> {
     let step = runs.len().div_ceil(PALETTE_SAMPLES).max(1);
     let mut sampled: Vec<FrameRun> = runs.iter().step_by(step).copied().collect();
-    // The steps may jump over the end, whose colours are seen the longest.
+    // The stride may skip the last frame, whose colours are often seen longest.
     sampled.extend(runs.last());
     let mut counts = ColourHistogram::new();
     camera.shoot_runs(
@@ -131,6 +134,7 @@ fn film_palette(
     Ok(GifPalette::of(counts, usize::from(TRANSPARENT)))
 }
 
+/// Counts the colours of the opaque pixels.
 fn histogram(image: &RgbaImage) -> ColourHistogram {
     let mut histogram = ColourHistogram::new();
     for colour in image.pixels().filter_map(|pixel| opaque(pixel.0)) {
@@ -139,17 +143,19 @@ fn histogram(image: &RgbaImage) -> ColourHistogram {
     histogram
 }
 
-/// The colour of a pixel that is at least half covered.
+/// Colour of a pixel that is at least half covered.
 fn opaque([r, g, b, a]: [u8; 4]) -> Option<[u8; 3]> {
     (a >= 128).then_some([r, g, b])
 }
 
+/// Maps an image to palette indices.
 fn indexed(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
-    // Pictures have few colours and palettes 255 to compare each with.
-    let mut known = HashMap::new();
+    // Frames have few distinct colours, so caching avoids comparing each pixel with up to 255
+    // palette entries.
+    let mut cache = HashMap::new();
     let mut index_of = |pixel: &image::Rgba<u8>| match opaque(pixel.0) {
         None => TRANSPARENT,
-        Some(colour) => *known
+        Some(colour) => *cache
             .entry(colour)
             .or_insert_with(|| palette.nearest(colour)),
     };
@@ -157,16 +163,17 @@ fn indexed(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
     IndexedFrame { image, indices }
 }
 
-/// The next frame. Over a ground it is what changes; without one each is drawn
-/// anew, or the last would show through where this one is transparent.
+/// Encodes the next frame. Over a background only the changes are stored. On a transparent
+/// background the opaque part of each frame is stored and erased afterwards, or the previous frame
+/// would show through.
 fn pictured(
     drawn: &IndexedFrame,
     canvas: Option<&mut GifCanvas>,
-    is_held: bool,
+    is_still: bool,
     palette: &GifPalette,
 ) -> Frame<'static> {
     match canvas {
-        Some(canvas) => encoded(canvas.patch(drawn, is_held, palette), DisposalMethod::Keep),
+        Some(canvas) => encoded(canvas.patch(drawn, is_still, palette), DisposalMethod::Keep),
         None => {
             let patch = changes::crop_to_opaque(drawn.image.width(), &drawn.indices);
             encoded(patch, DisposalMethod::Background)
@@ -174,6 +181,7 @@ fn pictured(
     }
 }
 
+/// Compresses a patch.
 fn encoded(patch: FramePatch, dispose: DisposalMethod) -> Frame<'static> {
     // Sides fit in 16 bits: `MAX_SIDE_PX` is 16,384.
     let mut frame = Frame {
@@ -238,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_delays_and_loops_are_those_of_the_film() {
+    fn frame_count_delays_and_looping_match_the_film() {
         let film = FilmSpec::evenly(0.0, 1.0, 7, 30.0).expect("a film");
         let once = round_trip(&camera(40, 30, None), &film);
         assert_eq!(once.delays, [3, 4, 3, 3, 4, 3, 3]);
@@ -252,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_stay_near_the_raster_and_the_ground_is_exact() {
+    fn colours_stay_close_to_the_drawing_and_the_background_is_exact() {
         let camera = camera(80, 60, Some(CREAM));
         let film = FilmSpec::evenly(0.0, 1.0, 40, 25.0).expect("a film");
         let decoded = round_trip(&camera, &film);
@@ -267,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn a_transparent_ground_stays_transparent_in_every_frame() {
+    fn a_transparent_background_stays_transparent_in_every_frame() {
         let camera = camera(40, 30, None);
         let film = FilmSpec::evenly(0.0, 1.0, 5, 25.0).expect("a film");
         for (&t, frame) in film.times().iter().zip(round_trip(&camera, &film).frames) {
@@ -279,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_that_readers_would_slow_down_is_refused() {
+    fn a_frame_rate_that_players_would_slow_down_is_refused() {
         let film = FilmSpec::evenly(0.0, 1.0, 5, 60.0).expect("a film");
         let path = Path::new("/no/such/folder/film.gif");
         let refused = write_gif(&camera(4, 3, None), &film, path, &Silent);

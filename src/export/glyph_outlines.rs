@@ -1,11 +1,10 @@
-//! Words as glyph outlines, in the font that ships with the window's toolkit.
+//! Converts text to glyph outlines, in the font bundled with the UI toolkit.
 //!
-//! Outlines rather than text elements: a label looks the same in every picture
-//! on every machine, whichever fonts it has.
+//! Outlines instead of text elements make labels look the same in every image on every machine,
+//! whatever fonts are installed.
 //!
-//! Guarantees: no failure; a character that the font lacks is drawn as its
-//! replacement box. It does not shape (no ligatures, kerning or right-to-left
-//! text): labels are short and plain.
+//! Guarantees: never fails; a character missing from the font is drawn as its replacement box.
+//! There is no shaping (no ligatures, kerning or right-to-left text): labels are short and plain.
 
 use glam::DVec2;
 use skrifa::instance::{LocationRef, Size};
@@ -15,8 +14,8 @@ use skrifa::{FontRef, MetadataProvider};
 
 use super::outline::{OutlinePath, PathCommand};
 
-/// Words with the middle of their base line at `base_px` (y down), `height_px`
-/// high from line to line.
+/// Returns the outlines of `words` centred on `base_px` (on the baseline, y down), with a font size
+/// of `height_px`.
 pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath {
     let mut origin = base_px - DVec2::new(0.5 * width(words, height_px), 0.0);
     let font = font();
@@ -27,7 +26,7 @@ pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath {
         let settings = DrawSettings::unhinted(size, LocationRef::default());
         let mut path = Vec::new();
         let glyph = glyphs.get(glyph_id);
-        // Half a glyph is worse than none.
+        // A partly drawn glyph would be worse than a missing one.
         if glyph.is_some_and(|glyph| glyph.draw(settings, &mut path).is_ok()) {
             let steps = path.into_iter().map(|element| step(element, origin));
             outline.steps.extend(steps);
@@ -37,20 +36,20 @@ pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath {
     outline
 }
 
-/// How wide the words are, in pixels.
+/// Returns the width of the text in pixels.
 pub fn width(words: &str, height_px: f64) -> f64 {
     advances(&font(), words, height_px)
         .map(|(_, advance)| advance)
         .sum()
 }
 
-/// The font of all labels: Ubuntu Light, under the Ubuntu Font Licence.
+/// Font of all labels: Ubuntu Light, under the Ubuntu Font Licence.
 fn font() -> FontRef<'static> {
     FontRef::new(epaint_default_fonts::UBUNTU_LIGHT)
-        .unwrap_or_else(|error| unreachable!("the bundled font is one: {error}"))
+        .unwrap_or_else(|error| unreachable!("the bundled font is valid: {error}"))
 }
 
-/// Each character's glyph and how far the next one stands from it.
+/// Glyph of each character and its advance width in pixels.
 fn advances<'a>(
     font: &FontRef<'a>,
     words: &'a str,
@@ -65,7 +64,7 @@ fn advances<'a>(
     })
 }
 
-/// A step of a glyph that stands at `origin`, the font's y turned downwards.
+/// Converts a path element of a glyph at `origin`; font coordinates have y up.
 fn step(element: PathElement, origin: DVec2) -> PathCommand {
     let at = |x: f32, y: f32| origin + DVec2::new(f64::from(x), -f64::from(y));
     match element {
@@ -100,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn words_stand_on_their_base_line_and_are_centred() {
+    fn text_is_centred_and_sits_on_the_baseline() {
         let base = DVec2::new(100.0, 50.0);
         let points = ends(&centred("t = 0.25", base, 20.0));
         assert!(!points.is_empty());
@@ -124,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_character_is_a_box_and_nothing_is_nothing() {
+    fn unknown_characters_are_boxes_and_empty_text_is_empty() {
         assert!(!centred("\u{10ffff}", DVec2::ZERO, 20.0).steps.is_empty());
         assert!(centred("", DVec2::ZERO, 20.0).steps.is_empty());
     }

@@ -1,5 +1,4 @@
-//! Words and numbers on sheets: how they are set, broken into lines and
-//! coloured.
+//! Labels of contact sheets: line wrapping, text colour, and short number formatting.
 
 use std::fmt;
 
@@ -9,42 +8,42 @@ use crate::geometry::DVec2;
 use super::drawing::Drawing;
 use super::glyph_outlines;
 
-/// What is said of something that went wrong.
+/// Text colour of error messages.
 pub(super) const ERROR_COLOUR: Rgb = Rgb([0xc0, 0x3a, 0x20]);
 
-/// How words are set.
+/// Font size and line height of a label.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LabelStyle {
-    /// Size of the letters.
+    /// Font size in pixels.
     pub letters_px: f64,
-    /// Height of a line.
+    /// Line height in pixels.
     pub line_px: f64,
 }
 
 impl LabelStyle {
-    /// Adds words from an upper left corner on, where there is room for lines
-    /// of a width and for so many of them. Returns how many it took.
+    /// Draws text from its upper left `corner` on, wrapped to `width_px` and limited to
+    /// `max_lines`. Returns the number of lines drawn.
     pub fn push(
         self,
         drawing: &mut Drawing,
         words: &str,
-        (width_px, most): (f64, usize),
+        (width_px, max_lines): (f64, usize),
         corner: DVec2,
         colour: Rgb,
     ) -> usize {
-        let lines = self.wrapped(words, width_px, most);
+        let lines = self.wrapped(words, width_px, max_lines);
         for (i, line) in lines.iter().enumerate() {
             let middle = 0.5 * glyph_outlines::width(line, self.letters_px);
-            // What hangs below the base line has the last fifth.
+            // The last fifth of the line is for descenders.
             let base = corner + DVec2::new(middle, (i as f64 + 0.8) * self.line_px);
             drawing.push_label(line, base, self.letters_px, colour);
         }
         lines.len()
     }
 
-    /// Words in at most so many lines of a width; what is left over becomes an
-    /// ellipsis. Words that are longer than a line are broken.
-    fn wrapped(self, words: &str, width_px: f64, most: usize) -> Vec<String> {
+    /// Breaks text into at most `max_lines` lines of `width_px`; what does not fit becomes an
+    /// ellipsis. Words longer than a line are broken.
+    fn wrapped(self, words: &str, width_px: f64, max_lines: usize) -> Vec<String> {
         let fits = |line: &str| glyph_outlines::width(line, self.letters_px) <= width_px;
         let mut lines: Vec<String> = Vec::new();
         let mut line = String::new();
@@ -57,8 +56,7 @@ impl LabelStyle {
             }
             for c in word.chars() {
                 line.push(c);
-                // Letter by letter: a path without a space may be longer than a
-                // line.
+                // Character by character: a file path without spaces may be longer than a line.
                 if !fits(&line) {
                     line.pop();
                     lines.push(std::mem::replace(&mut line, c.to_string()));
@@ -67,8 +65,8 @@ impl LabelStyle {
         }
         lines.push(line);
         lines.retain(|line| !line.is_empty());
-        if lines.len() > most {
-            lines.truncate(most);
+        if lines.len() > max_lines {
+            lines.truncate(max_lines);
             if let Some(last) = lines.last_mut() {
                 while !last.is_empty() && !fits(&format!("{last}\u{2026}")) {
                     last.pop();
@@ -80,22 +78,22 @@ impl LabelStyle {
     }
 }
 
-/// A colour for words that can be read on the ground; on a transparent one a
-/// middle grey, which shows on light and on dark.
+/// Returns a text colour that is readable on the given background. On a transparent background it
+/// is a middle grey, which shows on light and on dark.
 #[must_use]
 pub fn text_colour_on(ground: Option<Rgb>) -> Rgb {
     let grey = |c: u8| Rgb([c; 3]);
     match ground {
         None => grey(0x80),
         Some(Rgb([r, g, b])) => {
-            // The weights of Rec. 601: enough to tell light from dark.
+            // Rec. 601 luma weights; precise enough to distinguish light from dark.
             let luma = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
             if luma > 128.0 { grey(0x20) } else { grey(0xe8) }
         }
     }
 }
 
-/// What stands below a frame: `t = 0.25`.
+/// Label below a frame, such as `t = 0.25`, with a typographic minus sign.
 pub(super) fn time_label(t: f64) -> String {
     format!(
         "t = {}",
@@ -103,7 +101,7 @@ pub(super) fn time_label(t: f64) -> String {
     )
 }
 
-/// At most three decimals, no trailing zeros, no negative zero.
+/// Displays a number with at most three decimals, without trailing zeros or negative zero.
 pub(super) struct ShortNumber(pub f64);
 
 impl fmt::Display for ShortNumber {
@@ -118,26 +116,26 @@ impl fmt::Display for ShortNumber {
 mod tests {
     use super::*;
 
-    const TYPE: LabelStyle = LabelStyle {
+    const STYLE: LabelStyle = LabelStyle {
         letters_px: 13.0,
         line_px: 16.0,
     };
 
     #[test]
     fn words_are_wrapped_broken_and_cut() {
-        assert_eq!(TYPE.wrapped("", 100.0, 3), Vec::<String>::new());
-        assert_eq!(TYPE.wrapped("a  b\nc", 100.0, 3), ["a b c"]);
+        assert_eq!(STYLE.wrapped("", 100.0, 3), Vec::<String>::new());
+        assert_eq!(STYLE.wrapped("a  b\nc", 100.0, 3), ["a b c"]);
         let long = "x".repeat(200);
-        let lines = TYPE.wrapped(&long, 100.0, 3);
+        let lines = STYLE.wrapped(&long, 100.0, 3);
         assert_eq!(lines.len(), 3);
         assert!(lines[2].ends_with('\u{2026}'));
-        for line in TYPE.wrapped("several words that do not fit", 60.0, 9) {
+        for line in STYLE.wrapped("several words that do not fit", 60.0, 9) {
             assert!(
-                glyph_outlines::width(&line, TYPE.letters_px) <= 60.0,
+                glyph_outlines::width(&line, STYLE.letters_px) <= 60.0,
                 "{line}"
             );
         }
-        assert_eq!(TYPE.wrapped("narrow", 0.0, 2).len(), 2);
+        assert_eq!(STYLE.wrapped("narrow", 0.0, 2).len(), 2);
     }
 
     #[test]

@@ -1,20 +1,19 @@
-//! How a film lies in its pictures: their shape and size, and the room around it.
+//! Image layout of a film: aspect ratio, size in pixels, margin, and room for captions.
 //!
-//! Sizes go by the shorter side, as screens are named: 1080 is 1920 × 1080 where
-//! pictures are wide, 1080 × 1920 where they are tall and 1080 × 1080 where they are
-//! square.
+//! Sizes are given by the shorter side, as screens are named: 1080 means 1920 × 1080 for wide
+//! images, 1080 × 1920 for tall ones and 1080 × 1080 for square ones.
 
 use super::captions::Captions;
 use super::size::{PixelSize, PixelSizeError};
 use super::view::PlaneView;
 use crate::geometry::{Bounds, DVec2};
-use crate::settings::choice::named;
+use crate::settings::named;
 
-/// The shape of a picture.
+/// Aspect ratio of an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Aspect {
-    /// That of the drawing.
+    /// Aspect ratio of the drawing itself.
     Own,
     /// 16 to 9.
     #[default]
@@ -30,13 +29,13 @@ pub enum Aspect {
 named! { Aspect {
     Wide: "16:9", "16:9", "Slides and screens";
     Classic: "4:3", "4:3", "Older slides, and tablets";
-    Square: "1:1", "1:1", "Posts";
-    Tall: "9:16", "9:16", "Telephones, held upright";
-    Own: "own", "Own", "As the drawing is";
+    Square: "1:1", "1:1", "Square posts";
+    Tall: "9:16", "9:16", "Phones, upright";
+    Own: "own", "Original", "Same shape as the drawing";
 } }
 
 impl Aspect {
-    /// Width by height; none where it is the drawing's.
+    /// Width divided by height; `None` for the aspect ratio of the drawing.
     fn ratio(self) -> Option<f64> {
         match self {
             Self::Own => None,
@@ -48,19 +47,21 @@ impl Aspect {
     }
 }
 
-/// The longest that a drawing's own shape is shown, of its shorter side.
-const LONGEST: f64 = 16.0 / 9.0;
+/// Maximum longer side when the drawing's own shape is used, in multiples of
+/// [`PictureLayout::lines`] (heuristic: that of a 16:9 image). More elongated drawings get a
+/// shorter side below `lines` instead.
+const MAX_LONGER_SIDE: f64 = 16.0 / 9.0;
 
-/// The shape and the size of pictures, and what is left free in them.
+/// Aspect ratio and size of images, and the space left free in them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureLayout {
-    /// Their shape.
+    /// Aspect ratio.
     pub aspect: Aspect,
-    /// Pixels along the shorter side.
+    /// Length of the shorter side in pixels.
     pub lines: u32,
-    /// What is free all around, a fraction of the shorter side in [0, 0.4].
+    /// Free margin on all sides, as a fraction of the shorter side, in [0, 0.4].
     pub margin: f64,
-    /// Whether there is room for a caption below.
+    /// Whether room is reserved for a caption at the bottom.
     pub has_captions: bool,
 }
 
@@ -76,25 +77,26 @@ impl Default for PictureLayout {
 }
 
 impl PictureLayout {
-    /// The view of all that lies in `bounds`. Sides are even, as films want them.
+    /// Returns the view that shows all of `bounds`. Both sides of the image are even, as video
+    /// encoders require.
     ///
     /// ```
-    /// use morphospace::export::{Aspect, Layout};
+    /// use morphospace::export::{Aspect, PictureLayout};
     /// use morphospace::geometry::{Bounds, DVec2};
     /// let bounds = Bounds { min: DVec2::ZERO, max: DVec2::new(2.0, 3.0) };
-    /// let post = Layout { aspect: Aspect::Tall, ..Layout::default() };
+    /// let post = PictureLayout { aspect: Aspect::Tall, ..PictureLayout::default() };
     /// assert_eq!(post.view(bounds)?.size().to_string(), "1080x1920");
-    /// # Ok::<(), morphospace::export::SizeError>(())
+    /// # Ok::<(), morphospace::export::PixelSizeError>(())
     /// ```
     ///
     /// # Errors
-    /// [`PixelSizeError`] where there are no lines, or too many.
+    /// [`PixelSizeError`] if `lines` is 0 or the image would be too large.
     pub fn view(&self, bounds: Bounds) -> Result<PlaneView, PixelSizeError> {
         Ok(self.view_of(bounds, self.size(bounds)?))
     }
 
-    /// The view of all that lies in `bounds` in a picture of another size, with margin
-    /// and room for a caption as asked for.
+    /// Returns the view that shows all of `bounds` in an image of another size, with the margin and
+    /// caption space of this layout.
     #[must_use]
     pub fn view_of(&self, bounds: Bounds, size: PixelSize) -> PlaneView {
         let shorter = size.as_dvec2().min_element();
@@ -109,17 +111,19 @@ impl PictureLayout {
         PlaneView::fit_cell(bounds, size, corner, cell.max(DVec2::ONE))
     }
 
+    /// Size of the image for a drawing with these bounds.
     fn size(&self, bounds: Bounds) -> Result<PixelSize, PixelSizeError> {
         let shorter = f64::from(self.lines);
         let Some(ratio) = self.aspect.ratio() else {
-            let own = bounds.size();
-            let longer = own.max_element() / own.min_element();
-            let longer = if longer.is_finite() {
-                longer.min(LONGEST)
+            let drawing = bounds.size();
+            let ratio = drawing.max_element() / drawing.min_element();
+            // A point or a straight line has no finite ratio.
+            let longer = if ratio.is_finite() {
+                ratio.min(MAX_LONGER_SIDE)
             } else {
                 1.0
             };
-            // Refused here where it is too large; a shape is only made smaller.
+            // Checks the limits first: `of_shape` would silently clamp a size that is too large.
             PixelSize::new(self.lines, self.lines)?;
             return Ok(PixelSize::of_shape(
                 bounds,
@@ -132,17 +136,17 @@ impl PictureLayout {
     }
 }
 
-/// Layouts for what films are mostly made for.
+/// Ready-made layouts for common uses of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum LayoutPreset {
-    /// Slides of a talk.
+    /// Slides for a talk.
     Deck,
-    /// A square post.
+    /// Square, for posts.
     Post,
-    /// Upright, for telephones.
+    /// Upright, for phones.
     Story,
-    /// Small, for a page or a message.
+    /// Small, for a web page or a message.
     Page,
 }
 
@@ -150,11 +154,11 @@ named! { LayoutPreset {
     Deck: "deck", "Slides", "16:9, 1920 × 1080, with captions from the stops";
     Post: "post", "Post", "1:1, 1080 × 1080";
     Story: "story", "Story", "9:16, 1080 × 1920, with captions from the stops";
-    Page: "page", "Page", "The drawing's own shape, small";
+    Page: "page", "Web page", "Original shape, 480 px";
 } }
 
 impl LayoutPreset {
-    /// Its layout.
+    /// Returns the layout of this preset.
     #[must_use]
     pub fn layout(self) -> PictureLayout {
         let (aspect, lines, has_captions) = match self {
@@ -193,7 +197,8 @@ mod tests {
             };
             layout.view(wide()).expect("a view").size().to_string()
         });
-        // A drawing ten times as long as high is shown as long as slides are.
+        // The drawing is ten times as wide as high: its longer side is limited to that of a 16:9
+        // image.
         assert_eq!(
             sizes,
             ["1280x720", "960x720", "720x720", "720x1280", "1280x128"]

@@ -1,8 +1,8 @@
-//! The map of a space as a sheet: a grid of blends, the designs among them by their
-//! names.
+//! Contact sheet of the map of a space: a grid of blends, with the designs among them labelled by
+//! name.
 //!
-//! Guarantees: one scale for all cells; each design is in the cell nearest to its site, as
-//! it was drawn; cells beside the hull of the sites are empty.
+//! Guarantees: all cells have the same scale; each design fills the cell nearest to its site,
+//! undistorted; cells outside the convex hull of the sites are empty.
 
 use super::contact_sheet::SheetLayout;
 use super::drawing::Drawing;
@@ -15,10 +15,10 @@ use crate::io::sanitize::SanitizedLine;
 use crate::space::{DesignSpace, WeightMap};
 use crate::transition::TransitionStyle;
 
-/// Draws so many columns and rows of a map into one sheet.
+/// Draws a map sampled at `columns` × `rows` places into one sheet.
 ///
 /// # Panics
-/// If the map has not as many sites as the space has designs.
+/// If the map does not have one site per design of the space.
 pub fn map_sheet(
     (space, map): (&DesignSpace, &WeightMap),
     style: &TransitionStyle,
@@ -52,7 +52,7 @@ pub fn map_sheet(
     drawing
 }
 
-/// What the design is called whose site is there.
+/// Name of the design whose site is exactly at `place`, if any.
 fn name_at(space: &DesignSpace, map: &WeightMap, place: DVec2) -> Option<String> {
     let design = map.sites().iter().position(|site| *site == place)?;
     Some(SanitizedLine(&space.designs()[design].name).to_string())
@@ -68,7 +68,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn designs_are_named_and_what_is_beside_them_is_empty() {
+    fn designs_are_named_and_cells_outside_their_hull_are_empty() {
         let tent = |name: &str, h: f64| {
             let ring = [[0.0, 0.0], [2.0, 0.0], [1.0, h]];
             Arc::new(Design::of_rings(name, [ring]).expect("a design"))

@@ -1,10 +1,10 @@
-//! A film as an MP4, by the ffmpeg on the path, which is fed raw frames.
+//! Writes a film as an MP4 by feeding raw frames to the ffmpeg on the PATH.
 //!
-//! Guarantees: H.264-friendly 4:2:0 colour at even sizes, in the BT.709 colours
-//! that players assume; every frame of the film at its rate; no file unless
-//! ffmpeg ended well, the file has every frame, and ffmpeg can decode it: on a
-//! full disk ffmpeg (5.1) ends well, too. Which encoder and how small is ffmpeg's
-//! affair.
+//! Guarantees: 4:2:0 chroma at even sizes in BT.709 colours, which players assume; every frame of
+//! the film at its frame rate. The file replaces an earlier one only if ffmpeg succeeded, the file
+//! contains all frames, and ffmpeg can decode it; the exit status alone is not sufficient, since
+//! ffmpeg 5.1 reports success even on a full disk. The choice of encoder and the file size are up
+//! to ffmpeg.
 
 mod boxes;
 mod ffmpeg;
@@ -31,12 +31,12 @@ use super::raster::rasterise;
 use super::readback::{CHECKING_STAGE, DRAWN_FRACTION};
 use ffmpeg::FfmpegMessages;
 
-/// Writes the film; the camera's size must be even on both sides
+/// Writes the film and verifies it. Both sides of the camera's image must be even
 /// ([`PixelSize::to_even`](super::PixelSize::to_even)), or ffmpeg refuses it.
 ///
 /// # Errors
-/// [`ExportError`] where the ground is transparent, there is no ffmpeg, it
-/// fails or writes less than it was given, or nobody wants the film any more.
+/// [`ExportError`] if the background is transparent, ffmpeg is missing, fails or writes fewer
+/// frames than it received, or the export is cancelled.
 pub fn write_mp4(
     camera: &Camera,
     film: &FilmSpec,
@@ -46,7 +46,7 @@ pub fn write_mp4(
     if camera.ground.is_none() {
         return Err(ExportError::Mp4Transparent);
     }
-    // The folder is tried before ffmpeg is.
+    // Created before ffmpeg is started, so that an unwritable folder is reported first.
     let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let job = FfmpegJob {
         path,
@@ -54,15 +54,15 @@ pub fn write_mp4(
         progress,
     };
     let command = ffmpeg::encode_command(camera.view.size(), film.fps(), job.temporary);
-    let mut fed = Ok(());
+    let mut feeding = Ok(());
     let words = job.run(command, |mut stdin| {
-        fed = camera.shoot_runs(
+        feeding = camera.shoot_runs(
             &film.runs(),
             DRAWING_STAGE,
             &ProgressSpan::new(progress, 0.0, DRAWN_FRACTION),
             |drawing| Ok(planes(&rasterise(&drawing))),
             |run, bytes| {
-                // ffmpeg knows a rate and no holds: a run goes in frame by frame.
+                // ffmpeg expects a constant frame rate, so a run is fed frame by frame.
                 let feed = |_| stdin.write_all(&bytes);
                 (0..run.count)
                     .try_for_each(feed)
@@ -71,45 +71,44 @@ pub fn write_mp4(
         );
     })?;
     job.check(film.times().len(), &words)?;
-    fed?;
+    feeding?;
     file.commit().map_err(ExportError::write(path))
 }
 
-/// The brightness of all pixels, and then the two colours of each four, in the BT.709
-/// range of films. ffmpeg would do the same, alone and after twice as many bytes have
-/// gone through a pipe: of 300 frames in Full HD it took 7 s of the processor, with
-/// this 4.5.
+/// Converts an image to planar 4:2:0 YUV in limited-range BT.709: the luma of all pixels, then two
+/// chroma samples for each 2 × 2 pixels. ffmpeg could convert instead, but on a single thread and
+/// after at least twice as many bytes have passed through the pipe.
 fn planes(image: &RgbaImage) -> Vec<u8> {
     let (width, height) = image.dimensions();
     let mut planes = YuvPlanarImageMut::alloc(width, height, YuvChromaSubsampling::Yuv420);
     let (range, matrix) = (YuvRange::Limited, YuvStandardMatrix::Bt709);
     let mode = YuvConversionMode::Balanced;
     let stride = 4 * width;
-    // Refused only where the sizes do not fit, and they are of one picture.
+    // Fails only if the buffer sizes do not match, and they come from one image.
     let made = rgba_to_yuv420(&mut planes, image.as_raw(), stride, range, matrix, mode);
     debug_assert!(made.is_ok());
     let planes = [planes.y_plane, planes.u_plane, planes.v_plane];
     planes.each_ref().map(|plane| plane.borrow()).concat()
 }
 
-/// Whether there is an ffmpeg to write MP4s with; it is looked for once.
+/// Returns whether ffmpeg can be run. The result is cached for the life of the process.
 #[must_use]
 pub fn has_ffmpeg() -> bool {
-    static FOUND: OnceLock<bool> = OnceLock::new();
-    *FOUND.get_or_init(ffmpeg::is_available)
+    static IS_AVAILABLE: OnceLock<bool> = OnceLock::new();
+    *IS_AVAILABLE.get_or_init(ffmpeg::is_available)
 }
 
-/// What ffmpeg has to do with one file.
+/// The ffmpeg runs for one output file, and their error messages.
 struct FfmpegJob<'a> {
-    /// What it is going to be called.
+    /// Final path of the file.
     path: &'a Path,
-    /// What it is called until it is whole.
+    /// Temporary path of the file until it is verified.
     temporary: &'a Path,
     progress: &'a dyn Progress,
 }
 
 impl FfmpegJob<'_> {
-    /// Runs ffmpeg to a good end.
+    /// Runs ffmpeg and turns every unsuccessful end into an error.
     fn run(
         &self,
         command: Command,
@@ -131,17 +130,18 @@ impl FfmpegJob<'_> {
         }
     }
 
-    /// Looks at what is there: `words` of whoever wrote it prove nothing.
+    /// Verifies the file independently of the exit status: counts its frames and then has ffmpeg
+    /// decode it. `words` are the messages of the encoding run.
     fn check(&self, count: usize, words: &FfmpegMessages) -> Result<(), ExportError> {
         self.progress.report(CHECKING_STAGE, DRAWN_FRACTION);
         let reason =
             match File::open(self.temporary).and_then(|mut file| boxes::frame_count(&mut file)) {
-                // Each is in the file; whether it is a picture only a decoder tells.
-                Ok(found) if found == count => {
+                // All frames are present; whether they are valid images only a decoder can determine.
+                Ok(frame_count) if frame_count == count => {
                     let decoding = ffmpeg::decode_command(self.temporary);
                     return self.run(decoding, drop).map(drop);
                 }
-                Ok(found) => format!("{found} of {count} frames are there"),
+                Ok(frame_count) => format!("it has {frame_count} of {count} frames"),
                 Err(error) => error.to_string(),
             };
         Err(match words.last.as_str() {
@@ -154,10 +154,12 @@ impl FfmpegJob<'_> {
         })
     }
 
+    /// Error for a full disk.
     fn full(&self) -> ExportError {
         ExportError::write(self.path)(io::ErrorKind::StorageFull.into())
     }
 
+    /// Error that quotes a message of ffmpeg.
     fn failed(&self, words: &str) -> ExportError {
         ExportError::Ffmpeg {
             path: self.path.to_owned(),
@@ -165,7 +167,7 @@ impl FfmpegJob<'_> {
         }
     }
 
-    /// Words with the name that the user knows.
+    /// Replaces the temporary path in a message by the final one, which the user knows.
     fn renamed(&self, words: &str) -> String {
         let [temporary, path] = [self.temporary, self.path].map(|path| path.display().to_string());
         words.replace(&temporary, &path)

@@ -1,16 +1,16 @@
-//! Closed contours in pixels, of which everything that is filled is made.
+//! Closed contours in pixels (lines and Bézier curves), the geometry of everything that is filled
+//! or stroked.
 
 use crate::geometry::DVec2;
 
-/// Shapes with a coordinate beyond this are not drawn: extrapolated films can
-/// leave every picture by many orders of magnitude, and 32-bit rasterisers
-/// lose all their digits out there.
+/// Largest coordinate that is drawn, in pixels (tolerance: 32-bit rasterisers lose all sub-pixel
+/// precision beyond it). Extrapolated films can leave the image by many orders of magnitude.
 pub const MAX_COORDINATE_PX: f64 = 1.0e7;
 
-/// One step of an [`OutlinePath`], in pixels, y down.
+/// One path command of an [`OutlinePath`], in pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathCommand {
-    /// Starts a new closed contour at the point.
+    /// Starts a new contour at the point.
     Move(DVec2),
     /// A straight line to the point.
     Line(DVec2),
@@ -25,12 +25,13 @@ pub enum PathCommand {
 /// Closed contours that are filled together by the nonzero rule.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutlinePath {
-    /// Contours, each from a [`PathCommand::Move`] to a [`PathCommand::Close`].
+    /// Contours, each running from a [`PathCommand::Move`] to a [`PathCommand::Close`].
     pub steps: Vec<PathCommand>,
 }
 
 impl OutlinePath {
-    /// Adds a closed polygon; one with a point that cannot be drawn is left out.
+    /// Adds a closed polygon. Polygons with fewer than three points or an undrawable point are
+    /// omitted.
     pub fn push_ring(&mut self, ring_px: impl ExactSizeIterator<Item = DVec2> + Clone) {
         if ring_px.len() < 3 || !ring_px.clone().all(is_drawable) {
             return;
@@ -47,7 +48,7 @@ impl OutlinePath {
     }
 }
 
-/// Whether a point can be drawn at all.
+/// Returns whether a point is finite and within [`MAX_COORDINATE_PX`].
 pub(super) fn is_drawable(p: DVec2) -> bool {
     p.is_finite() && p.abs().max_element() <= MAX_COORDINATE_PX
 }

@@ -1,11 +1,9 @@
-//! A contact sheet of many pairs: a strip of frames for each, its name and a
-//! few words beside it.
+//! Contact sheet of many pairs: one strip of frames per pair, next to its name and a remark.
 //!
-//! Guarantees: names, words and frames do not overlap, whatever their length;
-//! what does not fit ends in an ellipsis; the sheet keeps within
-//! [`MAX_SHEET_SIDE_PX`] by smaller frames, then by leaving out the last strips,
-//! which it says. Strips run down in blocks that make the sheet a little wider
-//! than high.
+//! Guarantees: names, remarks and frames do not overlap, whatever their length; text that does not
+//! fit ends in an ellipsis; the sheet stays within [`MAX_SHEET_SIDE_PX`], first by smaller frames,
+//! then by omitting the last strips, which it reports. Strips run down in blocks that make the
+//! sheet a little wider than high.
 
 use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
@@ -17,50 +15,53 @@ use super::labels::{ERROR_COLOUR, LabelStyle, text_colour_on};
 use super::size::{MAX_SHEET_SIDE_PX, PixelSize, PixelSizeError};
 use super::view::PlaneView;
 
-/// Sides of a frame, in pixels: the largest with which all strips fit.
+/// Side of a frame in pixels (heuristic). The largest with which all strips fit is used.
 const CELLS_PX: [f64; 4] = [104.0, 84.0, 64.0, 48.0];
 
-/// Room between frames and around a strip, in pixels.
+/// Gap between frames and around a strip, in pixels (heuristic).
 const GAP_PX: f64 = 8.0;
 
-/// Width of the words beside a strip, in pixels.
+/// Width of the text column next to a strip, in pixels (heuristic).
 const WORDS_PX: f64 = 230.0;
 
-/// How the words are set.
-const TYPE: LabelStyle = LabelStyle {
+/// Style of names and remarks.
+const LABEL_STYLE: LabelStyle = LabelStyle {
     letters_px: 13.0,
     line_px: 16.0,
 };
-const LINE_PX: f64 = TYPE.line_px;
 
-/// Room for so many frames is there at least, for the words of pairs that
-/// have none.
-const FEWEST_COLUMNS: usize = 5;
+/// Line height of names and remarks, in pixels.
+const LINE_PX: f64 = LABEL_STYLE.line_px;
 
-/// Width by height that a sheet comes near to.
-const SHAPE: f64 = 1.4;
+/// Minimum number of frame columns, so that error messages of failed pairs have room (heuristic).
+const MIN_COLUMNS: usize = 5;
 
-/// One pair on the sheet.
+/// Preferred ratio of width to height of a sheet (heuristic).
+const TARGET_RATIO: f64 = 1.4;
+
+/// Strip of one pair on the sheet.
 ///
 /// ```
-/// use morphospace::export::{Strip, pair_sheet};
-/// let strips = [Strip::failed("a to b", "a.svg cannot be read")];
+/// use morphospace::export::{PairStrip, pair_sheet};
+/// let strips = [PairStrip::failed("a to b", "a.svg cannot be read")];
 /// let (drawing, shown) = pair_sheet(&strips, None)?;
 /// assert_eq!(shown, 1);
-/// # Ok::<(), morphospace::export::SizeError>(())
+/// # Ok::<(), morphospace::export::PixelSizeError>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct PairStrip {
     name: String,
+    /// Remark or error message.
     words: String,
     is_bad: bool,
+    /// Figures with their t.
     frames: Vec<(VectorFigure, f64)>,
     style: TransitionStyle,
     bounds: Option<Bounds>,
 }
 
 impl PairStrip {
-    /// Frames of a transition at the given t, with words under its name.
+    /// Creates a strip with frames of a transition at the given t.
     #[must_use]
     pub fn of(name: &str, transition: &Transition, style: &TransitionStyle, times: &[f64]) -> Self {
         let mut frame = transition.frame(0.0);
@@ -77,7 +78,7 @@ impl PairStrip {
         }
     }
 
-    /// A pair of which there are no frames, for the reason given.
+    /// Creates a strip with an error message instead of frames.
     #[must_use]
     pub fn failed(name: &str, reason: &str) -> Self {
         Self {
@@ -86,7 +87,7 @@ impl PairStrip {
         }
     }
 
-    /// With words under the name, marked where they tell of something bad.
+    /// Sets the remark below the name; it is shown in the error colour if `is_bad`.
     #[must_use]
     pub fn saying(self, words: &str, is_bad: bool) -> Self {
         Self {
@@ -97,26 +98,30 @@ impl PairStrip {
     }
 }
 
-/// Where everything is.
+/// Arrangement of strips in blocks.
 #[derive(Clone, Copy, Debug)]
 struct PairSheetLayout {
+    /// Side of a frame.
     cell_px: f64,
+    /// Frames per strip.
     columns: usize,
+    /// Strips per block.
     rows: usize,
+    /// Blocks next to each other.
     blocks: usize,
 }
 
 impl PairSheetLayout {
-    /// With the largest frames with which `strips` of them fit, or else the
-    /// smallest ones.
+    /// Uses the largest frames with which all `strips` fit, or else as many of the smallest as fit.
     fn new(strips: usize, columns: usize) -> Self {
         let layouts = CELLS_PX.map(|cell_px| Self::balanced(strips.max(1), columns, cell_px));
-        // Largest first: the first that fits is the one.
+        // Sorted by size, so the first fit is the largest.
         let fits = |layout: &&Self| layout.size().max_element() <= MAX_SHEET_SIDE_PX;
         let fitting = layouts.iter().find(fits).copied();
         fitting.unwrap_or_else(|| Self::fullest(columns))
     }
 
+    /// Number of blocks that brings the sheet closest to the preferred ratio.
     fn balanced(strips: usize, columns: usize, cell_px: f64) -> Self {
         let layout = |blocks: usize| Self {
             cell_px,
@@ -124,18 +129,24 @@ impl PairSheetLayout {
             rows: strips.div_ceil(blocks),
             blocks,
         };
-        let off = |layout: &Self| {
+        let ratio_error = |layout: &Self| {
             let size = layout.size();
-            // As a ratio: twice too wide is as bad as twice too high.
-            (size.x / size.y / SHAPE).ln().abs()
+            // The logarithm treats twice too wide like twice too high.
+            (size.x / size.y / TARGET_RATIO).ln().abs()
         };
-        let better = |a: Self, b: Self| if off(&b) < off(&a) { b } else { a };
-        // More blocks than this are wider than the longest sheet.
-        let most = strips.min(32);
-        (2..=most).map(layout).fold(layout(1), better)
+        let better = |a: Self, b: Self| {
+            if ratio_error(&b) < ratio_error(&a) {
+                b
+            } else {
+                a
+            }
+        };
+        // More blocks would exceed the maximum sheet width.
+        let max_blocks = strips.min(32);
+        (2..=max_blocks).map(layout).fold(layout(1), better)
     }
 
-    /// As many of the smallest frames as there is room for.
+    /// As many strips with the smallest frames as fit on a sheet.
     fn fullest(columns: usize) -> Self {
         let one = Self {
             cell_px: CELLS_PX[CELLS_PX.len() - 1],
@@ -144,22 +155,21 @@ impl PairSheetLayout {
             blocks: 1,
         };
         let strip = one.strip();
-        let most = |side: f64| ((MAX_SHEET_SIDE_PX - 2.0 * GAP_PX) / side).max(1.0) as usize;
+        let max_count = |side: f64| ((MAX_SHEET_SIDE_PX - 2.0 * GAP_PX) / side).max(1.0) as usize;
         Self {
-            rows: most(strip.y),
-            blocks: most(strip.x),
+            rows: max_count(strip.y),
+            blocks: max_count(strip.x),
             ..one
         }
     }
 
-    /// Width and height of a strip with its gap.
+    /// Width and height of a strip including its gap, in pixels.
     fn strip(&self) -> DVec2 {
         let frames = self.columns as f64 * (self.cell_px + GAP_PX);
         let lines = 4.0 * LINE_PX;
         DVec2::new(
             WORDS_PX + frames + 6.0 * GAP_PX,
-            // Four lines have room beside any frame: two of the name, two of
-            // words.
+            // Four lines fit next to a frame of any size: two for the name and two for the remark.
             self.cell_px.max(lines) + 1.5 * GAP_PX,
         )
     }
@@ -173,25 +183,24 @@ impl PairSheetLayout {
         self.rows * self.blocks
     }
 
-    /// The upper left corner of a strip.
+    /// Upper left corner of a strip, in pixels.
     fn corner(&self, index: usize) -> DVec2 {
         let place = DVec2::new((index / self.rows) as f64, (index % self.rows) as f64);
         place * self.strip() + DVec2::splat(GAP_PX)
     }
 }
 
-/// Draws strips one below the other in as many blocks as suit. Returns the
-/// drawing and how many strips are on it: all, unless there are more than some
-/// thousand.
+/// Draws strips one below the other, in as many blocks as suit. Returns the drawing and the number
+/// of strips on it, which is all of them unless there are thousands.
 ///
 /// # Errors
-/// [`PixelSizeError`] if strips have so many frames that none fits.
+/// [`PixelSizeError`] if a single strip has more frames than fit on a sheet.
 pub fn pair_sheet(
     strips: &[PairStrip],
     ground: Option<Rgb>,
 ) -> Result<(Drawing, usize), PixelSizeError> {
     let frames = strips.iter().map(|s| s.frames.len());
-    let columns = frames.max().unwrap_or(0).max(FEWEST_COLUMNS);
+    let columns = frames.max().unwrap_or(0).max(MIN_COLUMNS);
     let layout = PairSheetLayout::new(strips.len(), columns);
     let mut drawing = Drawing::new(PixelSize::holding(layout.size())?, ground);
     let shown = strips.len().min(layout.capacity());
@@ -203,23 +212,23 @@ pub fn pair_sheet(
 
 fn push_strip(drawing: &mut Drawing, strip: &PairStrip, layout: &PairSheetLayout, corner: DVec2) {
     let ink = text_colour_on(drawing.ground);
-    let words = if strip.is_bad { ERROR_COLOUR } else { ink };
+    let words_colour = if strip.is_bad { ERROR_COLOUR } else { ink };
     let lines = ((layout.strip().y - GAP_PX) / LINE_PX) as usize;
-    let named = TYPE.push(drawing, &strip.name, (WORDS_PX, lines.min(2)), corner, ink);
-    let below = corner + DVec2::new(0.0, named as f64 * LINE_PX);
+    let name_lines = LABEL_STYLE.push(drawing, &strip.name, (WORDS_PX, lines.min(2)), corner, ink);
+    let below = corner + DVec2::new(0.0, name_lines as f64 * LINE_PX);
     let frames = corner + DVec2::new(WORDS_PX + 2.0 * GAP_PX, 0.0);
     let step = layout.cell_px + GAP_PX;
     let Some(bounds) = strip.bounds else {
         let room = (layout.columns as f64 * step, lines);
-        TYPE.push(drawing, &strip.words, room, frames, words);
+        LABEL_STYLE.push(drawing, &strip.words, room, frames, words_colour);
         return;
     };
-    TYPE.push(
+    LABEL_STYLE.push(
         drawing,
         &strip.words,
-        (WORDS_PX, lines - named),
+        (WORDS_PX, lines - name_lines),
         below,
-        words,
+        words_colour,
     );
     for (i, (figure, t)) in strip.frames.iter().enumerate() {
         let at = frames + DVec2::new(i as f64 * step, 0.0);
@@ -249,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn sixty_pairs_are_a_picture_of_a_picture_s_shape() {
+    fn sixty_pairs_make_a_sheet_of_ordinary_shape() {
         let size = PairSheetLayout::new(60, 7).size();
         let ratio = size.x / size.y;
         assert!(

@@ -1,33 +1,30 @@
-//! A few colours that stand for many: median cut over the colours of a whole
-//! film.
+//! Colour quantisation for GIF: median cut over the colours of a whole film.
 //!
-//! Follows Heckbert, "Color Image Quantization for Frame Buffer Display" (1982),
-//! but cuts the box with the largest squared error, at its mean, as later
-//! practice does. Guarantees: where the colours are few enough, each is kept
-//! exactly. One palette for all frames: a still shape never flickers. No
-//! dithering, which would crawl and swell the file.
+//! Follows Heckbert, "Color Image Quantization for Frame Buffer Display" (1982), but splits the box
+//! with the largest squared error at its mean, as later practice does. Guarantees: if the colours
+//! fit into the palette, each is reproduced exactly. All frames share one palette, so a still shape
+//! never flickers. There is no dithering, which would shimmer in motion and enlarge the file.
 
 use std::collections::HashMap;
 
-/// How often each colour occurs.
+/// Number of pixels of each colour.
 pub(super) type ColourHistogram = HashMap<[u8; 3], u64>;
 
-/// At most 256 colours and, for any colour, which of them is nearest.
+/// Palette of at most 256 colours with nearest-colour lookup.
 #[derive(Clone, Debug)]
 pub(super) struct GifPalette(Vec<[u8; 3]>);
 
 impl GifPalette {
-    /// At most `limit` colours that stand for those of the histogram; black
-    /// alone where it is empty.
+    /// Returns a palette of at most `limit` colours that represents the histogram; just black if
+    /// the histogram is empty.
     pub fn of(histogram: ColourHistogram, limit: usize) -> Self {
         let mut colours: Vec<ColourCount> = histogram.into_iter().collect();
-        // A map has no order; sorting makes the palette the same at each run.
+        // Hash maps have no stable order; sorting makes the palette reproducible.
         colours.sort_unstable();
         if colours.is_empty() {
             return Self(vec![[0; 3]]);
         }
-        // With no more colours than that, the cuts below would run out of what
-        // to cut.
+        // Few colours need no quantisation, and the loop below would run out of boxes to split.
         if colours.len() <= limit {
             return Self(colours.into_iter().map(|(colour, _)| colour).collect());
         }
@@ -35,8 +32,8 @@ impl GifPalette {
         while boxes.len() < limit {
             let error = |i: &usize| boxes[*i].error;
             let worst = (0..boxes.len()).max_by(|a, b| error(a).total_cmp(&error(b)));
-            // It can be cut: there are more colours than boxes, so the worst
-            // holds two.
+            // There are more colours than boxes, so the box with the largest error holds at least
+            // two.
             let Some((low, high)) = worst.and_then(|i| boxes.swap_remove(i).cut()) else {
                 break;
             };
@@ -45,14 +42,15 @@ impl GifPalette {
         Self(boxes.iter().map(ColourBox::mean).collect())
     }
 
-    /// The colours.
+    /// The colours of the palette.
     pub fn colours(&self) -> &[[u8; 3]] {
         &self.0
     }
 
-    /// Index of the colour with the least squared distance.
+    /// Returns the index of the colour with the smallest squared distance.
     pub fn nearest(&self, colour: [u8; 3]) -> u8 {
-        // In sRGB values, as the eye's steps are nearer to those than to light.
+        // Distances are measured in sRGB values, which are closer to perceived differences than
+        // linear light.
         let distance = |other: &[u8; 3]| -> i32 {
             let along = |k: usize| i32::from(colour[k]) - i32::from(other[k]);
             (0..3).map(|k| along(k) * along(k)).sum()
@@ -62,14 +60,17 @@ impl GifPalette {
     }
 }
 
+/// A colour and its number of pixels.
 type ColourCount = ([u8; 3], u64);
 
-/// Colours that will become one.
+/// Box of the median cut: colours that will be represented by their mean.
 #[derive(Debug)]
 struct ColourBox {
     colours: Vec<ColourCount>,
     mean: [f64; 3],
+    /// Channel with the largest variance, along which the box is split.
     axis: usize,
+    /// Sum of squared distances to the mean.
     error: f64,
 }
 
@@ -90,10 +91,10 @@ impl ColourBox {
         }
     }
 
-    /// Both sides of the mean along the widest axis; `None` for one colour.
+    /// Splits the box at its mean along `axis`; `None` if it holds a single colour.
     fn cut(self) -> Option<(Self, Self)> {
-        let (axis, at) = (self.axis, self.mean[self.axis]);
-        let is_low = |c: &ColourCount| f64::from(c.0[axis]) <= at;
+        let (axis, threshold) = (self.axis, self.mean[self.axis]);
+        let is_low = |c: &ColourCount| f64::from(c.0[axis]) <= threshold;
         let (low, high): (Vec<_>, Vec<_>) = self.colours.into_iter().partition(is_low);
         let both = !low.is_empty() && !high.is_empty();
         both.then(|| (Self::of(low), Self::of(high)))
@@ -113,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn few_colours_are_kept_exactly() {
+    fn few_colours_are_reproduced_exactly() {
         let colours = (0..200u8).map(|i| ([i, 255 - i, 7], u64::from(i) + 1));
         let palette = GifPalette::of(histogram(colours), 255);
         for i in 0..200u8 {
@@ -123,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn many_colours_become_the_limit_and_stay_near() {
+    fn many_colours_fill_the_palette_and_stay_close() {
         let ramp = (0..=255u8).flat_map(|i| (0..8u8).map(move |j| ([i, i / 2 + 8 * j, 200], 5)));
         let palette = GifPalette::of(histogram(ramp.clone()), 64);
         assert_eq!(palette.colours().len(), 64);
@@ -135,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_film_has_a_palette_and_two_colours_can_become_one() {
+    fn an_empty_film_has_a_palette_and_two_colours_can_merge() {
         assert_eq!(
             GifPalette::of(ColourHistogram::default(), 255).colours(),
             [[0; 3]]

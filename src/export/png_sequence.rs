@@ -1,11 +1,9 @@
-//! A film as numbered pictures, a file a frame.
+//! Writes a film as numbered images, one file per frame.
 //!
-//! Guarantees: a file's number is the frame's number within the whole film, so
-//! that parts rendered on different machines fit together; each file is there
-//! whole or not at all; they are written in order, so that a run that ended half
-//! way leaves the frames from its first one on without a gap, and
-//! `--frames-range` can go on from there; their folder is made where it is
-//! missing. Files of an earlier, longer film are left alone.
+//! Guarantees: a file's number is the number of the frame within the whole film, so ranges rendered
+//! on different machines fit together; each file is written atomically; files are written in order,
+//! so an interrupted run leaves a gapless range that `--frames-range` can continue; a missing
+//! folder is created. Files of an earlier, longer film are not deleted.
 
 use std::fs;
 use std::path::PathBuf;
@@ -22,8 +20,8 @@ use super::target::NumberedFiles;
 /// Writes the frames and returns their paths in order.
 ///
 /// # Errors
-/// [`ExportError`] where a file cannot be written or nobody wants them any
-/// more; the frames before it stay.
+/// [`ExportError`] if a file cannot be written or the export is cancelled; frames already written
+/// remain.
 pub fn write_numbered(
     camera: &Camera,
     film: &FilmSpec,
@@ -33,8 +31,7 @@ pub fn write_numbered(
     fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
     atomic_file::remove_leftovers(&names.folder);
     let mut written = Vec::with_capacity(film.times().len());
-    // For the message alone: a frame that cannot be encoded is as large as all
-    // others.
+    // Only for error messages: if one frame cannot be encoded, no frame of this size can.
     let first = names.path(film.first_number());
     camera.shoot_runs(
         &film.runs(),
@@ -44,8 +41,8 @@ pub fn write_numbered(
         |run, bytes| {
             for number in run.first..run.first + run.count {
                 let path = names.path(number);
-                let written_one = atomic_file::write_one_of_many(&path, &bytes);
-                written_one.map_err(ExportError::write(&path))?;
+                let result = atomic_file::write_one_of_many(&path, &bytes);
+                result.map_err(ExportError::write(&path))?;
                 written.push(path);
             }
             Ok(())
@@ -81,19 +78,19 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_no_folder_for_them() {
+    fn a_file_in_place_of_the_folder_is_refused_and_unharmed() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("film");
         fs::write(&file, b"mine").expect("written");
         let film = FilmSpec::evenly(0.0, 1.0, 2, 24.0).expect("a film");
         let error = write_numbered(&camera(8, 8, None), &film, &names(&file, "#.png"), &Silent);
-        let told = error.expect_err("no folder").to_string();
-        assert!(told.contains("something of that name is there"), "{told}");
+        let message = error.expect_err("no folder").to_string();
+        assert!(message.contains("the name is already in use"), "{message}");
         assert_eq!(fs::read(&file).expect("read"), b"mine");
     }
 
     #[test]
-    fn parts_make_the_same_files_as_the_whole() {
+    fn ranges_give_the_same_files_as_the_whole_film() {
         let (whole, split) = (tempfile::tempdir(), tempfile::tempdir());
         let (whole, split) = (whole.expect("a folder"), split.expect("a folder"));
         let camera = camera(20, 16, None);
@@ -111,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn holds_fill_their_numbers_and_svg_can_be_numbered_too() {
+    fn pauses_are_written_frame_by_frame_and_svg_can_be_numbered() {
         let folder = tempfile::tempdir().expect("a folder");
         let film = FilmSpec::evenly(0.5, 0.5, 3, 24.0).expect("a film");
         assert_eq!(film.runs().len(), 1);
@@ -123,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cancel_stops_it_and_leaves_no_half_file() {
+    fn cancelling_leaves_no_partial_file() {
         struct AlwaysCancelled;
         impl Progress for AlwaysCancelled {
             fn report(&self, _: &'static str, _: f64) {}

@@ -1,4 +1,4 @@
-//! How films of one kind are made, kept under a name.
+//! Named export settings for films, stored in a TOML file of the user.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -10,29 +10,29 @@ use super::layout::{Aspect, PictureLayout};
 use super::target::FilmKind;
 use crate::io::atomic_file::AtomicFile;
 
-/// What is kept of how films are made.
+/// Export settings for films: everything except duration and easing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FilmPreset {
-    /// The shape of the pictures.
+    /// Aspect ratio.
     pub aspect: Aspect,
-    /// Pixels along the shorter side.
+    /// Length of the shorter side in pixels.
     pub lines: u32,
-    /// What is free all around, a fraction of the shorter side.
+    /// Free margin on all sides, as a fraction of the shorter side.
     #[serde(default)]
     pub margin: f64,
-    /// Whether captions stand below.
+    /// Whether captions are shown at the bottom.
     #[serde(default)]
     pub captions: bool,
-    /// Frames a second.
+    /// Frames per second.
     pub fps: u32,
-    /// The kind of file; numbered PNGs where there is none.
+    /// File type; `None` stands for numbered PNGs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<FilmKind>,
 }
 
 impl FilmPreset {
-    /// Its layout.
+    /// Returns the image layout of these settings.
     #[must_use]
     pub fn layout(&self) -> PictureLayout {
         PictureLayout {
@@ -44,12 +44,12 @@ impl FilmPreset {
     }
 }
 
-/// All that is kept, by name.
+/// Presets by name.
 ///
 /// ```
-/// use morphospace::export::Presets;
+/// use morphospace::export::FilmPresets;
 /// let text = "[talk]\naspect = \"4:3\"\nlines = 720\nfps = 25\n";
-/// let presets = Presets::parse(text)?;
+/// let presets = FilmPresets::parse(text)?;
 /// assert_eq!(presets.0["talk"].layout().lines, 720);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -57,25 +57,26 @@ impl FilmPreset {
 pub struct FilmPresets(pub BTreeMap<String, FilmPreset>);
 
 impl FilmPresets {
-    /// Where the window keeps them; none where the system has no such place.
+    /// Path at which the window stores presets; `None` if the system has no configuration
+    /// directory.
     #[cfg(feature = "cli")]
     #[must_use]
     pub fn usual_path() -> Option<std::path::PathBuf> {
         Some(dirs::config_dir()?.join("morphospace").join("films.toml"))
     }
 
-    /// Reads them from text.
+    /// Parses TOML text.
     ///
     /// # Errors
-    /// The text is not of their form; the message names the line.
+    /// The text is not valid TOML of this form. The message names the line.
     pub fn parse(text: &str) -> Result<Self, toml::de::Error> {
         toml::from_str(text)
     }
 
-    /// Reads a file; there are none where it is not there.
+    /// Reads a file. A missing file gives no presets.
     ///
     /// # Errors
-    /// It cannot be read, or is not of their form.
+    /// The file cannot be read or parsed.
     pub fn read(path: &Path) -> io::Result<Self> {
         match std::fs::read_to_string(path) {
             Ok(text) => Self::parse(&text).map_err(io::Error::other),
@@ -84,10 +85,10 @@ impl FilmPresets {
         }
     }
 
-    /// Writes them, whole or not at all.
+    /// Writes a file atomically; missing folders are created.
     ///
     /// # Errors
-    /// The disk is full, or the folder cannot be written to.
+    /// The folder cannot be created or the file cannot be written.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder)?;
@@ -104,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_kept_is_read_back() -> io::Result<()> {
+    fn written_presets_are_read_back() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("new").join("films.toml");
         assert_eq!(FilmPresets::read(&path)?, FilmPresets::default());

@@ -1,8 +1,8 @@
-//! A [`Drawing`] as pixels, by tiny-skia's anti-aliased scan conversion.
+//! Rasterises a [`Drawing`] on the CPU, with the anti-aliased scan conversion of tiny-skia.
 //!
-//! Guarantees: straight (not premultiplied) alpha out; a transparent ground is
-//! alpha 0; the same pixels for the same drawing, on any number of threads.
-//! Blending happens on sRGB values, as browsers blend SVG.
+//! Guarantees: straight (not premultiplied) alpha; a transparent background has alpha 0; the same
+//! drawing gives the same pixels, on any number of threads. Colours are blended as sRGB values, as
+//! browsers blend SVG.
 
 use glam::{DVec2, UVec2};
 use image::RgbaImage;
@@ -19,11 +19,11 @@ use crate::colour::{
 use super::drawing::{Drawing, DrawingItem};
 use super::outline::{OutlinePath, PathCommand};
 
-/// Paints a drawing.
+/// Rasterises a drawing.
 pub fn rasterise(drawing: &Drawing) -> RgbaImage {
     let (width, height) = (drawing.size.width(), drawing.size.height());
     let mut image = RgbaImage::new(width, height);
-    // A `PixelSize` is never refused here: it is neither empty nor too large.
+    // tiny-skia rejects only empty or huge sizes, which a `PixelSize` cannot be.
     if let Some(mut canvas) = PixmapMut::from_bytes(&mut image, width, height) {
         if let Some(ground) = drawing.ground {
             canvas.fill(color(ground));
@@ -36,6 +36,7 @@ pub fn rasterise(drawing: &Drawing) -> RgbaImage {
     image
 }
 
+/// Paints one shape over the canvas.
 fn paint(item: &DrawingItem, canvas: &mut PixmapMut<'_>) {
     match item {
         DrawingItem::Fill {
@@ -68,11 +69,11 @@ fn paint(item: &DrawingItem, canvas: &mut PixmapMut<'_>) {
     }
 }
 
-/// A circle of four cubic curves, 0.03 % of the radius off at most. (tiny-skia's
-/// own is of quadratic ones and visibly too small, by an eighth of a pixel.)
+/// Circle made of four cubic Bézier curves, with a radial error of at most 0.03 %. The circle of
+/// tiny-skia consists of quadratic curves and is visibly too small, by an eighth of a pixel.
 fn disc(centre: DVec2, radius: f64) -> OutlinePath {
-    // 4/3 (√2 − 1): the curve meets the circle in the middle of the quarter,
-    // too.
+    /// Handle length for the unit circle, 4/3 (√2 − 1) (derived: the curve then also touches the
+    /// circle at the middle of the quadrant).
     const HANDLE: f64 = 0.552_284_749_830_793_4;
     let quarter = |i: u8| {
         let from = DVec2::from_angle(f64::from(i) * std::f64::consts::FRAC_PI_2);
@@ -87,6 +88,7 @@ fn disc(centre: DVec2, radius: f64) -> OutlinePath {
     }
 }
 
+/// Fills a path by the nonzero rule.
 fn fill(path: Option<Path>, paint: &tiny_skia::Paint, canvas: &mut PixmapMut<'_>) {
     if let Some(path) = path {
         let rule = FillRule::Winding;
@@ -94,6 +96,7 @@ fn fill(path: Option<Path>, paint: &tiny_skia::Paint, canvas: &mut PixmapMut<'_>
     }
 }
 
+/// Strokes bars with round ends.
 fn stroke(segments: &[[DVec2; 2]], width_px: f64, colour: Rgb, canvas: &mut PixmapMut<'_>) {
     let mut builder = PathBuilder::new();
     for [a, b] in segments {
@@ -105,7 +108,7 @@ fn stroke(segments: &[[DVec2; 2]], width_px: f64, colour: Rgb, canvas: &mut Pixm
         line_cap: LineCap::Round,
         ..Stroke::default()
     };
-    // tiny-skia takes a width of 0 for a hairline, SVG for nothing at all.
+    // tiny-skia draws a hairline for width 0, SVG draws nothing.
     if let Some(path) = builder.finish().filter(|_| width_px > 0.0) {
         canvas.stroke_path(
             &path,
@@ -117,6 +120,7 @@ fn stroke(segments: &[[DVec2; 2]], width_px: f64, colour: Rgb, canvas: &mut Pixm
     }
 }
 
+/// Strokes closed outlines with their joins.
 fn draw_line(path: Option<Path>, line: &StrokeStyle, canvas: &mut PixmapMut<'_>) {
     let stroke = Stroke {
         width: line.width as f32,
@@ -137,6 +141,7 @@ fn draw_line(path: Option<Path>, line: &StrokeStyle, canvas: &mut PixmapMut<'_>)
     }
 }
 
+/// Converts an outline; `None` if it is empty.
 fn path_of(outline: &OutlinePath) -> Option<Path> {
     let mut builder = PathBuilder::new();
     let xy = |p: DVec2| (p.x as f32, p.y as f32);
@@ -154,10 +159,11 @@ fn path_of(outline: &OutlinePath) -> Option<Path> {
     builder.finish()
 }
 
+/// Copies a raster image to its place.
 fn picture(image: &RgbaImage, corner: UVec2, canvas: &mut PixmapMut<'_>) {
     let (width, height) = image.dimensions();
     let premultiplied = premultiplied(image);
-    // It is refused where it has no pixels, and then shows nothing.
+    // Rejected only if it has no pixels, and then there is nothing to show.
     if let Some(pixmap) = PixmapRef::from_bytes(&premultiplied, width, height) {
         let ([x, y], paint) = (corner.as_ivec2().to_array(), PixmapPaint::default());
         canvas.draw_pixmap(x, y, pixmap, &paint, Transform::identity(), None);
@@ -173,10 +179,10 @@ fn premultiplied(image: &RgbaImage) -> Vec<u8> {
     image.pixels().flat_map(times_alpha).collect()
 }
 
-/// Takes the alpha out of a pixel whose colour was multiplied by it.
+/// Converts a pixel from premultiplied to straight alpha.
 pub(crate) fn make_straight(pixel: &mut image::Rgba<u8>) {
     let [r, g, b, a] = pixel.0;
-    // A graphics card may round a colour above its alpha, where there is none.
+    // Rounding on a GPU can leave a colour above its alpha, which tiny-skia rejects.
     let [r, g, b] = [r, g, b].map(|c| c.min(a));
     pixel.0 = match (a, PremultipliedColorU8::from_rgba(r, g, b, a)) {
         (0, _) | (_, None) => [0; 4],
@@ -188,7 +194,7 @@ pub(crate) fn make_straight(pixel: &mut image::Rgba<u8>) {
     };
 }
 
-/// A gradient; none where it is too flat to be laid out.
+/// Converts a gradient; `None` if tiny-skia rejects it as degenerate.
 fn shaded(gradient: &Gradient) -> Option<tiny_skia::Paint<'static>> {
     let stops = gradient.stops.iter().map(|stop| {
         let mut colour = color(stop.paint.colour);
@@ -231,12 +237,12 @@ fn color(Rgb([r, g, b]): Rgb) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
-/// The pixels in a row, without their alpha where all are opaque.
+/// Pixel values row by row, without alpha if all pixels are opaque.
 pub(super) fn samples(image: &RgbaImage, is_opaque: bool) -> Vec<u8> {
     if !is_opaque {
         return image.as_raw().clone();
     }
-    // Three at a time: byte by byte it took as long as the painting.
+    // Copied in chunks of three: byte by byte was as slow as rasterising.
     let mut samples = Vec::with_capacity(image.as_raw().len() / 4 * 3);
     for pixel in image.pixels() {
         samples.extend_from_slice(&pixel.0[..3]);
@@ -291,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn alpha_is_straight_and_grounds_are_exact() {
+    fn alpha_is_straight_and_backgrounds_are_exact() {
         let half = DrawingItem::Fill {
             outline: disc(DVec2::splat(20.0), 10.0),
             paint: RED.into(),
@@ -307,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn straight_alpha_gives_back_the_colour() {
+    fn straight_alpha_restores_the_colour() {
         let straight = |pixel: [u8; 4]| {
             let mut pixel = image::Rgba(pixel);
             make_straight(&mut pixel);
@@ -320,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_stand_pixel_for_pixel() {
+    fn raster_images_are_copied_pixel_for_pixel() {
         let mut image = RgbaImage::from_pixel(20, 30, image::Rgba([0, 200, 0, 255]));
         image.put_pixel(19, 29, image::Rgba([0, 0, 0, 0]));
         let corner = UVec2::new(10, 4);
@@ -333,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_far_outside_do_no_harm() {
+    fn shapes_far_outside_do_not_panic() {
         let far = DrawingItem::Bars {
             segments: vec![[DVec2::splat(-1e7), DVec2::new(1e7, 9e6)]],
             width_px: 3e6,

@@ -1,5 +1,5 @@
-//! Whether a film that was written can be read again, frame by frame, before it
-//! takes the place of an earlier one.
+//! Verifies a written GIF or APNG by decoding it frame by frame before it replaces an earlier file.
+//! Detects truncated and damaged files and wrong frame counts, but not wrong pixel values.
 
 use std::fmt::Display;
 use std::fs::File;
@@ -10,18 +10,18 @@ use crate::work::progress::{Progress, checkpoint};
 
 use super::error::ExportError;
 
-/// The stage, as [`Progress`] is told.
+/// Name of the progress stage in which a film is verified.
 pub(super) const CHECKING_STAGE: &str = "checking the film";
 
-/// How much is done once all frames are drawn and written, as it is told;
-/// reading them takes about a tenth of that.
+/// Progress fraction reported once all frames are drawn and written (heuristic: verifying takes
+/// about a tenth of the time).
 pub(super) const DRAWN_FRACTION: f64 = 0.9;
 
-/// Reads a GIF to its end.
+/// Decodes a whole GIF. `path` is its final name, for error messages.
 ///
 /// # Errors
-/// [`ExportError::NotWhole`] where it has other than `count` frames, or
-/// [`ExportError::Cancelled`]; `path` is what it is going to be called.
+/// [`ExportError::NotWhole`] if it cannot be decoded or does not have `count` frames, or
+/// [`ExportError::Cancelled`].
 pub(super) fn check_gif(
     written: &File,
     count: usize,
@@ -29,27 +29,27 @@ pub(super) fn check_gif(
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
     let mut options = gif::DecodeOptions::new();
-    // A frame is as large as the user wanted it.
+    // The frame size was chosen by the user and needs no further limit.
     options.set_memory_limit(gif::MemoryLimit::Unlimited);
     let mut decoder = (options.read_info(BufReader::new(written)))
         .map_err(|error| ExportError::not_whole(path, error))?;
-    // One more than there are is the end.
+    // One read more than there are frames must report the end of the file.
     for number in 0..=count {
         checkpoint(progress, CHECKING_STAGE, number as f64 / count as f64)?;
         let frame = decoder.read_next_frame();
         let frame = frame.map_err(broken_at(path, number, count))?;
         if frame.is_some() != (number < count) {
-            let reason = format!("it has other than {count} frames");
+            let reason = format!("it does not have {count} frames");
             return Err(ExportError::not_whole(path, reason));
         }
     }
     Ok(())
 }
 
-/// Reads an animated PNG to its end.
+/// Decodes a whole animated PNG.
 ///
 /// # Errors
-/// As [`check_gif`].
+/// Same as for [`check_gif`].
 pub(super) fn check_apng(
     written: &File,
     count: usize,
@@ -61,7 +61,7 @@ pub(super) fn check_apng(
     let mut reader = (decoder.read_info()).map_err(|error| ExportError::not_whole(path, error))?;
     let control = reader.info().animation_control;
     if control.map(|control| control.num_frames as usize) != Some(count) {
-        let reason = format!("it has other than {count} frames");
+        let reason = format!("it does not have {count} frames");
         return Err(ExportError::not_whole(path, reason));
     }
     let mut pixels = vec![0; reader.output_buffer_size().unwrap_or_default()];
@@ -73,13 +73,14 @@ pub(super) fn check_apng(
     reader.finish().map_err(broken_at(path, count, count))
 }
 
+/// Returns a function that turns a decoder error at a frame into an export error.
 fn broken_at<E: Display>(
     path: &Path,
     number: usize,
     count: usize,
 ) -> impl FnOnce(E) -> ExportError {
     move |error| {
-        let reason = format!("it cannot be read beyond frame {number} of {count} ({error})");
+        let reason = format!("it is unreadable after frame {number} of {count} ({error})");
         ExportError::not_whole(path, reason)
     }
 }
@@ -92,8 +93,9 @@ mod tests {
     use crate::work::progress::Silent;
     use std::sync::Mutex;
 
-    /// What a check says of a film that lacks its last bytes, or has others.
-    fn is_noticed(
+    /// Asserts that `check` accepts what `write` wrote, and refuses it truncated, overwritten with
+    /// zeros, or with another frame count.
+    fn assert_damage_is_noticed(
         write: fn(
             &crate::export::Camera,
             &FilmSpec,
@@ -114,20 +116,20 @@ mod tests {
         };
         assert!(check(&whole, 5).is_ok());
         for count in [4, 6] {
-            let said = check(&whole, count).expect_err("another count");
-            assert!(said.to_string().contains("frames"), "{said}");
+            let message = check(&whole, count).expect_err("another count");
+            assert!(message.to_string().contains("frames"), "{message}");
         }
         for length in [0, 10, whole.len() / 2, whole.len() - 1] {
-            let said = check(&whole[..length], 5).expect_err("cut off").to_string();
-            assert!(said.contains("did not come out whole"), "{said}");
+            let message = check(&whole[..length], 5).expect_err("cut off").to_string();
+            assert!(message.contains("was not written completely"), "{message}");
         }
-        let mut holed = whole.clone();
-        // Among the frames: nothing tells whether a colour is the right one.
-        holed[whole.len() * 2 / 3..whole.len() * 3 / 4].fill(0);
-        assert!(check(&holed, 5).is_err(), "zeros in the middle");
+        let mut zeroed = whole.clone();
+        // Within the frame data; a decoder cannot know whether a colour is right.
+        zeroed[whole.len() * 2 / 3..whole.len() * 3 / 4].fill(0);
+        assert!(check(&zeroed, 5).is_err(), "zeros in the middle");
     }
 
-    /// What is told while a film is written.
+    /// Records the reported stages and fractions.
     #[derive(Default)]
     struct ReportedFractions(Mutex<Vec<(&'static str, f64)>>);
 
@@ -142,27 +144,27 @@ mod tests {
     }
 
     #[test]
-    fn the_share_that_is_told_never_goes_down() {
+    fn reported_progress_never_decreases() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("film");
         let film = FilmSpec::evenly(0.0, 1.0, 30, 25.0).expect("a film");
         for write in [write_gif, write_apng] {
-            let heard = ReportedFractions::default();
-            write(&camera(8, 6, None), &film, &path, &heard).expect("written");
-            let heard = heard.0.into_inner().expect("free");
-            assert!(heard.is_sorted_by(|a, b| a.1 <= b.1), "{heard:?}");
-            let checking = heard.iter().find(|told| told.0 == CHECKING_STAGE);
+            let reports = ReportedFractions::default();
+            write(&camera(8, 6, None), &film, &path, &reports).expect("written");
+            let reports = reports.0.into_inner().expect("free");
+            assert!(reports.is_sorted_by(|a, b| a.1 <= b.1), "{reports:?}");
+            let checking = reports.iter().find(|report| report.0 == CHECKING_STAGE);
             assert_eq!(checking, Some(&(CHECKING_STAGE, DRAWN_FRACTION)));
         }
     }
 
     #[test]
-    fn a_gif_that_is_not_whole_is_noticed() {
-        is_noticed(write_gif, check_gif);
+    fn a_damaged_gif_is_noticed() {
+        assert_damage_is_noticed(write_gif, check_gif);
     }
 
     #[test]
-    fn an_animated_png_that_is_not_whole_is_noticed() {
-        is_noticed(write_apng, check_apng);
+    fn a_damaged_animated_png_is_noticed() {
+        assert_damage_is_noticed(write_apng, check_apng);
     }
 }

@@ -1,31 +1,31 @@
-//! The size of a picture in pixels, and its limits.
+//! Image size in pixels, and its limits.
 //!
-//! Guarantees: a [`PixelSize`] can be allocated on an ordinary machine, so a
-//! picture of it cannot fail for its size.
+//! Guarantees: an image of any [`PixelSize`] can be allocated on an ordinary machine, so later
+//! steps never fail because of the size.
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::geometry::{Bounds, DVec2};
 
-/// The longest side of a picture in pixels; the size of graphics cards'
-/// textures, and safely within what GIF can say (65,535).
+/// Maximum side of an image, in pixels (resource limit: maximum texture size of common GPUs; also
+/// well within the 65,535 of GIF).
 pub const MAX_SIDE_PX: u32 = 16_384;
 
-/// The most pixels of a picture: 512 MiB at four bytes each.
+/// Maximum number of pixels of an image (resource limit: 512 MiB at four bytes each).
 pub const MAX_PIXELS: u64 = 1 << 27;
 
-/// The longer side of the largest sheet, in pixels: what every viewer opens.
+/// Maximum side of a contact sheet, in pixels (resource limit: every image viewer opens it).
 pub(super) const MAX_SHEET_SIDE_PX: f64 = 8_192.0;
 
-/// A picture's width and height in pixels, both at least 1.
+/// Width and height of an image in pixels, both at least 1.
 ///
 /// ```
 /// use morphospace::export::PixelSize;
 /// let size: PixelSize = "1280x720".parse()?;
 /// assert_eq!((size.width(), size.height()), (1280, 720));
 /// assert!("100000x100000".parse::<PixelSize>().is_err());
-/// # Ok::<(), morphospace::export::SizeError>(())
+/// # Ok::<(), morphospace::export::PixelSizeError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelSize {
@@ -33,37 +33,37 @@ pub struct PixelSize {
     height: u32,
 }
 
-/// Why a size cannot be had.
+/// Reason why a size is refused.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PixelSizeError {
-    /// Not two whole numbers with an `x` between them.
+    /// The text is not two whole numbers separated by `x`.
     #[error("`{0}` is not a size: write it as WIDTHxHEIGHT in pixels, for example 1280x720")]
     Unreadable(String),
-    /// A side of no pixels.
-    #[error("a picture of {width}x{height} pixels shows nothing: both sides must be at least 1")]
+    /// One side is 0.
+    #[error("an image of {width}x{height} pixels is empty: both sides must be at least 1")]
     Empty {
-        /// Width asked for.
+        /// Requested width.
         width: u32,
-        /// Height asked for.
+        /// Requested height.
         height: u32,
     },
     /// Beyond [`MAX_SIDE_PX`] or [`MAX_PIXELS`].
     #[error(
-        "a picture of {width}x{height} pixels is too large: a side may have {MAX_SIDE_PX} and the whole {MAX_PIXELS} pixels; SVG has no such limit when it is scaled up later"
+        "an image of {width}x{height} pixels is too large: at most {MAX_SIDE_PX} pixels per side and {MAX_PIXELS} in total are possible; write a smaller SVG, which can be scaled up later"
     )]
     TooLarge {
-        /// Width asked for.
+        /// Requested width.
         width: u32,
-        /// Height asked for.
+        /// Requested height.
         height: u32,
     },
 }
 
 impl PixelSize {
-    /// A size within the limits.
+    /// Creates a size within the limits.
     ///
     /// # Errors
-    /// [`PixelSizeError`] where a side is 0 or the picture is too large.
+    /// [`PixelSizeError`] if a side is 0 or the image is too large.
     pub fn new(width: u32, height: u32) -> Result<Self, PixelSizeError> {
         if width == 0 || height == 0 {
             return Err(PixelSizeError::Empty { width, height });
@@ -75,13 +75,13 @@ impl PixelSize {
         Ok(Self { width, height })
     }
 
-    /// The shape of `bounds`, with the longer side as given (clamped to what is
-    /// legal) and the shorter one at least a tenth of it; both even.
+    /// Returns a size with the shape of `bounds` and the given longer side (clamped to the limits).
+    /// The shorter side is at least a tenth of it; both are even.
     pub fn of_shape(bounds: Bounds, longer_side_px: u32) -> Self {
-        // 8192² is half of `MAX_PIXELS`: no shape leaves the limits.
+        // 8192² is half of `MAX_PIXELS`, so no shape exceeds the limits.
         let longer = even(longer_side_px.clamp(2, 8_192));
         let size = bounds.size();
-        // Not a number for a point: that is shown in a square.
+        // NaN if the bounds are a single point, which is shown in a square image.
         let ratio = size.min_element() / size.max_element();
         let ratio = if ratio.is_finite() {
             ratio.max(0.1)
@@ -97,17 +97,17 @@ impl PixelSize {
         Self { width, height }
     }
 
-    /// Room for sides of any length: rounded up to whole pixels.
+    /// Rounds sides of any length up to whole pixels.
     ///
     /// # Errors
-    /// [`PixelSizeError`] where a side is 0 or the picture is too large.
+    /// [`PixelSizeError`] if a side is 0 or the image is too large.
     pub(super) fn holding(sides_px: DVec2) -> Result<Self, PixelSizeError> {
-        // `as` saturates, and what is far too large is refused as such.
+        // `as` saturates, so absurdly large sides are refused as too large.
         let [width, height] = sides_px.to_array().map(|side| side.ceil() as u32);
         Self::new(width, height)
     }
 
-    /// Each side rounded up to an even number, as most film formats want it.
+    /// Rounds each side up to an even number, as most video encoders require.
     pub fn to_even(self) -> Self {
         Self {
             width: even(self.width),
@@ -130,14 +130,13 @@ impl PixelSize {
         u64::from(self.width) * u64::from(self.height)
     }
 
-    /// Width and height as a vector.
+    /// Width and height in pixels, as a vector.
     pub fn as_dvec2(self) -> DVec2 {
         DVec2::new(f64::from(self.width), f64::from(self.height))
     }
 }
 
-/// The next even number, at least 2; [`MAX_SIDE_PX`] is even, so no legal side
-/// leaves the limit.
+/// Rounds up to an even number of at least 2. [`MAX_SIDE_PX`] is even, so legal sides stay legal.
 fn even(side_px: u32) -> u32 {
     side_px.next_multiple_of(2).max(2)
 }
@@ -164,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn limits_hold() {
+    fn sizes_beyond_the_limits_are_refused() {
         assert!(PixelSize::new(1, 1).is_ok());
         assert!(PixelSize::new(MAX_SIDE_PX, 8_192).is_ok());
         assert!(matches!(
@@ -182,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_are_read() {
+    fn sizes_are_parsed() {
         assert_eq!("64x48".parse(), PixelSize::new(64, 48));
         assert_eq!("64X48".parse(), PixelSize::new(64, 48));
         for bad in [

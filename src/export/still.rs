@@ -1,4 +1,4 @@
-//! One drawing as a file: PNG, SVG or DXF.
+//! Writes a single drawing to a PNG, SVG or DXF file.
 
 use std::path::Path;
 
@@ -13,20 +13,20 @@ use super::raster::rasterise;
 use super::svg::to_svg;
 use super::target::StillKind;
 
-/// Writes one drawing, whole or not at all.
+/// Writes one drawing atomically.
 ///
 /// # Errors
-/// [`ExportError`] where the file cannot be written.
+/// [`ExportError`] if the drawing cannot be encoded in this format or the file cannot be written.
 pub fn write_still(drawing: &Drawing, kind: StillKind, path: &Path) -> Result<(), ExportError> {
     write_atomically(path, &encoded(drawing, kind, path)?)
 }
 
-/// Writes a whole file at once.
+/// Writes a file atomically and reports errors with its path.
 pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     atomic_file::write(path, bytes).map_err(ExportError::write(path))
 }
 
-/// A drawing as the bytes of a file; `path` is for the message alone.
+/// Encodes a drawing as the bytes of a file. `path` is only used in error messages.
 pub(super) fn encoded(
     drawing: &Drawing,
     kind: StillKind,
@@ -55,7 +55,7 @@ mod tests {
     use crate::export::PixelSize;
 
     #[test]
-    fn a_missing_folder_is_named() {
+    fn the_error_names_a_missing_folder() {
         let path = Path::new("/no/such/folder/x.svg");
         let drawing = Drawing::new(PixelSize::new(1, 1).expect("a legal size"), None);
         let error = write_still(&drawing, StillKind::Svg, path).expect_err("no folder");

@@ -1,8 +1,8 @@
-//! A [`Drawing`] as an SVG document.
+//! Writes a [`Drawing`] as a static SVG document.
 //!
-//! Guarantees: well-formed, self-contained (no fonts, styles or links), numbers
-//! with at most three decimals, the same bytes for the same drawing.
-//! It does not keep text as text: labels are outlines with an `aria-label`.
+//! Guarantees: well-formed and self-contained (no fonts, style sheets or links); numbers have at
+//! most three decimals; the same drawing gives the same bytes. Text is not preserved as text:
+//! labels are outlines with an `aria-label`.
 
 use std::fmt::{self, Write};
 
@@ -17,7 +17,7 @@ use super::drawing::{Drawing, DrawingItem};
 use super::labels::ShortNumber;
 use super::outline::{OutlinePath, PathCommand};
 
-/// Writes a drawing as an SVG document.
+/// Returns a drawing as an SVG document.
 pub fn to_svg(drawing: &Drawing) -> String {
     let (width, height) = (drawing.size.width(), drawing.size.height());
     let mut svg = format!(
@@ -33,7 +33,7 @@ pub fn to_svg(drawing: &Drawing) -> String {
     svg + "</svg>\n"
 }
 
-/// The element of an item with its number.
+/// Element of the `k`-th shape; gradients get the id `g{k}`.
 fn element(k: usize, item: &DrawingItem) -> String {
     match item {
         DrawingItem::Fill {
@@ -74,6 +74,7 @@ fn element(k: usize, item: &DrawingItem) -> String {
     }
 }
 
+/// Filled path with the given fill attributes and an optional label for screen readers.
 fn fill(outline: &OutlinePath, ink: &str, label: Option<&str>) -> String {
     let label = label.map_or_else(String::new, |words| {
         format!(" role=\"img\" aria-label=\"{}\"", XmlEscaped(words))
@@ -82,7 +83,7 @@ fn fill(outline: &OutlinePath, ink: &str, label: Option<&str>) -> String {
     format!("<path{label} {ink} d=\"{steps}\"/>")
 }
 
-/// The attributes of what is filled with a paint.
+/// Fill attributes of a plain paint.
 fn painted(paint: &Paint) -> String {
     match paint.is_opaque() {
         true => format!("fill=\"{}\"", paint.colour),
@@ -94,7 +95,7 @@ fn painted(paint: &Paint) -> String {
     }
 }
 
-/// A gradient by a number.
+/// Definition of a gradient with the id `g{k}`.
 fn shaded(k: usize, gradient: &Gradient) -> String {
     let stop = |stop: &GradientStop| {
         let Paint { colour, opacity } = stop.paint;
@@ -106,16 +107,16 @@ fn shaded(k: usize, gradient: &Gradient) -> String {
         format!("<stop offset=\"{at}%\" stop-color=\"{colour}\"{opacity}/>")
     };
     let stops: String = gradient.stops.iter().map(stop).collect();
-    let (kind, way) = match gradient.course {
+    let (kind, geometry) = match gradient.course {
         GradientGeometry::Straight => ("linear", "x1=\"0\" y1=\"0\" x2=\"1\" y2=\"0\"".to_owned()),
         GradientGeometry::Round { focus, inner } => {
-            let way = format!(
+            let geometry = format!(
                 "cx=\"0\" cy=\"0\" r=\"1\" fx=\"{}\" fy=\"{}\" fr=\"{}\"",
                 ShortNumber(focus.x),
                 ShortNumber(focus.y),
                 ShortNumber(inner)
             );
-            ("radial", way)
+            ("radial", geometry)
         }
     };
     let spread = match gradient.spread {
@@ -126,13 +127,14 @@ fn shaded(k: usize, gradient: &Gradient) -> String {
     let frame = gradient
         .frame
         .to_cols_array()
-        .map(|x| ShortNumber(x).to_string());
-    let frame = frame.join(" ");
+        .map(|x| ShortNumber(x).to_string())
+        .join(" ");
     format!(
-        "<{kind}Gradient id=\"g{k}\" gradientUnits=\"userSpaceOnUse\" {way}{spread} gradientTransform=\"matrix({frame})\">{stops}</{kind}Gradient>"
+        "<{kind}Gradient id=\"g{k}\" gradientUnits=\"userSpaceOnUse\" {geometry}{spread} gradientTransform=\"matrix({frame})\">{stops}</{kind}Gradient>"
     )
 }
 
+/// Path with a stroke and no fill.
 fn drawn_line(outline: &OutlinePath, line: &StrokeStyle) -> String {
     let StrokeStyle { paint, width, join } = line;
     let join = match join {
@@ -152,6 +154,7 @@ fn drawn_line(outline: &OutlinePath, line: &StrokeStyle) -> String {
     )
 }
 
+/// Path data of one command.
 fn step(step: &PathCommand) -> String {
     match *step {
         PathCommand::Move(p) => format!("M{}", SvgPoint(p)),
@@ -162,6 +165,7 @@ fn step(step: &PathCommand) -> String {
     }
 }
 
+/// Group of circles.
 fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
     let circle = |c: &DVec2| {
         format!(
@@ -175,12 +179,13 @@ fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
     format!("<g fill=\"{}\">{circles}</g>", colour)
 }
 
+/// Image element with embedded pixels.
 fn picture(image: &image::RgbaImage, UVec2 { x, y }: UVec2) -> String {
     let mut png = Vec::new();
-    // Embedded, so that the file needs no other beside it.
+    // Embedded as a data URL, so that the document needs no other files.
     let encoded = image.write_with_encoder(PngEncoder::new(&mut png));
     if encoded.is_err() {
-        return String::new(); // it has no pixels, and shows nothing
+        return String::new(); // encoding fails only for an image without pixels
     }
     let (width, height) = image.dimensions();
     format!(
@@ -189,7 +194,7 @@ fn picture(image: &image::RgbaImage, UVec2 { x, y }: UVec2) -> String {
     )
 }
 
-/// RFC 4648, with padding.
+/// Base64 encoding with padding (RFC 4648).
 fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
@@ -209,6 +214,7 @@ fn base64(bytes: &[u8]) -> String {
     text
 }
 
+/// Displays the coordinates of a point, separated by a space.
 struct SvgPoint(DVec2);
 
 impl fmt::Display for SvgPoint {
@@ -217,8 +223,8 @@ impl fmt::Display for SvgPoint {
     }
 }
 
-/// Text that may stand in an attribute; characters that XML forbids become
-/// the replacement character.
+/// Displays text escaped for an XML attribute. Characters that XML forbids become the replacement
+/// character.
 pub(super) struct XmlEscaped<'a>(pub &'a str);
 
 impl fmt::Display for XmlEscaped<'_> {
@@ -247,7 +253,7 @@ mod tests {
     use tiny_skia::{FillRule, Paint, Pixmap};
 
     #[test]
-    fn base64_is_that_of_the_rfc() {
+    fn base64_matches_the_test_vectors_of_the_rfc() {
         let pairs = [
             ("", ""),
             ("f", "Zg=="),
@@ -263,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn hostile_labels_stay_in_their_attribute() {
+    fn hostile_labels_are_escaped() {
         let mut drawing = Drawing::new(PixelSize::new(9, 9).expect("a legal size"), None);
         let black = Rgb([0; 3]);
         drawing.push_label("\"/><x>&\u{1}\n", DVec2::ZERO, 4.0, black);
@@ -272,7 +278,7 @@ mod tests {
         assert!(!svg.contains("<x>"));
     }
 
-    /// Reads the SVG back with another program's parser and paints its paths.
+    /// Parses the SVG with usvg, an independent parser, and paints its paths.
     fn painted_by_usvg(svg: &str) -> image::RgbaImage {
         let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).expect("well-formed");
         let size = tree.size().to_int_size();
@@ -287,7 +293,7 @@ mod tests {
             match node {
                 usvg::Node::Group(group) => paint_group(group, pixmap),
                 usvg::Node::Path(path) => paint_path(path, pixmap),
-                other => panic!("unexpected in this drawing: {other:?}"),
+                other => panic!("unexpected node: {other:?}"),
             }
         }
     }
@@ -314,7 +320,7 @@ mod tests {
         }
     }
 
-    /// A square with a square hole, two bars with joints, and words.
+    /// A drawing with a square with a square hole, two bars with joints, and text.
     fn everything(ground: Option<Rgb>) -> Drawing {
         let ring = |a: f64, b: f64| vec![[a, a], [b, a], [b, b], [a, b]];
         let hole: Vec<_> = ring(2.0, 4.0).into_iter().rev().collect();
@@ -345,7 +351,8 @@ mod tests {
         drawing
     }
 
-    /// With the colour premultiplied: a barely covered pixel has none to speak of.
+    /// Premultiplied pixel: the colour of barely covered pixels is arbitrary and must not be
+    /// compared.
     fn seen(pixel: &image::Rgba<u8>) -> [u8; 4] {
         let [r, g, b, a] = pixel.0;
         let times_alpha = |c: u8| (u16::from(c) * u16::from(a) / 255) as u8;
@@ -371,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn a_solid_covers_its_area_with_its_hole_left_out() {
+    fn a_solid_covers_its_area_except_for_its_hole() {
         let image = rasterise(&everything(None));
         let left_half = image.enumerate_pixels().filter(|(x, ..)| *x < 110);
         let covered: f64 = left_half.map(|(_, _, p)| f64::from(p.0[3]) / 255.0).sum();

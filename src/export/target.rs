@@ -1,42 +1,42 @@
-//! What a path asks for: its name tells the kind of picture or film.
+//! Determines the kind of export (one image, one film file, numbered frames) from an output path.
 
 use crate::design::or_list;
 use std::path::{Path, PathBuf};
 
-use crate::settings::choice::{Choice, keys, named};
+use crate::settings::{Choice, keys, named};
 
-/// What the pictures in a folder are called.
+/// File name pattern of the frames in an output folder.
 const IN_FOLDER: &str = "frame-####.png";
 
-/// A format for one picture; its key is the ending of a name.
+/// File format of a single image. Its key is the file extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StillKind {
-    /// Pixels.
+    /// Pixel image.
     Png,
-    /// Shapes.
+    /// Vector shapes.
     Svg,
-    /// Outlines, for cutters and CAD.
+    /// Outlines only, for plotters, laser cutters and CAD.
     Dxf,
 }
 
 named! { StillKind {
-    Png: "png", "PNG", "Pixels";
-    Svg: "svg", "SVG", "Shapes";
-    Dxf: "dxf", "DXF", "Outlines, for cutters and CAD";
+    Png: "png", "PNG", "Pixel image";
+    Svg: "svg", "SVG", "Vector shapes";
+    Dxf: "dxf", "DXF", "Outlines, for laser cutters and CAD";
 } }
 
-/// A format for one file that moves; its key is the ending of a name.
+/// File format of a film. Its key is the file extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FilmKind {
-    /// 256 colours, plays everywhere.
+    /// 256 colours; plays everywhere.
     Gif,
-    /// Animated PNG: all colours and soft transparency.
+    /// Animated PNG: full colour and smooth transparency.
     Apng,
-    /// H.264 through ffmpeg.
+    /// H.264 video, encoded by ffmpeg.
     Mp4,
-    /// SVG that moves by itself.
+    /// Animated SVG.
     Svg,
-    /// A page that plays it.
+    /// HTML page with a player.
     Html,
     /// A Lottie animation.
     Lottie,
@@ -46,34 +46,34 @@ named! { FilmKind {
     Gif: "gif", "GIF", "Plays everywhere, 256 colours";
     Apng: "apng", "APNG", "Full colour, plays in browsers";
     Mp4: "mp4", "MP4", "Needs ffmpeg on this machine";
-    Svg: "svg", "SVG", "Outlines that move by themselves, in browsers";
-    Html: "html", "Page", "Outlines with a player to scrub and step, in one file";
-    Lottie: "json", "Lottie", "Outlines with keys, for apps, sites and motion design";
+    Svg: "svg", "SVG", "Animated vector outlines, plays in browsers";
+    Html: "html", "HTML page", "Vector outlines with a player, in one file";
+    Lottie: "json", "Lottie", "Vector outlines with keyframes, for apps, websites and motion design";
 } }
 
-/// The endings of all kinds in a row, for a sentence: `.png or .svg`.
+/// Lists the file extensions of all kinds for a sentence: `.png or .svg`.
 #[must_use]
 pub fn extension_list<K: Choice>() -> String {
     or_list(keys::<K>().map(|key| format!(".{key}")))
 }
 
-/// Numbered pictures: `folder/prefix0007suffix`.
+/// File names of numbered frames: `folder/prefix0007suffix`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NumberedFiles {
-    /// Where they lie.
+    /// Folder of the files.
     pub folder: PathBuf,
-    /// What stands before the number.
+    /// Part of the name before the number.
     pub prefix: String,
-    /// The least number of digits.
+    /// Minimum number of digits; shorter numbers are padded with zeros.
     pub digits: usize,
-    /// What stands after the number, extension included.
+    /// Part of the name after the number, including the extension.
     pub suffix: String,
-    /// Their format.
+    /// File format.
     pub kind: StillKind,
 }
 
 impl NumberedFiles {
-    /// The path of one frame.
+    /// Returns the path of the frame with the given number.
     pub fn path(&self, number: usize) -> PathBuf {
         let (prefix, digits, suffix) = (&self.prefix, self.digits, &self.suffix);
         self.folder
@@ -81,42 +81,41 @@ impl NumberedFiles {
     }
 }
 
-/// What is written, and where.
+/// Kind of output, and where to write it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ExportTarget {
-    /// One picture.
+    /// One image.
     Still(StillKind, PathBuf),
-    /// One file that moves.
+    /// One film file.
     Film(FilmKind, PathBuf),
-    /// A picture a frame.
+    /// One image per frame.
     Numbered(NumberedFiles),
 }
 
-/// A path that names no kind.
+/// Error for a path whose file type is not supported.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ExportTargetError {
-    /// An extension that is none of ours.
+    /// The extension is unknown.
     #[error(
-        "`{}` names no kind of picture: end it in {} for one, in {} for a film, in name-####.png for numbered pictures, or in / for a folder of them",
+        "unknown output type `{}`: end it in {} for an image, in {} for a film, in name-####.png for numbered images, or in / for a folder of them",
         .0.display(), extension_list::<StillKind>(), extension_list::<FilmKind>()
     )]
     Unknown(PathBuf),
-    /// `####` in a name that is no still picture.
+    /// The name has a number pattern (`####`), but its extension is not that of an image.
     #[error(
-        "`{}` numbers its frames: end it in {}, or leave the # out",
+        "`{}` has a frame number (#), which needs an image type: end it in {}, or remove the #",
         .0.display(), extension_list::<StillKind>()
     )]
     NotNumbered(PathBuf),
 }
 
 impl ExportTarget {
-    /// Reads the kind from the name: the extension of a [`StillKind`] or of a
-    /// [`FilmKind`]; `name-####.png` (or `.svg`) for numbered pictures; a
-    /// folder (one that exists, a name that ends in `/`, or one without
-    /// extension) for numbered PNGs in it.
+    /// Determines the kind from the name: the extension of a [`StillKind`] or of a [`FilmKind`];
+    /// `name-####.png` (or `.svg`) for numbered images; a folder (one that exists, a name that ends
+    /// in `/`, or a name without extension) for numbered PNGs in it.
     ///
     /// # Errors
-    /// [`ExportTargetError`] where the name tells nothing.
+    /// [`ExportTargetError`] if the name does not determine a supported kind.
     pub fn of_path(path: &Path) -> Result<Self, ExportTargetError> {
         if is_folder(path) {
             let names = by_pattern(path, IN_FOLDER, StillKind::Png);
@@ -131,7 +130,8 @@ impl ExportTarget {
             let folder = path.parent().unwrap_or(Path::new(""));
             return Ok(Self::Numbered(by_pattern(folder, name, kind)));
         }
-        // A film's ending in a pattern was refused above: a film is one file.
+        // Number patterns with the extension of a film were refused above, since a film is one
+        // file.
         let film = FilmKind::of_key(&extension).ok();
         let still = still.map(|kind| Self::Still(kind, path.to_owned()));
         let film = film.map(|kind| Self::Film(kind, path.to_owned()));
@@ -141,8 +141,7 @@ impl ExportTarget {
 }
 
 impl ExportTarget {
-    /// The same for who wants a film: a name whose ending stands for a picture and for a
-    /// film means the film.
+    /// Resolves extensions that stand for both an image and a film (`.svg`) to the film.
     #[must_use]
     pub fn moving(self) -> Self {
         match self {
@@ -152,17 +151,18 @@ impl ExportTarget {
     }
 }
 
+/// Returns whether a path denotes a folder.
 fn is_folder(path: &Path) -> bool {
     let text = path.to_string_lossy();
     let name = path.file_name().map(|name| name.to_string_lossy());
-    // `name-####` without an ending is more likely a slip than a folder.
+    // `name-####` without an extension is more likely a mistake than a folder.
     let is_bare = path.extension().is_none() && !name.is_some_and(|name| name.contains('#'));
     is_bare || text.ends_with(['/', std::path::MAIN_SEPARATOR]) || path.is_dir()
 }
 
-/// The last run of `#` in the name is the number.
+/// Splits a file name at its last run of `#`, which stands for the number.
 fn by_pattern(folder: &Path, name: &str, kind: StillKind) -> NumberedFiles {
-    // There is one in the name: that is what made it a pattern.
+    // Callers pass names with a `#`, so 0 is never used.
     let end = name.rfind('#').map_or(0, |last| last + 1);
     let before = &name[..end];
     let prefix = before.trim_end_matches('#');
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn extensions_tell_the_kind() {
+    fn the_extension_determines_the_kind() {
         let still = |kind, path: &str| Ok(ExportTarget::Still(kind, path.into()));
         let film = |kind, path: &str| Ok(ExportTarget::Film(kind, path.into()));
         assert_eq!(target("a/b.PNG"), still(StillKind::Png, "a/b.PNG"));
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn patterns_and_folders_number_their_files() {
+    fn patterns_and_folders_give_numbered_files() {
         let paths = |text: &str| match target(text) {
             Ok(ExportTarget::Numbered(numbered)) => [7, 12345].map(|n| numbered.path(n)),
             other => panic!("{text}: {other:?}"),

@@ -1,5 +1,4 @@
-//! A small transition for the tests of this module: a triangle that turns and
-//! grows.
+//! Camera on a small transition for the export tests: a triangle that rotates and grows.
 
 use std::sync::Arc;
 
@@ -10,7 +9,7 @@ use crate::work::progress::Silent;
 
 use super::{Camera, PixelSize, PlaneView, framing};
 
-/// Sees the transition at the given size.
+/// Returns a camera on the transition with images of the given size.
 pub(super) fn camera(width: u32, height: u32, ground: Option<Rgb>) -> Camera {
     let transition = turning_triangle();
     let size = PixelSize::new(width, height).expect("a legal size");
@@ -24,6 +23,7 @@ pub(super) fn camera(width: u32, height: u32, ground: Option<Rgb>) -> Camera {
     }
 }
 
+/// Transition between two triangles, read from OBJ text.
 fn turning_triangle() -> Transition {
     let read = |vertices: &str| {
         let obj = format!("{vertices}f 1 2 3\n");

@@ -1,25 +1,25 @@
-//! A film that leaves as motion and not as pixels: animated SVG, a page that plays
-//! it, and Lottie.
+//! Exports a film as vector animation instead of pixels: animated SVG, an HTML page with a player,
+//! and Lottie.
 //!
-//! A [`VectorAnimation`] is a film of drawings as a [`FilmSpec`](crate::film::Film) is one of a
-//! warp: what the camera draws, as polynomials in t. It is made of pieces; within
-//! one there are the same shapes, and each point has a Chebyshev series. From one to
-//! the next shapes may come and go. All three formats are written from it, so that
-//! none can disagree: the page plays the series themselves, the others have keys.
+//! A [`VectorAnimation`] records the drawings of a camera as polynomials in t, just as a
+//! [`Recording`](crate::recording::Recording) does for a warp. It consists of pieces: within a
+//! piece the set of shapes is constant and each point follows a Chebyshev series; from one piece to
+//! the next shapes may appear or disappear. All three formats are written from it, so they cannot
+//! disagree: the HTML page evaluates the series themselves, the others use keyframes.
 //!
-//! Guaranteed: at no moment that was looked at is a point farther than
-//! [`VectorAnimation::TOLERANCE_PX`] from where the camera draws it, in the motion and in what
-//! is written from it. Not guaranteed: blends of distance fields have contours whose
-//! points have no way from one moment to the next; of them the motion has the film's
-//! frames, each until the next. Pictures have no outlines and are refused.
+//! Guarantees: at every tested moment each point is within [`VectorAnimation::TOLERANCE_PX`] of
+//! where the camera draws it, in the recording and in the files written from it. Limits: contours
+//! of distance field blends have no point correspondence over time, so they are stored as
+//! individual frames without interpolation. Raster images have no outlines and are refused.
 //!
-//! - `shape`: a shape taken apart into what stays and what moves
-//! - `series`: Chebyshev series; `piece`: shapes between two times
-//! - `record`: from drawings to pieces; `thin`: without the points that no one would
-//!   miss; `recorded`: both
-//! - `course`: which t is shown when; `keys`: the fewest keys between which straight
-//!   lines do; `tracks`: shapes over time, with them
-//! - `smil`, `lottie`, `page`: the three formats; `plain`: gradients as those know them
+//! - `shape`: splits a shape into its constant and its moving data
+//! - `chebyshev`: Chebyshev series of points; `piece`: shapes between two times
+//! - `record`: turns drawings into pieces; `simplify`: removes superfluous polygon points;
+//!   `animation`: the animation made by both
+//! - `timeline`: timeline of the film; `keyframes`: fewest keyframes for linear interpolation;
+//!   `tracks`: shapes over time with their keyframes
+//! - `smil`, `lottie`, `page`: writers of the three formats; `two_point_gradient`: gradients in the
+//!   simpler form that these formats support
 
 mod animation;
 mod chebyshev;
@@ -51,29 +51,30 @@ use super::target::FilmKind;
 pub use animation::VectorAnimation;
 
 impl VectorAnimation {
-    /// An SVG document that moves by itself.
+    /// Returns an animated SVG document.
     #[must_use]
     pub fn svg(&self) -> String {
         smil::animated_svg(self)
     }
 
-    /// A page that plays it, and needs nothing else.
+    /// Returns a self-contained HTML page with a player.
     #[must_use]
     pub fn page(&self, title: &str) -> String {
         page::html_page(self, title)
     }
 
-    /// A Lottie animation as JSON.
+    /// Returns a Lottie animation as JSON.
     #[must_use]
     pub fn lottie(&self, title: &str) -> String {
         lottie::lottie_json(self, title).to_string()
     }
 }
 
-/// Writes the film as motion, in a format that is that.
+/// Writes the film to an animated SVG, HTML or Lottie file. The title is that of the film, or else
+/// the file name without extension.
 ///
 /// # Errors
-/// As [`VectorAnimation::record`], and where the file cannot be written.
+/// Same as for [`VectorAnimation::record`], and [`ExportError`] if the file cannot be written.
 pub(super) fn write_motion(
     camera: &Camera,
     film: &FilmSpec,

@@ -1,33 +1,35 @@
-//! From the plane, y up, to pixels, y down, and back.
+//! Map between the plane of the designs (y up) and pixels (y down).
 
 use crate::geometry::{Bounds, DAffine2, DVec2};
 
 use super::size::PixelSize;
 
-/// Which part of the plane a picture, or a cell of one, shows.
+/// Part of the plane that an image, or a cell of a contact sheet, shows.
 ///
-/// The whole rectangle is visible, centred, at one scale in both directions.
+/// The fitted rectangle is entirely visible, centred, and equally scaled in both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneView {
+    /// Size of the whole image.
     size: PixelSize,
+    /// Point of the plane that is shown at `middle_px`.
     centre: DVec2,
+    /// Centre of the image or cell.
     middle_px: DVec2,
     px_per_unit: f64,
 }
 
 impl PlaneView {
-    /// Fits `bounds` into a picture of the given size.
+    /// Fits `bounds` into an image of the given size.
     pub fn fit(bounds: Bounds, size: PixelSize) -> Self {
         Self::fit_cell(bounds, size, DVec2::ZERO, size.as_dvec2())
     }
 
-    /// Fits `bounds` into the cell of a picture that begins at `corner_px`.
+    /// Fits `bounds` into the cell of an image whose upper left corner is at `corner_px`.
     pub fn fit_cell(bounds: Bounds, size: PixelSize, corner_px: DVec2, cell_px: DVec2) -> Self {
         let ratio = cell_px / bounds.size();
         let px_per_unit = [ratio.x, ratio.y]
             .into_iter()
-            // A straight line has no extent along one axis, and a point along
-            // none.
+            // A straight line has no extent along one axis, a point along neither.
             .filter(|r| r.is_finite() && *r > 0.0)
             .reduce(f64::min);
         Self {
@@ -38,7 +40,7 @@ impl PlaneView {
         }
     }
 
-    /// The same in a picture of another size, as large as its shape allows.
+    /// Returns the same view for an image of another size, scaled as far as its shape allows.
     #[must_use]
     pub fn scaled_to(&self, size: PixelSize) -> Self {
         let ratio = size.as_dvec2() / self.size.as_dvec2();
@@ -52,29 +54,29 @@ impl PlaneView {
         }
     }
 
-    /// The picture that this is a view in.
+    /// Size of the image.
     pub fn size(&self) -> PixelSize {
         self.size
     }
 
-    /// Pixels per unit of the design.
+    /// Pixels per unit of the plane.
     pub fn px_per_unit(&self) -> f64 {
         self.px_per_unit
     }
 
-    /// A point in pixels, y down, in the design.
+    /// Maps a pixel position (y down) to the plane.
     pub fn to_plane(&self, px: DVec2) -> DVec2 {
         let d = (px - self.middle_px) / self.px_per_unit;
         self.centre + DVec2::new(d.x, -d.y)
     }
 
-    /// From the design to pixels, y down.
+    /// Affine map from the plane to pixels, y down.
     pub fn affine(&self) -> DAffine2 {
         let scale = DVec2::new(self.px_per_unit, -self.px_per_unit);
         DAffine2::from_scale_angle_translation(scale, 0.0, self.to_px(DVec2::ZERO))
     }
 
-    /// A point of the design in pixels, y down.
+    /// Maps a point of the plane to pixels, y down.
     pub fn to_px(&self, p: DVec2) -> DVec2 {
         let from_centre = (p - self.centre) * self.px_per_unit;
         self.middle_px + DVec2::new(from_centre.x, -from_centre.y)

@@ -1,32 +1,33 @@
-//! How a share runs from 0 to 1: of a segment of time, or of a mix of colours.
+//! Easing functions: increasing maps of [0, 1] onto itself that shape how t runs over time, or how
+//! one colour fades into another.
+//!
+//! This file holds the four named easings; `curve` adds cubic Bézier easings with two free handles.
 
-use crate::settings::choice::named;
+use crate::settings::named;
 
-pub use crate::time::easing_curve::{EasingBezier, EasingBezierError, EasingFunction};
-
-/// How a share runs from 0 to 1.
+/// Named easing function on [0, 1].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum NamedEasing {
-    /// Evenly.
+    /// Constant speed: x.
     Linear,
-    /// Slow at both ends: 3x² − 2x³.
+    /// Slow at both ends (smoothstep): 3x² − 2x³.
     #[default]
     Smooth,
-    /// Slow at the beginning: x².
+    /// Slow at the start: x².
     EaseIn,
     /// Slow at the end: 1 − (1−x)².
     EaseOut,
 }
 
 named! { NamedEasing {
-    Linear: "linear", "Even", "The same speed all along";
+    Linear: "linear", "Linear", "Constant speed";
     Smooth: "smooth", "Smooth", "Slow at both ends";
-    EaseIn: "ease-in", "Ease in", "Slow at the beginning";
+    EaseIn: "ease-in", "Ease in", "Slow at the start";
     EaseOut: "ease-out", "Ease out", "Slow at the end";
 } }
 
 impl NamedEasing {
-    /// Maps [0, 1] onto itself, increasing.
+    /// Maps [0, 1] onto itself, strictly increasing.
     #[must_use]
     pub fn apply(self, x: f64) -> f64 {
         match self {
@@ -37,7 +38,7 @@ impl NamedEasing {
         }
     }
 
-    /// The same in what is run backwards: 1 − f(1 − x).
+    /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
     #[must_use]
     pub fn backwards(self) -> Self {
         match self {
@@ -47,14 +48,14 @@ impl NamedEasing {
         }
     }
 
-    /// The inverse of [`Self::apply`].
+    /// Inverse of [`Self::apply`]. Arguments outside [0, 1] are clamped.
     #[must_use]
     pub fn inverse(self, y: f64) -> f64 {
-        // Beyond [0, 1] roots and arc sines are NaN.
+        // Outside [0, 1] the square roots and arcsine are NaN.
         let y = y.clamp(0.0, 1.0);
         match self {
             Self::Linear => y,
-            // Smoothstep is inverted by trisecting an angle.
+            // Closed-form inverse of smoothstep: the trigonometric root of the cubic.
             Self::Smooth => 0.5 - ((1.0 - 2.0 * y).asin() / 3.0).sin(),
             Self::EaseIn => y.sqrt(),
             Self::EaseOut => 1.0 - (1.0 - y).sqrt(),

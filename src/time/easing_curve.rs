@@ -1,4 +1,8 @@
-//! A way of running that somebody has drawn: a cubic curve with two handles.
+//! Cubic Bézier easing with two draggable handles, and the type that is either that or a named
+//! easing.
+//!
+//! Guarantees: every accepted curve is non-decreasing on [0, 1], so eased time never runs
+//! backwards. Text and files hold the name of the easing or the four handle coordinates.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,36 +11,39 @@ use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::easing::NamedEasing;
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 
-/// A cubic Bézier curve from (0, 0) to (1, 1) with handles at (x₁, y₁) and
-/// (x₂, y₂), as CSS has them, but that none of the four leaves [0, 1]: a share
-/// never runs back.
+/// Cubic Bézier easing from (0, 0) to (1, 1) with handles (x₁, y₁) and (x₂, y₂), as in CSS
+/// `cubic-bezier()`.
+///
+/// Unlike in CSS all four numbers lie in [0, 1], which keeps the curve non-decreasing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EasingBezier([f64; 4]);
 
-/// Handles beyond [0, 1].
+/// Error for handles that are not four numbers in [0, 1].
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("a curve has four numbers from 0 to 1: two handles, x and y of each")]
+#[error("an easing curve needs four numbers from 0 to 1: x1,y1,x2,y2")]
 pub struct EasingBezierError;
 
-/// So often an interval is halved: as exact as numbers are.
+/// Number of bisection steps when a Bézier coordinate is inverted (tolerance: 52 halvings of [0, 1]
+/// reach the precision of f64).
 const HALVINGS: u32 = 52;
 
 impl EasingBezier {
-    /// The curve with these handles: x₁, y₁, x₂, y₂.
+    /// Creates the easing with handles x₁, y₁, x₂, y₂.
     ///
     /// # Errors
-    /// [`EasingBezierError`] where one is beyond [0, 1] or no number.
+    /// [`EasingBezierError`] if a number is NaN or outside [0, 1].
     pub fn new(handles: [f64; 4]) -> Result<Self, EasingBezierError> {
         let is_within = handles.iter().all(|h| (0.0..=1.0).contains(h));
         is_within.then_some(Self(handles)).ok_or(EasingBezierError)
     }
 
-    /// The curve that comes nearest to one of the usual ways.
+    /// Returns the Bézier easing identical to a named easing.
     #[must_use]
     pub fn like(easing: NamedEasing) -> Self {
-        // Of a polynomial of the third degree in x exactly that.
+        // All named easings are polynomials in x of degree at most three. With the handles at x =
+        // 1/3 and x = 2/3 the Bézier parameter equals x, so the match is exact.
         let third = 1.0 / 3.0;
         Self(match easing {
             NamedEasing::Linear => [third, third, 2.0 * third, 2.0 * third],
@@ -46,14 +53,14 @@ impl EasingBezier {
         })
     }
 
-    /// The same in what is run backwards: 1 − f(1 − x).
+    /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
     #[must_use]
     pub fn backwards(self) -> Self {
         let [x1, y1, x2, y2] = self.0.map(|h| 1.0 - h);
         Self([x2, y2, x1, y1])
     }
 
-    /// Its handles: x₁, y₁, x₂, y₂.
+    /// Handles as x₁, y₁, x₂, y₂.
     #[must_use]
     pub fn handles(self) -> [f64; 4] {
         self.0
@@ -70,13 +77,14 @@ impl EasingBezier {
     }
 }
 
-/// One coordinate at a parameter.
+/// Value at parameter `s` of one Bézier coordinate with control values 0, `a`, `b`, 1.
 fn bernstein(a: f64, b: f64, s: f64) -> f64 {
     let r = 1.0 - s;
     s * (3.0 * r * (r * a + s * b) + s * s)
 }
 
-/// Where a coordinate has this value; it never falls.
+/// Parameter at which the non-decreasing Bézier coordinate 0, `a`, `b`, 1 takes `value`, by
+/// bisection.
 fn parameter(a: f64, b: f64, value: f64) -> f64 {
     if value <= 0.0 {
         return 0.0;
@@ -96,20 +104,20 @@ fn parameter(a: f64, b: f64, value: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// How a share runs: in one of the usual ways, or along a curve.
+/// Easing function: a named one, or a cubic Bézier curve.
 ///
 /// ```
-/// use morphospace::time::easing::{Ease, Easing};
-/// let drawn: Ease = "0.3,0,0.1,1".parse()?;
+/// use morphospace::time::{EasingFunction, NamedEasing};
+/// let drawn: EasingFunction = "0.3,0,0.1,1".parse()?;
 /// assert!(drawn.apply(0.5) > 0.5);
-/// assert_eq!("smooth".parse(), Ok(Ease::Named(Easing::Smooth)));
+/// assert_eq!("smooth".parse(), Ok(EasingFunction::Named(NamedEasing::Smooth)));
 /// # Ok::<(), String>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EasingFunction {
-    /// In one of the usual ways.
+    /// A named easing.
     Named(NamedEasing),
-    /// Along a curve.
+    /// A Bézier curve with its own handles.
     Drawn(EasingBezier),
 }
 
@@ -126,7 +134,7 @@ impl From<NamedEasing> for EasingFunction {
 }
 
 impl EasingFunction {
-    /// Maps [0, 1] onto itself, never falling.
+    /// Maps [0, 1] onto itself, non-decreasing.
     #[must_use]
     pub fn apply(self, x: f64) -> f64 {
         match self {
@@ -135,7 +143,7 @@ impl EasingFunction {
         }
     }
 
-    /// The inverse of [`Self::apply`].
+    /// Inverse of [`Self::apply`]. Where the curve is flat, any one of the matching arguments.
     #[must_use]
     pub fn inverse(self, y: f64) -> f64 {
         match self {
@@ -144,7 +152,7 @@ impl EasingFunction {
         }
     }
 
-    /// The same in what is run backwards: 1 − f(1 − x).
+    /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
     #[must_use]
     pub fn backwards(self) -> Self {
         match self {
@@ -153,7 +161,7 @@ impl EasingFunction {
         }
     }
 
-    /// As a curve, to be changed by hand.
+    /// Returns the easing as a Bézier curve, for editing by hand.
     #[must_use]
     pub fn curve(self) -> EasingBezier {
         match self {
@@ -175,11 +183,11 @@ impl fmt::Display for EasingFunction {
 impl FromStr for EasingFunction {
     type Err = String;
 
-    /// A name, or four numbers with commas between them.
+    /// Parses the name of an easing, or four numbers separated by commas.
     fn from_str(text: &str) -> Result<Self, String> {
         if !text.contains(',') {
             let named = NamedEasing::of_key(text).map(Self::Named);
-            return named.map_err(|error| format!("{error}, or four numbers as 0.3,0,0.1,1"));
+            return named.map_err(|error| format!("{error}, or four numbers like 0.3,0,0.1,1"));
         }
         let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
         let handles = numbers.ok().and_then(|all| all.try_into().ok());
@@ -205,7 +213,7 @@ impl<'de> Deserialize<'de> for EasingFunction {
             type Value = EasingFunction;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("the name of an easing, or the four numbers of a curve")
+                f.write_str("the name of an easing, or the four numbers of an easing curve")
             }
 
             fn visit_str<E: Error>(self, key: &str) -> Result<EasingFunction, E> {
@@ -238,7 +246,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn curves_like_the_usual_ways_run_as_they_do() {
+    fn bezier_curves_of_named_easings_equal_them() {
         for easing in NamedEasing::ALL {
             let curve = EasingFunction::from(easing).curve();
             for k in 0..=20 {
@@ -250,10 +258,10 @@ mod tests {
     }
 
     #[test]
-    fn backwards_is_the_same_way_from_the_other_end() {
+    fn backwards_mirrors_the_curve_about_its_centre() {
         let drawn = EasingBezier::new([0.9, 0.0, 1.0, 0.2]).expect("a curve");
-        let ways = NamedEasing::ALL.map(EasingFunction::from).into_iter();
-        for ease in ways.chain([EasingFunction::Drawn(drawn)]) {
+        let named = NamedEasing::ALL.map(EasingFunction::from).into_iter();
+        for ease in named.chain([EasingFunction::Drawn(drawn)]) {
             for x in [0.0, 0.2, 0.5, 0.9, 1.0] {
                 let gap = ease.backwards().apply(x) - (1.0 - ease.apply(1.0 - x));
                 assert!(gap.abs() < 1e-12, "{ease} at {x}");
@@ -262,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_curve_is_refused() {
+    fn invalid_easing_text_is_refused() {
         for text in ["0,0,1", "0,0,1,2", "0,0,1,x", "0,0,NaN,1", "quick", ""] {
             assert!(text.parse::<EasingFunction>().is_err(), "{text}");
         }
@@ -270,14 +278,14 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_curve_never_falls_and_can_be_run_back(
+        fn a_curve_never_falls_and_its_inverse_inverts_it(
             handles in prop::array::uniform4(0.0f64..=1.0), x in 0.0f64..=1.0, more in 0.0f64..0.5,
         ) {
             let ease = EasingFunction::Drawn(EasingBezier::new(handles).expect("a curve"));
             let y = ease.apply(x);
             prop_assert!((0.0..=1.0).contains(&y));
             prop_assert!(ease.apply((x + more).min(1.0)) >= y - 1e-9);
-            // Where it is flat many x have one y.
+            // Flat stretches map many x to one y, so only y is compared.
             prop_assert!((ease.apply(ease.inverse(y)) - y).abs() < 1e-6);
             let text = ease.to_string();
             prop_assert_eq!(text.parse::<EasingFunction>(), Ok(ease));

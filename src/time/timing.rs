@@ -1,54 +1,54 @@
-//! When which t is shown: pure, and shared by the window and by export.
+//! Playback timing: which t is shown after how many seconds. Pure, and shared by window and export.
 //!
-//! A pass runs from one t to another and rests at both ends. Stops divide it
-//! into segments that are eased one by one, and may be rested at; time is shared out
-//! by length in t, but for segments that have a time of their own. Playing once, in a
-//! loop or to and fro repeats passes.
+//! One pass of the film runs from one t to another, with a pause at each end. Stops divide it into
+//! segments, each with its own easing; the film may pause at a stop. Time is distributed in
+//! proportion to the length in t, except for segments with a duration of their own. Play modes
+//! repeat passes.
 
-use crate::settings::choice::named;
-use crate::time::easing::EasingFunction;
+use crate::settings::named;
+use crate::time::EasingFunction;
 use serde::{Deserialize, Serialize};
 
-/// What happens at the end of a pass.
+/// Behaviour at the end of a pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PlayMode {
-    /// Playing stops.
+    /// Playback stops.
     Once,
-    /// The pass begins again.
+    /// The pass starts again from the beginning.
     Loop,
-    /// The pass is run backwards, and so on.
+    /// The next pass runs backwards, and so on.
     #[default]
     PingPong,
 }
 
 named! { PlayMode {
-    PingPong: "ping-pong", "Ping-pong", "There and back, again and again";
-    Loop: "loop", "Loop", "Starts again at the end";
+    PingPong: "ping-pong", "Ping-pong", "Plays forwards and backwards in turn";
+    Loop: "loop", "Loop", "Starts again from the beginning";
     Once: "once", "Once", "Stops at the end";
 } }
 
-/// A named place in the transition.
+/// A named moment of a transition.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TransitionStop {
-    /// Where it is.
+    /// t of the stop.
     pub t: f64,
-    /// What it is called; may be empty.
+    /// Name; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// What a speaker says there; may be empty.
+    /// Speaker's note; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// How t runs from here up to the next stop; none is as everywhere.
+    /// Easing from this stop to the next one in t; `None` uses the easing of the film.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub easing: Option<EasingFunction>,
-    /// Seconds from here up to the next stop, positive; none is the share of the pass
-    /// that its length in t has.
+    /// Duration in seconds from this stop to the next one in t, positive; `None` uses the share of
+    /// the pass that corresponds to the length in t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_secs: Option<f64>,
-    /// Seconds of rest here, not negative; at the ends of a pass at least as long as
-    /// there.
+    /// Pause at this stop in seconds, not negative; at the ends of a pass, the longer of this pause
+    /// and that of the film applies.
     #[serde(default, skip_serializing_if = "is_none")]
     pub hold_secs: f64,
 }
@@ -58,7 +58,7 @@ fn is_none(secs: &f64) -> bool {
 }
 
 impl TransitionStop {
-    /// One without a name.
+    /// Creates a stop without a name.
     #[must_use]
     pub fn at(t: f64) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl TransitionStop {
         }
     }
 
-    /// The same with a name.
+    /// Sets the name.
     #[must_use]
     pub fn named(self, name: impl Into<String>) -> Self {
         Self {
@@ -80,51 +80,51 @@ impl TransitionStop {
         }
     }
 
-    /// The same with a rest of so many seconds.
+    /// Sets the pause in seconds.
     #[must_use]
     pub fn resting(self, hold_secs: f64) -> Self {
         Self { hold_secs, ..self }
     }
 }
 
-/// How a transition runs over time.
+/// How a transition is played over time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct Timing {
-    /// Seconds of a pass, rests not counted; positive. Segments with a time of their own
-    /// take that instead of their share of it.
+    /// Duration of a pass in seconds without pauses, positive. Segments with a duration of their
+    /// own replace their share of it.
     pub duration_secs: f64,
-    /// How t runs in each segment that no stop says more of.
+    /// Easing of each segment whose stop does not set one.
     pub easing: EasingFunction,
-    /// Seconds of rest at each end; not negative.
+    /// Pause at each end in seconds, not negative.
     pub hold_secs: f64,
-    /// What happens at the end of a pass.
+    /// Behaviour at the end of a pass.
     pub play: PlayMode,
-    /// t at the beginning.
+    /// t at the beginning of a pass.
     pub from: f64,
-    /// t at the end; differs from the beginning.
+    /// t at the end of a pass; differs from the beginning.
     pub to: f64,
 }
 
-/// Numbers that give no pass.
+/// Why a timing is invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TimingError {
-    /// The duration is not positive.
-    #[error("a pass cannot last {0} seconds; give a positive duration")]
+    /// The duration is not positive or not finite.
+    #[error("the film cannot last {0} seconds; give a positive duration")]
     Duration(f64),
-    /// The rest is negative.
-    #[error("a rest cannot last {0} seconds; give 0 or more")]
+    /// The pause is negative or not finite.
+    #[error("a pause cannot last {0} seconds; give 0 or more")]
     Hold(f64),
     /// The ends are equal or not finite.
-    #[error("a pass cannot run from t = {0} to t = {1}; give two different finite numbers")]
+    #[error("the film cannot run from t = {0} to t = {1}; give two different finite numbers")]
     Range(f64, f64),
     /// A stop is not finite.
-    #[error("stop {} is at no finite t; correct or remove it", .0 + 1)]
+    #[error("stop {} has no finite t; correct or remove it", .0 + 1)]
     Stop(usize),
-    /// A stop rests for a negative time, or the way from it takes none.
-    #[error("stop {} has a time that is none: give a positive duration and a rest of 0 or more", .0 + 1)]
+    /// The pause at a stop is negative, or the duration of its segment is not positive.
+    #[error("stop {} has an invalid time: give a positive duration and a pause of 0 or more", .0 + 1)]
     StopSecs(usize),
 }
 
@@ -142,10 +142,10 @@ impl Default for Timing {
 }
 
 impl Timing {
-    /// Checks that there is a pass to run.
+    /// Checks that the numbers define a pass.
     ///
     /// # Errors
-    /// [`TimingError`] names the number that is wrong.
+    /// [`TimingError`] for the first invalid number.
     pub fn check(&self, stops: &[TransitionStop]) -> Result<(), TimingError> {
         if !(self.duration_secs.is_finite() && self.duration_secs > 0.0) {
             return Err(TimingError::Duration(self.duration_secs));
@@ -156,28 +156,30 @@ impl Timing {
         if !(self.from.is_finite() && self.to.is_finite()) || self.from == self.to {
             return Err(TimingError::Range(self.from, self.to));
         }
-        if let Some(bad) = stops.iter().position(|stop| !stop.t.is_finite()) {
-            return Err(TimingError::Stop(bad));
+        if let Some(invalid) = stops.iter().position(|stop| !stop.t.is_finite()) {
+            return Err(TimingError::Stop(invalid));
         }
-        let is_rest = |secs: f64| secs.is_finite() && secs >= 0.0;
-        let is_way = |secs: f64| secs.is_finite() && secs > 0.0;
-        let is_sound = |stop: &TransitionStop| {
-            is_rest(stop.hold_secs) && stop.duration_secs.is_none_or(is_way)
+        let is_valid_pause = |secs: f64| secs.is_finite() && secs >= 0.0;
+        let is_valid_duration = |secs: f64| secs.is_finite() && secs > 0.0;
+        let is_valid = |stop: &TransitionStop| {
+            is_valid_pause(stop.hold_secs) && stop.duration_secs.is_none_or(is_valid_duration)
         };
-        match stops.iter().position(|stop| !is_sound(stop)) {
-            Some(bad) => Err(TimingError::StopSecs(bad)),
+        match stops.iter().position(|stop| !is_valid(stop)) {
+            Some(invalid) => Err(TimingError::StopSecs(invalid)),
             None => Ok(()),
         }
     }
 
-    /// Seconds of one pass, rests included.
+    /// Returns the duration of one pass in seconds, pauses included.
     #[must_use]
     pub fn pass_secs(&self, stops: &[TransitionStop]) -> f64 {
-        let ways = self.segments(stops).map(|way| way.secs + way.rest);
-        self.rest_at(self.from, stops) + ways.sum::<f64>()
+        let segments = self
+            .segments(stops)
+            .map(|segment| segment.secs + segment.rest);
+        self.pause_at(self.from, stops) + segments.sum::<f64>()
     }
 
-    /// t after so many seconds of a pass; before and after it, its ends.
+    /// Returns t after `secs` seconds of a pass; before and after the pass, its ends.
     ///
     /// ```
     /// use morphospace::transition::Timing;
@@ -187,58 +189,57 @@ impl Timing {
     /// ```
     #[must_use]
     pub fn t_at(&self, secs: f64, stops: &[TransitionStop]) -> f64 {
-        let mut left = secs - self.rest_at(self.from, stops);
+        let mut left = secs - self.pause_at(self.from, stops);
         if left <= 0.0 {
-            return self.from; // to the last bit, as all that rests
+            return self.from; // exactly, as during every pause
         }
-        for way in self.segments(stops) {
-            if left < way.secs {
-                let x = way.easing.apply((left / way.secs).clamp(0.0, 1.0));
-                return way.from + (way.to - way.from) * x;
+        for segment in self.segments(stops) {
+            if left < segment.secs {
+                let x = segment.easing.apply((left / segment.secs).clamp(0.0, 1.0));
+                return segment.from + (segment.to - segment.from) * x;
             }
-            left -= way.secs + way.rest;
+            left -= segment.secs + segment.rest;
             if left < 0.0 {
-                return way.to;
+                return segment.to;
             }
         }
         self.to
     }
 
-    /// The seconds after which a pass is at `t`; the inverse of
-    /// [`Self::t_at`], where it rests with the moment of arrival, and of departure
-    /// for the beginning.
+    /// Returns the time in seconds at which a pass reaches `t`: the inverse of [`Self::t_at`].
+    /// Where the pass pauses, this is the moment of arrival; at the beginning, that of departure.
     #[must_use]
     pub fn secs_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
         let sign = (self.to - self.from).signum();
-        let mut secs = self.rest_at(self.from, stops);
-        for way in self.segments(stops) {
-            if sign * t <= sign * way.to {
-                let x = ((t - way.from) / (way.to - way.from)).clamp(0.0, 1.0);
-                return secs + way.secs * way.easing.inverse(x);
+        let mut secs = self.pause_at(self.from, stops);
+        for segment in self.segments(stops) {
+            if sign * t <= sign * segment.to {
+                let x = ((t - segment.from) / (segment.to - segment.from)).clamp(0.0, 1.0);
+                return secs + segment.secs * segment.easing.inverse(x);
             }
-            secs += way.secs + way.rest;
+            secs += segment.secs + segment.rest;
         }
-        // Beyond the end: as it arrives there.
-        secs - self.rest_at(self.to, stops)
+        // Beyond the end: the moment of arrival there.
+        secs - self.pause_at(self.to, stops)
     }
 
-    /// How t runs in the segment that `t` lies in: as the stop at its lower end
-    /// says, if it says anything.
+    /// Returns the easing of the segment that contains `t`, which the stop at its lower end may
+    /// set.
     #[must_use]
     pub fn easing_at(&self, t: f64, stops: &[TransitionStop]) -> EasingFunction {
-        // On a stop the segment that begins there in the direction of the pass.
+        // A stop belongs to the segment that begins there in the direction of the pass.
         let (begin, end) = self.segment(t, stops);
-        self.said(begin, end, stops).easing
+        self.segment_between(begin, end, stops).easing
     }
 
-    /// How many units of t a pass makes in a second, on average, where `t` is.
+    /// Returns the average speed in units of t per second in the segment that contains `t`.
     #[must_use]
     pub fn speed_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
         let (begin, end) = self.segment(t, stops);
-        (end - begin).abs() / self.said(begin, end, stops).secs
+        (end - begin).abs() / self.segment_between(begin, end, stops).secs
     }
 
-    /// The segments of a pass, one after the other.
+    /// Returns the segments of a pass in playing order.
     fn segments<'a>(
         &'a self,
         stops: &'a [TransitionStop],
@@ -248,37 +249,41 @@ impl Timing {
             let from = at?;
             let (begin, end) = self.segment(from, stops);
             at = (end != self.to).then_some(end);
-            Some(self.said(begin, end, stops))
+            Some(self.segment_between(begin, end, stops))
         })
     }
 
-    /// What is said of the segment between two neighbours.
-    fn said(&self, from: f64, to: f64, stops: &[TransitionStop]) -> TimedSegment {
-        // Backwards it runs as it was drawn, from where it begins then.
+    /// Returns the segment between two neighbouring stops or ends.
+    fn segment_between(&self, from: f64, to: f64, stops: &[TransitionStop]) -> TimedSegment {
+        // A segment is configured by the stop at its lower end, whichever way the pass runs.
         let low = from.min(to);
-        let there = stops.iter().find(|stop| stop.t == low);
+        let lower_stop = stops.iter().find(|stop| stop.t == low);
         let share = self.duration_secs * (to - from) / (self.to - self.from);
         TimedSegment {
             from,
             to,
-            secs: there.and_then(|stop| stop.duration_secs).unwrap_or(share),
-            rest: self.rest_at(to, stops),
-            easing: there.and_then(|stop| stop.easing).unwrap_or(self.easing),
+            secs: lower_stop
+                .and_then(|stop| stop.duration_secs)
+                .unwrap_or(share),
+            rest: self.pause_at(to, stops),
+            easing: lower_stop
+                .and_then(|stop| stop.easing)
+                .unwrap_or(self.easing),
         }
     }
 
-    /// How long a pass rests at a stop or an end.
-    fn rest_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
-        let there = stops.iter().find(|stop| stop.t == t);
-        let own = there.map_or(0.0, |stop| stop.hold_secs);
+    /// Returns the pause in seconds at a stop or an end.
+    fn pause_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
+        let stop_here = stops.iter().find(|stop| stop.t == t);
+        let own = stop_here.map_or(0.0, |stop| stop.hold_secs);
         let is_end = t == self.from || t == self.to;
         own.max(if is_end { self.hold_secs } else { 0.0 })
     }
 
-    /// The two neighbouring stops or ends between which `t` lies, in the
-    /// direction of the pass; never equal.
+    /// Returns the neighbouring stops or ends between which `t` lies, in the direction of the pass;
+    /// never equal.
     fn segment(&self, t: f64, stops: &[TransitionStop]) -> (f64, f64) {
-        // With its sign exchanged where the pass runs down, t always rises.
+        // Negate where the pass runs down, so that t always increases.
         let sign = (self.to - self.from).signum();
         let [from, to, t] = [self.from, self.to, t].map(|t| sign * t);
         let inside = stops.iter().map(|stop| sign * stop.t);
@@ -290,14 +295,14 @@ impl Timing {
     }
 }
 
-/// A segment of a pass, in its direction.
+/// A segment of a pass, in the direction of playing.
 #[derive(Clone, Copy, Debug)]
 struct TimedSegment {
     from: f64,
     to: f64,
-    /// How long it takes.
+    /// Duration in seconds.
     secs: f64,
-    /// How long is rested at its end.
+    /// Pause in seconds at the end of the segment.
     rest: f64,
     easing: EasingFunction,
 }
@@ -305,7 +310,7 @@ struct TimedSegment {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::time::easing::{EasingBezier, NamedEasing};
+    use crate::time::{EasingBezier, NamedEasing};
     use proptest::prelude::*;
 
     fn stops(at: &[f64]) -> Vec<TransitionStop> {
@@ -313,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pass_rests_departs_arrives_and_rests() {
+    fn a_pass_pauses_departs_arrives_and_pauses() {
         let timing = Timing {
             duration_secs: 2.0,
             hold_secs: 1.0,
@@ -328,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn each_segment_is_eased_alone() {
+    fn each_segment_is_eased_separately() {
         let timing = Timing {
             duration_secs: 1.0,
             hold_secs: 0.0,
@@ -342,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stop_says_how_t_runs_from_it_up() {
+    fn a_stop_sets_the_easing_of_the_segment_above_it() {
         let mut stops = stops(&[0.5]);
         let curve = EasingBezier::new([0.9, 0.0, 1.0, 0.2]).expect("a curve");
         stops[0].easing = Some(EasingFunction::Drawn(curve));
@@ -359,13 +364,14 @@ mod tests {
             to: 0.0,
             ..timing
         };
-        // Backwards it runs as it was drawn, from where it begins then.
+        // Backwards, the curve still applies from the beginning of the segment in playing
+        // direction.
         assert!(down.t_at(0.25, &stops) > 0.9);
         assert_eq!(down.t_at(0.75, &stops), 0.25);
     }
 
     #[test]
-    fn a_stop_may_be_rested_at_and_have_a_time_of_its_own() {
+    fn a_stop_may_have_a_pause_and_a_duration_of_its_own() {
         let timing = Timing {
             duration_secs: 4.0,
             hold_secs: 0.5,
@@ -410,7 +416,7 @@ mod tests {
     }
 
     #[test]
-    fn impossible_numbers_are_named() {
+    fn invalid_numbers_are_refused() {
         let wrong = |edit: fn(&mut Timing)| {
             let mut timing = Timing::default();
             edit(&mut timing);

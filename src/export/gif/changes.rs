@@ -1,59 +1,60 @@
-//! What of a frame differs from the one before: a GIF need hold no more.
+//! Reduces a GIF frame to the rectangle that differs from the previous frame.
 //!
-//! What stays the same is written as transparent, in the smallest rectangle that
-//! holds what does not; the frame before is left standing under it.
+//! Unchanged pixels are written as transparent, so the previous frame shows through; they compress
+//! well.
 
 use image::RgbaImage;
 
 use crate::export::palette::GifPalette;
 
-/// Index of the transparent colour; colours take the indices below it.
+/// Palette index of the transparent colour; colours have the indices below it.
 pub(super) const TRANSPARENT: u8 = 255;
 
-/// How far a colour may be off what is shown, in any of red, green and blue,
-/// before it is drawn anew while all is in motion. No colour is farther off
-/// than that, or than its nearest in the palette.
+/// Maximum deviation of a shown colour from the exact one, in each of red, green and blue, for a
+/// pixel of a moving frame to be left unchanged (heuristic). No shown colour deviates by more than
+/// this or than its nearest palette colour does, whichever is larger.
 const SLACK: u8 = 6;
 
-/// A frame in the colours of a palette.
+/// Frame mapped to the colours of the palette.
 pub(super) struct IndexedFrame {
-    /// As it was drawn.
+    /// The frame in its exact colours.
     pub image: RgbaImage,
-    /// For each pixel its colour.
+    /// Palette index of each pixel, row by row.
     pub indices: Vec<u8>,
 }
 
-/// A rectangle of a frame that is drawn over the one before.
+/// Rectangle of a frame that is drawn over the previous frame.
 #[derive(Debug, PartialEq)]
 pub(super) struct FramePatch {
-    /// Columns before it.
+    /// Number of columns to the left of it.
     pub left: u32,
-    /// Rows above it.
+    /// Number of rows above it.
     pub top: u32,
-    /// Columns of it.
+    /// Number of its columns.
     pub width: u32,
-    /// Its colours, row by row.
+    /// Palette index of each pixel, row by row.
     pub indices: Vec<u8>,
 }
 
 impl FramePatch {
-    /// Rows of it.
+    /// Number of its rows.
     pub fn height(&self) -> u32 {
         self.indices.len() as u32 / self.width
     }
 }
 
-/// What is shown once some frames have been drawn over each other.
+/// Palette indices that a player shows after the frames so far; empty before the first one.
 #[derive(Default)]
 pub(super) struct GifCanvas(Vec<u8>);
 
 impl GifCanvas {
-    /// What has to be drawn for a frame without transparent pixels; where it is
-    /// not `held`, colours may be off by a little.
+    /// Returns the patch that turns the shown image into `next`, which must have no transparent
+    /// pixels, and updates the canvas. Unless the frame `is_still`, small colour deviations are
+    /// accepted.
     pub fn patch(
         &mut self,
         next: &IndexedFrame,
-        is_held: bool,
+        is_still: bool,
         palette: &GifPalette,
     ) -> FramePatch {
         let width = next.image.width();
@@ -61,7 +62,7 @@ impl GifCanvas {
             self.0.clone_from(&next.indices);
             return crop_to_opaque(width, &self.0);
         }
-        let slack = if is_held { 0 } else { SLACK };
+        let slack = if is_still { 0 } else { SLACK };
         let colours = palette.colours();
         let stays = |shown: u8, index: u8, exact: [u8; 4]| {
             let near = || {
@@ -84,19 +85,18 @@ impl GifCanvas {
     }
 }
 
-/// The smallest rectangle of a frame that holds all that is not transparent, one
-/// pixel at least.
+/// Returns the smallest rectangle that contains all non-transparent pixels, at least one pixel.
 pub(super) fn crop_to_opaque(width: u32, indices: &[u8]) -> FramePatch {
     let columns = width as usize;
     let is_drawn = |&k: &usize| indices[k] != TRANSPARENT;
     let drawn = || (0..indices.len()).filter(is_drawn);
-    let rows = drawn().next().zip(drawn().next_back());
-    let (top, bottom) = rows.map_or((0, 0), |(a, b)| (a / columns, b / columns));
+    let ends = drawn().next().zip(drawn().next_back());
+    let (top, bottom) = ends.map_or((0, 0), |(a, b)| (a / columns, b / columns));
     let rows = || (top..=bottom).map(|row| &indices[row * columns..][..columns]);
-    let left = |row: &[u8]| row.iter().position(|&k| k != TRANSPARENT);
-    let right = |row: &[u8]| row.iter().rposition(|&k| k != TRANSPARENT);
-    let left = rows().filter_map(left).min().unwrap_or(0);
-    let right = rows().filter_map(right).max().unwrap_or(0);
+    let first_drawn = |row: &[u8]| row.iter().position(|&k| k != TRANSPARENT);
+    let last_drawn = |row: &[u8]| row.iter().rposition(|&k| k != TRANSPARENT);
+    let left = rows().filter_map(first_drawn).min().unwrap_or(0);
+    let right = rows().filter_map(last_drawn).max().unwrap_or(0);
     FramePatch {
         left: left as u32,
         top: top as u32,
@@ -116,7 +116,7 @@ mod tests {
         GifPalette::of(GREYS.map(|grey| ([grey; 3], 1)).into(), 255)
     }
 
-    /// Three columns, in these greys of the palette.
+    /// A frame of three columns with these palette indices.
     fn frame(indices: &[u8]) -> IndexedFrame {
         let image = RgbaImage::from_fn(3, indices.len() as u32 / 3, |x, y| {
             let [grey, ..] = [GREYS[usize::from(indices[(3 * y + x) as usize])]];
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_changes_is_drawn() {
+    fn only_changed_pixels_are_drawn() {
         let (palette, mut canvas) = (palette(), GifCanvas::default());
         let whole = canvas.patch(&frame(&[0; 9]), true, &palette);
         assert_eq!((whole.width, whole.height()), (3, 3));
@@ -147,13 +147,13 @@ mod tests {
     }
 
     #[test]
-    fn a_colour_may_be_off_by_a_little_but_not_where_it_is_held() {
+    fn small_deviations_are_accepted_only_in_moving_frames() {
         let (palette, mut canvas) = (palette(), GifCanvas::default());
         canvas.patch(&frame(&[0, 2, 3]), true, &palette);
         let next = frame(&[1, 2, 3]);
         let moving = canvas.patch(&next, false, &palette);
         assert_eq!(moving.indices, [TRANSPARENT]);
-        let held = canvas.patch(&next, true, &palette);
-        assert_eq!(held.indices, [1]);
+        let still = canvas.patch(&next, true, &palette);
+        assert_eq!(still.indices, [1]);
     }
 }

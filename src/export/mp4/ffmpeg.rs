@@ -1,7 +1,7 @@
-//! The program ffmpeg at work: what it is told, what it says, how it ends.
+//! Runs the ffmpeg program: its command lines, its error messages, and how it ends.
 //!
-//! Guarantees: it does not outlive the wish for its work, even where it takes
-//! nothing and says nothing.
+//! Guarantees: ffmpeg is killed when the export is cancelled, even if it neither reads its input
+//! nor writes any output.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Read};
@@ -13,29 +13,29 @@ use std::time::Duration;
 use super::super::size::PixelSize;
 use crate::work::progress::Progress;
 
-/// How often it is looked whether ffmpeg ended and whether it is still wanted: a
-/// tenth of what a cancel may take.
-const LOOK_EVERY: Duration = Duration::from_millis(50);
+/// Polling interval for the end of ffmpeg and for cancellation (resource limit: a tenth of the time
+/// that a cancellation may take).
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
-/// What the C library calls ENOSPC; ffmpeg says it in English everywhere.
-const FULL: &str = "No space left on device";
+/// Message of the C library for ENOSPC; ffmpeg prints it untranslated.
+const DISK_FULL: &str = "No space left on device";
 
-/// How it ended.
+/// Exit status and messages of a finished ffmpeg.
 pub(super) struct FfmpegOutcome {
     pub status: ExitStatus,
     pub words: FfmpegMessages,
 }
 
-/// What it said.
+/// Messages of ffmpeg on its standard error.
 #[derive(Default)]
 pub(super) struct FfmpegMessages {
-    /// The last line that says anything.
+    /// Last informative line.
     pub last: String,
-    /// Whether any line says that the disk is full; the last one may not.
+    /// Whether any line, not just the last, reports a full disk.
     pub tell_of_full_disk: bool,
 }
 
-/// It can be started.
+/// Returns whether ffmpeg can be started.
 pub(super) fn is_available() -> bool {
     let mut command = quiet();
     command.arg("-version").stdin(Stdio::null());
@@ -43,14 +43,13 @@ pub(super) fn is_available() -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
-/// Encodes raw frames that it is fed, as planes of BT.709.
+/// Command that encodes raw BT.709 YUV frames from standard input.
 pub(super) fn encode_command(size: PixelSize, fps: f64, output: &Path) -> Command {
-    // Said of what goes in and of what comes out, so that nothing is converted.
+    // Stated for input and output alike, so that ffmpeg does not convert colours.
     let colours = "-color_range tv -colorspace bt709 -color_primaries bt709 -color_trc bt709";
     let input = format!("-f rawvideo -pix_fmt yuv420p -s {size} -r {fps} {colours} -i -");
-    // `-y`: the temporary file is there already.
-    // Flat drawings need no long search: of 300 frames in Full HD x264 took 3.6 s instead
-    // of 5.6, and the file was smaller. Encoders that know no presets leave it unread.
+    // `-y`: the temporary file already exists. The fast preset suffices for flat drawings and makes
+    // files no larger; encoders without presets ignore it.
     let speed = "-preset veryfast";
     let line =
         format!("-y {input} -an -pix_fmt yuv420p {colours} {speed} -movflags +faststart -f mp4");
@@ -59,7 +58,7 @@ pub(super) fn encode_command(size: PixelSize, fps: f64, output: &Path) -> Comman
     command
 }
 
-/// Decodes every frame of a file and keeps nothing.
+/// Command that decodes every frame of a file and discards the result.
 pub(super) fn decode_command(file: &Path) -> Command {
     let mut command = quiet();
     command.args(["-xerror", "-i"]).arg(as_file(file));
@@ -67,11 +66,11 @@ pub(super) fn decode_command(file: &Path) -> Command {
     command
 }
 
-/// Runs it until it ends, by itself or because nobody wants its work any more.
-/// `feed` gets its input, the end of which tells it that this was all.
+/// Runs a command until it ends or the export is cancelled. `feed` receives its standard input;
+/// dropping it marks the end of the input.
 ///
 /// # Errors
-/// It cannot be started.
+/// The command cannot be started, or waiting for it fails.
 pub(super) fn run(
     mut command: Command,
     progress: &dyn Progress,
@@ -83,61 +82,66 @@ pub(super) fn run(
         .stderr(Stdio::piped())
         .spawn()?;
     let (stdin, stderr) = (child.stdin.take(), child.stderr.take());
-    // Heard while frames are fed: neither side may wait for a full pipe.
-    let words = thread::spawn(|| stderr.map(heard).unwrap_or_default());
+    // Messages are read while frames are fed, so that neither side waits for a full pipe.
+    let words = thread::spawn(|| stderr.map(collect_messages).unwrap_or_default());
     let status = thread::scope(|scope| {
-        // And watched: feeding waits for as long as it takes nothing.
-        let watching = scope.spawn(|| end(&mut child, progress));
+        // Cancellation is watched on another thread, because feeding blocks while ffmpeg takes no
+        // input.
+        let watcher = scope.spawn(|| wait_or_kill(&mut child, progress));
         stdin.map(feed);
-        let broke_off = |_| Err(io::Error::other("nobody watched it"));
-        watching.join().unwrap_or_else(broke_off)
+        let panicked = |_| Err(io::Error::other("the thread that watches ffmpeg failed"));
+        watcher.join().unwrap_or_else(panicked)
     })?;
     Ok(FfmpegOutcome {
         status,
         words: match progress.is_cancelled() {
-            // Whoever it started itself may hold its stderr open.
+            // A child process of ffmpeg may still hold its stderr open, so reading could block.
             true => FfmpegMessages::default(),
             false => words.join().unwrap_or_default(),
         },
     })
 }
 
-fn end(child: &mut Child, progress: &dyn Progress) -> io::Result<ExitStatus> {
+/// Waits for the process to end, or kills it on cancellation.
+fn wait_or_kill(child: &mut Child, progress: &dyn Progress) -> io::Result<ExitStatus> {
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(status);
         }
-        // Told to end instead, it would take its time over what it has.
+        // Killed instead of asked to terminate, because ffmpeg would first finish encoding what it
+        // has.
         if progress.is_cancelled() {
             child.kill()?;
             return child.wait();
         }
-        thread::sleep(LOOK_EVERY);
+        thread::sleep(POLL_INTERVAL);
     }
 }
 
+/// Command `ffmpeg` that prints errors only.
 fn quiet() -> Command {
     let mut command = Command::new("ffmpeg");
     command.args(["-hide_banner", "-loglevel", "error"]);
     command
 }
 
-/// `file:` keeps a name with a colon or a leading dash a name.
+/// Path with the `file:` protocol, so that a colon or a leading dash has no special meaning.
 fn as_file(path: &Path) -> OsString {
     let mut url = OsString::from("file:");
     url.push(path);
     url
 }
 
-/// Reads to the end, so that ffmpeg never waits for a reader, whatever it says.
-fn heard(stderr: impl Read) -> FfmpegMessages {
+/// Reads all messages to the end, so that ffmpeg never blocks on its output. Control characters are
+/// removed.
+fn collect_messages(stderr: impl Read) -> FfmpegMessages {
     let mut words = FfmpegMessages::default();
     let lines = BufReader::new(stderr).split(b'\n').map_while(Result::ok);
     for line in lines {
         let line = String::from_utf8_lossy(&line);
         let line: String = line.chars().filter(|c| !c.is_control()).collect();
-        words.tell_of_full_disk |= line.contains(FULL);
-        // ffmpeg 6 and later end with this, and say why before it.
+        words.tell_of_full_disk |= line.contains(DISK_FULL);
+        // ffmpeg 6 and later end with this uninformative line after the actual reason.
         if !line.trim().is_empty() && line.trim() != "Conversion failed!" {
             line.trim().clone_into(&mut words.last);
         }

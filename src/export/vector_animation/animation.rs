@@ -1,4 +1,4 @@
-//! What a camera draws, recorded.
+//! Vector animation: the drawings of a camera over a film, recorded as polynomials in t.
 
 use crate::colour::Rgb;
 use crate::work::progress::Progress;
@@ -13,18 +13,18 @@ use super::shape::PosedShape;
 use super::timeline::FilmTimeline;
 use super::{record, simplify};
 
-/// What a camera draws, as polynomials in t.
+/// Drawings of a camera over a film, recorded as polynomials in t.
 ///
 /// ```
-/// use morphospace::export::{Camera, Film, Motion};
+/// use morphospace::export::{Camera, FilmSpec, VectorAnimation};
 /// use morphospace::work::progress::Silent;
 /// use morphospace::{Design, Transition};
 ///
 /// let kite = Design::of_rings("kite", [[[2.0, 0.0], [4.0, 3.0], [2.0, 4.0], [0.0, 3.0]]])?;
 /// let box_ = Design::of_rings("box", [[[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]]])?;
 /// let camera = Camera::around(Transition::between(kite, box_)?, 480);
-/// let film = Film::evenly(0.0, 1.0, 25, 25.0)?;
-/// let motion = Motion::record(&camera, &film, &Silent)?;
+/// let film = FilmSpec::evenly(0.0, 1.0, 25, 25.0)?;
+/// let motion = VectorAnimation::record(&camera, &film, &Silent)?;
 /// assert!(motion.lottie("kite").starts_with('{'));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -32,21 +32,21 @@ use super::{record, simplify};
 pub struct VectorAnimation {
     pub(super) size: PixelSize,
     pub(super) ground: Option<Rgb>,
-    /// By ascending t, each up to where the next begins.
+    /// Pieces by ascending t, each valid until the next one begins.
     pub(super) pieces: Vec<AnimationPiece>,
     pub(super) course: FilmTimeline,
     pub(super) stops: Vec<(f64, String)>,
 }
 
 impl VectorAnimation {
-    /// How far a point may be from where the camera draws it, in pixels.
+    /// Maximum distance of a point from where the camera draws it, in pixels (tolerance: far below
+    /// what is visible in motion).
     pub const TOLERANCE_PX: f64 = 0.2;
 
-    /// Records what a camera draws over a film's times.
+    /// Records the drawings of a camera over the times of a film.
     ///
     /// # Errors
-    /// [`ExportError::NoOutlines`] where pictures are what is seen, and
-    /// [`ExportError::Cancelled`].
+    /// [`ExportError::NoOutlines`] if the content is raster images, or [`ExportError::Cancelled`].
     pub fn record(
         camera: &Camera,
         film: &FilmSpec,
@@ -63,7 +63,7 @@ impl VectorAnimation {
         })
     }
 
-    /// The drawing at `t`, as the motion has it.
+    /// Returns the recorded drawing at `t`.
     #[must_use]
     pub fn at(&self, t: f64) -> Drawing {
         let mut drawing = Drawing::new(self.size, self.ground);
@@ -72,12 +72,13 @@ impl VectorAnimation {
         drawing
     }
 
+    /// Index of the piece that is shown at `t`.
     pub(super) fn piece_at(&self, t: f64) -> usize {
         let after = self.pieces.partition_point(|piece| piece.from <= t);
         after.saturating_sub(1)
     }
 
-    /// The first and the last t.
+    /// First and last t.
     pub(super) fn ends(&self) -> [f64; 2] {
         let first = self.pieces.first().map_or(0.0, |piece| piece.from);
         [first, self.pieces.last().map_or(first, |piece| piece.to)]

@@ -1,33 +1,35 @@
-//! Chebyshev series of points: where they are between two times.
+//! Chebyshev series of points over an interval of time.
 //!
-//! A function that is smooth there is met by few terms, each smaller than the one
-//! before (Trefethen 2013, chapters 3 and 8). The nodes are those of Lobatto, both
-//! ends among them: twice as many hold all of the first.
+//! A smooth function is approximated by few terms of decreasing size (Trefethen 2013, chapters 3
+//! and 8). The nodes are Chebyshev–Lobatto points, which include both ends, and the nodes for 2n
+//! intervals contain those for n.
 
 use crate::geometry::DVec2;
 use std::f64::consts::PI;
 
-/// The nodes of a series with `n` intervals, from 0 to 1 in this order.
+/// Returns the nodes for `n` intervals, ascending from 0 to 1.
 pub(super) fn chebyshev_nodes(n: usize) -> impl Iterator<Item = f64> {
     (0..=n).map(move |k| match k {
-        // To the last bit, which a cosine does not give.
+        // Set exactly, since the cosine would be off by rounding.
         0 => 0.0,
         k if k == n => 1.0,
         k => 0.5 - 0.5 * (PI * k as f64 / n as f64).cos(),
     })
 }
 
-/// The terms of the series through points at the [`chebyshev_nodes`], term by term.
+/// Returns the coefficients of the series that interpolates the points given at the
+/// [`chebyshev_nodes`], term by term.
 pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
     let n = at_nodes.len() - 1;
     if n == 0 {
         return vec![at_nodes[0].to_vec()];
     }
+    // The first and the last node and term count half.
     let half = |k: usize| if k == 0 || k == n { 0.5 } else { 1.0 };
     let term = |j: usize| {
         let mut term = vec![DVec2::ZERO; at_nodes[0].len()];
         for (k, points) in at_nodes.iter().enumerate() {
-            // The nodes run the other way round than cosines do.
+            // The nodes ascend, whereas the cosines descend.
             let angle = PI * (j * (n - k)) as f64 / n as f64;
             let weight = 2.0 / n as f64 * half(j) * half(k) * angle.cos();
             for (sum, &p) in term.iter_mut().zip(*points) {
@@ -39,31 +41,31 @@ pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
     (0..=n).map(term).collect()
 }
 
-/// Leaves terms out from the end on, as long as no point moves farther than that.
+/// Drops trailing terms as long as no point moves by more than `tolerance`.
 pub(super) fn truncate_series(terms: &mut Vec<Vec<DVec2>>, tolerance: f64) {
-    let mut left_out = vec![0.0; terms.first().map_or(0, Vec::len)];
+    let mut dropped = vec![0.0; terms.first().map_or(0, Vec::len)];
     while terms.len() > 1 {
         let Some(last) = terms.last() else { break };
-        for (sum, p) in left_out.iter_mut().zip(last) {
+        for (sum, p) in dropped.iter_mut().zip(last) {
             *sum += p.length();
         }
-        if left_out.iter().any(|sum| *sum > tolerance) {
+        if dropped.iter().any(|sum| *sum > tolerance) {
             break;
         }
         terms.pop();
     }
 }
 
-/// The sum of a series at `s` in [0, 1].
+/// Evaluates a series at `s` in [0, 1] by the three-term recurrence.
 pub(super) fn evaluate(terms: &[Vec<DVec2>], s: f64) -> Vec<DVec2> {
     let x = 2.0 * s - 1.0;
     let mut sum = terms.first().cloned().unwrap_or_default();
-    let (mut before, mut polynomial) = (1.0, x);
+    let (mut previous, mut polynomial) = (1.0, x);
     for term in terms.iter().skip(1) {
         for (sum, &c) in sum.iter_mut().zip(term) {
             *sum += polynomial * c;
         }
-        (before, polynomial) = (polynomial, 2.0 * x * polynomial - before);
+        (previous, polynomial) = (polynomial, 2.0 * x * polynomial - previous);
     }
     sum
 }
@@ -73,11 +75,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_turn_is_met_by_few_terms() {
+    fn a_rotation_needs_few_terms() {
         let at = |s: f64| vec![DVec2::from_angle(2.0 * s), DVec2::new(s, s * s)];
-        let seen: Vec<_> = chebyshev_nodes(8).map(at).collect();
-        let seen: Vec<&[DVec2]> = seen.iter().map(Vec::as_slice).collect();
-        let mut terms = interpolate(&seen);
+        let samples: Vec<_> = chebyshev_nodes(8).map(at).collect();
+        let samples: Vec<&[DVec2]> = samples.iter().map(Vec::as_slice).collect();
+        let mut terms = interpolate(&samples);
         for k in 0..=100 {
             let s = f64::from(k) / 100.0;
             for (found, wanted) in evaluate(&terms, s).into_iter().zip(at(s)) {
@@ -91,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn nodes_lie_within_those_of_twice_as_many() {
+    fn nodes_for_n_intervals_are_among_those_for_twice_as_many() {
         let [few, many]: [Vec<f64>; 2] = [8, 16].map(|n| chebyshev_nodes(n).collect());
         assert!(
             few.iter()

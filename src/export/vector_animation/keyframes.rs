@@ -1,63 +1,64 @@
-//! The fewest keys between which straight lines do.
+//! Chooses the fewest keyframes between which linear interpolation stays within a tolerance.
 //!
-//! Keys lie on the curves that they stand for, at some of the moments at which those
-//! were looked at. From a key on, each moment narrows the directions in which a line
-//! passes near enough by it; a later moment in such a direction can be the next key
-//! (Imai, Iri 1988: the way with the fewest keys is then a shortest path).
+//! Keyframes are a subset of the samples. Seen from one keyframe, each later sample narrows the
+//! range of slopes of lines that pass it closely enough; a sample whose own slope lies in that
+//! range can be the next keyframe. The smallest set is then a shortest path (Imai and Iri 1988).
 
-/// The indices of the fewest rows, the first and the last among them, between which
-/// straight lines pass all others within the tolerance, number by number. `places`
-/// are those of the rows, ascending.
+/// Returns the indices of the fewest rows, including the first and the last, such that linear
+/// interpolation between them reproduces every number of all other rows within the tolerance.
+/// `places` holds the abscissa of each row, ascending.
 ///
-/// Costs rows × rows that a line can reach × numbers.
+/// The cost is proportional to rows × rows within reach of one line × numbers per row.
 pub(super) fn fewest_keys(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> Vec<usize> {
     let count = rows.len();
-    // From the last row backwards: how many keys follow, and the next of them.
-    let mut follow = vec![(0, 0); count];
+    // For each row, from the last backwards: the number of keys that follow it, and the next one.
+    let mut next_keys = vec![(0, 0); count];
     for from in (0..count.saturating_sub(1)).rev() {
         let mut best = (usize::MAX, from + 1);
         reach(places, rows, tolerance, from, |to| {
-            let keys: usize = follow[to].0 + 1;
-            // Of equals the farthest: lines are long where they can be.
+            let keys: usize = next_keys[to].0 + 1;
+            // Ties go to the farthest key, for long segments.
             if keys <= best.0 {
                 best = (keys, to);
             }
         });
-        follow[from] = best;
+        next_keys[from] = best;
     }
     let mut keys = vec![0];
     let mut at = 0;
     while at + 1 < count {
-        at = follow[at].1;
+        at = next_keys[at].1;
         keys.push(at);
     }
     keys
 }
 
-/// Tells each row that a line from one passes all between within the tolerance.
+/// Calls `visit` with each row that a line from `from` can reach while it passes all rows in
+/// between within the tolerance.
 fn reach(
     places: &[f64],
     rows: &[Vec<f64>],
     tolerance: f64,
     from: usize,
-    mut tell: impl FnMut(usize),
+    mut visit: impl FnMut(usize),
 ) {
     let mut slopes = vec![[f64::NEG_INFINITY, f64::INFINITY]; rows[from].len()];
     for to in from + 1..rows.len() {
         let run = places[to] - places[from];
         let mut can_be_key = true;
-        let walk = slopes.iter_mut().zip(&rows[from]).zip(&rows[to]);
-        let walked = walk.map(|((slope, a), b)| {
+        let numbers = slopes.iter_mut().zip(&rows[from]).zip(&rows[to]);
+        let has_slopes = numbers.map(|((slope, a), b)| {
             let rise = b - a;
             can_be_key &= slope[0] * run <= rise && rise <= slope[1] * run;
             slope[0] = slope[0].max((rise - tolerance) / run);
             slope[1] = slope[1].min((rise + tolerance) / run);
             slope[0] <= slope[1]
         });
-        // To the end, where `all` would stop: each narrows its own.
-        let is_open = walked.filter(|is_open| !is_open).count() == 0;
+        // Counted instead of tested with `all`, which would stop before updating the remaining
+        // slopes.
+        let is_open = has_slopes.filter(|is_open| !is_open).count() == 0;
         if can_be_key || to == from + 1 {
-            tell(to);
+            visit(to);
         }
         if !is_open {
             return;
@@ -84,7 +85,7 @@ mod tests {
         assert_eq!(fewest_keys(&places[..1], &rows[..1], 1.0), [0]);
     }
 
-    /// Every way through the rows, tried.
+    /// Minimum number of keys by exhaustive dynamic programming.
     fn brute(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> usize {
         let fits = |i: usize, j: usize| {
             (i + 1..j).all(|k| {
@@ -103,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn no_way_has_fewer_keys() {
+    fn no_subset_has_fewer_keys() {
         for wave in [0.05, 0.2, 0.7, 1.9] {
             let f = |x: f64| vec![(wave * x).sin(), (0.3 * wave * x).cos() * 2.0];
             let (places, rows) = sampled(60, f);

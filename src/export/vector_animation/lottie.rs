@@ -1,10 +1,10 @@
-//! A motion as a Lottie animation: JSON of the Lottie Animation Community's format,
-//! version 1.0, as Bodymovin 5.7 writes it.
+//! Writes a vector animation as a Lottie animation (JSON): format 1.0 of the Lottie Animation
+//! Community, in the form written by Bodymovin 5.7.
 //!
-//! The shapes move within a composition of their own, evenly in t; outside it the
-//! time of that composition is remapped to the film's: easing, rests, stops and the
-//! way back need no keys of shapes. What formats of that kind cannot say: a gradient
-//! that repeats is drawn once, one that is round and squashed is drawn round.
+//! Shapes are animated uniformly in t within a precomposition, whose time is remapped to that of
+//! the film. Easing, pauses, stops and the way back therefore need no shape keyframes. Limits of
+//! the format: repeating gradients are drawn once, and radial gradients that are not uniformly
+//! scaled are drawn circular.
 
 use serde_json::{Value, json};
 
@@ -17,45 +17,48 @@ use super::timeline::{FilmTimeline, TimelineCurve};
 use super::tracks::{KeyedProperty, SceneLayer, layers};
 use super::two_point_gradient::TwoPointGradient;
 
-/// Moments of the way at which keys may be.
-const MOMENTS: usize = 240;
+/// Number of uniform intervals of t at whose ends keyframes may lie (resource limit).
+const KEYFRAME_INTERVALS: usize = 240;
 
-pub(super) fn lottie_json(motion: &VectorAnimation, title: &str) -> Value {
-    let course = &motion.course;
+/// Returns the animation with the given title.
+pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
+    let course = &animation.course;
     let frames = course.frames();
-    let (width, height) = (motion.size.width(), motion.size.height());
-    // A player takes a remapped time that equals the number of frames for its end.
+    let (width, height) = (animation.size.width(), animation.size.height());
+    // Players interpret a remapped time equal to the number of frames as the end, so the
+    // precomposition of such a film is one frame longer.
     let length = if course.pass == frames {
         frames + 1
     } else {
         course.pass
     } as f64;
-    let [from, to] = motion.ends();
+    let [from, to] = animation.ends();
     let at = |t: f64| length * (t - from) / (to - from).max(f64::MIN_POSITIVE);
-    let mut times: Vec<f64> = (0..=MOMENTS)
-        .map(|k| k as f64 / MOMENTS as f64)
+    let mut times: Vec<f64> = (0..=KEYFRAME_INTERVALS)
+        .map(|k| k as f64 / KEYFRAME_INTERVALS as f64)
         .map(|s| from * (1.0 - s) + to * s)
-        .chain(motion.pieces.iter().map(|piece| piece.from))
+        .chain(animation.pieces.iter().map(|piece| piece.from))
         .collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
     let stations: Vec<(f64, f64)> = times.into_iter().map(|t| (at(t), t)).collect();
-    let layers = layers(motion, &stations);
+    let layers = layers(animation, &stations);
     let last = layers.len().saturating_sub(1);
     let scenes = layers.iter().enumerate().map(|(k, layer)| {
-        // The first and the last are there however a player rounds.
+        // The first and the last scene extend beyond the ends, so that rounding in a player never
+        // hides them.
         let from = if k == 0 { 0.0 } else { layer.from };
         let to = if k == last { length + 1.0 } else { layer.to };
         scene(layer, k, [from, to])
     });
     let film = json!({
-        "ty": 0, "nm": title, "ind": 1, "refId": "film", "sr": 1, "ks": placed(),
+        "ty": 0, "nm": title, "ind": 1, "refId": "film", "sr": 1, "ks": identity_transform(),
         "w": width, "h": height, "ip": 0, "op": frames, "st": 0, "bm": 0,
         "tm": remapped(course, |t| at(t) / course.fps),
     });
-    let ground = motion.ground.map(|ground| {
+    let ground = animation.ground.map(|ground| {
         json!({
-            "ty": 1, "nm": "ground", "ind": 2, "sr": 1, "ks": placed(), "sc": ground.to_string(),
+            "ty": 1, "nm": "ground", "ind": 2, "sr": 1, "ks": identity_transform(), "sc": ground.to_string(),
             "sw": width, "sh": height, "ip": 0, "op": frames, "st": 0, "bm": 0,
         })
     });
@@ -68,7 +71,7 @@ pub(super) fn lottie_json(motion: &VectorAnimation, title: &str) -> Value {
     })
 }
 
-/// Which second of the shapes' composition is shown when.
+/// Time remapping: the second of the precomposition to show at each frame.
 fn remapped(course: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
     let secs = |frame: usize| rounded(secs_at(course.times[frame]), 6);
     let key = |curve: TimelineCurve| {
@@ -84,8 +87,8 @@ fn remapped(course: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
     json!({"a": 1, "k": keys})
 }
 
-/// A transform that does nothing.
-fn placed() -> Value {
+/// Identity transform.
+fn identity_transform() -> Value {
     let still = |value: Value| json!({"a": 0, "k": value});
     json!({
         "o": still(json!(100)), "r": still(json!(0)), "p": still(json!([0, 0, 0])),
@@ -93,17 +96,19 @@ fn placed() -> Value {
     })
 }
 
+/// Shape layer of one scene.
 fn scene(layer: &SceneLayer, number: usize, [from, to]: [f64; 2]) -> Value {
-    // The uppermost comes first.
-    let shapes = layer.shapes.iter().rev();
-    let shapes: Vec<Value> = shapes.map(|poses| shape(layer, poses)).collect();
+    // Lottie lists the topmost shape first.
+    let topmost_first = layer.shapes.iter().rev();
+    let shapes: Vec<Value> = topmost_first.map(|poses| shape(layer, poses)).collect();
     json!({
         "ty": 4, "nm": format!("scene {}", number + 1), "ind": number + 1, "sr": 1,
-        "ks": placed(), "ip": rounded(from, 3), "op": rounded(to, 3), "st": 0, "bm": 0,
+        "ks": identity_transform(), "ip": rounded(from, 3), "op": rounded(to, 3), "st": 0, "bm": 0,
         "shapes": shapes,
     })
 }
 
+/// Group of one shape: its paths, fill or stroke, and transform.
 fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let Some(first) = poses.first() else {
         return json!({"ty": "gr", "it": []});
@@ -126,15 +131,15 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
         ShapeForm::Discs => discs(layer, poses),
     };
     items.push(match &*first.form {
-        ShapeForm::Fill { ramp: Some(_), .. } => shaded(layer, poses),
+        ShapeForm::Fill { ramp: Some(_), .. } => gradient_fill(layer, poses),
         ShapeForm::Fill { .. } | ShapeForm::Discs => {
-            let mut fill = painted(layer, poses);
+            let mut fill = colour_and_opacity(layer, poses);
             fill["ty"] = json!("fl");
             fill["r"] = json!(1);
             fill
         }
         form => {
-            let mut stroke = painted(layer, poses);
+            let mut stroke = colour_and_opacity(layer, poses);
             stroke["ty"] = json!("st");
             let width = layer.width(poses, PosedShape::width);
             stroke["w"] = animated(&width, |w| vec![rounded(*w, 3)]);
@@ -154,7 +159,7 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
             stroke
         }
     });
-    let mut still = placed();
+    let mut still = identity_transform();
     still["ty"] = json!("tr");
     items.push(still);
     let mut group = json!({"ty": "gr", "it": items});
@@ -167,7 +172,7 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     group
 }
 
-/// A path for each contour.
+/// One path per contour.
 fn outlines(layer: &SceneLayer, poses: &[PosedShape], verbs: &[PathVerb]) -> Vec<Value> {
     let mut first = 0;
     let rings = verbs.split_inclusive(|verb| *verb == PathVerb::Close);
@@ -180,7 +185,7 @@ fn outlines(layer: &SceneLayer, poses: &[PosedShape], verbs: &[PathVerb]) -> Vec
         .collect()
 }
 
-/// A path of the points from the first on.
+/// Path of the points from index `first` on.
 fn outline(
     layer: &SceneLayer,
     poses: &[PosedShape],
@@ -196,7 +201,7 @@ fn outline(
     let path = animated(&keyed, |bezier| vec![bezier.clone()]);
     let path = match path {
         Value::Object(mut path) if is_still => {
-            // A path alone is no list.
+            // A constant path is a bare object, not a list.
             let still = path["k"][0].take();
             path.insert("k".to_owned(), still);
             Value::Object(path)
@@ -206,16 +211,19 @@ fn outline(
     json!({"ty": "sh", "ks": path})
 }
 
-/// Points with handles before and after them, as differences.
+/// Vertices with incoming and outgoing handles, relative to the vertex.
 fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
     let mut corners: Vec<[DVec2; 3]> = Vec::new();
     let mut rest = points;
     for verb in verbs {
-        let (own, after) = rest.split_at(verb.points());
+        let (verb_points, after) = rest.split_at(verb.points());
         rest = after;
-        let Some(&end) = own.last() else { continue };
+        let Some(&end) = verb_points.last() else {
+            continue;
+        };
         let start = corners.last().map_or(end, |corner| corner[0]);
-        let (out, into) = match *own {
+        // Quadratic curves are raised to cubic ones.
+        let (out, into) = match *verb_points {
             [c, _] => ((c - start) * 2.0 / 3.0, (c - end) * 2.0 / 3.0),
             [c, d, _] => (c - start, d - end),
             _ => (DVec2::ZERO, DVec2::ZERO),
@@ -234,6 +242,7 @@ fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
     json!({"v": part(0), "i": part(1), "o": part(2), "c": closed})
 }
 
+/// One ellipse per disc.
 fn discs(layer: &SceneLayer, poses: &[PosedShape]) -> Vec<Value> {
     let size = layer.width(poses, |posed| 2.0 * posed.width());
     let size = animated(&size, |d| vec![rounded(*d, 3), rounded(*d, 3)]);
@@ -245,8 +254,8 @@ fn discs(layer: &SceneLayer, poses: &[PosedShape]) -> Vec<Value> {
     (0..poses[0].points.len()).map(disc).collect()
 }
 
-/// Colour and opacity.
-fn painted(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
+/// Colour and opacity properties.
+fn colour_and_opacity(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let colour = layer.colour(poses, |posed| posed.paint());
     let opacity = layer.opacity(poses, |posed| posed.paint().opacity);
     json!({
@@ -255,13 +264,14 @@ fn painted(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     })
 }
 
+/// Colour channels from 0 to 1, and alpha.
 fn colour_of(paint: &Paint) -> Vec<Value> {
     let channels = paint.colour.0.map(|c| rounded(f64::from(c) / 255.0, 4));
     channels.into_iter().chain([json!(1)]).collect()
 }
 
-/// A fill with a gradient.
-fn shaded(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
+/// Gradient fill.
+fn gradient_fill(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let gradient = |posed: &PosedShape| posed.gradient();
     let Some(first) = poses.first().and_then(gradient) else {
         return json!({});
@@ -298,18 +308,20 @@ fn shaded(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     })
 }
 
-/// Places and colours, then places and opacities.
+/// Stops in the order of Lottie: offsets with colours, then offsets with opacities.
 fn stops(gradient: &Gradient) -> Vec<f64> {
     let colours = gradient.stops.iter().flat_map(|stop| {
         let [r, g, b] = stop.paint.colour.0.map(|c| f64::from(c) / 255.0);
         [stop.at, r, g, b]
     });
-    let opacities = gradient.stops.iter();
-    let opacities = opacities.flat_map(|stop| [stop.at, stop.paint.opacity]);
+    let opacities = gradient
+        .stops
+        .iter()
+        .flat_map(|stop| [stop.at, stop.paint.opacity]);
     colours.chain(opacities).collect()
 }
 
-/// A property: one value, or keys with straight ways between them.
+/// Property with a constant value, or with keyframes and linear interpolation.
 fn animated<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Value>) -> Value {
     if let [(_, only)] = keyed.keys.as_slice() {
         let mut numbers = value(only);
@@ -332,7 +344,7 @@ fn animated<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Value>) -> Va
     json!({"a": 1, "k": keys})
 }
 
-/// With so many decimals; whole numbers without.
+/// Rounds to a number of decimals; whole numbers become integers.
 fn rounded(x: f64, decimals: i32) -> Value {
     let scale = 10f64.powi(decimals);
     let x = (x * scale).round() / scale;

@@ -1,9 +1,8 @@
-//! A motion as a page that plays it: one HTML file that asks for nothing else.
+//! Writes a vector animation as a self-contained HTML page with a player.
 //!
-//! The page holds the series of the points themselves, in whole steps of
-//! [`STEP_PX`], and sums them for whatever t is shown; each number is told by its
-//! difference from that of the point before. Its script is `player.html` beside
-//! this file.
+//! The page contains the Chebyshev coefficients as integer multiples of [`STEP_PX`], each stored as
+//! the difference from that of the previous point, and evaluates the series for the t shown. The
+//! player is `player.html` next to this file.
 
 use std::collections::HashMap;
 use std::io::Read;
@@ -24,36 +23,38 @@ use super::piece::MovingShape;
 use super::shape::{PathVerb, ShapeForm};
 use super::simplify::simplify;
 
-/// Steps in which the coefficients are told, in pixels: of 16 terms each half a step
-/// off, a point is a twelfth of a pixel off on average.
+/// Quantisation step of the coefficients of moving shapes, in pixels (tolerance: rounding 16 terms
+/// by up to half a step displaces a point by a twelfth of a pixel on average).
 const STEP_PX: f64 = 1.0 / 24.0;
 
-/// The same of what does not move within its piece, which no other terms add to: the
-/// first of them with which the film is not large. `cantilevers-carried`, 121 frames of
-/// a contour with ten holes, needs the last but one.
+/// Quantisation steps for shapes that do not move within their piece, in pixels, finest first
+/// (heuristic). The first with which the page is not too large is used.
 const STILL_PX: [f64; 4] = [1.0 / 16.0, 1.0 / 12.0, 1.0 / 10.0, 1.0 / 8.0];
 
-/// How far from its line a point that does not move may be to be left out of a large
-/// film, in pixels.
-const MISSED_PX: f64 = 0.08;
+/// Maximum distance of a removed point of a static shape from the line that replaces it, in films
+/// that would be too large, in pixels (heuristic: twice the ordinary tolerance).
+const LARGE_FILM_TOLERANCE_PX: f64 = 0.08;
 
-/// What is large, in letters.
-const LARGE: usize = 285_000;
+/// Length of the packed film, in characters, above which precision is reduced (resource limit:
+/// keeps the page including the player below 300 kB).
+const MAX_FILM_CHARS: usize = 285_000;
 
-/// What the terms that are left out may sum up to, in pixels.
-const LEFT_OUT_PX: f64 = 0.05;
+/// Maximum displacement of a point by dropping the last terms of its series, in pixels (tolerance:
+/// a quarter of the total error of the animation).
+const TRUNCATION_PX: f64 = 0.05;
 
-/// The page around the film.
+/// HTML template with the placeholders `{{title}}` and `{{film}}`.
 const PLAYER: &str = include_str!("player.html");
 
-pub(super) fn html_page(motion: &VectorAnimation, title: &str) -> String {
-    let mut film = packed(motion, title, STILL_PX[0]);
-    if film.len() > LARGE {
-        let mut motion = motion.clone();
-        simplify(&mut motion.pieces, MISSED_PX);
+/// Returns the page with the given title.
+pub(super) fn html_page(animation: &VectorAnimation, title: &str) -> String {
+    let mut film = packed(animation, title, STILL_PX[0]);
+    if film.len() > MAX_FILM_CHARS {
+        let mut animation = animation.clone();
+        simplify(&mut animation.pieces, LARGE_FILM_TOLERANCE_PX);
         for still_px in STILL_PX {
-            if film.len() > LARGE {
-                film = packed(&motion, title, still_px);
+            if film.len() > MAX_FILM_CHARS {
+                film = packed(&animation, title, still_px);
             }
         }
     }
@@ -66,28 +67,28 @@ pub(super) fn html_page(motion: &VectorAnimation, title: &str) -> String {
     parts.collect()
 }
 
-/// The film as text: its description, a line's end, and the series in bytes, deflated
-/// (RFC 1951) and in base 64.
-fn packed(motion: &VectorAnimation, title: &str, still_px: f64) -> String {
+/// Packs a film as text: a line of JSON followed by the bytes of the series, compressed with
+/// deflate (RFC 1951) and encoded in base64.
+fn packed(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
     let mut series = Vec::new();
-    let mut bytes = film(motion, title, (still_px, &mut series))
+    let mut bytes = film(animation, title, (still_px, &mut series))
         .to_string()
         .into_bytes();
     bytes.push(b'\n');
     bytes.append(&mut series);
     let mut packed = Vec::new();
     let mut packer = DeflateEncoder::new(bytes.as_slice(), Compression::best());
-    // Reading from memory into memory does not fail.
+    // In-memory compression does not fail.
     match packer.read_to_end(&mut packed) {
         Ok(_) => BASE64_STANDARD.encode(packed),
         Err(_) => String::new(),
     }
 }
 
-/// What a film is, but for the series, which are added to some bytes.
-fn film(motion: &VectorAnimation, title: &str, (still_px, bytes): (f64, &mut Vec<u8>)) -> Value {
+/// JSON description of the film without the series, which are appended to `bytes`.
+fn film(animation: &VectorAnimation, title: &str, (still_px, bytes): (f64, &mut Vec<u8>)) -> Value {
     let mut forms = FormTable::default();
-    let pieces: Vec<Value> = (motion.pieces.iter())
+    let pieces: Vec<Value> = (animation.pieces.iter())
         .map(|piece| {
             let shapes = piece.shapes.iter();
             let shapes = shapes.map(|shape| {
@@ -97,27 +98,29 @@ fn film(motion: &VectorAnimation, title: &str, (still_px, bytes): (f64, &mut Vec
             json!([piece.from, piece.to, shapes.collect::<Vec<_>>()])
         })
         .collect();
-    let course = &motion.course;
-    let [from, to] = motion.ends();
+    let course = &animation.course;
+    let [from, to] = animation.ends();
     json!({
-        "title": title, "size": [motion.size.width(), motion.size.height()],
-        "ground": motion.ground.map(|ground| ground.to_string()),
+        "title": title, "size": [animation.size.width(), animation.size.height()],
+        "ground": animation.ground.map(|ground| ground.to_string()),
         "ends": [from, to], "fps": course.fps, "frames": course.frames(),
-        "repeats": course.repeats, "knots": course.knots(), "stops": motion.stops,
+        "repeats": course.repeats, "knots": course.knots(), "stops": animation.stops,
         "steps": [STEP_PX, still_px], "forms": forms.all, "pieces": pieces,
     })
 }
 
-/// What stays of shapes, each told once.
+/// Table of the distinct constant data of all shapes.
 #[derive(Default)]
 struct FormTable {
     all: Vec<Value>,
+    /// Index in `all` by JSON text.
     numbers: HashMap<String, usize>,
 }
 
 impl FormTable {
+    /// Index of the constant data of a shape, which is added if it is new.
     fn number(&mut self, shape: &MovingShape) -> usize {
-        let form = told(&shape.first.form, shape.first.points.len());
+        let form = form_json(&shape.first.form, shape.first.points.len());
         *self.numbers.entry(form.to_string()).or_insert_with(|| {
             self.all.push(form);
             self.all.len() - 1
@@ -125,12 +128,13 @@ impl FormTable {
     }
 }
 
-fn told(form: &ShapeForm, points: usize) -> Value {
+/// JSON of the constant data of a shape.
+fn form_json(form: &ShapeForm, points: usize) -> Value {
     match form {
         ShapeForm::Fill { verbs, label, ramp } => {
-            let mut told = json!({"kind": "fill", "path": runs(verbs), "points": points});
+            let mut fill = json!({"kind": "fill", "path": runs(verbs), "points": points});
             if let Some(label) = label {
-                told["label"] = json!(label);
+                fill["label"] = json!(label);
             }
             if let Some(ramp) = ramp {
                 let spread = match ramp.spread {
@@ -138,9 +142,9 @@ fn told(form: &ShapeForm, points: usize) -> Value {
                     GradientSpread::Reflect => "reflect",
                     GradientSpread::Repeat => "repeat",
                 };
-                told["ramp"] = json!([ramp.is_round, ramp.stops, spread]);
+                fill["ramp"] = json!([ramp.is_round, ramp.stops, spread]);
             }
-            told
+            fill
         }
         ShapeForm::Line { verbs, join } => {
             let join = match join {
@@ -155,7 +159,7 @@ fn told(form: &ShapeForm, points: usize) -> Value {
     }
 }
 
-/// Steps with how many of a kind follow each other.
+/// Run-length encoding of path commands, such as `M1L2Z1`.
 fn runs(verbs: &[PathVerb]) -> String {
     let letter = |verb: PathVerb| match verb {
         PathVerb::Move => 'M',
@@ -169,6 +173,7 @@ fn runs(verbs: &[PathVerb]) -> String {
         .collect()
 }
 
+/// Colours, widths and gradient numbers of a shape, rounded to three decimals.
 fn looks(shape: &MovingShape) -> Vec<Vec<Value>> {
     let number = |&x: &f64| {
         let x = (x * 1e3).round() / 1e3;
@@ -182,10 +187,10 @@ fn looks(shape: &MovingShape) -> Vec<Vec<Value>> {
     shape.looks.iter().map(look).collect()
 }
 
-/// Adds the series of a shape; returns how many terms there are.
+/// Appends the series of a shape to `bytes`; returns its number of terms.
 fn push_terms(shape: &MovingShape, still_px: f64, bytes: &mut Vec<u8>) -> usize {
     let mut terms = shape.terms.clone();
-    truncate_series(&mut terms, LEFT_OUT_PX);
+    truncate_series(&mut terms, TRUNCATION_PX);
     let step = if terms.len() == 1 { still_px } else { STEP_PX };
     for term in &terms {
         let mut before = [0; 2];
@@ -201,7 +206,8 @@ fn push_terms(shape: &MovingShape, still_px: f64, bytes: &mut Vec<u8>) -> usize 
     terms.len()
 }
 
-/// A number in as few bytes as it needs, seven bits in each, the sign in the lowest.
+/// Appends an integer as a variable-length number (zigzag, seven bits per byte, the sign in the
+/// lowest bit).
 fn push_number(number: i64, bytes: &mut Vec<u8>) {
     let mut rest = ((number << 1) ^ (number >> 63)) as u64;
     while rest >= 1 << 7 {
@@ -222,15 +228,15 @@ mod tests {
             push_number(number, &mut bytes);
             bytes
         };
-        assert_eq!(html_page(0), [0]);
-        assert_eq!(html_page(-1), [1]);
-        assert_eq!(html_page(63), [126]);
-        assert_eq!(html_page(64), [0x80, 1]);
-        assert_eq!(html_page(-8193), [0x81, 0x80, 1]);
+        assert_eq!(written(0), [0]);
+        assert_eq!(written(-1), [1]);
+        assert_eq!(written(63), [126]);
+        assert_eq!(written(64), [0x80, 1]);
+        assert_eq!(written(-8193), [0x81, 0x80, 1]);
     }
 
     #[test]
-    fn runs_of_steps_are_counted() {
+    fn path_commands_are_run_length_encoded() {
         let verbs = [
             PathVerb::Move,
             PathVerb::Line,

@@ -1,34 +1,38 @@
-//! Pieces of a motion: the same shapes between two times, each point with a series.
+//! Pieces of a vector animation: a constant set of shapes between two times, with a Chebyshev
+//! series for each point.
 
 use crate::geometry::DVec2;
 
 use super::chebyshev;
 use super::shape::PosedShape;
 
-/// The shapes between two times, which may be one.
+/// Shapes between two times, which may coincide.
 #[derive(Clone, Debug)]
 pub(super) struct AnimationPiece {
+    /// First t.
     pub from: f64,
+    /// Last t.
     pub to: f64,
-    /// The lowest first.
+    /// Shapes in painting order, the lowest first.
     pub shapes: Vec<MovingShape>,
-    /// Whether it goes on with the shapes of the piece before.
+    /// Whether its shapes continue those of the previous piece without a jump.
     pub goes_on: bool,
 }
 
-/// A shape within a piece.
+/// A shape over the time of a piece.
 #[derive(Clone, Debug)]
 pub(super) struct MovingShape {
-    /// As it is at the beginning.
+    /// The shape at the beginning of the piece.
     pub first: PosedShape,
-    /// The series of its points, term by term.
+    /// Chebyshev coefficients of its points, term by term.
     pub terms: Vec<Vec<DVec2>>,
-    /// Its looks at even times from the beginning to the end, at least one.
+    /// Colour, width and gradient numbers at uniform times from the beginning to the end of the
+    /// piece; at least one set.
     pub looks: Vec<Vec<f64>>,
 }
 
 impl AnimationPiece {
-    /// The shapes at `t`; outside the piece as at its nearer end.
+    /// Returns the shapes at `t`. Outside the piece they are those of its nearer end.
     pub(super) fn at(&self, t: f64) -> Vec<PosedShape> {
         let length = self.to - self.from;
         let s = if length > 0.0 {
@@ -41,7 +45,7 @@ impl AnimationPiece {
 }
 
 impl MovingShape {
-    /// At `s` in [0, 1] of its piece.
+    /// Returns the shape at `s` in [0, 1] of its piece.
     pub(super) fn at(&self, s: f64) -> PosedShape {
         PosedShape {
             form: self.first.form.clone(),
@@ -50,13 +54,14 @@ impl MovingShape {
         }
     }
 
+    /// Colour, width and gradient numbers at `s`, interpolated linearly.
     fn look_at(&self, s: f64) -> Vec<f64> {
         let last = self.looks.len() - 1;
-        let at = s * last as f64;
-        let k = (at as usize).min(last.saturating_sub(1));
+        let position = s * last as f64;
+        let k = (position as usize).min(last.saturating_sub(1));
         let (a, b) = (&self.looks[k], &self.looks[(k + 1).min(last)]);
-        let share = at - k as f64;
-        let mix = |(a, b): (&f64, &f64)| a * (1.0 - share) + b * share;
+        let fraction = position - k as f64;
+        let mix = |(a, b): (&f64, &f64)| a * (1.0 - fraction) + b * fraction;
         a.iter().zip(b).map(mix).collect()
     }
 }

@@ -1,8 +1,8 @@
-//! From what a camera draws to pieces of polynomials.
+//! Records the drawings of a camera as pieces of polynomials in t.
 //!
-//! A piece is tried over a stretch of t with one series, tested where it was not made
-//! from, and halved where that is not near enough. Where shapes come or go, the moment
-//! is closed in on and the stretch divided there.
+//! Each interval of t is fitted with one Chebyshev series per point, tested at moments not used for
+//! the fit, and bisected if it is not accurate enough. Where shapes appear or disappear, the moment
+//! is located by bisection and the interval is split there.
 
 use crate::content::Content;
 use crate::geometry::DVec2;
@@ -16,39 +16,44 @@ use super::chebyshev::{chebyshev_nodes, evaluate, interpolate, truncate_series};
 use super::piece::{AnimationPiece, MovingShape};
 use super::shape::PosedShape;
 
-/// How far a series may be from what it was made from, in pixels: a tenth of what all
-/// steps may be together.
-const NEAR_PX: f64 = 0.02;
+/// Maximum distance of a point of a series from the drawings at the tested moments, in pixels
+/// (tolerance: a tenth of the total error of the animation).
+const FIT_TOLERANCE_PX: f64 = 0.02;
 
-/// What the terms that are left out may sum up to, in pixels.
-const LEFT_OUT_PX: f64 = 0.01;
+/// Maximum displacement of a point by dropping the last terms of its series, in pixels (tolerance:
+/// half of that of the fit).
+const TRUNCATION_PX: f64 = 0.01;
 
-/// Pieces that begin where the last one ends go on with it.
+/// Maximum displacement of a point between two adjacent pieces for the second to continue the
+/// first, in pixels (tolerance: half of the total error of the animation).
 const JUMP_PX: f64 = 0.1;
 
-/// Moments at which shapes come or go are found to this share of the way.
-const SHARP: f64 = 1e-6;
+/// Precision with which moments of appearing or disappearing shapes are located, as a fraction of
+/// the range of t (tolerance: well below one frame).
+const CHANGE_PRECISION: f64 = 1e-6;
 
-/// A stretch that is no longer than this share of the way is not halved: what happens
-/// there is a jump.
-const SHORT: f64 = 1e-4;
+/// Length below which an interval is not bisected any further, as a fraction of the range of t
+/// (resource limit: whatever happens within it is a jump).
+const MIN_LENGTH: f64 = 1e-4;
 
-/// A film that would take more pieces than this is a row of frames.
-const MOST_PIECES: usize = 400;
+/// Maximum number of pieces (resource limit). Films that would need more are stored frame by frame.
+const MAX_PIECES: usize = 400;
 
-/// Of so many frames one is looked at to know whether it would.
-const STRIDE: usize = 4;
+/// Every how many frames shapes are counted to estimate the number of pieces (resource limit).
+const PREVIEW_STRIDE: usize = 4;
 
-/// Times at which looks are taken in a piece.
-const LOOKS: usize = 16;
+/// Number of intervals in a piece at whose ends colours and widths are sampled, if they change at
+/// all (heuristic).
+const LOOK_INTERVALS: usize = 16;
 
-/// A number of a look may be this share of itself off: half a step of a colour.
-const LOOK_SHARE: f64 = 0.002;
+/// Tolerance for colours, widths and gradient parameters: relative for values well above 1,
+/// absolute below (tolerance: half a step of an 8-bit colour).
+const LOOK_TOLERANCE: f64 = 0.002;
 
-/// Shapes at one moment.
+/// Shapes of a drawing at one moment, the lowest first.
 type ShapeSnapshot = Vec<PosedShape>;
 
-/// The pieces of a film's way, by ascending t.
+/// Returns the pieces of a film, by ascending t.
 pub(super) fn record(
     camera: &Camera,
     film: &FilmSpec,
@@ -60,29 +65,30 @@ pub(super) fn record(
         progress,
         pieces: Vec::new(),
     };
-    let mut has_ways = true;
-    for leg in camera.sequence.legs() {
-        match leg.content() {
+    let mut has_correspondence = true;
+    for transition in camera.sequence.legs() {
+        match transition.content() {
             Content::Colours(_) => return Err(ExportError::NoOutlines),
-            Content::Field(_) => has_ways = false,
+            Content::Field(_) => has_correspondence = false,
             Content::Solid(_) => {}
         }
     }
     let mut times = film.times().to_vec();
     times.sort_by(f64::total_cmp);
     times.dedup();
-    let is_smooth = has_ways && recorder.least_changes(&times)? <= MOST_PIECES;
-    let was_recorded = is_smooth && recorder.smooth(&times)?;
+    let may_be_smooth = has_correspondence && recorder.min_changes(&times)? <= MAX_PIECES;
+    let was_recorded = may_be_smooth && recorder.record_smooth(&times)?;
     if !was_recorded {
-        recorder.frame_by_frame(&times)?;
+        recorder.record_frames(&times)?;
     }
     let mut pieces = recorder.pieces;
     for k in 1..pieces.len() {
-        pieces[k].goes_on = goes_on(&pieces[k - 1], &pieces[k]);
+        pieces[k].goes_on = continues(&pieces[k - 1], &pieces[k]);
     }
     Ok(pieces)
 }
 
+/// Recording in progress.
 struct AnimationRecorder<'a> {
     camera: &'a Camera,
     frame: SequenceFrame,
@@ -91,30 +97,32 @@ struct AnimationRecorder<'a> {
 }
 
 impl AnimationRecorder<'_> {
+    /// Evaluates the drawing at `t` and takes its shapes apart.
     fn moment(&mut self, t: f64) -> ShapeSnapshot {
         self.frame.seek(t);
         let items = self.camera.drawn(&self.frame).items;
         items.iter().filter_map(PosedShape::of).collect()
     }
 
-    /// Each frame until halfway to the next.
-    fn frame_by_frame(&mut self, times: &[f64]) -> Result<(), ExportError> {
+    /// Stores each frame as a constant piece that reaches halfway to its neighbours.
+    fn record_frames(&mut self, times: &[f64]) -> Result<(), ExportError> {
         self.pieces.clear();
         for (k, &t) in times.iter().enumerate() {
             checkpoint(self.progress, DRAWING_STAGE, k as f64 / times.len() as f64)?;
             let before = times[k.saturating_sub(1)];
             let after = times[(k + 1).min(times.len() - 1)];
-            let shapes = self.moment(t).into_iter().map(still).collect();
+            let shapes = self.moment(t).into_iter().map(static_shape).collect();
             self.push(0.5 * (before + t), 0.5 * (t + after), shapes);
         }
         Ok(())
     }
 
-    /// How many outlines come or go, at least: each time that one does ends a piece, and
-    /// is closed in on by dozens of moments, which for thousands of parts takes minutes.
-    fn least_changes(&mut self, times: &[f64]) -> Result<usize, ExportError> {
+    /// Returns a lower bound on the number of appearing and disappearing contours. Each of them
+    /// ends a piece and costs dozens of evaluations to locate, which would take minutes for
+    /// thousands of parts.
+    fn min_changes(&mut self, times: &[f64]) -> Result<usize, ExportError> {
         let (mut changes, mut before) = (0, None);
-        for &t in times.iter().step_by(STRIDE) {
+        for &t in times.iter().step_by(PREVIEW_STRIDE) {
             checkpoint(self.progress, DRAWING_STAGE, 0.0)?;
             let outlines: usize = self.moment(t).iter().map(PosedShape::outlines).sum();
             changes += before.map_or(0, |before| outlines.abs_diff(before));
@@ -123,40 +131,42 @@ impl AnimationRecorder<'_> {
         Ok(changes)
     }
 
-    /// The whole way in pieces; false if those are too many.
-    fn smooth(&mut self, times: &[f64]) -> Result<bool, ExportError> {
+    /// Records the whole range of t in smooth pieces; returns false if there are too many.
+    fn record_smooth(&mut self, times: &[f64]) -> Result<bool, ExportError> {
         let (Some(&from), Some(&to)) = (times.first(), times.last()) else {
             return Ok(true);
         };
         let mut cuts = self.camera.sequence.breaks();
-        // Colours stay what they are beyond these.
+        // Colours are constant beyond the first and the last design, so their course has a kink
+        // there.
         cuts.extend([0.0, self.camera.sequence.end()]);
         cuts.retain(|&cut| from < cut && cut < to);
         cuts.extend([from, to]);
         cuts.sort_by(f64::total_cmp);
         cuts.dedup();
-        let mut stretches: Vec<[f64; 2]> = cuts.windows(2).map(|two| [two[0], two[1]]).collect();
-        if stretches.is_empty() {
-            stretches.push([from, to]);
+        let mut intervals: Vec<[f64; 2]> = cuts.windows(2).map(|two| [two[0], two[1]]).collect();
+        if intervals.is_empty() {
+            intervals.push([from, to]);
         }
-        stretches.reverse();
-        while let Some(stretch) = stretches.pop() {
-            if self.pieces.len() + stretches.len() > MOST_PIECES {
+        intervals.reverse();
+        while let Some(interval) = intervals.pop() {
+            if self.pieces.len() + intervals.len() > MAX_PIECES {
                 return Ok(false);
             }
-            let done = (stretch[0] - from) / (to - from).max(f64::MIN_POSITIVE);
+            let done = (interval[0] - from) / (to - from).max(f64::MIN_POSITIVE);
             checkpoint(self.progress, DRAWING_STAGE, done.clamp(0.0, 1.0))?;
-            if let Some([first, second]) = self.tried(stretch, to - from) {
-                stretches.extend([second, first]);
+            if let Some([first, second]) = self.fit_or_split(interval, to - from) {
+                intervals.extend([second, first]);
             }
         }
         Ok(true)
     }
 
-    /// Makes a piece of a stretch, or tells into which two it is to be divided.
-    fn tried(&mut self, [from, to]: [f64; 2], way: f64) -> Option<[[f64; 2]; 2]> {
+    /// Records an interval as one piece, or returns the two intervals into which it must be split.
+    /// `range` is the length of the whole range of t.
+    fn fit_or_split(&mut self, [from, to]: [f64; 2], range: f64) -> Option<[[f64; 2]; 2]> {
         if to <= from {
-            let shapes = self.moment(from).into_iter().map(still).collect();
+            let shapes = self.moment(from).into_iter().map(static_shape).collect();
             self.push(from, to, shapes);
             return None;
         }
@@ -167,13 +177,13 @@ impl AnimationRecorder<'_> {
             let moments: Vec<ShapeSnapshot> = times.iter().map(|&t| self.moment(t)).collect();
             let changed = moments
                 .windows(2)
-                .position(|two| !are_alike(&two[0], &two[1]));
+                .position(|two| !have_same_shapes(&two[0], &two[1]));
             if let Some(k) = changed {
-                let [low, high] = self.change([times[k], times[k + 1]], &moments[k], way);
+                let [low, high] = self.locate_change([times[k], times[k + 1]], &moments[k], range);
                 return Some([[from, low], [high, to]]);
             }
-            let is_short = to - from <= SHORT * way;
-            if let Some(shapes) = fitted(&moments, is_short) {
+            let is_short = to - from <= MIN_LENGTH * range;
+            if let Some(shapes) = fit_series(&moments, is_short) {
                 let shapes = self.with_looks([from, to], shapes, &moments);
                 self.push(from, to, shapes);
                 return None;
@@ -183,16 +193,17 @@ impl AnimationRecorder<'_> {
         Some([[from, middle], [middle, to]])
     }
 
-    /// Closes in on where shapes come or go.
-    fn change(
+    /// Locates by bisection the moment at which shapes appear or disappear. Returns times just
+    /// before and just after it.
+    fn locate_change(
         &mut self,
         [mut low, mut high]: [f64; 2],
         first: &ShapeSnapshot,
-        way: f64,
+        range: f64,
     ) -> [f64; 2] {
-        while high - low > SHARP * way {
+        while high - low > CHANGE_PRECISION * range {
             let middle = 0.5 * (low + high);
-            if are_alike(first, &self.moment(middle)) {
+            if have_same_shapes(first, &self.moment(middle)) {
                 low = middle;
             } else {
                 high = middle;
@@ -201,7 +212,7 @@ impl AnimationRecorder<'_> {
         [low, high]
     }
 
-    /// With looks at even times where they change.
+    /// Samples colours and widths at uniform times if any of them changes within the piece.
     fn with_looks(
         &mut self,
         [from, to]: [f64; 2],
@@ -219,25 +230,27 @@ impl AnimationRecorder<'_> {
         for shape in &mut shapes {
             shape.looks.clear();
         }
-        for k in 0..=LOOKS {
-            let s = k as f64 / LOOKS as f64;
+        for k in 0..=LOOK_INTERVALS {
+            let s = k as f64 / LOOK_INTERVALS as f64;
             let moment = self.moment(from * (1.0 - s) + to * s);
-            // Shapes that come and go within less than a node's distance.
-            let seen = if moment.len() == shapes.len() {
+            // A shape may exist for less than the distance between two nodes; then the number of
+            // shapes differs.
+            let sampled = if moment.len() == shapes.len() {
                 &moment
             } else {
                 &moments[0]
             };
-            for (shape, posed) in shapes.iter_mut().zip(seen) {
+            for (shape, posed) in shapes.iter_mut().zip(sampled) {
                 shape.looks.push(posed.look.clone());
             }
         }
         for shape in &mut shapes {
-            shape.looks = fewer(std::mem::take(&mut shape.looks));
+            shape.looks = reduce_samples(std::mem::take(&mut shape.looks));
         }
         shapes
     }
 
+    /// Adds a piece.
     fn push(&mut self, from: f64, to: f64, shapes: Vec<MovingShape>) {
         self.pieces.push(AnimationPiece {
             from,
@@ -248,7 +261,8 @@ impl AnimationRecorder<'_> {
     }
 }
 
-fn still(posed: PosedShape) -> MovingShape {
+/// Converts a shape to one that does not move.
+fn static_shape(posed: PosedShape) -> MovingShape {
     MovingShape {
         terms: vec![posed.points.clone()],
         looks: vec![posed.look.clone()],
@@ -256,43 +270,50 @@ fn still(posed: PosedShape) -> MovingShape {
     }
 }
 
-fn are_alike(a: &ShapeSnapshot, b: &ShapeSnapshot) -> bool {
+/// Returns whether two moments have the same shapes, apart from positions and colours.
+fn have_same_shapes(a: &ShapeSnapshot, b: &ShapeSnapshot) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.is_like(b))
 }
 
-/// Series through every second moment, if they pass the others near enough.
-fn fitted(moments: &[ShapeSnapshot], must: bool) -> Option<Vec<MovingShape>> {
-    let fitted = |k: usize| {
+/// Fits series through every second moment; `None` if the other moments deviate too much, unless
+/// `must_fit`.
+fn fit_series(moments: &[ShapeSnapshot], must_fit: bool) -> Option<Vec<MovingShape>> {
+    let fit = |k: usize| {
         let points = |m: usize| moments[m][k].points.as_slice();
         let through: Vec<&[DVec2]> = (0..moments.len()).step_by(2).map(points).collect();
         let mut terms = interpolate(&through);
-        truncate_series(&mut terms, LEFT_OUT_PX);
+        truncate_series(&mut terms, TRUNCATION_PX);
         let mut others = chebyshev_nodes(moments.len() - 1)
             .enumerate()
             .skip(1)
             .step_by(2);
-        let is_near = others.all(|(m, s)| farthest(&evaluate(&terms, s), points(m)) <= NEAR_PX);
-        (is_near || must).then(|| MovingShape {
+        let is_near =
+            others.all(|(m, s)| max_distance(&evaluate(&terms, s), points(m)) <= FIT_TOLERANCE_PX);
+        (is_near || must_fit).then(|| MovingShape {
             first: moments[0][k].clone(),
             terms,
             looks: vec![moments[0][k].look.clone()],
         })
     };
-    (0..moments[0].len()).map(fitted).collect()
+    (0..moments[0].len()).map(fit).collect()
 }
 
-fn farthest(a: &[DVec2], b: &[DVec2]) -> f64 {
+/// Largest distance between corresponding points, in pixels.
+fn max_distance(a: &[DVec2], b: &[DVec2]) -> f64 {
     let far = a.iter().zip(b).map(|(a, b)| a.distance(*b));
     far.fold(0.0, f64::max)
 }
 
+/// Returns whether two sets of colours and widths are equal within the tolerance.
 fn is_near(a: &[f64], b: &[f64]) -> bool {
-    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= LOOK_SHARE * (1.0 + a.abs().max(b.abs()));
+    let near =
+        |(a, b): (&f64, &f64)| (a - b).abs() <= LOOK_TOLERANCE * (1.0 + a.abs().max(b.abs()));
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// Every second look, as long as straight lines between those do.
-fn fewer(looks: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+/// Drops every second sample as long as linear interpolation reproduces it; a single one remains if
+/// nothing changes.
+fn reduce_samples(looks: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     if looks.iter().all(|look| is_near(look, &looks[0])) {
         return looks.into_iter().take(1).collect();
     }
@@ -311,8 +332,10 @@ fn fewer(looks: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     looks
 }
 
-fn goes_on(before: &AnimationPiece, piece: &AnimationPiece) -> bool {
+/// Returns whether a piece begins with the shapes of the previous one, in the same places.
+fn continues(before: &AnimationPiece, piece: &AnimationPiece) -> bool {
     let (end, start) = (before.at(before.to), piece.at(piece.from));
-    let is_near = |(a, b): (&PosedShape, &PosedShape)| farthest(&a.points, &b.points) <= JUMP_PX;
-    are_alike(&end, &start) && end.iter().zip(&start).all(is_near)
+    let is_near =
+        |(a, b): (&PosedShape, &PosedShape)| max_distance(&a.points, &b.points) <= JUMP_PX;
+    have_same_shapes(&end, &start) && end.iter().zip(&start).all(is_near)
 }

@@ -1,5 +1,5 @@
-//! A shape of a drawing, taken apart: what stays the same while it moves, where its
-//! points are, and numbers for its looks.
+//! Splits a shape of a drawing into what stays constant while it moves, the positions of its
+//! points, and the numbers of its look (colour, opacity, width, gradient).
 
 use crate::colour::{
     Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb, StrokeJoin, StrokeStyle,
@@ -9,27 +9,29 @@ use crate::export::outline::{OutlinePath, PathCommand};
 use crate::geometry::{DAffine2, DVec2};
 use std::sync::Arc;
 
-/// What of a shape stays the same while it moves.
+/// Constant data of a moving shape.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum ShapeForm {
     /// A filled outline.
     Fill {
         verbs: Vec<PathVerb>,
+        /// Text that the outline spells.
         label: Option<String>,
+        /// Constant data of its gradient.
         ramp: Option<GradientForm>,
     },
-    /// A line along closed outlines.
+    /// A stroke along closed outlines.
     Line {
         verbs: Vec<PathVerb>,
         join: StrokeJoin,
     },
-    /// Bars, of which each has two points.
+    /// Bars with two points each.
     Bars,
-    /// Discs, of which each has one.
+    /// Discs with one point each.
     Discs,
 }
 
-/// A step of an outline without its points.
+/// Path command of an outline without its points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PathVerb {
     Move,
@@ -40,7 +42,7 @@ pub(super) enum PathVerb {
 }
 
 impl PathVerb {
-    /// How many points it takes.
+    /// Number of points that the command takes.
     pub(super) fn points(self) -> usize {
         match self {
             Self::Move | Self::Line => 1,
@@ -51,30 +53,33 @@ impl PathVerb {
     }
 }
 
-/// What of a gradient stays the same.
+/// Constant data of a gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct GradientForm {
     pub is_round: bool,
+    /// Number of colour stops.
     pub stops: usize,
     pub spread: GradientSpread,
 }
 
-/// Numbers of a look before those of its gradient: red, green and blue up to 255,
-/// opacity, and the width or the radius.
-const PLAIN: usize = 5;
+/// Number of values of a look before those of its gradient (derived): red, green and blue from 0 to
+/// 255, opacity from 0 to 1, and the width or radius in pixels. A gradient stop has as many: its
+/// offset, colour and opacity.
+const PLAIN_NUMBERS: usize = 5;
 
 /// A shape at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PosedShape {
     pub form: Arc<ShapeForm>,
+    /// Points in the order of the path commands, in pixels.
     pub points: Vec<DVec2>,
-    /// Colour, opacity, width, and what a gradient has: its frame, its focus if it is
-    /// round, and its stops.
+    /// Colour, opacity and width, followed by the numbers of the gradient, if any: its affine
+    /// frame, its focus and inner radius if it is radial, and its stops.
     pub look: Vec<f64>,
 }
 
 impl PosedShape {
-    /// Takes a shape apart; pictures have no points to move.
+    /// Splits a shape; `None` for a raster image, which has no points.
     pub(super) fn of(item: &DrawingItem) -> Option<Self> {
         Some(match item {
             DrawingItem::Fill {
@@ -83,7 +88,7 @@ impl PosedShape {
                 gradient,
                 label,
             } => {
-                let (verbs, points) = taken(outline);
+                let (verbs, points) = split_outline(outline);
                 let mut look = plain(*paint, 0.0);
                 look.extend(gradient.iter().flat_map(shading));
                 let (label, ramp) = (label.clone(), gradient.as_ref().map(ramp));
@@ -91,7 +96,7 @@ impl PosedShape {
                 Self { form, points, look }
             }
             DrawingItem::Line { outline, line } => {
-                let (verbs, points) = taken(outline);
+                let (verbs, points) = split_outline(outline);
                 let look = plain(line.paint, line.width);
                 let join = line.join;
                 let form = Arc::new(ShapeForm::Line { verbs, join });
@@ -119,7 +124,7 @@ impl PosedShape {
         })
     }
 
-    /// How many outlines it has.
+    /// Number of contours of an outline, or of points of bars and discs.
     pub(super) fn outlines(&self) -> usize {
         match &*self.form {
             ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => {
@@ -130,23 +135,23 @@ impl PosedShape {
         }
     }
 
-    /// Whether the other is the same at another moment.
+    /// Returns whether the other can be the same shape at another moment.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.form == other.form && self.points.len() == other.points.len()
     }
 
-    /// Puts it together again.
+    /// Converts the shape back to an item of a drawing.
     pub(super) fn item(&self) -> DrawingItem {
         let (paint, width) = (self.paint(), self.width());
         match &*self.form {
             ShapeForm::Fill { verbs, label, .. } => DrawingItem::Fill {
-                outline: put_together(verbs, &self.points),
+                outline: join_outline(verbs, &self.points),
                 paint,
                 gradient: self.gradient(),
                 label: label.clone(),
             },
             ShapeForm::Line { verbs, join } => DrawingItem::Line {
-                outline: put_together(verbs, &self.points),
+                outline: join_outline(verbs, &self.points),
                 line: StrokeStyle {
                     paint,
                     width,
@@ -166,16 +171,17 @@ impl PosedShape {
         }
     }
 
+    /// Colour and opacity.
     pub(super) fn paint(&self) -> Paint {
         paint(&self.look)
     }
 
-    /// The width of a line or of bars, or the radius of discs.
+    /// Width of a stroke or of bars, or radius of discs, in pixels.
     pub(super) fn width(&self) -> f64 {
-        self.look[PLAIN - 1]
+        self.look[PLAIN_NUMBERS - 1]
     }
 
-    /// The gradient that it is filled with.
+    /// Gradient of a fill, if it has one.
     pub(super) fn gradient(&self) -> Option<Gradient> {
         let ShapeForm::Fill {
             ramp: Some(ramp), ..
@@ -183,7 +189,7 @@ impl PosedShape {
         else {
             return None;
         };
-        let (frame, rest) = self.look[PLAIN..].split_at(6);
+        let (frame, rest) = self.look[PLAIN_NUMBERS..].split_at(6);
         let (focus, stops) = rest.split_at(if ramp.is_round { 3 } else { 0 });
         let stop = |stop: &[f64]| GradientStop {
             at: stop[0],
@@ -198,17 +204,19 @@ impl PosedShape {
                 _ => GradientGeometry::Straight,
             },
             frame: DAffine2::from_cols_slice(frame),
-            stops: stops.chunks_exact(PLAIN).map(stop).collect(),
+            stops: stops.chunks_exact(PLAIN_NUMBERS).map(stop).collect(),
             spread: ramp.spread,
         })
     }
 }
 
+/// Numbers of a look without gradient.
 fn plain(paint: Paint, width: f64) -> Vec<f64> {
     let [r, g, b] = paint.colour.0.map(f64::from);
     vec![r, g, b, paint.opacity, width]
 }
 
+/// Colour and opacity from the numbers of a look.
 fn paint(numbers: &[f64]) -> Paint {
     let channel = |k: usize| numbers[k].round().clamp(0.0, 255.0) as u8;
     Paint {
@@ -217,6 +225,7 @@ fn paint(numbers: &[f64]) -> Paint {
     }
 }
 
+/// Constant data of a gradient.
 fn ramp(gradient: &Gradient) -> GradientForm {
     GradientForm {
         is_round: gradient.course != GradientGeometry::Straight,
@@ -225,6 +234,7 @@ fn ramp(gradient: &Gradient) -> GradientForm {
     }
 }
 
+/// Numbers of a gradient.
 fn shading(gradient: &Gradient) -> Vec<f64> {
     let mut numbers = gradient.frame.to_cols_array().to_vec();
     if let GradientGeometry::Round { focus, inner } = gradient.course {
@@ -237,7 +247,8 @@ fn shading(gradient: &Gradient) -> Vec<f64> {
     numbers
 }
 
-fn taken(outline: &OutlinePath) -> (Vec<PathVerb>, Vec<DVec2>) {
+/// Splits an outline into commands and points.
+fn split_outline(outline: &OutlinePath) -> (Vec<PathVerb>, Vec<DVec2>) {
     let mut points = Vec::new();
     let verb = |step: &PathCommand| match *step {
         PathCommand::Move(p) => {
@@ -262,13 +273,13 @@ fn taken(outline: &OutlinePath) -> (Vec<PathVerb>, Vec<DVec2>) {
     (verbs, points)
 }
 
-/// The steps of an outline with their points.
-fn put_together(verbs: &[PathVerb], points: &[DVec2]) -> OutlinePath {
+/// Combines commands and points to an outline.
+fn join_outline(verbs: &[PathVerb], points: &[DVec2]) -> OutlinePath {
     let mut rest = points;
     let step = |verb: &PathVerb| {
-        let (own, after) = rest.split_at(verb.points());
+        let (verb_points, after) = rest.split_at(verb.points());
         rest = after;
-        match (verb, own) {
+        match (verb, verb_points) {
             (PathVerb::Move, &[p]) => PathCommand::Move(p),
             (PathVerb::Line, &[p]) => PathCommand::Line(p),
             (PathVerb::Quad, &[c, p]) => PathCommand::Quad(c, p),
@@ -314,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_are_put_together_as_they_were() {
+    fn split_shapes_are_restored_exactly() {
         let paint = Paint {
             colour: Rgb([1, 2, 3]),
             opacity: 0.5,

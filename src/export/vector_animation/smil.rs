@@ -1,8 +1,9 @@
-//! A motion as SVG that moves by itself: `<animate>` of SVG 1.1, section 19.
+//! Writes a vector animation as an animated SVG, with the `<animate>` elements of SVG 1.1, section
+//! 19.
 //!
-//! Guarantees: self-contained and well-formed; straight ways between the fewest keys
-//! that meet [`VectorAnimation::TOLERANCE_PX`]; a reader that does not animate shows the first
-//! frame. Gradients that are round and squashed are drawn round.
+//! Guarantees: self-contained and well-formed; linear interpolation between the fewest keyframes
+//! that meet [`VectorAnimation::TOLERANCE_PX`]; a reader without animation support shows the first
+//! frame. Radial gradients that are not uniformly scaled are drawn circular.
 
 use crate::colour::{Gradient, GradientSpread, Rgb, StrokeJoin};
 use crate::geometry::DVec2;
@@ -14,29 +15,31 @@ use super::shape::{PathVerb, PosedShape, ShapeForm};
 use super::tracks::{KeyedProperty, SceneLayer, layers};
 use super::two_point_gradient::TwoPointGradient;
 
-/// Steps of time that are told apart, as a share of the film.
-const TIMES: f64 = 1e5;
+/// Number of distinguishable times over a film (tolerance: several hundred per frame even in a film
+/// of a few hundred frames).
+const TIME_STEPS: f64 = 1e5;
 
-/// Steps in which places are told, in pixels.
+/// Step to which coordinates are rounded, in pixels (tolerance: a twentieth of the total error of
+/// the animation).
 const STEP_PX: f64 = 0.01;
 
-pub(super) fn animated_svg(motion: &VectorAnimation) -> String {
-    let (width, height) = (motion.size.width(), motion.size.height());
+pub(super) fn animated_svg(animation: &VectorAnimation) -> String {
+    let (width, height) = (animation.size.width(), animation.size.height());
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
     );
-    if let Some(ground) = motion.ground {
+    if let Some(ground) = animation.ground {
         svg += &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n");
     }
-    let course = &motion.course;
-    let stations = course.times.iter().enumerate();
-    let stations: Vec<(f64, f64)> = stations.map(|(k, &t)| (k as f64, t)).collect();
+    let course = &animation.course;
+    let numbered = course.times.iter().enumerate();
+    let stations: Vec<(f64, f64)> = numbered.map(|(k, &t)| (k as f64, t)).collect();
     let clock = SmilClock {
         frames: course.frames() as f64,
         secs: course.secs(),
         repeats: course.repeats,
     };
-    let layers = layers(motion, &stations);
+    let layers = layers(animation, &stations);
     for (k, layer) in layers.iter().enumerate() {
         let shapes = layer.shapes.iter().enumerate();
         let ids = |j: usize| format!("g{k}-{j}");
@@ -53,27 +56,36 @@ pub(super) fn animated_svg(motion: &VectorAnimation) -> String {
     svg + "</svg>\n"
 }
 
-/// When the film's frames are.
+/// Time axis of the film, and the writer of elements that are animated over it.
 struct SmilClock {
+    /// Number of frames.
     frames: f64,
+    /// Duration in seconds.
     secs: f64,
     repeats: bool,
 }
 
 impl SmilClock {
-    /// An element that moves one attribute; `discrete` without ways between.
+    /// Returns an `<animate>` element for one attribute, from keys of frame and value. If
+    /// `discrete`, values jump instead of being interpolated.
     fn animate(&self, attribute: &str, keys: &[(f64, String)], discrete: bool) -> String {
         let mut times = String::new();
         let mut values = String::new();
-        // The first and the last value stay before and after.
+        // The first and the last value extend to the ends of the film, as SVG requires keys for
+        // times 0 and 1.
         let ends = [(0.0, keys.first()), (self.frames, keys.last())];
         let before = ends[0].1.filter(|key| key.0 > 0.0).map(|key| (0.0, &key.1));
-        let after = ends[1].1.filter(|key| key.0 < self.frames && !discrete);
-        let after = after.map(|key| (self.frames, &key.1));
-        let own = keys.iter().map(|(x, value)| (*x, value));
-        for (k, (x, value)) in before.into_iter().chain(own).chain(after).enumerate() {
+        let last = ends[1].1.filter(|key| key.0 < self.frames && !discrete);
+        let after = last.map(|key| (self.frames, &key.1));
+        let inner_keys = keys.iter().map(|(x, value)| (*x, value));
+        for (k, (x, value)) in before
+            .into_iter()
+            .chain(inner_keys)
+            .chain(after)
+            .enumerate()
+        {
             let between = if k > 0 { ";" } else { "" };
-            let share = (x / self.frames * TIMES).round() / TIMES;
+            let share = (x / self.frames * TIME_STEPS).round() / TIME_STEPS;
             times += &format!("{between}{share}");
             values += between;
             values += value;
@@ -94,7 +106,8 @@ impl SmilClock {
         )
     }
 
-    /// An attribute, and what moves it where it moves.
+    /// Returns an attribute with its first value, and the element that animates it, empty if the
+    /// value is constant.
     fn attribute<T>(
         &self,
         name: &str,
@@ -112,7 +125,7 @@ impl SmilClock {
         (format!(" {name}=\"{still}\""), moving)
     }
 
-    /// Shapes that are there for a part of the film alone.
+    /// Returns a group that is visible only while its layer is.
     fn seen_between(&self, layer: &SceneLayer, is_last: bool, body: &str) -> String {
         let shown = |yes: bool| if yes { "inline" } else { "none" }.to_owned();
         let is_first = layer.from <= 0.0;
@@ -128,6 +141,7 @@ impl SmilClock {
         format!("<g display=\"{still}\">{moving}\n{body}</g>\n")
     }
 
+    /// Returns the path of a shape with its animations and its gradient.
     fn shape(&self, layer: &SceneLayer, poses: &[PosedShape], id: &str) -> String {
         let Some(first) = poses.first() else {
             return String::new();
@@ -135,7 +149,7 @@ impl SmilClock {
         let all = 0..first.points.len();
         let path = layer.points(poses, all, path);
         let mut parts = vec![self.attribute("d", &path, Clone::clone)];
-        let ink = if matches!(*first.form, ShapeForm::Fill { .. }) {
+        let paint_attribute = if matches!(*first.form, ShapeForm::Fill { .. }) {
             "fill"
         } else {
             "stroke"
@@ -146,15 +160,15 @@ impl SmilClock {
             parts.push((format!(" fill=\"url(#{id})\""), String::new()));
         } else {
             let colour = layer.colour(poses, |posed| posed.paint().colour);
-            parts.push(self.attribute(ink, &colour, Rgb::to_string));
+            parts.push(self.attribute(paint_attribute, &colour, Rgb::to_string));
             let opacity = layer.opacity(poses, |posed| posed.paint().opacity);
             let is_opaque = opacity.keys.iter().all(|key| key.1 >= 1.0);
             if !is_opaque {
-                let name = format!("{ink}-opacity");
+                let name = format!("{paint_attribute}-opacity");
                 parts.push(self.attribute(&name, &opacity, number));
             }
         }
-        if ink == "stroke" {
+        if paint_attribute == "stroke" {
             let is_disc = *first.form == ShapeForm::Discs;
             let times = if is_disc { 2.0 } else { 1.0 };
             let width = layer.width(poses, |posed| times * posed.width());
@@ -174,6 +188,7 @@ impl SmilClock {
         format!("{before}<path{label}{attributes}>{moving}</path>\n")
     }
 
+    /// Returns the definition of a gradient with its animations.
     fn gradient(&self, layer: &SceneLayer, poses: &[PosedShape], id: &str) -> String {
         let Some(first) = poses.first().and_then(PosedShape::gradient) else {
             return String::new();
@@ -183,15 +198,15 @@ impl SmilClock {
             let keyed = layer.keyed(poses, tolerance, |posed| vec![of(posed)], of);
             self.attribute(name, &keyed, number)
         };
-        let ways: &[(&str, GradientCoordinate)] = match TwoPointGradient::of(&first) {
+        let coordinates: &[(&str, GradientCoordinate)] = match TwoPointGradient::of(&first) {
             TwoPointGradient::Straight { .. } => &STRAIGHT,
             TwoPointGradient::Round { .. } => &ROUND,
         };
-        let ways = ways.iter().map(|(name, value)| {
+        let geometry = coordinates.iter().map(|(name, value)| {
             let value = |gradient: &Gradient| value(&TwoPointGradient::of(gradient));
             part(name, &value, 0.2)
         });
-        let (ways, mut moving): (String, String) = ways.unzip();
+        let (geometry, mut moving): (String, String) = geometry.unzip();
         for k in 0..first.stops.len() {
             let at = part("offset", &|g| g.stops[k].at, 0.002);
             let colour = |posed: &PosedShape| {
@@ -217,14 +232,15 @@ impl SmilClock {
             GradientSpread::Repeat => " spreadMethod=\"repeat\"",
         };
         format!(
-            "<{kind}Gradient id=\"{id}\" gradientUnits=\"userSpaceOnUse\"{spread}{ways}>{moving}</{kind}Gradient>"
+            "<{kind}Gradient id=\"{id}\" gradientUnits=\"userSpaceOnUse\"{spread}{geometry}>{moving}</{kind}Gradient>"
         )
     }
 }
 
-/// A number of a gradient.
+/// Coordinate or radius of a gradient.
 type GradientCoordinate = fn(&TwoPointGradient) -> f64;
 
+/// Attributes of a linear gradient.
 const STRAIGHT: [(&str, GradientCoordinate); 4] = [
     ("x1", |plain| straight(plain)[0]),
     ("y1", |plain| straight(plain)[1]),
@@ -232,6 +248,7 @@ const STRAIGHT: [(&str, GradientCoordinate); 4] = [
     ("y2", |plain| straight(plain)[3]),
 ];
 
+/// Attributes of a radial gradient.
 const ROUND: [(&str, GradientCoordinate); 6] = [
     ("cx", |plain| round(plain)[0]),
     ("cy", |plain| round(plain)[1]),
@@ -241,6 +258,7 @@ const ROUND: [(&str, GradientCoordinate); 6] = [
     ("fr", |plain| round(plain)[5]),
 ];
 
+/// Start and end of a linear gradient.
 fn straight(plain: &TwoPointGradient) -> [f64; 4] {
     match *plain {
         TwoPointGradient::Straight { from, to } => [from.x, from.y, to.x, to.y],
@@ -248,6 +266,7 @@ fn straight(plain: &TwoPointGradient) -> [f64; 4] {
     }
 }
 
+/// Centre, radius, focus and inner radius of a radial gradient.
 fn round(plain: &TwoPointGradient) -> [f64; 6] {
     match *plain {
         TwoPointGradient::Straight { .. } => [0.0; 6],
@@ -264,21 +283,21 @@ fn number(x: &f64) -> String {
     ShortNumber(*x).to_string()
 }
 
-/// The path of a shape.
+/// Path data of a shape, with relative commands.
 fn path(posed: &PosedShape) -> String {
     let verbs = match &*posed.form {
         ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => verbs.clone(),
         ShapeForm::Bars => [PathVerb::Move, PathVerb::Line].repeat(posed.points.len() / 2),
-        // A line to where it begins, of which the round ends are all.
+        // A zero-length line with round caps draws a disc.
         ShapeForm::Discs => [PathVerb::Move, PathVerb::Close].repeat(posed.points.len()),
     };
     let mut rest = posed.points.as_slice();
     let mut text = String::new();
-    // Differences of what was rounded: shorter, and nothing adds up.
+    // Differences between rounded positions are short, and rounding errors do not accumulate.
     let mut at = DVec2::ZERO;
     let mut start = at;
     for verb in verbs {
-        let (own, after) = rest.split_at(verb.points());
+        let (verb_points, after) = rest.split_at(verb.points());
         rest = after;
         text.push(match verb {
             PathVerb::Move => 'm',
@@ -288,14 +307,14 @@ fn path(posed: &PosedShape) -> String {
             PathVerb::Close => 'z',
         });
         let mut end = at;
-        for (k, p) in own.iter().enumerate() {
+        for (k, p) in verb_points.iter().enumerate() {
             end = (p / STEP_PX).round() * STEP_PX;
             text += &pair(end - at, k > 0);
         }
         at = end;
         match verb {
             PathVerb::Move => start = at,
-            // A relative step goes on from where the contour began.
+            // After closing, relative commands continue from the start of the contour.
             PathVerb::Close => at = start,
             _ => {}
         }
@@ -303,7 +322,7 @@ fn path(posed: &PosedShape) -> String {
     text
 }
 
-/// Two numbers, after a sign or a space where one is needed.
+/// Formats two numbers, with a space only where no sign separates them.
 fn pair(p: DVec2, is_next: bool) -> String {
     let [x, y] = [p.x, p.y].map(|x| ShortNumber(x).to_string());
     let between = |text: &str| if text.starts_with('-') { "" } else { " " };
@@ -311,7 +330,7 @@ fn pair(p: DVec2, is_next: bool) -> String {
     format!("{before}{x}{}{y}", between(&y))
 }
 
-/// The attributes of a line that do not move.
+/// Constant stroke attributes of a shape.
 fn outlined(form: &ShapeForm) -> String {
     let join = match form {
         ShapeForm::Line { join, .. } => match join {

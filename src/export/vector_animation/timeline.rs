@@ -1,30 +1,34 @@
-//! Which t is shown when.
+//! Timeline of a film: the t of each frame, and compact forms of it as linear knots (HTML) and
+//! cubic curves (Lottie).
 
 use super::super::film_spec::FilmSpec;
 use super::keyframes::fewest_keys;
 
-/// How exactly t is told, as a share of the way: a tenth of a pixel on a way of a
-/// thousand.
-const NEAR: f64 = 1e-4;
+/// Tolerance of the compact forms, as a fraction of the range of t (tolerance: a tenth of a pixel
+/// on a path of 1,000 pixels).
+const TIME_TOLERANCE: f64 = 1e-4;
 
-/// The t of a film over its frames, and how it goes on at its end.
+/// Values of t of a film over its frames, and how it continues at its end.
 #[derive(Clone, Debug)]
 pub(super) struct FilmTimeline {
-    /// The t of each frame; at the end that of the one that follows, or the last once
-    /// more.
+    /// Value of t of each frame, followed by one more for the end of the last frame: the t of the
+    /// first frame if the film plays back to it, otherwise that of the last frame again.
     pub times: Vec<f64>,
+    /// Frames per second.
     pub fps: f64,
+    /// Whether the film loops.
     pub repeats: bool,
-    /// Frames of one pass.
+    /// Number of frames of one pass from the first design to the last.
     pub pass: usize,
 }
 
 impl FilmTimeline {
+    /// Creates the timeline of a film. A looping film whose times are symmetric plays ping-pong.
     pub(super) fn of(film: &FilmSpec) -> Self {
         let mut times = film.times().to_vec();
         let n = times.len();
         let comes_back = film.repeats() && n > 2 && (1..n).all(|k| times[k] == times[n - k]);
-        // The way back leads to the first frame; all else rests at the last.
+        // A ping-pong film ends where it began; any other rests at its last frame.
         times.push(if comes_back { times[0] } else { times[n - 1] });
         Self {
             times,
@@ -34,39 +38,41 @@ impl FilmTimeline {
         }
     }
 
-    /// Frames of the whole film.
+    /// Number of frames of the whole film.
     pub(super) fn frames(&self) -> usize {
         self.times.len() - 1
     }
 
-    /// Its length.
+    /// Duration in seconds.
     pub(super) fn secs(&self) -> f64 {
         self.frames() as f64 / self.fps
     }
 
-    /// Numbers of frames and their t, between which t runs evenly.
+    /// Frame numbers with their t, between which linear interpolation is accurate enough.
     pub(super) fn knots(&self) -> Vec<(usize, f64)> {
         let places: Vec<f64> = (0..self.times.len()).map(|k| k as f64).collect();
         let rows: Vec<Vec<f64>> = self.times.iter().map(|&t| vec![t]).collect();
-        let keys = fewest_keys(&places, &rows, NEAR * self.span());
+        let keys = fewest_keys(&places, &rows, TIME_TOLERANCE * self.span());
         keys.into_iter().map(|k| (k, self.times[k])).collect()
     }
 
-    /// The same by cubic curves, of which fewer are needed: easings are such.
+    /// The timeline as consecutive cubic curves. Fewer are needed than linear knots, because
+    /// easings are cubic or close to it.
     pub(super) fn curves(&self) -> Vec<TimelineCurve> {
-        let near = NEAR * self.span();
+        let tolerance = TIME_TOLERANCE * self.span();
         let last = self.frames();
         let mut curves = Vec::new();
         let mut from = 0;
         while from < last {
             let mut best = (
                 from + 1,
-                TimelineCurve::through(&self.times[from..=from + 1], near),
+                TimelineCurve::through(&self.times[from..=from + 1], tolerance),
             );
             for to in from + 2..=last {
-                match TimelineCurve::through(&self.times[from..=to], near) {
+                match TimelineCurve::through(&self.times[from..=to], tolerance) {
                     Some(curve) => best = (to, Some(curve)),
-                    // A rest that is left, or a way that turns: no longer one has it.
+                    // Longer stretches contain the end of a pause or a reversal, so no single curve
+                    // fits them either.
                     None => break,
                 }
             }
@@ -78,28 +84,31 @@ impl FilmTimeline {
         curves
     }
 
-    /// How far the lowest and the highest t are apart.
+    /// Difference between the highest and the lowest t.
     fn span(&self) -> f64 {
         let end = |f: fn(f64, f64) -> f64| self.times.iter().copied().reduce(f).unwrap_or(0.0);
         end(f64::max) - end(f64::min)
     }
 }
 
-/// What keeps the handles where they are if nothing moves them.
+/// Regularisation of the least-squares fit (tolerance: keeps the handles of a straight line if too
+/// few values determine them).
 const RIDGE: f64 = 1e-9;
 
-/// How t runs from one frame to another, both told as 0 to 1: a Bézier curve whose
-/// handles lie at a third and at two thirds of the time.
+/// Course of t from one frame to another, with time and t both normalised to [0, 1]: a cubic Bézier
+/// curve with handles at one third and two thirds of the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TimelineCurve {
+    /// First frame.
     pub from: usize,
+    /// Last frame.
     pub to: usize,
-    /// How high its handles are.
+    /// Normalised t of the two handles.
     pub handles: [f64; 2],
 }
 
 impl Default for TimelineCurve {
-    /// The straight one.
+    /// The straight line.
     fn default() -> Self {
         Self {
             from: 0,
@@ -110,24 +119,24 @@ impl Default for TimelineCurve {
 }
 
 impl TimelineCurve {
-    /// One that passes the values at even times so near, if there is one.
-    fn through(values: &[f64], near: f64) -> Option<Self> {
+    /// Fits a curve through values at uniform times; `None` if a deviation exceeds `tolerance`.
+    fn through(values: &[f64], tolerance: f64) -> Option<Self> {
         let (&first, &last) = (values.first()?, values.last()?);
         let rise = last - first;
         let steps = (values.len() - 1) as f64;
         if rise == 0.0 {
             return values.iter().all(|&v| v == first).then(Self::default);
         }
-        // The handles by least squares of what the straight line leaves; where there are
-        // fewer values than handles, those that lie next to its own.
+        // The handles minimise the squared residual after the straight line. With fewer values than
+        // handles, the regularisation keeps them close to the line.
         let straight = Self::default();
         let (mut a, mut b, mut c, mut p, mut q) = (RIDGE, 0.0, RIDGE, 0.0, 0.0);
         for (k, v) in values.iter().enumerate() {
             let u = k as f64 / steps;
-            let [f, g] = bells(u);
-            let rest = (v - first) / rise - straight.at(u);
+            let [f, g] = handle_weights(u);
+            let residual = (v - first) / rise - straight.at(u);
             (a, b, c) = (a + f * f, b + f * g, c + g * g);
-            (p, q) = (p + f * rest, q + g * rest);
+            (p, q) = (p + f * residual, q + g * residual);
         }
         let determinant = a * c - b * b;
         let handles = [
@@ -138,19 +147,21 @@ impl TimelineCurve {
             handles,
             ..Self::default()
         };
-        let is_near =
-            |(k, v): (usize, &f64)| (first + rise * curve.at(k as f64 / steps) - v).abs() <= near;
+        let is_near = |(k, v): (usize, &f64)| {
+            (first + rise * curve.at(k as f64 / steps) - v).abs() <= tolerance
+        };
         values.iter().enumerate().all(is_near).then_some(curve)
     }
 
+    /// Normalised t at the normalised time `u`.
     fn at(&self, u: f64) -> f64 {
-        let [f, g] = bells(u);
+        let [f, g] = handle_weights(u);
         self.handles[0] * f + self.handles[1] * g + u.powi(3)
     }
 }
 
-/// Bernstein's polynomials of the two handles.
-fn bells(u: f64) -> [f64; 2] {
+/// Cubic Bernstein polynomials of the two handles.
+fn handle_weights(u: f64) -> [f64; 2] {
     [3.0 * u * (1.0 - u).powi(2), 3.0 * u * u * (1.0 - u)]
 }
 
@@ -160,12 +171,12 @@ mod tests {
     use crate::transition::{PlayMode, Timing};
 
     #[test]
-    fn knots_tell_every_frame_and_there_are_few() {
+    fn few_knots_reproduce_every_frame() {
         let film = FilmSpec::of_timing(&Timing::default(), &[], 30.0).expect("a film");
         let course = FilmTimeline::of(&film);
         let knots = course.knots();
         assert!(knots.len() < 200, "{}", knots.len());
-        // Two rests, two ways.
+        // Two pauses and two passes.
         assert!(course.curves().len() <= 6, "{:?}", course.curves());
         for (k, &t) in course.times.iter().enumerate() {
             let after = knots
@@ -173,12 +184,12 @@ mod tests {
                 .min(knots.len() - 1);
             let [(a, from), (b, to)] = [knots[after - 1], knots[after]];
             let s = (k - a) as f64 / (b - a) as f64;
-            assert!((from * (1.0 - s) + to * s - t).abs() <= NEAR + 1e-12);
+            assert!((from * (1.0 - s) + to * s - t).abs() <= TIME_TOLERANCE + 1e-12);
         }
     }
 
     #[test]
-    fn the_way_back_is_told_from_a_pass() {
+    fn the_way_back_of_a_ping_pong_film_is_recognised() {
         let once = FilmSpec::evenly(0.0, 1.0, 5, 10.0).expect("a film");
         let course = FilmTimeline::of(&once);
         assert_eq!((course.pass, course.frames()), (4, 5));

@@ -1,43 +1,51 @@
-//! Shapes over time: who is seen from when to when, and where each point is.
+//! Arranges a vector animation into layers over time, and reduces each property of a shape to
+//! keyframes.
 //!
-//! A scene is a row of pieces with the same shapes. Each time that a course comes
-//! through one it is a layer.
+//! A scene is a maximal run of pieces with the same shapes. Each time the timeline passes through a
+//! scene it becomes a layer, visible for that period only.
 
 use super::animation::VectorAnimation;
 use super::keyframes::fewest_keys;
 use super::shape::PosedShape;
 
-/// How far straight lines between keys may be from a point, in each of the two
-/// directions, in pixels: with what else is lost it stays below
-/// [`VectorAnimation::TOLERANCE_PX`].
-const STRAIGHT_PX: f64 = 0.088;
+/// Maximum deviation of a keyframed point in x and in y, in pixels (derived: 0.088 √2 for both,
+/// plus 0.04 for removed points and 0.02 for the series, is below
+/// [`VectorAnimation::TOLERANCE_PX`]).
+const POINT_TOLERANCE_PX: f64 = 0.088;
 
-/// The same for colours, of 255; for opacity, and for widths in pixels.
-const COLOUR: f64 = 1.0;
-const OPACITY: f64 = 0.004;
-const WIDTH_PX: f64 = 0.05;
+/// Maximum deviation of a keyframed colour channel, of 255 (tolerance: one step of an 8-bit
+/// colour).
+const COLOUR_TOLERANCE: f64 = 1.0;
 
-/// A scene while it is seen.
+/// Maximum deviation of a keyframed opacity (tolerance: one step of 8 bits).
+const OPACITY_TOLERANCE: f64 = 0.004;
+
+/// Maximum deviation of a keyframed width, in pixels (tolerance: not visible).
+const WIDTH_TOLERANCE_PX: f64 = 0.05;
+
+/// A scene during one period in which it is visible.
 #[derive(Clone, Debug)]
 pub(super) struct SceneLayer {
+    /// First place on the time axis.
     pub from: f64,
+    /// Last place on the time axis.
     pub to: f64,
-    /// When the shapes were looked at, ascending.
+    /// Places on the time axis at which the shapes were sampled, ascending.
     pub places: Vec<f64>,
-    /// For each shape, the lowest first, how it is at each place.
+    /// Samples of each shape, one per place; the lowest shape first.
     pub shapes: Vec<Vec<PosedShape>>,
 }
 
-/// Numbers that change over time, at as few places as will do.
+/// A property over time, as few keyframes.
 #[derive(Clone, Debug)]
 pub(super) struct KeyedProperty<T> {
-    /// When, and what; one alone stays.
+    /// Places with values; a single one if the property is constant.
     pub keys: Vec<(f64, T)>,
 }
 
 impl SceneLayer {
-    /// What is taken of a shape's poses, with keys such that the numbers lie within a
-    /// tolerance of straight lines.
+    /// Returns a property of a shape as keyframes between which all its `numbers` are linear within
+    /// `tolerance`. `take` extracts its value.
     pub(super) fn keyed<T>(
         &self,
         poses: &[PosedShape],
@@ -46,11 +54,12 @@ impl SceneLayer {
         take: impl Fn(&PosedShape) -> T,
     ) -> KeyedProperty<T> {
         let rows: Vec<Vec<f64>> = poses.iter().map(numbers).collect();
-        let stays = |row: &Vec<f64>| {
+        // Well within the tolerance of the first sample, the property counts as constant.
+        let is_constant = |row: &Vec<f64>| {
             let mut both = row.iter().zip(&rows[0]);
             both.all(|(a, b)| (a - b).abs() <= 0.25 * tolerance)
         };
-        let keys = if rows.iter().all(stays) {
+        let keys = if rows.iter().all(is_constant) {
             vec![0]
         } else {
             fewest_keys(&self.places, &rows, tolerance)
@@ -61,7 +70,7 @@ impl SceneLayer {
         }
     }
 
-    /// Some of a shape's points.
+    /// Keyframes of some of a shape's points.
     pub(super) fn points<T>(
         &self,
         poses: &[PosedShape],
@@ -72,40 +81,46 @@ impl SceneLayer {
             let points = posed.points[range.clone()].iter();
             points.flat_map(|p| [p.x, p.y]).collect()
         };
-        self.keyed(poses, STRAIGHT_PX, numbers, take)
+        self.keyed(poses, POINT_TOLERANCE_PX, numbers, take)
     }
 
-    /// A shape's colour.
+    /// Keyframes of a shape's colour.
     pub(super) fn colour<T>(
         &self,
         poses: &[PosedShape],
         take: impl Fn(&PosedShape) -> T,
     ) -> KeyedProperty<T> {
-        self.keyed(poses, COLOUR, |posed| posed.look[..3].to_vec(), take)
+        self.keyed(
+            poses,
+            COLOUR_TOLERANCE,
+            |posed| posed.look[..3].to_vec(),
+            take,
+        )
     }
 
-    /// How much it hides.
+    /// Keyframes of a shape's opacity.
     pub(super) fn opacity<T>(
         &self,
         poses: &[PosedShape],
         take: impl Fn(&PosedShape) -> T,
     ) -> KeyedProperty<T> {
-        self.keyed(poses, OPACITY, |posed| vec![posed.look[3]], take)
+        self.keyed(poses, OPACITY_TOLERANCE, |posed| vec![posed.look[3]], take)
     }
 
-    /// Its width or radius.
+    /// Keyframes of its width or radius.
     pub(super) fn width<T>(
         &self,
         poses: &[PosedShape],
         take: impl Fn(&PosedShape) -> T,
     ) -> KeyedProperty<T> {
-        self.keyed(poses, WIDTH_PX, |posed| vec![posed.look[4]], take)
+        self.keyed(poses, WIDTH_TOLERANCE_PX, |posed| vec![posed.look[4]], take)
     }
 }
 
-/// The layers along a course: places, ascending, with the t that is shown at each.
-pub(super) fn layers(motion: &VectorAnimation, course: &[(f64, f64)]) -> Vec<SceneLayer> {
-    let scenes = scenes(motion);
+/// Returns the layers along a course: places on the time axis, ascending, with the t shown at each.
+/// Scene changes between two places are located by linear interpolation.
+pub(super) fn layers(animation: &VectorAnimation, course: &[(f64, f64)]) -> Vec<SceneLayer> {
+    let scenes = scenes(animation);
     let scene_at = |t: f64| {
         scenes
             .partition_point(|scene| scene.0 <= t)
@@ -119,31 +134,31 @@ pub(super) fn layers(motion: &VectorAnimation, course: &[(f64, f64)]) -> Vec<Sce
     let mut stations = vec![first];
     for two in course.windows(2) {
         let [(x, t), (next_x, next_t)] = [two[0], two[1]];
-        let wanted = scene_at(next_t);
-        while scene != wanted {
-            let is_forward = wanted > scene;
+        let target = scene_at(next_t);
+        while scene != target {
+            let is_forward = target > scene;
             let border = scenes[if is_forward { scene + 1 } else { scene }].0;
-            let share = if next_t == t {
+            let fraction = if next_t == t {
                 0.0
             } else {
                 (border - t) / (next_t - t)
             };
-            let at = x + share.clamp(0.0, 1.0) * (next_x - x);
-            stations.push((at, border));
-            layers.push(layer(motion, &scenes, scene, &stations));
+            let border_place = x + fraction.clamp(0.0, 1.0) * (next_x - x);
+            stations.push((border_place, border));
+            layers.push(layer(animation, &scenes, scene, &stations));
             scene = if is_forward { scene + 1 } else { scene - 1 };
-            stations = vec![(at, border)];
+            stations = vec![(border_place, border)];
         }
         stations.push((next_x, next_t));
     }
-    layers.push(layer(motion, &scenes, scene, &stations));
+    layers.push(layer(animation, &scenes, scene, &stations));
     layers
 }
 
-/// For each scene where it begins, and its pieces.
-fn scenes(motion: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
+/// First t and range of pieces of each scene.
+fn scenes(animation: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
     let mut scenes: Vec<(f64, std::ops::Range<usize>)> = Vec::new();
-    for (k, piece) in motion.pieces.iter().enumerate() {
+    for (k, piece) in animation.pieces.iter().enumerate() {
         match scenes.last_mut() {
             Some((_, pieces)) if piece.goes_on => pieces.end = k + 1,
             _ => scenes.push((piece.from, k..k + 1)),
@@ -152,8 +167,9 @@ fn scenes(motion: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
     scenes
 }
 
+/// Samples a scene at the given stations (place, t).
 fn layer(
-    motion: &VectorAnimation,
+    animation: &VectorAnimation,
     scenes: &[(f64, std::ops::Range<usize>)],
     scene: usize,
     stations: &[(f64, f64)],
@@ -161,15 +177,15 @@ fn layer(
     let pieces = scenes[scene].1.clone();
     let mut places: Vec<f64> = Vec::new();
     let mut shapes: Vec<Vec<PosedShape>> =
-        vec![Vec::new(); motion.pieces[pieces.start].shapes.len()];
+        vec![Vec::new(); animation.pieces[pieces.start].shapes.len()];
     for &(x, t) in stations {
         if places.last() == Some(&x) {
             continue;
         }
         places.push(x);
-        // At a border this scene's side of it.
-        let piece = motion.piece_at(t).clamp(pieces.start, pieces.end - 1);
-        let posed = motion.pieces[piece].at(t);
+        // At a scene change two pieces share t; the one of this scene is used.
+        let piece = animation.piece_at(t).clamp(pieces.start, pieces.end - 1);
+        let posed = animation.pieces[piece].at(t);
         for (poses, posed) in shapes.iter_mut().zip(posed) {
             poses.push(posed);
         }
