@@ -1,44 +1,51 @@
-//! The window: playback, panels, keys, capture.
+//! The application window: playback, panels, keys and export, on top of the core library and the
+//! stage plugin.
 //!
-//! Built on the stage's plugin like any other Bevy program. Keys and panels write
-//! [`Intent`]s; the systems of the folders act on them; panels draw what there is.
-//! [`LogicPlugin`] is everything that needs neither a window nor a graphics card, and is what
-//! the tests run.
+//! Keys, panels and dialogs write [`Intent`] messages; the systems of the folders below act on
+//! them; `ui` draws the resulting state and computes nothing. [`LogicPlugin`] holds every system
+//! that needs neither a window nor a graphics card, and is what the tests run.
 //!
-//! | folder | holds |
+//! | folder | contents |
 //! |---|---|
-//! | `asking` | intents, what there is to choose from, and the keys |
-//! | `telling` | work beside the window, and notices |
-//! | `session` | the open project: its files, its history, the work on its transition |
-//! | `opening` | opening, changing, saving, closing; dialogs; the gallery |
-//! | `playing` | t, how it moves, and what it moves on the stage |
+//! | `input`, `key_input` | intents and the keys that trigger them, mouse gestures, preferences |
+//! | `jobs`, `notices` | background threads; messages shown to the user |
+//! | `session` | the open project: files, undo history, building its transition |
+//! | `files`, `unsaved_question` | open, edit, save and close; file dialog; gallery |
+//! | `playback`, `presentation` | t and how it moves; talks and the speaker's window |
+//! | `view`, `stage_area`, `stage_sync` | pan and zoom, filmstrip; what the stage shows |
+//! | `escape` | what Esc closes or cancels, full screen |
+//! | `redraw_pace` | how often the window redraws |
+//! | `map` | the map of all designs, its thumbnails and contours |
+//! | `analysis` | measures of the film, method search, suggestions |
+//! | `compare` | a second method next to the stage |
 //! | `editing` | the match editor |
-//! | `keeping` | what is kept for the next start |
-//! | `looking` | the view, what is shown, a second method, measures |
-//! | `capturing` | pictures and films |
-//! | `ui` | what is drawn around the stage, with egui |
+//! | `capture`, `output_files` | images and films written to files or the clipboard |
+//! | `persistence` | autosave, recent files, presets, gallery cache |
+//! | `ui` | everything drawn around the stage, with egui |
 
 mod analysis;
 mod capture;
 mod compare;
 mod editing;
+mod escape;
 mod files;
 mod input;
 mod jobs;
-pub mod key_map;
+mod key_input;
 mod logic;
 mod map;
 mod no_window;
-pub mod notices;
-pub mod output_files;
+mod notices;
+mod output_files;
 mod persistence;
 mod playback;
 mod presentation;
-pub mod redraw_pace;
+mod redraw_pace;
 mod session;
-pub mod stage_sync;
+mod stage_area;
+mod stage_sync;
 mod ui;
-pub mod unsaved_question;
+mod unsaved_question;
 mod view;
 mod window;
 
@@ -49,18 +56,18 @@ pub use analysis::suggestions::{SuggestedChange, Suggestion, Suggestions};
 pub use capture::film_exporter::FilmExporter;
 pub use compare::comparison::{Comparison, OnComparison};
 pub use editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
-pub use editing::panes::{EditorPane, EditorPanes, PaneView};
+pub use editing::panes::{EditorPanes, PaneView};
 pub use editing::sheet::{MatchSheet, PieceFate};
 pub use files::file_dialog::{DialogPurpose, FileDialogRequest};
 pub use files::project_actions::GalleryEntries;
-pub use input::editor_action::{EditorAction, EditorPointer, EditorTool};
+pub use input::editor_action::{EditorAction, EditorPane, EditorPointer, EditorTool};
 pub use input::gesture::KeyboardFocus;
 pub use input::intent::{Intent, RecoveryAnswer, UnsavedAnswer};
+pub use input::key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow, KeyTrigger};
 pub use input::preferences::{
     ComparisonMethod, FilmExportOptions, FilmFileFormat, ImageScale, Preferences, ThemeChoice,
 };
 pub use jobs::job::JobError;
-pub use key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow, KeyTrigger};
 pub use logic::LogicPlugin;
 pub use map::map_view::{MapBuildError, MapView};
 pub use no_window::NoWindowError;
@@ -73,7 +80,7 @@ pub use redraw_pace::{PanelRepaint, RedrawPace};
 pub use session::load::TransitionProblem;
 pub use session::save::SaveError;
 pub use session::state::{MethodUnavailable, Session};
+pub use stage_area::{AutoFit, StageArea};
 pub use stage_sync::OnStage;
 pub use unsaved_question::{UnsavedKind, UnsavedQuestion};
-pub use view::stage_area::{AutoFit, StageArea};
 pub use window::{AppOptions, WindowPlugins, run};

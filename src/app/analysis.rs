@@ -5,3 +5,14 @@ pub mod method_search;
 pub mod stage_recording;
 pub mod suggestions;
 pub mod transition_memo;
+
+use crate::transition::Transition;
+
+/// Whether cached results belong to the transition on the stage.
+fn is_same(cached: Option<&Transition>, staged: Option<&Transition>) -> bool {
+    match (cached, staged) {
+        (Some(cached), Some(staged)) => cached.is(staged),
+        (None, None) => true,
+        _ => false,
+    }
+}

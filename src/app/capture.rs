@@ -1,4 +1,4 @@
-//! Pictures and films, and where they go.
+//! Export of images and films to files and the clipboard.
 
 pub mod blend_image;
 pub mod clipboard;

@@ -1,9 +1,10 @@
-//! The match editor: which point of one design is which of the other, seen and changed by hand.
+//! The match editor: shows which points of the two designs correspond, and lets the user change
+//! that.
 //!
-//! A [`sheet::MatchSheet`] is what there is to see, the [`editor::MatchEditor`] how it is looked at and what
-//! the hand holds, an [`EditorAct`](crate::app::asking::acts::EditorAct) what the hand does. Acts
-//! come in the coordinates of the frame that both designs lie in; the project keeps what comes of
-//! them in each design's own. Nothing here draws.
+//! A [`sheet::MatchSheet`] holds what is shown, [`editor::MatchEditor`] the tool, selection and
+//! views, and an [`EditorAction`](crate::app::input::editor_action::EditorAction) is one action of
+//! the user. Actions use coordinates of the frame that both designs are placed in; the project
+//! stores their results in each design's own coordinates. Nothing here draws.
 
 pub mod actions;
 pub mod editor;

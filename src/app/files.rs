@@ -1,4 +1,5 @@
-//! Opening, changing, saving and closing projects; the bundled ones and their film strips.
+//! Files: opening, changing, saving and closing projects; the file dialog, dropped files, and the
+//! gallery's thumbnails.
 
 pub mod drop;
 pub mod file_dialog;

@@ -1,4 +1,4 @@
-//! What the program tells: work that goes on beside the window, and notices.
+//! Background jobs, and the allocator settings of a process that runs many threads.
 
 pub mod allocator;
 pub mod job;

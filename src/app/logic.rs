@@ -1,4 +1,5 @@
-//! The order of all that happens in a frame, but for what needs a window or a graphics card.
+//! Bevy plugin that registers every system needing neither a window nor a graphics card, and fixes
+//! the order in which they run each frame.
 
 use bevy::prelude::*;
 
@@ -17,15 +18,16 @@ use crate::app::compare::comparison::Comparison;
 use crate::app::editing::editor::MatchEditor;
 use crate::app::editing::sheet::MatchSheet;
 use crate::app::editing::{actions, refresh};
+use crate::app::escape;
 use crate::app::files::project_actions as opening;
 use crate::app::files::project_actions::GalleryEntries;
 use crate::app::files::{drop, file_dialog, file_preview, file_watcher};
 use crate::app::input::gesture;
 use crate::app::input::gesture::KeyboardFocus;
 use crate::app::input::intent::Intent;
+use crate::app::input::key_map::KeyMap;
 use crate::app::input::preferences::Preferences;
-use crate::app::key_map;
-use crate::app::key_map::KeyMap;
+use crate::app::key_input;
 use crate::app::map::map_view::MapView;
 use crate::app::map::{map_actions, update};
 use crate::app::notices;
@@ -39,16 +41,16 @@ use crate::app::playback::player::Playback;
 use crate::app::presentation::presenter;
 use crate::app::presentation::presenter::Presentation;
 use crate::app::session::state::Session;
+use crate::app::stage_area::{AutoFit, StageArea};
 use crate::app::stage_sync;
 use crate::app::unsaved_question;
 use crate::app::unsaved_question::UnsavedQuestion;
 use crate::app::view::frame_intervals;
-use crate::app::view::stage_area;
-use crate::app::view::stage_area::{AutoFit, StageArea};
+use crate::app::view::stage_camera;
 use crate::app::view::{onion_skins, preference_actions};
 use crate::stage::MorphSystems;
 
-/// Everything that needs neither a window nor a graphics card.
+/// Plugin with all window-independent resources and systems; the tests run exactly this.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LogicPlugin;
 
@@ -62,7 +64,7 @@ impl Plugin for LogicPlugin {
                 (
                     frame_intervals::record,
                     gesture::track_gesture,
-                    key_map::read_keys,
+                    key_input::read_keys,
                     drop::read_drops,
                 )
                     .in_set(Input),
@@ -128,17 +130,18 @@ fn init(app: &mut App) {
         .insert_resource(CaptureFolder::choose(None));
 }
 
-/// The systems that act on intents. The order among them is that of their answers: what is opened
-/// is taken in before it is played.
+/// Systems that act on intents, in the order in which their results depend on each other: a project
+/// is opened before it is played.
 fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
-        // Before all that reads intents, so that closing takes no frame longer than a key.
+        // First of all readers of intents, so that closing the window takes no longer than a key
+        // press.
         unsaved_question::read_close_requests,
-        // Before what opens or shows anything: Esc leaves what was there when it was pressed.
-        (stage_area::back, presenter::apply).chain(),
+        // Before anything is opened or shown: Esc leaves the state in which it was pressed.
+        (escape::back, presenter::apply).chain(),
         (preference_actions::apply, film_presets::apply).chain(),
-        // Questions before what they hold back.
-        // The lowest question first: each looks whether another lies above it.
+        // Questions run before the actions that wait for them, the lowest question first: each
+        // checks whether another question lies above it.
         (
             drop::decide,
             autosave::rescue,
@@ -168,7 +171,8 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             (map_actions::apply, update::follow, saved_blends::export).chain(),
         )
             .chain(),
-        // Moved on before it is told where to go: else the time of a rest would be played at once.
+        // Advance first, then seek: otherwise the time spent standing still would be played at
+        // once.
         (player::advance, presenter::begin, player::apply).chain(),
         (stage_sync::follow_leg, presenter::hide_pointer).chain(),
         (
@@ -178,10 +182,10 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             estimate::follow,
         )
             .chain(),
-        stage_area::apply,
+        stage_camera::apply,
         file_watcher::follow,
         onion_skins::follow,
-        // After all that changes the project or takes it for saved.
+        // After every system that changes the project or marks it as saved.
         (autosave::follow, recent_files::follow).chain(),
         notices::apply,
     )

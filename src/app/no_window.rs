@@ -1,38 +1,38 @@
-//! A window that cannot be opened says so in words.
+//! Reports a missing display or graphics driver as an error instead of a panic.
 //!
-//! Bevy's plugins panic where there is no display, or no driver that draws, and cannot
-//! be asked before: a window system may be connected to once in a program, and a second
-//! look for a graphics card takes as long as the first. So these two panics, and no
-//! others, are caught and told as what they are.
+//! Bevy panics in both cases and offers no check beforehand: a process may connect to a window
+//! system only once, and probing for a graphics card takes as long as starting. So exactly these
+//! two panics are caught and turned into [`NoWindowError`]; all others continue.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook, take_hook};
 
-/// What the window cannot do without.
+/// Reason why the window cannot be opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoWindowError {
-    /// No window system answers.
+    /// No window system (X11, Wayland) answers.
     #[error(
-        "there is no display to open a window on; under Linux DISPLAY or WAYLAND_DISPLAY \
-         names one. Without: `morphospace render`, `check`, `new` and `gallery` (see --help)"
+        "no display was found to open a window on (Linux: set DISPLAY or WAYLAND_DISPLAY); \
+         `morphospace render`, `check`, `new` and `gallery` work without one"
     )]
     Display,
-    /// No graphics card, and nothing that draws in its place.
+    /// No graphics card and no software renderer.
     #[error(
-        "no graphics driver was found that could draw the window; install your card's, or one \
-         that draws in software (Debian and Ubuntu: mesa-vulkan-drivers). Without: \
-         `morphospace render`, `check`, `new` and `gallery` (see --help)"
+        "no graphics driver was found to draw the window; install that of your card, or a software \
+         renderer (Debian, Ubuntu: mesa-vulkan-drivers); `morphospace render`, `check`, `new` and \
+         `gallery` work without one"
     )]
     Graphics,
 }
 
-/// With what Bevy's panics begin, as of 0.19.
+/// Beginnings of the panic messages of Bevy 0.19, and what each means.
 const PANICS: [(&str, NoWindowError); 2] = [
     ("Failed to build event loop", NoWindowError::Display),
     ("Unable to find a GPU", NoWindowError::Graphics),
 ];
 
 impl NoWindowError {
+    /// Reason named by a panic's message, if it is one of the two.
     fn of(panic: &dyn Any) -> Option<Self> {
         let text = match panic.downcast_ref::<String>() {
             Some(text) => text.as_str(),
@@ -43,15 +43,15 @@ impl NoWindowError {
     }
 }
 
-/// Runs a program with a window, or says what it lacks.
+/// Runs `program` and turns a panic about a missing display or driver into an error.
 ///
 /// # Errors
-/// [`NoWindowError`]; all other panics go on.
+/// [`NoWindowError`]; all other panics are passed on.
 pub(super) fn catch_no_window<T>(program: impl FnOnce() -> T) -> Result<T, NoWindowError> {
-    let usual = take_hook();
+    let default_hook = take_hook();
     set_hook(Box::new(move |panic| {
         if NoWindowError::of(panic.payload()).is_none() {
-            usual(panic);
+            default_hook(panic);
         }
     }));
     catch_unwind(AssertUnwindSafe(program)).map_err(|panic| match NoWindowError::of(&*panic) {
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_two_panics_are_told_and_others_go_on() {
+    fn the_two_panics_become_errors_and_others_go_on() {
         assert_eq!(catch_no_window(|| 7), Ok(7));
         let detail = "no DISPLAY";
         let display = catch_no_window(|| panic!("Failed to build event loop: {detail}"));

@@ -1,5 +1,5 @@
-//! What the program has to say: errors stay until they are read or what they are about is well
-//! again, confirmations pass.
+//! Notices shown to the user. Problems stay until they are dismissed or resolved; confirmations
+//! disappear after some seconds.
 
 use std::path::PathBuf;
 
@@ -9,42 +9,42 @@ use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
 use crate::io::sanitize::SanitizedLine;
 
-/// How long a confirmation stays: long enough to read the path of a file.
+/// Seconds for which a confirmation stays (heuristic: long enough to read a file path).
 const CONFIRMATION_SECS: f32 = 6.0;
 
-/// How long a note stays, which is longer, and what can be acted on.
+/// Seconds for which notes and notices with a button stay; they take longer to read (heuristic).
 const NOTE_SECS: f32 = 10.0;
 
-/// What a problem is about: when that is well again, it goes.
+/// Topic of a problem; all problems of a topic disappear when it is resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoticeTopic {
-    /// Files that were to be opened.
+    /// Opening files.
     Opening,
-    /// The settings make no transition.
+    /// Building the transition from the current settings.
     Transition,
-    /// The project is not saved.
+    /// Saving the project.
     Saving,
-    /// A film, or a sheet of all methods.
+    /// Exporting a film or a comparison sheet.
     Film,
-    /// A picture.
+    /// Saving or copying an image.
     Picture,
 }
 
-/// What a notice is.
+/// Kind of notice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoticeKind {
-    /// Something went wrong; stays until read.
+    /// Something went wrong; stays until dismissed or resolved.
     Problem(NoticeTopic),
-    /// Something was done; passes.
+    /// Something succeeded; disappears.
     Done,
-    /// A file was written; passes, after some time to go to it.
+    /// A file was written; disappears after enough time to click the link to its folder.
     Wrote,
-    /// Something that its reader may not expect; passes.
+    /// Information that the user may not expect; disappears.
     Note,
 }
 
 impl NoticeKind {
-    /// How long it stays; none for what stays until it is read.
+    /// Seconds for which it stays; `None` for problems.
     fn stays_secs(self) -> Option<f32> {
         match self {
             Self::Problem(_) => None,
@@ -54,21 +54,21 @@ impl NoticeKind {
     }
 }
 
-/// One thing to say.
+/// One message shown to the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
-    /// By which it is dismissed.
+    /// Id by which it is dismissed.
     pub id: u64,
-    /// A problem or a confirmation.
+    /// Kind of notice.
     pub kind: NoticeKind,
     /// One sentence.
     pub text: String,
-    /// The file that it is about, which can be shown in its folder.
+    /// The file it refers to, which can be shown in its folder.
     pub file: Option<PathBuf>,
     age_secs: f32,
 }
 
-/// Everything that was said and not yet read.
+/// All notices on screen.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Notices {
     list: Vec<Notice>,
@@ -76,51 +76,52 @@ pub struct Notices {
 }
 
 impl Notices {
-    /// Says that something went wrong. What is already on screen is not said twice.
+    /// Adds a problem. A message that is already on screen is not repeated.
     pub fn problem(&mut self, about: NoticeTopic, text: impl Into<String>) {
         self.push(NoticeKind::Problem(about), text.into());
     }
 
-    /// Says that something was done.
+    /// Adds a confirmation.
     pub fn done(&mut self, text: impl Into<String>) {
         self.push(NoticeKind::Done, text.into());
     }
 
-    /// Says that a file was written.
+    /// Adds the confirmation that a file was written.
     pub fn wrote(&mut self, file: PathBuf) {
-        self.push(NoticeKind::Wrote, format!("Wrote {}", file.display()));
+        self.push(NoticeKind::Wrote, format!("Saved {}", file.display()));
         if let Some(notice) = self.list.last_mut() {
             notice.file = Some(file);
         }
     }
 
-    /// Says what may not be expected.
+    /// Adds a note.
     pub fn note(&mut self, text: impl Into<String>) {
         self.push(NoticeKind::Note, text.into());
     }
 
-    /// There is a problem about this.
+    /// Whether there is a problem with this topic.
     #[must_use]
     pub fn is_ill(&self, about: NoticeTopic) -> bool {
         let kind = NoticeKind::Problem(about);
         self.list.iter().any(|notice| notice.kind == kind)
     }
 
-    /// This is well again: its problems go.
+    /// Marks the topic as resolved and removes its problems.
     pub fn well(&mut self, about: NoticeTopic) {
         let kind = NoticeKind::Problem(about);
         self.list.retain(|notice| notice.kind != kind);
     }
 
-    /// What is to be shown, oldest first.
+    /// All notices, oldest first.
     #[must_use]
     pub fn list(&self) -> &[Notice] {
         &self.list
     }
 
+    /// Adds a notice, replacing an equal one.
     fn push(&mut self, kind: NoticeKind, text: String) {
         let text = SanitizedLine(text).to_string();
-        // Said again it is the newest: it moves to the end, and its time begins anew.
+        // A repeated message becomes the newest: it moves to the end and its time restarts.
         self.list.retain(|notice| notice.text != text);
         self.next_id += 1;
         self.list.push(Notice {
@@ -132,7 +133,7 @@ impl Notices {
         });
     }
 
-    /// Something is on its way out.
+    /// Whether a notice will disappear by itself.
     #[must_use]
     pub fn is_passing(&self) -> bool {
         self.list
@@ -140,8 +141,8 @@ impl Notices {
             .any(|notice| notice.kind.stays_secs().is_some())
     }
 
-    /// Whether anything has passed.
-    fn pass(&mut self, secs: f32) -> bool {
+    /// Ages all notices by `secs`; returns whether any disappeared.
+    fn age(&mut self, secs: f32) -> bool {
         for notice in &mut self.list {
             notice.age_secs += secs;
         }
@@ -156,8 +157,8 @@ impl Notices {
     }
 }
 
-/// Takes away what was dismissed and what has passed. While the panels are hidden nothing passes:
-/// it has not been seen.
+/// Removes dismissed and expired notices. Nothing expires while the panels are hidden, because
+/// nothing has been seen.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     time: Res<Time>,
@@ -169,9 +170,9 @@ pub fn apply(
             notices.list.retain(|notice| notice.id != *id);
         }
     }
-    // Growing older is no change that anybody sees.
+    // Ageing is no visible change and must not trigger a redraw.
     let now = notices.bypass_change_detection();
-    if preferences.panels && now.pass(time.delta_secs()) {
+    if preferences.panels && now.age(time.delta_secs()) {
         notices.set_changed();
     }
 }
@@ -181,12 +182,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn problems_stay_until_what_they_are_about_is_well_and_confirmations_pass() {
+    fn problems_stay_until_resolved_and_confirmations_expire() {
         let mut notices = Notices::default();
         notices.problem(NoticeTopic::Saving, "lost");
         notices.problem(NoticeTopic::Film, "dark");
         notices.done("saved");
-        assert!(notices.pass(1e4) && !notices.pass(1e4));
+        assert!(notices.age(1e4) && !notices.age(1e4));
         assert_eq!(notices.list().len(), 2);
         notices.well(NoticeTopic::Film);
         assert_eq!(notices.list().len(), 1);
@@ -195,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_thing_is_said_once() {
+    fn a_repeated_message_is_shown_once() {
         let mut notices = Notices::default();
         notices.problem(NoticeTopic::Saving, "lost");
         notices.problem(NoticeTopic::Saving, "lost");

@@ -1,4 +1,5 @@
-//! Where pictures and films go: a folder, and a name that nothing has yet.
+//! Output files: the capture folder, free file names, and the scratch folder for unfinished
+//! exports.
 
 use std::fs::{File, OpenOptions};
 use std::io;
@@ -9,12 +10,12 @@ use bevy::prelude::Resource;
 use crate::io::atomic_file::AtomicFile;
 use crate::io::file_name::safe;
 
-/// The folder for pictures and films.
+/// Folder for exported images and films.
 #[derive(Resource, Clone, Debug, PartialEq, Eq)]
 pub struct CaptureFolder(pub PathBuf);
 
 impl CaptureFolder {
-    /// The folder that was asked for, or `Morphospace` among the user's pictures, or here.
+    /// The requested folder, or `Morphospace` in the user's pictures, home or current folder.
     #[must_use]
     pub fn choose(asked: Option<PathBuf>) -> Self {
         let pictures = || {
@@ -26,19 +27,19 @@ impl CaptureFolder {
     }
 }
 
-/// A file (or folder) could not be made.
+/// A file or folder could not be created.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {path}: {source}; choose another folder with --captures")]
+#[error("cannot write {path}: {source}; set another folder with --captures")]
 pub struct CreateFileError {
     path: String,
     source: io::Error,
 }
 
-/// Makes a new file `stem.extension`, or `stem-2.extension` and so on where that exists already.
-/// Never touches a file that is there, even when two programs do this at once.
+/// Creates a new file `stem.extension`, or `stem-2.extension` and so on if that exists. Never
+/// touches an existing file, even if two processes do this at once.
 ///
 /// # Errors
-/// The folder cannot be made or written to.
+/// The folder or file cannot be created.
 pub fn create_new(
     folder: &Path,
     stem: &str,
@@ -48,6 +49,7 @@ pub fn create_new(
     first_free(folder, stem, &format!(".{extension}"), create)
 }
 
+/// Calls `create` with `stem`, `stem-2` and so on until a name is free.
 fn first_free<T>(
     folder: &Path,
     stem: &str,
@@ -60,7 +62,7 @@ fn first_free<T>(
     };
     std::fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
     let stem = safe(stem);
-    // Made at once and not looked for first: two programs that look could both find a name free.
+    // Created without checking first: two processes that check could both find the same name free.
     for number in 1u32.. {
         let name = if number == 1 {
             format!("{stem}{suffix}")
@@ -77,26 +79,26 @@ fn first_free<T>(
     Err(failed(folder, io::ErrorKind::AlreadyExists.into()))
 }
 
-/// Makes a new folder `stem`, or `stem-2` and so on where something of that name is there.
+/// Creates a new folder `stem`, or `stem-2` and so on if that exists.
 ///
 /// # Errors
-/// The folder that it is to be in cannot be made or written to.
+/// The folder cannot be created.
 pub fn create_new_folder(folder: &Path, stem: &str) -> Result<PathBuf, CreateFileError> {
     let create = |path: &Path| std::fs::create_dir(path);
     first_free(folder, stem, "", create).map(|((), path)| path)
 }
 
-/// Where films are written before they are moved to their place: a program that is killed leaves
-/// nothing half done among the user's pictures, and the next start clears this up. None takes the
-/// system's folder for such things.
+/// Folder in which exports are prepared before they are moved to their destination. A killed
+/// process leaves nothing unfinished among the user's pictures, and the next start cleans up.
+/// `None` uses the system's temporary folder.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct ScratchFolder(pub Option<PathBuf>);
 
 impl ScratchFolder {
-    /// A folder of its own for one piece of work, which goes with it.
+    /// Creates a temporary folder for one export, deleted when dropped.
     ///
     /// # Errors
-    /// It cannot be made.
+    /// The folder cannot be created.
     pub fn begin(&self) -> io::Result<tempfile::TempDir> {
         match &self.0 {
             None => tempfile::tempdir(),
@@ -108,11 +110,11 @@ impl ScratchFolder {
     }
 }
 
-/// Whether something could be written into a folder, which is made where it is missing: seen before
-/// long work and not after it.
+/// Checks that a folder can be written to, and creates it if missing; called before long work
+/// rather than after.
 ///
 /// # Errors
-/// The folder cannot be made or written to.
+/// The folder cannot be created or written to.
 pub fn check_writable(folder: &Path) -> Result<(), CreateFileError> {
     let tried = std::fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
     tried.map(drop).map_err(|source| CreateFileError {
@@ -121,10 +123,10 @@ pub fn check_writable(folder: &Path) -> Result<(), CreateFileError> {
     })
 }
 
-/// Moves what was made, a file or a folder, to a name that nothing has yet; returns where it is.
+/// Moves a finished file or folder into `folder` under a free name; returns its path.
 ///
 /// # Errors
-/// The folder cannot be made or written to; nothing is left there then.
+/// The folder cannot be created or written to; nothing is left there then.
 pub fn move_to_free_name(
     made: &Path,
     folder: &Path,
@@ -134,9 +136,9 @@ pub fn move_to_free_name(
         let (_, path) = first_free(folder, stem, "", |path| move_folder(made, path))?;
         return Ok(path);
     }
-    let ending = made.extension().unwrap_or_default().to_string_lossy();
-    let (_, path) = first_free(folder, stem, &format!(".{ending}"), |path| {
-        // Never over a file that is there, and whole from its first moment on.
+    let extension = made.extension().unwrap_or_default().to_string_lossy();
+    let (_, path) = first_free(folder, stem, &format!(".{extension}"), |path| {
+        // A hard link never overwrites, and the file is complete from its first moment.
         match std::fs::hard_link(made, path) {
             Err(error) if error.kind() != io::ErrorKind::AlreadyExists => copy_new(made, path),
             linked => linked,
@@ -145,8 +147,9 @@ pub fn move_to_free_name(
     Ok(path)
 }
 
-/// For other disks, and those that know no links.
+/// Copies to a new file; for other disks and file systems without links.
 fn copy_new(made: &Path, path: &Path) -> io::Result<()> {
+    // Reserves the name; the content then replaces the empty file in one step.
     drop(OpenOptions::new().write(true).create_new(true).open(path)?);
     let copy = || {
         let mut file = AtomicFile::create(path)?;
@@ -158,8 +161,9 @@ fn copy_new(made: &Path, path: &Path) -> io::Result<()> {
     })
 }
 
+/// Moves a folder to a new name; copies it where it cannot be renamed.
 fn move_folder(made: &Path, path: &Path) -> io::Result<()> {
-    // Taken first, for a folder may be moved over an empty one.
+    // Created first, because `rename` may overwrite an empty folder.
     std::fs::create_dir(path)?;
     if std::fs::rename(made, path).is_ok() {
         return Ok(());
@@ -176,11 +180,11 @@ fn move_folder(made: &Path, path: &Path) -> io::Result<()> {
     })
 }
 
-/// The path of what was written. What was only begun is neither picture nor film and is taken away;
-/// where even that cannot be done it stays, and the error says what went wrong first.
+/// Returns the path of a file or folder that was written, or deletes it if writing failed. A failed
+/// deletion is ignored in favour of the first error.
 ///
 /// # Errors
-/// It was not written.
+/// Writing failed.
 pub fn keep_if_written<E>(path: PathBuf, written: Result<(), E>) -> Result<PathBuf, E> {
     if written.is_err() {
         if path.is_dir() {
@@ -197,7 +201,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_is_overwritten() -> Result<(), Box<dyn std::error::Error>> {
+    fn existing_files_are_not_overwritten() -> Result<(), Box<dyn std::error::Error>> {
         let folder = tempfile::tempdir()?;
         let names: Result<Vec<_>, _> = (0..3)
             .map(|_| create_new(folder.path(), "a", "png").map(|(_, path)| path))
@@ -211,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_delivered_takes_a_free_name() -> Result<(), Box<dyn std::error::Error>> {
+    fn finished_exports_take_a_free_name() -> Result<(), Box<dyn std::error::Error>> {
         let (from, to) = (tempfile::tempdir()?, tempfile::tempdir()?);
         let film = from.path().join("film.gif");
         std::fs::write(&film, "frames")?;

@@ -1,5 +1,5 @@
-//! What is kept for the next start: changes that were not saved, how films are made, what was
-//! opened last, and the strips of the gallery.
+//! Files that persist between starts of the application: autosaves, export presets, recent files
+//! and cached gallery strips.
 
 pub mod autosave;
 pub mod autosave_slot;

@@ -1,3 +1,3 @@
-//! Time: t, how it moves, what it moves on the stage, and how often the window draws.
+//! Playback: the blend parameter t and how it moves.
 
 pub mod player;

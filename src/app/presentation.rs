@@ -1,4 +1,4 @@
-//! Presentations: the drawing alone on the whole screen, and the speaker's window.
+//! Talks: the drawing alone in full screen, and the speaker's window.
 
 pub mod presenter;
 pub mod speaker_window;

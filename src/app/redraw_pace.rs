@@ -1,8 +1,7 @@
-//! How often the window draws: all the time while something moves, now and then while work goes
-//! on, and not at all while nothing does, so that a talk does not drain the battery and a fan
-//! stays quiet.
+//! Chooses how often the window redraws: continuously while something moves, at intervals while
+//! work is in progress, and not at all otherwise, to save battery during a talk.
 //!
-//! Keys, the pointer and whatever else the system tells wake the window at any pace.
+//! Input and other system events wake the window at any rate.
 
 use std::time::Duration;
 
@@ -38,35 +37,33 @@ use crate::app::session::state::Session;
 use crate::app::view::filmstrip::Filmstrip;
 use crate::stage::PipelinesReady;
 
-/// How long is waited, while work goes on, until it is shown how far it is; answers wake the
-/// window. The longer ones are for where a frame takes long, as where the processor draws, to leave
-/// it to the work. Steps, since each change of the mode draws a frame.
-const LOOKS: [Duration; 4] = [
+/// Possible intervals at which progress is redrawn while work runs; results wake the window at
+/// once. Longer intervals leave time to the work where frames are slow, as with software rendering.
+/// Fixed steps, because each change of the mode costs a frame (heuristic).
+const PROGRESS_INTERVALS: [Duration; 4] = [
     Duration::from_millis(50),
     Duration::from_millis(100),
     Duration::from_millis(200),
     Duration::from_millis(400),
 ];
 
-/// A clock of seconds is drawn this often: never more than half a second behind.
-const TICK: Duration = Duration::from_millis(500);
+/// Redraw interval while a clock is shown: never more than half a second behind.
+const CLOCK_INTERVAL: Duration = Duration::from_millis(500);
 
-/// At rest nothing is waited for. Not for ever: winit then keeps the time that it was to wake at
-/// before, which has passed, and wakes all the time.
-const REST: Duration = Duration::from_secs(3600);
+/// Interval at rest. Finite, because winit otherwise keeps its last wake-up time, which has passed,
+/// and wakes continuously.
+const REST_INTERVAL: Duration = Duration::from_secs(3600);
 
-/// Frames until all that came of an event is on the screen: panels are drawn after the systems
-/// have run, what they ask for is acted on a frame later and seen in the frame after that, and the
-/// renderer is a frame behind, and tells a frame later what it lacked.
-const SETTLING: u8 = 6;
+/// Number of frames until everything that follows from an event is on screen: panels are drawn
+/// after the systems, their intents are applied one frame later and visible in the next, and the
+/// renderer lags another frame and reports missing pipelines one frame later still.
+const SETTLING_FRAMES: u8 = 6;
 
-/// As many of them as are drawn one after the other while a transition is built: what is asked for,
-/// and its answer. On two cores that also draw, two icons were first seen after 1.1 to 1.6 s with
-/// all of them.
-const SETTLING_AT_WORK: u8 = 2;
+/// The same while a transition is being built, to leave time to the work (heuristic).
+const SETTLING_FRAMES_AT_WORK: u8 = 2;
 
-/// How soon the panels want to be drawn again of their own accord; without end where nothing of
-/// them moves.
+/// Time until the panels want to be redrawn by themselves; `Duration::MAX` if nothing in them
+/// moves.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PanelRepaint(pub Duration);
 
@@ -76,66 +73,69 @@ impl Default for PanelRepaint {
     }
 }
 
-/// What there is to draw for.
+/// Reasons to redraw the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RedrawPace {
-    /// Something moves, or what has just happened is not on the screen yet.
+    /// Something moves, or the effect of an event is not on screen yet.
     pub moves: bool,
-    /// Something goes on that is seen to go on: work; or ends without telling: the time that a
-    /// message stays.
+    /// Work is in progress, or a notice is about to disappear.
     pub waits: bool,
     /// A clock is shown.
     pub ticks: bool,
-    /// Nobody can see it.
+    /// The window is minimised or covered.
     pub is_hidden: bool,
-    /// What a frame takes.
+    /// Duration of a frame.
     pub frame: Duration,
 }
 
 impl RedrawPace {
-    /// When the next frame is drawn.
+    /// Update mode until the next frame.
     #[must_use]
     pub fn mode(self) -> UpdateMode {
         match self {
             Self {
                 is_hidden: true, ..
-            } => UpdateMode::reactive_low_power(REST),
+            } => UpdateMode::reactive_low_power(REST_INTERVAL),
             Self { moves: true, .. } => UpdateMode::Continuous,
-            Self { waits: true, .. } => UpdateMode::reactive_low_power(self.look()),
-            Self { ticks: true, .. } => UpdateMode::reactive_low_power(TICK),
-            _ => UpdateMode::reactive_low_power(REST),
+            Self { waits: true, .. } => UpdateMode::reactive_low_power(self.progress_interval()),
+            Self { ticks: true, .. } => UpdateMode::reactive_low_power(CLOCK_INTERVAL),
+            _ => UpdateMode::reactive_low_power(REST_INTERVAL),
         }
     }
 
-    /// How soon work is looked at again: at least half of the time is left to it.
-    fn look(self) -> Duration {
-        let [.., most] = LOOKS;
-        let enough = |look: &Duration| *look >= self.frame * 2;
-        LOOKS.into_iter().find(enough).unwrap_or(most)
+    /// Interval for redrawing progress: at least twice the frame duration, so that half the time is
+    /// left to the work.
+    fn progress_interval(self) -> Duration {
+        let [.., longest] = PROGRESS_INTERVALS;
+        let enough = |interval: &Duration| *interval >= self.frame * 2;
+        PROGRESS_INTERVALS
+            .into_iter()
+            .find(enough)
+            .unwrap_or(longest)
     }
 }
 
-/// All that the pace hangs on.
+/// All state that the redraw rate depends on.
 #[derive(SystemParam)]
 pub struct RedrawInputs<'w, 's> {
     session: Res<'w, Session>,
     playback: Res<'w, Playback>,
-    presenting: Res<'w, Presentation>,
+    presentation: Res<'w, Presentation>,
     speaker: Res<'w, SpeakerWindow>,
     preferences: Res<'w, Preferences>,
     captures: Res<'w, ImageCaptures>,
-    cataloguing: Res<'w, SavedBlendsExport>,
+    saved_blends: Res<'w, SavedBlendsExport>,
     shots: Query<'w, 's, (), With<Screenshot>>,
-    recorder: Res<'w, FilmExporter>,
+    exporter: Res<'w, FilmExporter>,
     estimate: Res<'w, ExportEstimate>,
     autosave: Res<'w, Autosave>,
     thumbnails: Res<'w, GalleryThumbnails>,
-    choosing: Res<'w, MethodSearch>,
-    measured: Res<'w, StageMeasures>,
-    helping: Res<'w, Suggestions>,
+    method_search: Res<'w, MethodSearch>,
+    measures: Res<'w, StageMeasures>,
+    suggestions: Res<'w, Suggestions>,
     filmstrip: Res<'w, Filmstrip>,
     recording: Res<'w, StageRecording>,
-    twin: Res<'w, Comparison>,
+    comparison: Res<'w, Comparison>,
     map: Res<'w, MapView>,
     notices: Res<'w, Notices>,
     dialog: Res<'w, FileDialogRequest>,
@@ -144,6 +144,7 @@ pub struct RedrawInputs<'w, 's> {
 }
 
 impl RedrawInputs<'_, '_> {
+    /// Whether something on the stage moves or awaits a rendered frame.
     fn moves(&self) -> bool {
         self.playback.is_playing()
             || (self.preferences.panels && self.preferences.times)
@@ -152,52 +153,53 @@ impl RedrawInputs<'_, '_> {
             || self.pipelines.as_ref().is_some_and(|p| !p.is_ready())
     }
 
-    /// Panels slide, fade or find their size.
+    /// Whether panels slide, fade or change size.
     fn slides(&self) -> bool {
         self.repaint.0.is_zero()
     }
 
+    /// Whether something will change by itself, such as the progress of work.
     fn waits(&self) -> bool {
-        // A cursor that blinks, a tip that is about to be shown.
-        self.repaint.0 < REST
-            || self.presenting.waits()
+        // For example a blinking cursor, or a tooltip about to appear.
+        self.repaint.0 < REST_INTERVAL
+            || self.presentation.waits()
             || self.session.work().is_some()
-            || self.recorder.work().is_some()
+            || self.exporter.work().is_some()
             || self.estimate.is_busy()
             || self.autosave.is_behind()
             || self.captures.is_writing()
-            || self.cataloguing.is_busy()
+            || self.saved_blends.is_busy()
             || self.thumbnails.is_busy()
-            || self.choosing.told().is_some()
-            || self.measured.is_busy()
-            || self.helping.is_busy()
+            || self.method_search.told().is_some()
+            || self.measures.is_busy()
+            || self.suggestions.is_busy()
             || self.filmstrip.is_busy()
             || self.recording.is_busy()
-            || self.twin.is_busy()
+            || self.comparison.is_busy()
             || self.map.is_busy()
             || self.dialog.asks().is_some()
-            // While the panels are hidden they wait themselves.
+            // Notices do not age while the panels are hidden.
             || (self.preferences.panels && self.notices.is_passing())
     }
 
-    /// Work has an answer: what comes of it is drawn in the frames to come.
+    /// Whether work has a result whose effect must be drawn.
     fn is_new(&self) -> bool {
         self.session.is_changed()
-            || self.choosing.is_changed()
+            || self.method_search.is_changed()
             || self.estimate.is_changed()
-            || self.measured.is_changed()
-            || self.helping.is_changed()
+            || self.measures.is_changed()
+            || self.suggestions.is_changed()
             || self.filmstrip.is_changed()
             || self.recording.is_changed()
-            || self.twin.is_changed()
+            || self.comparison.is_changed()
             || self.map.is_changed()
             || self.notices.is_changed()
     }
 }
 
-/// Chooses the pace of the next frame.
+/// Sets the update mode for the next frame.
 pub fn set_redraw_pace(
-    going: RedrawInputs,
+    inputs: RedrawInputs,
     (mut events, mut intents): (MessageReader<WindowEvent>, MessageReader<Intent>),
     (mut occlusions, redraws): (
         MessageReader<WindowOccluded>,
@@ -208,47 +210,49 @@ pub fn set_redraw_pace(
     (time, mut settings): (Res<Time<Real>>, ResMut<WinitSettings>),
     _main_thread: NonSendMarker,
 ) {
-    let is_stirred = events.read().count() + intents.read().count() > 0 || going.is_new();
-    let works = going.session.work().is_some();
+    let is_stirred = events.read().count() + intents.read().count() > 0 || inputs.is_new();
+    let works = inputs.session.work().is_some();
     *settling = match (is_stirred, works) {
-        (true, true) => SETTLING_AT_WORK,
-        (true, false) => SETTLING,
+        (true, true) => SETTLING_FRAMES_AT_WORK,
+        (true, false) => SETTLING_FRAMES,
         (false, _) => settling.saturating_sub(1),
     };
-    // Nothing was waited for since the frame before.
+    // In continuous mode the frame time includes no waiting.
     if settings.focused_mode == UpdateMode::Continuous {
         *frame = time.delta();
     }
-    // A transition that is awaited is worth more than panels that slide: they jump.
-    let jumps = works && *frame * 2 > LOOKS[0];
-    if jumps && let Some(mut redraws) = redraws {
+    // A transition being built matters more than sliding panels: they jump to their end position.
+    let skips_sliding = works && *frame * 2 > PROGRESS_INTERVALS[0];
+    if skips_sliding && let Some(mut redraws) = redraws {
         redraws.clear();
     }
-    let of_stage = |occlusion: &&WindowOccluded| !going.speaker.is_its(occlusion.window);
-    if let Some(last) = occlusions.read().filter(of_stage).last() {
+    // The speaker's window may be covered without any effect on the stage.
+    let is_stage_window = |occlusion: &&WindowOccluded| !inputs.speaker.is_its(occlusion.window);
+    if let Some(last) = occlusions.read().filter(is_stage_window).last() {
         *is_covered = last.occluded;
     }
-    // What the speaker sees goes on, and what is not kept yet is kept.
-    let is_needed = going.speaker.is_open() || going.autosave.is_behind();
+    // Needed even if hidden: the speaker's window is visible, or an autosave is pending.
+    let is_needed = inputs.speaker.is_open() || inputs.autosave.is_behind();
     let pace = RedrawPace {
-        moves: *settling > 0 || going.moves() || (going.slides() && !jumps),
-        waits: going.waits(),
-        ticks: going.speaker.is_open(),
+        moves: *settling > 0 || inputs.moves() || (inputs.slides() && !skips_sliding),
+        waits: inputs.waits(),
+        ticks: inputs.speaker.is_open(),
         is_hidden: !is_needed && (*is_covered || window.iter().any(is_minimised)),
         frame: *frame,
     };
     let mode = pace.mode();
-    // The same beside another window: a film goes on while notes are read. Looked at first:
-    // nobody else is to think that they have changed.
+    // The same mode without focus: the film goes on while another window is used. Compared first,
+    // to avoid needless change events.
     if (settings.focused_mode, settings.unfocused_mode) != (mode, mode) {
         (settings.focused_mode, settings.unfocused_mode) = (mode, mode);
     }
 }
 
+/// Whether the window is minimised.
 fn is_minimised(window: Entity) -> bool {
     WINIT_WINDOWS.with_borrow(|windows| {
         let window = windows.get_window(window);
-        // None where the system does not tell.
+        // `None` on systems that do not report it.
         window.and_then(|w| w.is_minimized()).unwrap_or(false)
     })
 }

@@ -1,7 +1,9 @@
-//! The project that is open: [`document`] where it comes from and what was changed, [`history`] the
-//! steps that can be taken back, [`load`] and [`save`] its files, [`unsaved_project`]
-//! what is kept of it while it is not saved, [`transition_work`] what goes on beside the stage; [`state`] puts
-//! them together.
+//! The open project.
+//!
+//! [`document`] holds its settings and what is on the stage, [`history`] its undo steps; [`load`]
+//! and [`save`] read and write files, [`unsaved_project`] stores unsaved changes,
+//! [`transition_work`] builds transitions in the background; [`state`] combines them into the
+//! resource that the rest of the application uses.
 
 pub mod document;
 pub mod history;

@@ -1,4 +1,4 @@
-//! Hands the session's transition, t and style to the stage.
+//! Passes the session's transition, t and colours to the entities on the stage.
 
 use bevy::app::Propagate;
 use bevy::camera::visibility::RenderLayers;
@@ -11,17 +11,17 @@ use crate::app::session::state::Session;
 use crate::stage::{Blend, StageStyle, StageTransition};
 use crate::transition::Transition;
 
-/// The render layer of what is beside the stage.
+/// Render layer of the comparison.
 pub const TWIN_LAYER: RenderLayers = RenderLayers::layer(1);
 
-/// The entity that is on the stage.
+/// Marks the entity on the stage.
 #[derive(Component, Debug)]
 pub struct OnStage;
 
-/// What of a kind is on the stage already.
+/// The entity with marker `Of` and its transition.
 type StagedEntity<'w, 's, Of> = Query<'w, 's, (Entity, &'static StageTransition), With<Of>>;
 
-/// Puts the transition on the stage wherever it is another one.
+/// Puts the current transition on the stage when it changes.
 pub fn stage_transition(
     mut commands: Commands,
     session: Res<Session>,
@@ -36,23 +36,29 @@ pub fn stage_transition(
     }
 }
 
-/// Puts the second method beside the stage wherever it is another one, and takes it away.
+/// Adds, replaces or removes the compared transition when it changes.
 pub fn stage_twin(
     mut commands: Commands,
-    twin: Res<Comparison>,
+    comparison: Res<Comparison>,
     (playback, session): (Res<Playback>, Res<Session>),
     staged: StagedEntity<OnComparison>,
 ) {
-    if twin.is_changed() {
+    if comparison.is_changed() {
         let blend = Blend {
             t: session.within(playback.t()),
         };
         let marks = (OnComparison, Propagate(TWIN_LAYER));
-        stage(&mut commands, twin.transition(), blend, &staged, marks);
+        stage(
+            &mut commands,
+            comparison.transition(),
+            blend,
+            &staged,
+            marks,
+        );
     }
 }
 
-/// Brings the entity with these marks up to the transition; there is none where that is none.
+/// Updates the entity with these markers; spawns or despawns it as needed.
 fn stage<Of: Component>(
     commands: &mut Commands,
     transition: Option<&Transition>,
@@ -62,7 +68,7 @@ fn stage<Of: Component>(
 ) {
     match (transition, staged.single()) {
         (Some(new), Ok((_, StageTransition(old))))
-            // Clones share what they are made of; inserting one would upload its meshes anew.
+            // Clones share their data; inserting one would upload its meshes again.
             if new.is(old) => {}
         (Some(new), Ok((entity, _))) => {
             let new = (StageTransition(new.clone()), blend);
@@ -76,10 +82,10 @@ fn stage<Of: Component>(
     }
 }
 
-/// On the stage, or beside it.
+/// Filter: on the stage or in the comparison.
 type StageOrComparison = Or<(With<OnStage>, With<OnComparison>)>;
 
-/// Moves what is on the stage to t.
+/// Sets t of everything on the stage.
 pub fn stage_t(
     playback: Res<Playback>,
     session: Res<Session>,
@@ -87,23 +93,23 @@ pub fn stage_t(
 ) {
     let t = session.within(playback.t());
     for mut blend in &mut blends {
-        // A blend that is written to is solved, though it be the same t.
+        // Writing to a blend triggers a solve even if t is the same.
         if blend.t != t {
             blend.t = t;
         }
     }
 }
 
-/// Looks at the leg that t is in.
+/// Selects the segment that t is in.
 pub fn follow_leg(playback: Res<Playback>, mut session: ResMut<Session>) {
     let leg = session.leg_at(playback.t());
-    // Looked at first: what is written to counts as changed.
+    // Compared first, because writing marks the session as changed.
     if leg != session.leg() {
         session.look_at(leg);
     }
 }
 
-/// Dresses what is on the stage in the project's colours and shows what is to be shown.
+/// Applies the project's colours and the display preferences to everything on the stage.
 pub fn stage_style(
     session: Res<Session>,
     preferences: Res<Preferences>,
@@ -113,7 +119,7 @@ pub fn stage_style(
     let style = session.style_here();
     let [r, g, b] = style.ground.0;
     let colour = Color::srgb_u8(r, g, b);
-    // Compared first, here and below: what is written to counts as changed and is drawn anew.
+    // Compared first, here and below: writing marks it as changed and redraws it.
     if ground.0 != colour {
         ground.0 = colour;
     }

@@ -1,8 +1,8 @@
-//! What is drawn around the stage. egui is named here and in the files below, nowhere else.
+//! User interface around the stage. Only this file and the files below it use egui.
 //!
-//! Panels read a [`ui_state::UiState`] and push [`Intent`](crate::app::Intent)s; they compute nothing
-//! and change nothing. While no text is being written egui gets no keys at all, so Space and the
-//! arrows cannot drive a widget and the playback at once.
+//! Panels read the [`ui_state::UiState`] and send [`Intent`](crate::app::Intent)s; they compute nothing
+//! and change nothing themselves. Unless text is being edited egui gets no key events, so Space and
+//! the arrow keys cannot drive a widget and the playback at once.
 
 pub mod draw;
 mod gallery;

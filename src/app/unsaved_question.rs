@@ -1,7 +1,7 @@
-//! Nothing that was not saved is lost without a question.
+//! Asks before unsaved work is lost.
 //!
-//! Closing the window and opening another project go through here: a [`UnsavedQuestion`] holds
-//! them back where something would be lost, asks, and sends them on again once it is decided.
+//! Closing the window and opening another project go through an [`UnsavedQuestion`]: it holds the
+//! intent back while work would be lost, and sends it again once the user has decided.
 
 use bevy::prelude::{
     AppExit, Commands, MessageReader, MessageWriter, Query, Res, ResMut, Resource, With, Without,
@@ -13,45 +13,47 @@ use crate::app::input::intent::{Intent, UnsavedAnswer};
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::session::state::Session;
 
-/// What would be lost.
+/// Kind of work that would be lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnsavedKind {
-    /// Changes of the project.
+    /// Unsaved changes of the project.
     Changes,
-    /// A film that is being written.
+    /// A film being exported.
     Film,
 }
 
-/// What is held back, and why.
+/// The intent that waits for an answer, if any.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct UnsavedQuestion {
     held: Option<PendingIntent>,
 }
 
+/// An intent that waits for an answer.
 #[derive(Clone, Debug, PartialEq)]
 struct PendingIntent {
     intent: Intent,
     lost: UnsavedKind,
-    /// It was answered: the act goes on when the project is saved, or the film has ended.
+    /// Whether the user answered "save" or "wait": the intent is sent again after the save or
+    /// export.
     is_answered: bool,
     text: String,
 }
 
 impl UnsavedQuestion {
-    /// What to ask, while a question is open.
+    /// Text of the open question.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         let held = self.held.as_ref().filter(|held| !held.is_answered)?;
         Some(&held.text)
     }
 
-    /// What would be lost, while something is held back.
+    /// Kind of work that would be lost by the waiting intent.
     #[must_use]
     pub fn lost(&self) -> Option<UnsavedKind> {
         self.held.as_ref().map(|held| held.lost)
     }
 
-    /// Holds an act back and asks.
+    /// Holds an intent back and asks.
     pub fn ask(&mut self, intent: Intent, lost: UnsavedKind, text: String) {
         self.held = Some(PendingIntent {
             intent,
@@ -61,27 +63,27 @@ impl UnsavedQuestion {
         });
     }
 
-    /// What would have been lost is safe now: what waited for it goes on.
+    /// Call when the work is saved or discarded: returns the intent that waited for it.
     pub fn safe(&mut self, lost: UnsavedKind) -> Option<Intent> {
         let waits = |held: &mut PendingIntent| held.is_answered && held.lost == lost;
         Some(self.held.take_if(waits)?.intent)
     }
 
-    /// The project was not saved after all: what waited for it is dropped.
+    /// Call when saving was cancelled or failed: drops the intent that waited for it.
     pub fn not_saved(&mut self) {
         self.safe(UnsavedKind::Changes);
     }
 }
 
-/// Turns the window's wish to close into an intent.
+/// Turns a request to close the window into an intent.
 pub fn read_close_requests(
     mut requests: MessageReader<WindowCloseRequested>,
     others: Query<(), (With<Window>, Without<PrimaryWindow>)>,
     mut intents: MessageWriter<Intent>,
 ) {
-    // The speaker's window only closes itself.
-    let is_all = |request: &&WindowCloseRequested| !others.contains(request.window);
-    if requests.read().filter(is_all).count() > 0 {
+    // Closing the speaker's window does not close the application.
+    let is_main_window = |request: &&WindowCloseRequested| !others.contains(request.window);
+    if requests.read().filter(is_main_window).count() > 0 {
         intents.write(Intent::Close);
     }
 }
@@ -90,7 +92,7 @@ pub fn read_close_requests(
 pub fn close(
     mut intents: MessageReader<Intent>,
     session: Res<Session>,
-    recorder: Res<FilmExporter>,
+    exporter: Res<FilmExporter>,
     mut question: ResMut<UnsavedQuestion>,
     mut exit: MessageWriter<AppExit>,
 ) {
@@ -100,8 +102,8 @@ pub fn close(
         }
         if session.is_dirty() {
             question.ask(Intent::Close, UnsavedKind::Changes, session.unsaved_text());
-        } else if recorder.work().is_some() {
-            let text = "It would be lost.".to_owned();
+        } else if exporter.work().is_some() {
+            let text = "Closing now would stop the export.".to_owned();
             question.ask(Intent::Close, UnsavedKind::Film, text);
         } else {
             exit.write(AppExit::Success);
@@ -109,11 +111,11 @@ pub fn close(
     }
 }
 
-/// Acts on the answer.
+/// Applies the user's answer.
 pub fn answer(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
-    (recorder, notices): (Res<FilmExporter>, Res<Notices>),
+    (exporter, notices): (Res<FilmExporter>, Res<Notices>),
     mut question: ResMut<UnsavedQuestion>,
     mut commands: Commands,
 ) {
@@ -121,32 +123,32 @@ pub fn answer(
     for intent in intents.read() {
         match intent {
             Intent::Answer(UnsavedAnswer::Stay) | Intent::Back => {
-                // Once it is answered, Esc is meant for something else.
+                // After the answer, Esc means something else.
                 question.held.take_if(|held| !held.is_answered);
             }
             Intent::Answer(answer) => {
                 if let Some(held) = &mut question.held {
                     held.is_answered = true;
                     match (held.lost, answer) {
-                        // A save may ask for a place first and take long; the act waits until it is
-                        // told of its end.
+                        // Saving may open a dialog and take long; the intent waits for the result.
                         (UnsavedKind::Changes, UnsavedAnswer::Save) => next.push(Intent::Save),
                         (UnsavedKind::Changes, _) => {
-                            // Else what is sent on would be asked about once more.
+                            // Otherwise the intent, sent again, would raise the same question.
                             session.forget_changes();
                             next.extend(question.safe(UnsavedKind::Changes));
                         }
+                        // Waits for the export to end.
                         (UnsavedKind::Film, UnsavedAnswer::Save) => {}
-                        // It takes away what it has begun, and that is waited for.
-                        (UnsavedKind::Film, _) => recorder.cancel(),
+                        // The export first deletes its partial file; the intent waits for that.
+                        (UnsavedKind::Film, _) => exporter.cancel(),
                     }
                 }
             }
             _ => {}
         }
     }
-    // A film that came to nothing is told of, which takes the window.
-    if recorder.work().is_none()
+    // After a failed export the window stays open to show the reason.
+    if exporter.work().is_none()
         && question.lost() == Some(UnsavedKind::Film)
         && let Some(intent) = question.safe(UnsavedKind::Film)
         && !notices.is_ill(NoticeTopic::Film)

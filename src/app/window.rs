@@ -1,4 +1,5 @@
-//! The window itself: its size, its cameras, and what it adds to the logic.
+//! Creates the application window and its cameras, and adds the systems that need a window to
+//! [`LogicPlugin`].
 
 use std::path::PathBuf;
 
@@ -13,6 +14,7 @@ use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
 use crate::app::analysis::stage_recording::StageRecording;
 use crate::app::capture::{blend_image, clipboard, image};
+use crate::app::escape;
 use crate::app::files::file_watcher::FileWatcher;
 use crate::app::files::gallery_thumbnails;
 use crate::app::files::project_actions::GalleryEntries;
@@ -30,32 +32,33 @@ use crate::app::persistence::recent_files::{RecentFiles, StoredRecentFiles};
 use crate::app::presentation::presenter::fullscreen_mode;
 use crate::app::presentation::speaker_window;
 use crate::app::ui::draw::UiPlugin;
-use crate::app::view::{filmstrip, stage_area};
+use crate::app::view::{filmstrip, stage_camera};
 use crate::app::{redraw_pace, stage_sync};
 use crate::export::FilmPresets;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
 
-/// What the command line hands to the window.
+/// Options of the window, as given on the command line.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AppOptions {
-    /// A project, or one or two designs; the gallery's first project where there is none.
+    /// One project, or designs to open together; empty opens the first gallery project.
     pub files: Vec<PathBuf>,
-    /// The folder for pictures and films, instead of the user's pictures.
+    /// Folder for exported images and films; `None` is a folder in the user's pictures.
     pub captures: Option<PathBuf>,
-    /// What a film may take, in MiB, instead of what it may usually.
+    /// Maximum memory for the recording of a transition, in MiB; `None` is the default limit.
     pub film_memory: Option<usize>,
-    /// A talk begins at once, and the window closes with it.
+    /// Whether a talk starts at once; the window then closes when the talk ends.
     pub presents: bool,
 }
 
-/// Opens the window and returns when it was closed.
+/// Opens the window and returns after it has been closed.
 ///
 /// # Errors
-/// [`NoWindowError`] where there is none to open.
+/// [`NoWindowError`] if there is no display or no graphics driver.
 pub fn run(options: AppOptions) -> Result<AppExit, NoWindowError> {
     catch_no_window(|| program(options).run())
 }
 
+/// Assembles the application without running it.
 fn program(options: AppOptions) -> App {
     let AppOptions {
         files,
@@ -66,7 +69,7 @@ fn program(options: AppOptions) -> App {
     share_arenas();
     let autosave = autosave();
     let mut app = App::new();
-    // Whose handler wakes nobody; ours does.
+    // Bevy's own Ctrl-C handler does not wake a resting event loop; `handle_termination` does.
     let plugins = DefaultPlugins
         .set(window(presents))
         .disable::<TerminalCtrlCHandlerPlugin>();
@@ -82,65 +85,66 @@ fn program(options: AppOptions) -> App {
         .add_systems(
             Startup,
             move |mut intents: MessageWriter<Intent>, gallery: Res<GalleryEntries>| {
-                intents.write(first(&files, &gallery));
+                intents.write(first_intent(&files, &gallery));
                 if presents {
                     intents.write(Intent::Present { is_all: true });
                 }
             },
         )
-        .add_systems(Startup, (watch, be_woken))
+        .add_systems(Startup, (watch, let_jobs_wake_window))
         .add_systems(Update, TerminalCtrlCHandlerPlugin::exit_on_flag);
-    end_when_told();
+    handle_termination();
     app
 }
 
-/// Ctrl-C in the terminal, and the system's wish that the program ends, are heard at rest too, where
-/// no frame would come to look at them.
-fn end_when_told() {
-    let listens = ctrlc::set_handler(|| {
+/// Handles Ctrl-C and the system's request to quit. Wakes the window, because a resting window
+/// draws no frame in which the request would be seen.
+fn handle_termination() {
+    let handler_result = ctrlc::set_handler(|| {
         TerminalCtrlCHandlerPlugin::gracefully_exit();
         job::wake();
     });
-    if let Err(error) = listens {
-        warn!("the window cannot be ended from the terminal: {error}");
+    if let Err(error) = handler_result {
+        warn!("Ctrl-C in the terminal does not close the window: {error}");
     }
 }
 
-/// A file that has changed wakes the window, which may be at rest.
+/// Watches the files of the open designs; a change wakes the resting window.
 fn watch(watch: Res<FileWatcher>, events: Res<EventLoopProxyWrapper>) {
     let events = events.clone();
     watch.start(move || {
-        // The window is gone, and the thread with it.
+        // Sending fails only after the window has closed, when nothing needs waking.
         events.send_event(WinitUserEvent::WakeUp).ok();
     });
 }
 
-/// Work that has something to tell wakes it too.
-fn be_woken(events: Res<EventLoopProxyWrapper>) {
+/// Lets background jobs wake the resting window.
+fn let_jobs_wake_window(events: Res<EventLoopProxyWrapper>) {
     let events = events.clone();
     job::set_waker(move || {
-        // The window is gone, and the work is nobody's.
+        // Sending fails only after the window has closed, when nothing needs waking.
         events.send_event(WinitUserEvent::WakeUp).ok();
     });
 }
 
-/// Where there is no place for it, the program runs without.
+/// Autosave in the user's state folder; switched off if that folder cannot be used.
 fn autosave() -> Autosave {
     let Some(folder) = autosave::folder() else {
         return Autosave::default();
     };
     Autosave::enter(&folder).unwrap_or_else(|error| {
-        warn!("changes are not kept in {}: {error}", folder.display());
+        warn!("autosave is off: cannot use {}: {error}", folder.display());
         Autosave::default()
     })
 }
 
-fn first(files: &[PathBuf], gallery: &GalleryEntries) -> Intent {
+/// Opens the files of the command line, or the first gallery project.
+fn first_intent(files: &[PathBuf], gallery: &GalleryEntries) -> Intent {
     let bundled = match files {
         [] => gallery.0.first().map(|entry| entry.name.clone()),
         [one] => one
             .to_str()
-            // Also what the command line calls a bundled project in all its subcommands.
+            // `gallery:NAME` opens a bundled project, as in all subcommands of the command line.
             .and_then(|name| name.strip_prefix("gallery:"))
             .map(str::to_owned),
         _ => None,
@@ -148,12 +152,13 @@ fn first(files: &[PathBuf], gallery: &GalleryEntries) -> Intent {
     bundled.map_or_else(|| Intent::Open(files.to_vec()), Intent::OpenGallery)
 }
 
+/// The main window's properties.
 fn window(presents: bool) -> WindowPlugin {
     WindowPlugin {
         primary_window: Some(Window {
             title: "Morphospace".to_owned(),
             name: Some("morphospace".to_owned()),
-            // From its first frame on.
+            // Set here and not by a system, so that the very first frame is full screen.
             mode: if presents {
                 fullscreen_mode()
             } else {
@@ -161,7 +166,7 @@ fn window(presents: bool) -> WindowPlugin {
             },
             resolution: WindowResolution::new(1280, 720),
             resize_constraints: WindowResizeConstraints {
-                // The list of keys, which is the largest, fits into it.
+                // Smallest size at which the list of keys, the largest panel, fits.
                 min_width: 960.0,
                 min_height: 540.0,
                 ..default()
@@ -169,14 +174,15 @@ fn window(presents: bool) -> WindowPlugin {
             ..default()
         }),
         exit_condition: ExitCondition::OnPrimaryClosed,
-        // Closing is an intent, which asks first where something would be lost.
+        // Closing goes through `Intent::Close`, which asks first if work would be lost.
         close_when_requested: false,
         ..default()
     }
 }
 
-/// What the window adds to [`LogicPlugin`]: cameras, panels, dialogs, pictures. Wants Bevy's own
-/// plugins; without a renderer it draws to nowhere.
+/// Systems and resources that need a window: cameras, panels, dialogs, image capture.
+///
+/// Requires Bevy's default plugins. Without a renderer it runs but draws nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WindowPlugins;
 
@@ -190,13 +196,13 @@ impl Plugin for WindowPlugins {
             .init_resource::<filmstrip::Filmstrip>()
             .init_resource::<speaker_window::SpeakerWindow>()
             .add_systems(Startup, spawn_cameras)
-            // Last: what this frame has begun decides how soon the next one comes.
+            // In `Last`: the work started in this frame decides how soon the next one is drawn.
             .add_systems(Last, redraw_pace::set_redraw_pace)
             .add_systems(
                 Update,
                 (
-                    stage_area::window_mode,
-                    (stage_area::fit, stage_area::place_camera).chain(),
+                    escape::window_mode,
+                    (stage_camera::fit, stage_camera::place_camera).chain(),
                     (speaker_window::apply, speaker_window::follow).chain(),
                     (gallery_thumbnails::advance, filmstrip::follow),
                 )
@@ -211,9 +217,9 @@ impl Plugin for WindowPlugins {
             )
             .add_systems(
                 PostUpdate,
-                // After the first camera has been placed, and before transforms are passed on: else
-                // the second would lag a frame.
-                stage_area::place_twin.before(TransformSystems::Propagate),
+                // After the stage's camera has been placed and before transforms propagate;
+                // otherwise the comparison would lag one frame behind.
+                stage_camera::place_twin.before(TransformSystems::Propagate),
             )
             .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))
             .configure_sets(
@@ -227,21 +233,20 @@ impl Plugin for WindowPlugins {
     }
 }
 
-/// One camera for the stage, in its part of the window, one for the second method beside it, and
-/// one above them for the panels.
+/// Spawns three cameras: the stage, the comparison to its right, and the panels above both.
 fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
-    // It would be given to the stage's camera, whose part of the window is not the whole.
+    // Otherwise egui would attach to the stage's camera, which covers only part of the window.
     egui.auto_create_primary_context = false;
     commands.spawn(StageCamera);
     commands.spawn((
-        stage_area::ComparisonCamera,
+        stage_camera::ComparisonCamera,
         Camera2d,
         Msaa::Sample4,
         CompositingSpace::Srgb,
         stage_sync::TWIN_LAYER,
         Camera {
             order: 1,
-            // The first camera has cleared the whole window.
+            // The stage's camera has already cleared the whole window.
             clear_color: ClearColorConfig::None,
             is_active: false,
             ..default()
@@ -250,13 +255,13 @@ fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
     commands.spawn((
         PrimaryEguiContext,
         Camera2d,
-        // As the stage's: the cameras of one window share its depth texture.
+        // Same sample count as the stage's camera: cameras of one window share its depth texture.
         Msaa::Sample4,
         RenderLayers::none(),
         Camera {
             order: 2,
             output_mode: CameraOutputMode::Write {
-                // What egui draws is multiplied by its alpha already.
+                // egui draws with premultiplied alpha.
                 blend_state: Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING),
                 clear_color: ClearColorConfig::None,
             },

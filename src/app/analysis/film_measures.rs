@@ -1,90 +1,91 @@
-//! Measures the transition on the stage, beside the window.
+//! Measures the film on the stage in the background and checks it for defects.
 //!
-//! Whenever another transition is on the stage it is sampled over t and judged in words. A newer
-//! transition stops the work on an older one; while a build is running, as when something is being
-//! dragged, nothing is measured.
+//! A new transition cancels the work on the previous one. Nothing is measured while a transition is
+//! being built, as during a drag.
 
 use std::time::Duration;
 
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
+use crate::app::analysis::is_same;
 use crate::app::analysis::transition_memo::TransitionMemo;
 use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::session::state::Session;
-use crate::app::view::is_same;
 use crate::measure::{FilmReport, Remedy, Verdict, film};
 use crate::project::Project;
 use crate::transition::Transition;
 use crate::warp::WarpKind;
 use crate::work::progress::{Cancelled, Progress, ProgressSpan, WholeProgress};
 
-/// At how many t a film is measured: those of the verdict and of the plots. Both ends and 63
-/// between them, a half and quarters among those; more would find shorter faults and take longer.
+/// Number of t at which a film is sampled for the check and the graphs: both ends and 63 between
+/// them, including halves and quarters. More samples would find shorter defects and take longer
+/// (heuristic).
 pub const STEPS: usize = 65;
 
-/// What takes longer is told, and stopped by Esc: what is shorter is over before that is seen, and
-/// Esc meant something else.
-const WORTH_A_WORD: Duration = Duration::from_millis(1000);
+/// Work is shown, and cancelled by Esc, only after this time; anything shorter is over before Esc
+/// could be meant for it (heuristic).
+const SHOWN_AFTER: Duration = Duration::from_millis(1000);
 
-/// A film in numbers and in words.
+/// Measures of a film over time, and the result of the check.
 #[derive(Clone, Debug)]
 pub struct FilmMeasures {
-    /// The numbers against t.
+    /// Measures over t.
     pub film: FilmReport,
-    /// What goes wrong, where, why, and what helps.
+    /// The defects found, with their place, cause and remedy.
     pub verdict: Verdict,
 }
 
-/// What is known of the transition on the stage.
+/// Measures of the transition on the stage.
 #[derive(Resource, Debug, Default)]
 pub struct StageMeasures {
     of: Option<Transition>,
     job: Option<BackgroundJob<FilmMeasures, Cancelled>>,
     measures: Option<FilmMeasures>,
-    /// There is an answer, with measures or, where the work broke off, without.
+    /// Whether the work has ended; without measures if it was cancelled or failed.
     is_done: bool,
-    /// Of other legs: while a sequence plays they come again and again.
+    /// Results for other segments, which return while a film of several segments plays.
     before: TransitionMemo<FilmMeasures>,
 }
 
 impl StageMeasures {
-    /// The measures; while they are being taken, none.
+    /// The measures; `None` while they are being taken.
     #[must_use]
     pub fn measures(&self) -> Option<&FilmMeasures> {
         self.measures.as_ref()
     }
 
-    /// The measures are being taken.
+    /// Whether the film is being measured.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.job.is_some()
     }
 
-    /// They were stopped, or the work on them broke off.
+    /// Whether measuring was cancelled or failed.
     #[must_use]
     pub fn is_broken_off(&self) -> bool {
         self.is_done && self.measures.is_none()
     }
 
-    /// How far they are, 0 to 1, once that is worth a word.
+    /// Progress, 0 to 1, once measuring has taken long enough to be shown.
     #[must_use]
     pub fn told(&self) -> Option<f64> {
-        let job = self.job.as_ref().filter(|job| job.lasts() > WORTH_A_WORD)?;
+        let job = self.job.as_ref().filter(|job| job.lasts() > SHOWN_AFTER)?;
         Some(job.progress().1)
     }
 
-    /// Stops measuring what is on the stage.
+    /// Cancels measuring.
     pub fn stop(&mut self) {
-        // Dropped, the job hears that it is not wanted.
+        // Dropping the job cancels it.
         self.is_done |= self.job.take().is_some();
     }
 
+    /// Adopts the transition on the stage and starts measuring it once no build is running.
     fn follow(&mut self, session: &Session) {
         let transition = session.transition();
         if !is_same(self.of.as_ref(), transition) {
-            // The job on the old one goes with it, which stops it.
+            // Replacing `self` also cancels the job for the old transition.
             let mut before = std::mem::take(&mut self.before);
             if let (Some(of), Some(measures)) = (&self.of, self.measures.take()) {
                 before.keep(of, measures);
@@ -100,14 +101,14 @@ impl StageMeasures {
         }
         if session.work().is_none() && !self.is_done && self.job.is_none() {
             self.job = self.of.clone().map(|transition| {
-                BackgroundJob::start("the measures", move |progress| {
+                BackgroundJob::start("measuring the film", move |progress| {
                     measured(&transition, progress)
                 })
             });
         }
     }
 
-    /// Whether there was an answer.
+    /// Collects the result; returns whether there was one.
     fn take(&mut self) -> bool {
         let Some(answer) = BackgroundJob::take(&mut self.job) else {
             return false;
@@ -118,21 +119,22 @@ impl StageMeasures {
     }
 }
 
-/// How much is done once there are numbers, of most films.
-const SAMPLED: f64 = 0.8;
+/// Share of the progress bar given to sampling (heuristic).
+const SAMPLING: f64 = 0.8;
 
+/// Samples the film, then checks it for defects.
 fn measured(transition: &Transition, progress: &dyn Progress) -> Result<FilmMeasures, Cancelled> {
     let progress = &WholeProgress::new(progress);
     let [sampling, judging] =
-        [(0.0, SAMPLED), (SAMPLED, 1.0)].map(|(from, to)| ProgressSpan::new(progress, from, to));
+        [(0.0, SAMPLING), (SAMPLING, 1.0)].map(|(from, to)| ProgressSpan::new(progress, from, to));
     let film = film(transition, STEPS, &sampling)?;
     let verdict = Verdict::of_film(transition, &film, &judging)?;
     Ok(FilmMeasures { film, verdict })
 }
 
-/// Starts to measure what is new and takes in what was measured.
+/// Starts measuring a new transition and collects results.
 pub fn follow(session: Res<Session>, mut measured: ResMut<StageMeasures>) {
-    // Marked as changed by hand: it is written to in each frame, and seldom new.
+    // Change detection is set by hand: this system runs each frame but seldom changes anything.
     let now = measured.bypass_change_detection();
     let was_busy = now.is_busy();
     let is_taken = now.take();
@@ -142,7 +144,7 @@ pub fn follow(session: Res<Session>, mut measured: ResMut<StageMeasures>) {
     }
 }
 
-/// Does what the verdict advises, and measures what was broken off anew.
+/// Applies a remedy chosen by the user, and restarts cancelled measuring.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
@@ -166,7 +168,7 @@ pub fn apply(
     }
 }
 
-/// Whether a remedy can be taken by a click: it was tried, or is sure to help.
+/// Whether a remedy can be applied with one click, because it was tested or is sure to help.
 #[must_use]
 pub fn is_one_click(remedy: &Remedy) -> bool {
     matches!(
@@ -175,6 +177,7 @@ pub fn is_one_click(remedy: &Remedy) -> bool {
     )
 }
 
+/// Applies a remedy to the project's settings.
 fn follow_advice(project: &mut Project, remedy: &Remedy) {
     match remedy {
         Remedy::Change { change, .. } => change.apply(&mut project.options),
@@ -183,7 +186,7 @@ fn follow_advice(project: &mut Project, remedy: &Remedy) {
             project.options.lattice.fold_free = true;
         }
         Remedy::LetFold => project.options.lattice.fold_free = false,
-        // What these advise takes a hand, or a trial: `is_a_click` gives them no button.
+        // These remedies need the user's hand or a trial; `is_a_click` gives them no button.
         _ => {}
     }
 }

@@ -1,5 +1,5 @@
-//! Tries, beside the window, the methods that could suit the designs, and takes the one whose film
-//! is the least trouble.
+//! Method search: tries all methods that suit the designs in the background and uses the one whose
+//! film has the fewest defects.
 
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
@@ -13,45 +13,48 @@ use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::TransitionMethod;
 use crate::work::progress::{Progress, WholeProgress};
 
-/// The method that was found, and how good its film is.
+/// The chosen method and the rating of its film; pictures have no rating.
 type MethodChoice = (TransitionMethod, Option<FilmRating>);
 
-/// Methods that are being tried.
+/// The method search, while it runs.
 #[derive(Resource, Debug, Default)]
 pub struct MethodSearch(Option<MethodSearchJob>);
 
+/// A running search.
 #[derive(Debug)]
 struct MethodSearchJob {
-    /// The settings as they were when it began.
+    /// Settings for which the search was started.
     of: Project,
     job: BackgroundJob<MethodChoice, ProjectError>,
 }
 
 impl MethodSearch {
-    /// How far the trial is, 0 to 1; none while nothing is tried.
+    /// Progress of the search, 0 to 1; `None` if none runs.
     #[must_use]
     pub fn told(&self) -> Option<f64> {
         Some(self.0.as_ref()?.job.progress().1)
     }
 
-    /// Leaves the method as it is.
+    /// Cancels the search and keeps the current method.
     pub fn stop(&mut self) {
-        // Dropped, the job hears that it is not wanted.
+        // Dropping the job cancels it.
         self.0 = None;
     }
 
+    /// Starts a search for the current segment.
     fn start(&mut self, session: &Session) {
         let Some(staged) = session.staged() else {
             return;
         };
         let of = staged.project.clone();
-        let job = BackgroundJob::start("the choice of a method", move |progress| {
-            found(&staged, progress)
+        let job = BackgroundJob::start("the method search", move |progress| {
+            search(&staged, progress)
         });
         self.0 = Some(MethodSearchJob { of, job });
     }
 
-    /// The answer, once; what was found for other designs or options is none.
+    /// Result of a finished search, returned once. A search for designs or options that have
+    /// changed since is dropped.
     fn take(&mut self, session: &Session) -> Option<Result<MethodChoice, JobError<ProjectError>>> {
         let trial = self.0.as_ref()?;
         let is_same =
@@ -66,20 +69,21 @@ impl MethodSearch {
     }
 }
 
-fn found(loaded: &LoadedProject, progress: &dyn Progress) -> Result<MethodChoice, ProjectError> {
+/// Builds and rates the suitable methods; returns the best one.
+fn search(loaded: &LoadedProject, progress: &dyn Progress) -> Result<MethodChoice, ProjectError> {
     let progress = &WholeProgress::new(progress);
     let (transition, rating) = auto(&loaded.spec()?, progress)?;
     Ok((transition.cell(), rating))
 }
 
-/// Begins a trial that is asked for, stops one, and takes what was found.
+/// Starts or cancels a search on request, and applies the method it found.
 pub fn apply(
     mut intents: MessageReader<Intent>,
-    (mut session, mut choosing): (ResMut<Session>, ResMut<MethodSearch>),
+    (mut session, mut method_search): (ResMut<Session>, ResMut<MethodSearch>),
     (mut notices, gesture): (ResMut<Notices>, Res<Gesture>),
 ) {
-    // Marked as changed by hand: it is looked at in each frame, and seldom new.
-    let trial = choosing.bypass_change_detection();
+    // Change detection is set by hand: this system runs each frame but seldom changes anything.
+    let trial = method_search.bypass_change_detection();
     let was_busy = trial.told().is_some();
     for intent in intents.read() {
         match intent {
@@ -95,12 +99,12 @@ pub fn apply(
                 project.content = Some(cell.content());
             });
             let rating = rating.map_or(String::new(), |rating| format!(" ({rating})"));
-            notices.done(format!("The least trouble: {}{rating}.", cell.name()));
+            notices.done(format!("Best method: {}{rating}", cell.name()));
         }
         Some(Err(error)) => notices.problem(NoticeTopic::Transition, error.to_string()),
         None => {}
     }
     if trial.told().is_some() != was_busy {
-        choosing.set_changed();
+        method_search.set_changed();
     }
 }

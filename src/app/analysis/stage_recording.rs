@@ -1,20 +1,20 @@
-//! The film of what is on the stage, recorded and proved beside the window.
+//! Records the transition on the stage and proves properties of its film, in the background.
 //!
-//! What is on the stage plays from the moment it is there; once its film is recorded,
-//! the same frames come from memory. Nothing is drawn anew for it: it is the same film.
-//! Then it is looked at at every t, which the verdict below the stage tells.
+//! The transition can be played at once; when its recording is ready, the same frames are read from
+//! memory and nothing changes on screen. The recording is then checked at every t; the result
+//! appears below the stage.
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
+use crate::app::analysis::is_same;
 use crate::app::analysis::transition_memo::TransitionMemo;
 use crate::app::jobs::allocator::give_back;
 use crate::app::jobs::job::{BackgroundJob, JobError};
 use crate::app::session::state::Session;
-use crate::app::view::is_same;
 use crate::recording::{RecordingError, RecordingOptions};
 use crate::transition::{Transition, TransitionProof};
 
-/// The recording that goes on, or what came of the last one.
+/// The recording in progress, or the result of the last one.
 #[derive(Resource, Debug, Default)]
 pub struct StageRecording {
     options: RecordingOptions,
@@ -22,12 +22,12 @@ pub struct StageRecording {
     job: Option<BackgroundJob<Option<TransitionProof>, RecordingError>>,
     proved: Option<TransitionProof>,
     refused: Option<RecordingError>,
-    /// Of other legs: while a sequence plays they come again and again.
+    /// Results for other segments, which return while a film of several segments plays.
     before: TransitionMemo<TransitionProof>,
 }
 
 impl StageRecording {
-    /// Of films that take so many MiB at most, or as many as they usually may.
+    /// Records with a memory limit in MiB; `None` is the default limit.
     #[must_use]
     pub fn within(mebibytes: Option<usize>) -> Self {
         let usual = RecordingOptions::default();
@@ -41,49 +41,51 @@ impl StageRecording {
         }
     }
 
-    /// Why there is no film of what is on the stage, nor will be.
+    /// Why the transition on the stage cannot be recorded, if so.
     #[must_use]
     pub fn refused(&self) -> Option<&RecordingError> {
         self.refused.as_ref()
     }
 
-    /// What is proved of the film on the stage; none as long as that is not known, and
-    /// of what has no faces.
+    /// Properties proved for the film on the stage; `None` until then, and for methods without a
+    /// mesh.
     #[must_use]
     pub fn proved(&self) -> Option<&TransitionProof> {
         self.proved.as_ref()
     }
 
-    /// What is being done for the film, and how far it is.
+    /// Current stage of the work and progress in it, 0 to 1.
     #[must_use]
     pub fn progress(&self) -> Option<(&'static str, f64)> {
         self.job.as_ref().map(BackgroundJob::progress)
     }
 
-    /// It is being recorded, or proved.
+    /// Whether a recording or proof is in progress.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.job.is_some()
     }
 
+    /// Stores the current proof for later and cancels the recording in progress.
     fn remember(&mut self) {
-        // What was being recorded is given up.
+        // Dropping the job cancels it.
         self.job = None;
         if let Some((of, proved)) = self.of.take().zip(self.proved.take()) {
             self.before.keep(&of, proved);
         }
     }
 
-    /// Whether what is on the stage was there before, and recorded.
+    /// Restores the proof of a transition that is on the stage again; returns whether there was
+    /// one.
     fn recall(&mut self) -> bool {
         self.proved = self.of.as_ref().and_then(|of| self.before.take(of));
         self.proved.is_some()
     }
 }
 
-/// Records whatever is on the stage. A recording of what was there before is given up.
+/// Records every new transition on the stage; a recording of the previous one is cancelled.
 pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
-    // Marked as changed by hand: it is looked at in each frame, and seldom new.
+    // Change detection is set by hand: this system runs each frame but seldom changes anything.
     let now = recording.bypass_change_detection();
     if session.is_changed() && !is_same(now.of.as_ref(), session.transition()) {
         now.remember();
@@ -95,17 +97,17 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
             return;
         }
         now.job = now.of.clone().map(|transition| {
-            BackgroundJob::start("the film", move |progress| {
+            BackgroundJob::start("the recording", move |progress| {
                 let recorded = transition.record(&options, progress);
                 let proved = recorded.and_then(|_| transition.prove(&options, progress));
-                // What was on the stage before is gone by now.
+                // The previous transition has been freed by now.
                 give_back();
                 proved
             })
         });
     }
     if let Some(answer) = BackgroundJob::take(&mut now.job) {
-        // Why there is no film is shown beside the times.
+        // The reason for a missing recording is shown next to the frame times.
         (now.proved, now.refused) = match answer {
             Ok(proved) => (proved, None),
             Err(JobError::Failed(error)) => (None, Some(error)),

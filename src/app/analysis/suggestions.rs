@@ -1,7 +1,8 @@
-//! Where a film goes wrong, tries beside the window what may help, and offers what does.
+//! Suggestions: when the film has defects, tries changes that may help in the background and offers
+//! those that do.
 //!
-//! Each alternative is built as it would be shown and rated as what is on the stage is; only those
-//! with fewer faults are offered, with the faults that they leave.
+//! Each change is built and rated exactly as the film on the stage is. Only changes with fewer
+//! defects are offered, together with the defects that remain.
 
 use std::cmp::Ordering;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -11,68 +12,70 @@ use std::time::{Duration, Instant};
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::analysis::film_measures::{STEPS, StageMeasures};
+use crate::app::analysis::is_same;
 use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::session::state::Session;
-use crate::app::view::is_same;
 use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, PartRule};
 use crate::measure::{FilmRating, FilmReport, film};
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 use crate::transition::{BuildError, DesignFit, Transition, TransitionMethod};
 use crate::warp::WarpKind;
 use crate::work::progress::{Progress, still_wanted};
 
-/// How long the film must have been there: while something is dragged nothing is tried.
+/// Time without changes before suggestions are searched, so that nothing is tried during a drag
+/// (heuristic).
 const CALM: Duration = Duration::from_millis(800);
 
-/// The most that are offered: they stand in one line.
-const MOST: usize = 3;
+/// Maximum number of suggestions (heuristic: they share one line).
+const MAX_SUGGESTIONS: usize = 3;
 
-/// How much more turning and change of area, as shares, an offer may have for fewer faults: with
-/// every part alone a head became a bird without a crossing, and was hardly there in between.
-const MORE_UNREST: f64 = 0.2;
+/// Maximum increase of overshoot (excess turning and change of area, as a fraction) that a
+/// suggestion may cost. Without this limit, letting all parts appear and disappear would be offered
+/// although hardly anything is left halfway (heuristic).
+const MAX_ADDED_OVERSHOOT: f64 = 0.2;
 
-/// What it counts, as such a share, that the target is seen mirrored or turned.
-const OTHER_TARGET: f64 = 0.25;
+/// Penalty, as such a fraction, for mirroring or rotating the target (heuristic).
+const CHANGED_TARGET_PENALTY: f64 = 0.25;
 
-/// Something else that may be asked for.
+/// A change of the settings that may remove defects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SuggestedChange {
-    /// The target mirrored.
+    /// Mirror the target.
     Mirror,
-    /// The target turned counter-clockwise, in degrees.
+    /// Rotate the target counter-clockwise, in degrees.
     Turn(i32),
-    /// The designs laid over each other otherwise.
+    /// Use another placement of the designs relative to each other.
     Frame(DesignFit),
-    /// Holes made otherwise.
+    /// Use another rule for unmatched holes.
     Holes(HoleRule),
-    /// Parts without a partner made otherwise.
+    /// Use another rule for unmatched parts.
     Parts(PartRule),
-    /// Another method.
+    /// Use another method.
     Method(TransitionMethod),
 }
 
-/// An alternative, and how much trouble its film is.
+/// A change and the rating of the film it gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
-    /// What to change.
+    /// The change.
     pub what: SuggestedChange,
-    /// What it comes to.
+    /// Rating of the resulting film.
     pub rating: FilmRating,
 }
 
 impl SuggestedChange {
-    /// What may help with a project: first what leaves the designs as they are.
+    /// Changes to try for a project, in order: first those that leave the designs as they are.
     fn all(loaded: &LoadedProject) -> Vec<Self> {
         let matching = &loaded.project.options.matching;
         let others = PartRule::ALL.into_iter();
         let others = others.filter(|other| *other != matching.parts);
         let mut all: Vec<Self> = others.map(Self::Parts).collect();
         if matching.holes != HoleRule::Auto {
-            // It looks at all of them.
+            // `Auto` includes all other rules.
             all.push(Self::Holes(HoleRule::Auto));
         }
         if loaded.project.fit == DesignFit::AsDrawn {
@@ -91,18 +94,18 @@ impl SuggestedChange {
             Some(*cell) != now && loaded.available(cell.warp(), cell.content()).is_ok()
         };
         all.extend(cells.filter(can).map(Self::Method));
-        // What was said by hand of points of a design holds wherever that lies.
+        // Pins and other points of the designs stay valid, because they move with the target.
         all.push(Self::Mirror);
         all.extend([180, 90, -90].map(Self::Turn));
         all
     }
 
-    /// The target is seen otherwise than it was drawn.
+    /// Whether the target appears mirrored or rotated.
     fn changes_the_target(self) -> bool {
         matches!(self, Self::Mirror | Self::Turn(_))
     }
 
-    /// Makes the change.
+    /// Applies the change to a project.
     pub fn apply(self, project: &mut Project) {
         match self {
             Self::Method(cell) => {
@@ -125,54 +128,59 @@ impl SuggestedChange {
         }
     }
 
-    /// What is done, in a few words.
+    /// Short label of the change.
     #[must_use]
     pub fn words(self) -> String {
         match self {
             Self::Mirror => "Mirror the target".to_owned(),
-            Self::Turn(degrees) => format!("Turn the target by {degrees}°"),
-            Self::Frame(fit) => format!("Frame: {}", fit.name().title.to_lowercase()),
+            Self::Turn(degrees) => format!("Rotate the target by {degrees}°"),
+            Self::Frame(fit) => format!("Placement: {}", fit.name().title.to_lowercase()),
             Self::Holes(holes) => format!("Holes: {}", holes.name().title.to_lowercase()),
-            Self::Parts(parts) => format!("Odd parts: {}", parts.name().title.to_lowercase()),
-            Self::Method(cell) => format!("Take {}", cell.name()),
+            Self::Parts(parts) => format!("Unmatched parts: {}", parts.name().title.to_lowercase()),
+            Self::Method(cell) => format!("Use {}", cell.name()),
         }
     }
 }
 
 impl Suggestion {
-    /// Fewer faults than now, and not at the price of a film that hardly shows anything between.
+    /// Whether the film has fewer defects than the current one, without much more overshoot.
     fn helps(&self, now: &FilmRating) -> bool {
-        let is_calm = self.rating.unrest() <= now.unrest() + MORE_UNREST;
+        let is_calm = self.rating.unrest() <= now.unrest() + MAX_ADDED_OVERSHOOT;
         self.rating.has_fewer_faults_than(now) && is_calm
     }
 
-    /// Which of two is offered first: that with fewer faults; of two alike, that which is calmer,
-    /// unless it shows the target otherwise than it was drawn.
+    /// Order of suggestions: fewer defects first, then less overshoot, with a penalty for showing
+    /// the target differently from how it was drawn.
     fn compare(&self, other: &Self) -> Ordering {
         let fewer = |a: &Self, b: &Self| a.rating.has_fewer_faults_than(&b.rating);
-        let price = |offer: &Self| {
+        let cost = |offer: &Self| {
             let changes = offer.what.changes_the_target();
-            offer.rating.unrest() + if changes { OTHER_TARGET } else { 0.0 }
+            offer.rating.unrest() + if changes { CHANGED_TARGET_PENALTY } else { 0.0 }
         };
         match (fewer(self, other), fewer(other, self)) {
             (true, _) => Ordering::Less,
             (_, true) => Ordering::Greater,
-            _ => price(self).total_cmp(&price(other)),
+            _ => cost(self).total_cmp(&cost(other)),
         }
     }
 }
 
-/// What was tried of the film on the stage.
+/// Suggestions for the film on the stage.
 #[derive(Resource, Debug, Default)]
 pub struct Suggestions {
+    /// The transition on the stage.
     of: Option<Transition>,
+    /// When its film was found to have defects; the search starts after [`CALM`].
     since: Option<Instant>,
     trial: Option<SuggestionJob>,
+    /// Rating of the film on the stage.
     now: Option<FilmRating>,
+    /// Suggestions so far, best first.
     offers: Vec<Suggestion>,
     is_done: bool,
 }
 
+/// A running search; suggestions arrive through the channel.
 #[derive(Debug)]
 struct SuggestionJob {
     job: BackgroundJob<(), ProjectError>,
@@ -180,43 +188,43 @@ struct SuggestionJob {
 }
 
 impl Suggestions {
-    /// What helps, the best first.
+    /// The best suggestions, best first.
     #[must_use]
     pub fn offers(&self) -> &[Suggestion] {
-        &self.offers[..self.offers.len().min(MOST)]
+        &self.offers[..self.offers.len().min(MAX_SUGGESTIONS)]
     }
 
-    /// How much trouble the film on the stage is, as the offers are rated.
+    /// Rating of the film on the stage, comparable with those of the suggestions.
     #[must_use]
     pub fn now(&self) -> Option<FilmRating> {
         self.now
     }
 
-    /// Something is being tried, or is about to be.
+    /// Whether a search is running or about to start.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.trial.is_some() || self.since.is_some()
     }
 
-    /// Something is being tried.
+    /// Whether a search is running.
     #[must_use]
     pub fn is_trying(&self) -> bool {
         self.trial.is_some()
     }
 
-    /// All that may help was tried.
+    /// Whether all changes have been tried.
     #[must_use]
     pub fn is_done(&self) -> bool {
         self.is_done
     }
 
-    /// Tries nothing more.
+    /// Cancels the search and starts no other for this film.
     pub fn stop(&mut self) {
         self.is_done |= self.is_busy();
         (self.trial, self.since) = (None, None);
     }
 
-    /// Tries what may help with what is on the stage, of which this was measured.
+    /// Starts a search for the film on the stage, given its measures.
     fn start(&mut self, session: &Session, film: &FilmReport) {
         self.since = None;
         self.offers.clear();
@@ -226,7 +234,7 @@ impl Suggestions {
             return;
         };
         let (sender, found) = channel();
-        let job = BackgroundJob::start("what helps", move |progress| {
+        let job = BackgroundJob::start("the search for suggestions", move |progress| {
             try_all(&staged, &now, &sender, progress)
         });
         self.trial = Some(SuggestionJob {
@@ -235,12 +243,12 @@ impl Suggestions {
         });
     }
 
-    /// Whether there is anything new.
+    /// Collects new suggestions; returns whether anything is new.
     fn take(&mut self) -> bool {
         let Some(trial) = &self.trial else {
             return false;
         };
-        // Asked first: what it has found by then is there.
+        // Polled before receiving: suggestions sent before the end are then in the channel.
         let is_done = trial.job.poll().is_some();
         let receiver = trial.found.lock().unwrap_or_else(PoisonError::into_inner);
         let found: Vec<Suggestion> = receiver.try_iter().collect();
@@ -256,12 +264,13 @@ impl Suggestions {
     }
 }
 
-/// How much trouble a film is that was looked at as the verdict looks; none of pictures.
+/// Rating from the measures that the check uses; `None` for pictures.
 fn rating(of: &Transition, film: &FilmReport) -> Option<FilmRating> {
     let content = of.cell().content();
     (content != ContentKind::Colours).then(|| FilmRating::of_report(film, content))
 }
 
+/// Builds and rates each change and sends those that help; stops early when enough are flawless.
 fn try_all(
     loaded: &LoadedProject,
     now: &FilmRating,
@@ -274,7 +283,7 @@ fn try_all(
         what.apply(&mut other.project);
         let built = Transition::build(&other.spec()?, progress);
         still_wanted(progress).map_err(BuildError::from)?;
-        // What cannot be built helps nobody.
+        // A change that cannot be built is no suggestion.
         let Ok(built) = built else {
             continue;
         };
@@ -285,24 +294,24 @@ fn try_all(
         let offer = Suggestion { what, rating };
         if offer.helps(now) {
             flawless += usize::from(rating.is_flawless());
-            // Nobody listens any more once it is not wanted.
+            // Sending fails once the search has been cancelled.
             found.send(offer).ok();
         }
-        if flawless >= MOST {
+        if flawless >= MAX_SUGGESTIONS {
             break;
         }
     }
     Ok(())
 }
 
-/// Keeps up with what is on the stage, and takes in what was found.
+/// Restarts the search when the stage changes, and collects suggestions.
 pub fn follow(
     session: Res<Session>,
     measured: Res<StageMeasures>,
-    mut helping: ResMut<Suggestions>,
+    mut suggestions: ResMut<Suggestions>,
 ) {
-    // Marked as changed by hand: it is looked at in each frame, and seldom new.
-    let now = helping.bypass_change_detection();
+    // Change detection is set by hand: this system runs each frame but seldom changes anything.
+    let now = suggestions.bypass_change_detection();
     let was_busy = now.is_busy();
     let transition = session.transition();
     if !is_same(now.of.as_ref(), transition) {
@@ -314,7 +323,7 @@ pub fn follow(
     let faulty = measured
         .measures()
         .filter(|measures| !measures.verdict.is_clear());
-    // A path is led elsewhere: what is tried is of two designs.
+    // Not for a path over the map: the changes apply to a pair of designs.
     let is_pair = session.whole().is_some_and(|whole| !whole.follows_path());
     match faulty.filter(|_| is_pair && session.work().is_none()) {
         None => (now.trial, now.since) = (None, None),
@@ -327,20 +336,20 @@ pub fn follow(
         Some(_) => {}
     }
     if now.take() || now.is_busy() != was_busy {
-        helping.set_changed();
+        suggestions.set_changed();
     }
 }
 
-/// Takes what is offered.
+/// Applies a suggestion chosen by the user.
 pub fn apply(
     mut intents: MessageReader<Intent>,
-    (mut session, helping, gesture): (ResMut<Session>, Res<Suggestions>, Res<Gesture>),
+    (mut session, suggestions, gesture): (ResMut<Session>, Res<Suggestions>, Res<Gesture>),
 ) {
     for intent in intents.read() {
         let Intent::TakeOffer(index) = *intent else {
             continue;
         };
-        if let Some(offer) = helping.offers().get(index) {
+        if let Some(offer) = suggestions.offers().get(index) {
             session.change(gesture.mark(), |project| offer.what.apply(project));
         }
     }

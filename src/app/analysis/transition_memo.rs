@@ -1,9 +1,9 @@
-//! What was found out about transitions that come again.
+//! Cache of results about transitions, for those that return to the stage.
 
 use crate::transition::{Transition, TransitionId};
 
-/// What is known of transitions that somebody still has: of the legs of an open project, and
-/// of nothing that was closed.
+/// Results by transition. An entry lives only while its transition does, so the cache covers the
+/// segments of open projects and nothing that was closed.
 #[derive(Debug)]
 pub struct TransitionMemo<T>(Vec<(TransitionId, T)>);
 
@@ -14,13 +14,13 @@ impl<T> Default for TransitionMemo<T> {
 }
 
 impl<T> TransitionMemo<T> {
-    /// Keeps it as long as that transition is about.
+    /// Stores a result for as long as the transition exists.
     pub fn keep(&mut self, of: &Transition, known: T) {
         self.0.retain(|(id, _)| !id.is_gone());
         self.0.push((of.id(), known));
     }
 
-    /// What was kept of it.
+    /// Removes and returns the result for a transition.
     pub fn take(&mut self, of: &Transition) -> Option<T> {
         let known = self.0.iter().position(|(id, _)| id.is_of(of))?;
         Some(self.0.swap_remove(known).1)
@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn what_comes_again_is_known_once() {
+    fn a_result_is_returned_once() {
         let [one, other] = [transition(), transition()];
         let mut known = TransitionMemo::default();
         known.keep(&one, 1);
@@ -56,12 +56,12 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_kept_alive() {
+    fn the_cache_keeps_no_transition_alive() {
         let mut known = TransitionMemo::default();
         for _ in 0..3 {
             known.keep(&transition(), ());
         }
-        // The last one went after it was kept, and goes with the next.
+        // The last entry lost its transition after it was stored; the next insertion removes it.
         assert_eq!(known.0.len(), 1);
         assert!(known.0[0].0.is_gone());
     }

@@ -1,5 +1,5 @@
-//! Pictures of the blend on the map, which is shown in place of the stage: to a file, or to the
-//! clipboard as pixels or as shapes. Drawn as exports are, so that it needs no frame of the stage.
+//! Saves or copies the blend under the map's marker, while the map is shown in place of the stage.
+//! Drawn by the export code on the CPU, so no rendered frame is needed.
 
 use bevy::prelude::{MessageReader, NonSendMut, Res, ResMut, Single, With};
 use bevy::window::{PrimaryWindow, Window};
@@ -16,7 +16,7 @@ use crate::app::session::state::Session;
 use crate::export::{PixelSize, rasterise, to_svg};
 use crate::stage::StageView;
 
-/// What a picture is taken of, and how.
+/// Everything that determines the image and its resolution.
 type BlendImageInputs<'w> = (
     Res<'w, MapView>,
     Res<'w, Session>,
@@ -24,14 +24,14 @@ type BlendImageInputs<'w> = (
     Res<'w, StageView>,
 );
 
-/// Takes the blend where the stage is asked for and the map is shown.
+/// Takes over image intents while the map is shown.
 pub fn take(
     mut intents: MessageReader<Intent>,
     (map, session, preferences, view): BlendImageInputs,
     window: Single<&Window, With<PrimaryWindow>>,
     (marked, folder): (Res<TextSelected>, Res<CaptureFolder>),
     (mut captures, mut notices): (ResMut<ImageCaptures>, ResMut<Notices>),
-    mut board: NonSendMut<SystemClipboard>,
+    mut clipboard: NonSendMut<SystemClipboard>,
 ) {
     for intent in intents.read() {
         let Some(made) = map.made().filter(|_| map.is_shown) else {
@@ -58,8 +58,8 @@ pub fn take(
         let ground = (!preferences.capture_transparent).then_some(style.ground);
         let drawing = made.drawing(size, &style, ground);
         match intent {
-            Intent::CopyShapes => board.text(to_svg(&drawing), &mut notices),
-            Intent::CopyPicture => board.picture(&rasterise(&drawing), &mut notices),
+            Intent::CopyShapes => clipboard.text(to_svg(&drawing), &mut notices),
+            Intent::CopyPicture => clipboard.picture(&rasterise(&drawing), &mut notices),
             _ => {
                 let name = format!("{}-blend", session.file_stem());
                 captures.write(&folder, &name, rasterise(&drawing).into());

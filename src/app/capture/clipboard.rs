@@ -1,4 +1,4 @@
-//! The stage on the clipboard, as pixels or as shapes.
+//! Copies the stage to the clipboard, as an image or as SVG.
 
 use arboard::{Clipboard, Error, ImageData};
 use bevy::prelude::{MessageReader, NonSendMut, Res, ResMut, Single, With};
@@ -14,12 +14,13 @@ use crate::app::session::state::Session;
 use crate::export::{Camera, PixelSize, PlaneView};
 use crate::stage::StageView;
 
-/// The system's clipboard, from the first time on that something is copied: on some systems what
-/// was copied is there for as long as the program that copied it.
+/// The system's clipboard, opened at the first copy. It must stay open: on some systems the content
+/// is lost with the program that copied it.
 #[derive(Default)]
 pub struct SystemClipboard(Option<Clipboard>);
 
 impl SystemClipboard {
+    /// Applies `put` to the clipboard, opening it if needed.
     fn with(&mut self, put: impl FnOnce(&mut Clipboard) -> Result<(), Error>) -> Result<(), Error> {
         if self.0.is_none() {
             self.0 = Some(Clipboard::new()?);
@@ -27,44 +28,45 @@ impl SystemClipboard {
         self.0.as_mut().map_or(Ok(()), put)
     }
 
-    /// Puts a picture there, and says so.
+    /// Copies an image and reports it.
     pub fn picture(&mut self, image: &RgbaImage, notices: &mut Notices) {
         let picture = ImageData {
             width: image.width() as usize,
             height: image.height() as usize,
             bytes: image.as_raw().into(),
         };
-        tell(
-            self.with(|board| board.set_image(picture)),
-            "Copied as a picture",
+        report(
+            self.with(|clipboard| clipboard.set_image(picture)),
+            "Image copied",
             notices,
         );
     }
 
-    /// Puts an SVG document there, and says so.
+    /// Copies an SVG document as text and reports it.
     pub fn text(&mut self, text: String, notices: &mut Notices) {
-        tell(
-            self.with(|board| board.set_text(text)),
-            "Copied as SVG",
+        report(
+            self.with(|clipboard| clipboard.set_text(text)),
+            "SVG copied",
             notices,
         );
     }
 }
 
-fn tell(went: Result<(), Error>, done: &str, notices: &mut Notices) {
-    match went {
+/// Reports whether copying succeeded.
+fn report(result: Result<(), Error>, done: &str, notices: &mut Notices) {
+    match result {
         Ok(()) => {
             notices.well(NoticeTopic::Picture);
-            notices.done(format!("{done}: paste it where it is wanted."));
+            notices.done(format!("{done} to the clipboard"));
         }
-        Err(error) => notices.problem(NoticeTopic::Picture, format!("It was not copied: {error}.")),
+        Err(error) => notices.problem(NoticeTopic::Picture, format!("Could not copy: {error}")),
     }
 }
 
-/// Copies what the stage shows as an SVG document.
+/// Copies the stage as an SVG document.
 pub fn copy_shapes(
     mut intents: MessageReader<Intent>,
-    mut board: NonSendMut<SystemClipboard>,
+    mut clipboard: NonSendMut<SystemClipboard>,
     mut notices: ResMut<Notices>,
     (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
     map: Res<MapView>,
@@ -89,5 +91,5 @@ pub fn copy_shapes(
         ground: (!preferences.capture_transparent).then_some(style.ground),
         captions: None,
     };
-    board.text(camera.svg(playback.t()), &mut notices);
+    clipboard.text(camera.svg(playback.t()), &mut notices);
 }

@@ -1,4 +1,4 @@
-//! What the film that would be written costs: some frames of it are written to see.
+//! Estimates the size and duration of a film export by exporting a few frames.
 
 use std::time::{Duration, Instant};
 
@@ -11,13 +11,14 @@ use crate::app::jobs::job::BackgroundJob;
 use crate::app::output_files::{CaptureFolder, ScratchFolder};
 use crate::app::session::state::Session;
 
-/// How long nothing must have changed: a slider that is dragged is not followed.
-const CALM: Duration = Duration::from_millis(500);
+/// Time without changes before an estimate starts, so that a dragged slider triggers none
+/// (heuristic).
+const QUIET_TIME: Duration = Duration::from_millis(500);
 
-/// What the cost hangs on, besides the project.
+/// Preferences that the estimate depends on, apart from the project.
 type EstimateKey = (FilmExportOptions, Option<FilmFileFormat>);
 
-/// What the film costs, while its options are open.
+/// Estimate for the current export settings, while they are shown.
 #[derive(Resource, Debug, Default)]
 pub struct ExportEstimate {
     of: Option<EstimateKey>,
@@ -27,45 +28,45 @@ pub struct ExportEstimate {
 }
 
 impl ExportEstimate {
-    /// What it costs, once that is known.
+    /// The estimate, once available.
     #[must_use]
     pub fn cost(&self) -> Option<FilmCost> {
         self.cost
     }
 
-    /// It is being found out.
+    /// Whether an estimate is running or about to start.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.since.is_some() || self.job.is_some()
     }
 }
 
-/// Keeps up with what would be written.
+/// Restarts the estimate when settings change, and collects its result.
 pub fn follow(
     mut estimate: ResMut<ExportEstimate>,
     (session, preferences): (Res<Session>, Res<Preferences>),
     places: (Res<CaptureFolder>, Res<ScratchFolder>),
-    recorder: Res<FilmExporter>,
+    exporter: Res<FilmExporter>,
 ) {
     let is_open = preferences.film_options && preferences.panels;
     let wanted = is_open.then_some((preferences.film, preferences.record_format));
-    // Looked at in each frame; only an answer is a change.
+    // Runs each frame; only a result counts as a change.
     let now = estimate.bypass_change_detection();
     if now.of != wanted || session.is_changed() {
         (now.job, now.cost) = (None, None);
         now.since = wanted.map(|_| Instant::now());
         now.of = wanted;
     }
-    let is_calm = now.since.is_some_and(|since| since.elapsed() >= CALM);
-    // A film that is being written would take twice as long, and so would this.
-    if is_calm && session.work().is_none() && recorder.work().is_none() {
+    let is_calm = now.since.is_some_and(|since| since.elapsed() >= QUIET_TIME);
+    // Not during an export: both would slow each other down and spoil the estimate.
+    if is_calm && session.work().is_none() && exporter.work().is_none() {
         now.since = None;
         now.job = FilmRequest::new(&preferences, &session, (&places.0, &places.1)).map(|order| {
-            BackgroundJob::start("an estimate", move |progress| order.tried(progress))
+            BackgroundJob::start("the export estimate", move |progress| order.tried(progress))
         });
     }
     if let Some(answer) = BackgroundJob::take(&mut now.job) {
-        // Where it fails, writing the film says why.
+        // A failed estimate is not reported; the export itself reports the reason.
         now.cost = answer.ok();
         estimate.set_changed();
     }

@@ -1,4 +1,4 @@
-//! Films of one pass, drawn and written in the background by the same code as on the command line.
+//! Exports films in the background, with the same code as the command line.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,30 +15,31 @@ use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::output_files::{CaptureFolder, ScratchFolder};
 use crate::app::session::state::Session;
 
-/// The recording that is going on, if any.
+/// The film export in progress, if any.
 #[derive(Resource, Debug, Default)]
 pub struct FilmExporter {
     job: Option<BackgroundJob<PathBuf, FilmExportError>>,
     preview: FilmPreview,
 }
 
-/// How long the end of the program waits for a cancelled recording: four times what it is to take.
-const LAST_WAIT: Duration = Duration::from_secs(2);
+/// Maximum time that exiting waits for a cancelled export; four times the expected time (resource
+/// limit).
+const EXIT_WAIT: Duration = Duration::from_secs(2);
 
 impl FilmExporter {
-    /// What is being recorded and how far it is.
+    /// Progress text and progress of the export, 0 to 1.
     #[must_use]
     pub fn work(&self) -> Option<(&'static str, f64)> {
-        self.job.as_ref().map(|job| ("Writing", job.progress().1))
+        self.job.as_ref().map(|job| ("Exporting", job.progress().1))
     }
 
-    /// The frame that it has come to.
+    /// Image of the frame being exported.
     #[must_use]
     pub fn preview(&self) -> Option<Arc<RgbaImage>> {
         self.job.as_ref().and_then(|_| self.preview.get())
     }
 
-    /// Stops the recording; what was begun is taken away.
+    /// Cancels the export; its partial file is deleted.
     pub fn cancel(&self) {
         if let Some(job) = &self.job {
             job.cancel();
@@ -47,52 +48,53 @@ impl FilmExporter {
 }
 
 impl Drop for FilmExporter {
-    /// What was begun is taken away before the program ends.
+    /// Waits until the partial file is deleted before the program ends.
     fn drop(&mut self) {
         self.cancel();
-        let begun = Instant::now();
+        let started = Instant::now();
         while BackgroundJob::take(&mut self.job).is_none()
             && self.job.is_some()
-            && begun.elapsed() < LAST_WAIT
+            && started.elapsed() < EXIT_WAIT
         {
-            std::thread::sleep(LAST_WAIT / 200);
+            std::thread::sleep(EXIT_WAIT / 200);
         }
     }
 }
 
-/// Starts and cancels recordings.
+/// Starts and cancels exports.
 pub fn apply(
     mut intents: MessageReader<Intent>,
-    mut recorder: ResMut<FilmExporter>,
+    mut exporter: ResMut<FilmExporter>,
     mut notices: ResMut<Notices>,
     (session, preferences): (Res<Session>, Res<Preferences>),
-    places: (Res<CaptureFolder>, Res<ScratchFolder>),
+    folders: (Res<CaptureFolder>, Res<ScratchFolder>),
 ) {
-    let new_order = || FilmRequest::new(&preferences, &session, (&places.0, &places.1));
+    let new_request = || FilmRequest::new(&preferences, &session, (&folders.0, &folders.1));
     for intent in intents.read() {
         match intent {
-            // The job stays until it has taken away what it began, and says then that it was
+            // The job remains until it has deleted its partial file, and then reports that it was
             // cancelled.
-            Intent::CancelRecording => recorder.cancel(),
-            Intent::Record | Intent::Compare if recorder.job.is_some() => {
-                notices.done("A file is being written; wait for it, or cancel it first.");
+            Intent::CancelRecording => exporter.cancel(),
+            Intent::Record | Intent::Compare if exporter.job.is_some() => {
+                notices.done("An export is already running. Wait for it, or cancel it first");
             }
             Intent::Compare => {
                 notices.well(NoticeTopic::Film);
-                recorder.preview = FilmPreview::default();
-                if let (Some(order), Some(staged)) = (new_order(), session.staged()) {
-                    recorder.job = Some(BackgroundJob::start("a sheet", move |progress| {
-                        order.compare(&staged, progress)
-                    }));
+                exporter.preview = FilmPreview::default();
+                if let (Some(order), Some(staged)) = (new_request(), session.staged()) {
+                    exporter.job = Some(BackgroundJob::start(
+                        "the comparison sheet",
+                        move |progress| order.compare(&staged, progress),
+                    ));
                 }
             }
             Intent::Record => {
-                // What went wrong with the last one is past: it is tried again.
+                // Problems of the last export are outdated.
                 notices.well(NoticeTopic::Film);
-                recorder.preview = FilmPreview::default();
-                let preview = recorder.preview.clone();
-                recorder.job = new_order().map(|order| {
-                    BackgroundJob::start("a film", move |progress| {
+                exporter.preview = FilmPreview::default();
+                let preview = exporter.preview.clone();
+                exporter.job = new_request().map(|order| {
+                    BackgroundJob::start("the film export", move |progress| {
                         order.carry_out(&preview, progress)
                     })
                 });
@@ -102,9 +104,9 @@ pub fn apply(
     }
 }
 
-/// Says what was written.
-pub fn report(mut recorder: ResMut<FilmExporter>, mut notices: ResMut<Notices>) {
-    match BackgroundJob::take(&mut recorder.job) {
+/// Reports the result of an export.
+pub fn report(mut exporter: ResMut<FilmExporter>, mut notices: ResMut<Notices>) {
+    match BackgroundJob::take(&mut exporter.job) {
         None => {}
         Some(Ok(path)) => notices.wrote(path),
         Some(Err(JobError::Failed(FilmExportError::Cancelled))) => {

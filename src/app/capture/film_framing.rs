@@ -1,4 +1,4 @@
-//! How the film that would be written lies over the stage, while its options are open.
+//! Frame of the film to be exported, drawn over the stage while the export settings are shown.
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
@@ -8,23 +8,23 @@ use crate::export::{FilmSpec, FilmSpecError, PixelSizeError, PlaneView, framing}
 use crate::geometry::Bounds;
 use crate::transition::{Sequence, Timing, TimingError, TransitionStop};
 
-/// The film that would be written; none while nobody asks.
+/// Frame of the film; `None` while the export settings are hidden.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FilmFraming(pub Option<FilmFrameInfo>);
 
-/// The frame of a film, and how long it is.
+/// Frame and length of a film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmFrameInfo {
-    /// What its pictures show.
+    /// Mapping from the plane to the film's pixels.
     pub view: PlaneView,
-    /// How many there are.
+    /// Number of frames.
     pub frames: usize,
-    /// How long it runs, in seconds.
+    /// Duration in seconds.
     pub secs: f64,
 }
 
 impl FilmFrameInfo {
-    /// The part of the plane that is seen.
+    /// Visible section of the plane.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let corners = [glam::DVec2::ZERO, self.view.size().as_dvec2()];
@@ -39,21 +39,21 @@ impl FilmFrameInfo {
 /// Why there is no film.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmFramingError {
-    /// It would begin where it ends.
+    /// The film would have no duration.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// The timing makes none.
+    /// The timing makes no film.
     #[error(transparent)]
     Film(#[from] FilmSpecError),
-    /// It would have no size.
+    /// The film would have no size.
     #[error(transparent)]
     Size(#[from] PixelSizeError),
 }
 
-/// The film of a timing, and what its pictures show: as it is written, and as it is said before.
+/// The film of a timing and its view: the same for the export and for the preview of its frame.
 ///
 /// # Errors
-/// [`FilmFramingError`] where the timing or the size make no film.
+/// [`FilmFramingError`] if the timing or the size makes no film.
 pub fn frame_film(
     sequence: &Sequence,
     (timing, stops): (&Timing, &[TransitionStop]),
@@ -67,7 +67,7 @@ pub fn frame_film(
     Ok((film, view))
 }
 
-/// Keeps up with what would be written.
+/// Updates the frame when the project or the export settings change.
 pub fn follow(
     session: Res<Session>,
     preferences: Res<Preferences>,

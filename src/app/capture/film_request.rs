@@ -1,4 +1,4 @@
-//! Everything that a recording needs, so that the project can change meanwhile.
+//! One film or sheet to export, with everything it needs, so that the project may change meanwhile.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -19,38 +19,38 @@ use crate::export::{
     write_still,
 };
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 use crate::transition::Sequence;
 use crate::work::progress::{Cancelled, Progress};
 
-/// Why a film or a sheet was not written.
+/// Why a film or a sheet was not exported.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmExportError {
-    /// It was not wanted any more.
-    #[error("The recording was cancelled.")]
+    /// Cancelled by the user.
+    #[error("Export cancelled")]
     Cancelled,
-    /// The timing or the size make no film.
+    /// The timing or the size makes no film.
     #[error(transparent)]
     Film(#[from] FilmFramingError),
-    /// There is no such part of it.
+    /// The film has no such section.
     #[error(transparent)]
     Part(#[from] FilmSpecError),
-    /// No file could be made for it.
+    /// The output file could not be created.
     #[error(transparent)]
     File(#[from] CreateFileError),
-    /// The file is none that a film can go to.
+    /// The file type cannot hold a film.
     #[error(transparent)]
     Target(#[from] ExportTargetError),
     /// The sheet would have no size.
     #[error(transparent)]
     Size(#[from] PixelSizeError),
-    /// The settings do not go with the designs.
+    /// The settings do not fit the designs.
     #[error(transparent)]
     Project(#[from] ProjectError),
-    /// There is no place to work in.
+    /// The scratch folder could not be created.
     #[error(transparent)]
     Workshop(#[from] std::io::Error),
-    /// It could not be written.
+    /// Writing failed.
     #[error(transparent)]
     Export(ExportError),
 }
@@ -70,24 +70,24 @@ impl From<ExportError> for FilmExportError {
     }
 }
 
-/// The t of a sheet of all methods.
+/// Number of frames per method on a comparison sheet (heuristic).
 const COLUMNS: usize = 7;
 
-/// How many frames of a film are written to see how long it takes and how large it becomes.
-const TRIED: usize = 12;
+/// Number of frames exported to estimate the duration and size of an export (heuristic).
+const TRIALS: usize = 12;
 
-/// The longer side of the picture that shows how far a film is, in pixels.
+/// Longer side of the progress image, in pixels (heuristic).
 const PREVIEW_PX: f64 = 240.0;
 
-/// How often it is drawn anew.
+/// Minimum interval between progress images (heuristic).
 const PREVIEW_EVERY: Duration = Duration::from_millis(400);
 
-/// The frame that a film has come to.
+/// Image of the frame being exported, shared with the export's thread.
 #[derive(Clone, Debug, Default)]
 pub struct FilmPreview(Arc<Mutex<Option<Arc<RgbaImage>>>>);
 
 impl FilmPreview {
-    /// The picture, once there is one.
+    /// The image, once available.
     #[must_use]
     pub fn get(&self) -> Option<Arc<RgbaImage>> {
         self.0
@@ -97,23 +97,24 @@ impl FilmPreview {
     }
 }
 
-/// What a film costs.
+/// Estimated cost of an export.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmCost {
-    /// Seconds to write it.
+    /// Duration in seconds.
     pub secs: f64,
-    /// Size of the file, or of all of them.
+    /// Size of all files in bytes.
     pub bytes: f64,
 }
 
-/// A film, or a sheet, as it was asked for.
+/// A film or sheet to export.
 #[derive(Clone, Debug)]
 pub struct FilmRequest {
     project: Project,
     sequence: Sequence,
     look: FilmExportOptions,
+    /// Names of the designs along the film.
     names: Vec<String>,
-    /// None where it is transparent.
+    /// Background colour; `None` is transparent.
     ground: Option<Rgb>,
     format: FilmFileFormat,
     folder: PathBuf,
@@ -122,7 +123,7 @@ pub struct FilmRequest {
 }
 
 impl FilmRequest {
-    /// None where nothing is on the stage.
+    /// Captures the current project and settings; `None` if nothing is on the stage.
     #[must_use]
     pub fn new(
         preferences: &Preferences,
@@ -145,7 +146,7 @@ impl FilmRequest {
         })
     }
 
-    /// Writes the film under a name that nothing has yet.
+    /// Exports the film under a free name; returns its path.
     ///
     /// # Errors
     /// There is no film, or it cannot be written; nothing is left of it.
@@ -158,17 +159,17 @@ impl FilmRequest {
         let workshop = self.workshop.begin()?;
         let path = self.path_in(workshop.path(), "film")?;
         let (camera, film) = self.film()?;
-        let watched = PreviewingProgress::new(&camera, &film, preview, progress);
+        let previewing = PreviewingProgress::new(&camera, &film, preview, progress);
         write_film(
             &camera,
             &film,
             &ExportTarget::of_path(&path)?.moving(),
-            &watched,
+            &previewing,
         )?;
         Ok(move_to_free_name(&path, &self.folder, &self.stem)?)
     }
 
-    /// A file of the kind that is asked for, or an empty folder for pictures.
+    /// Path for the export in its format; for PNG images, a new empty folder.
     fn path_in(&self, folder: &Path, name: &str) -> std::io::Result<PathBuf> {
         let path = folder.join(name);
         match self.format {
@@ -180,18 +181,19 @@ impl FilmRequest {
         }
     }
 
-    /// Writes some frames to see what the whole costs.
+    /// Estimates the cost of the export by exporting one frame and [`TRIALS`] frames, and
+    /// extrapolating.
     ///
     /// # Errors
-    /// There is no film, or not even those can be written.
+    /// There is no film, or those frames cannot be written.
     pub fn tried(self, progress: &dyn Progress) -> Result<FilmCost, FilmExportError> {
         let folder = self.workshop.begin()?;
         let (camera, film) = self.film()?;
-        let first = usual(film.times());
+        let first = typical_start(film.times());
         let part = |frames: usize| film.part(first..(first + frames).min(film.times().len()));
         let cost = |film: &FilmSpec, name: &str| -> Result<FilmCost, FilmExportError> {
             let path = self.path_in(folder.path(), name)?;
-            let began = Instant::now();
+            let started = Instant::now();
             write_film(
                 &camera,
                 film,
@@ -199,12 +201,14 @@ impl FilmRequest {
                 progress,
             )?;
             Ok(FilmCost {
-                secs: began.elapsed().as_secs_f64(),
+                secs: started.elapsed().as_secs_f64(),
                 bytes: bytes(&path)? as f64,
             })
         };
-        let (one, some) = (cost(&part(1)?, "one")?, cost(&part(TRIED)?, "some")?);
-        let more = (film.runs().len() - 1) as f64 / (part(TRIED)?.runs().len().max(2) - 1) as f64;
+        let (one, some) = (cost(&part(1)?, "one")?, cost(&part(TRIALS)?, "some")?);
+        // Linear extrapolation from one frame to all distinct frames: the first frame carries the
+        // fixed costs.
+        let more = (film.runs().len() - 1) as f64 / (part(TRIALS)?.runs().len().max(2) - 1) as f64;
         let whole = |one: f64, some: f64| one + (some - one).max(0.0) * more;
         Ok(FilmCost {
             secs: whole(one.secs, some.secs),
@@ -212,7 +216,7 @@ impl FilmRequest {
         })
     }
 
-    /// One pass; where it plays to and fro, the way back too, so that it can be looped.
+    /// Camera and film; a ping-pong film includes the way back, so that it can loop.
     fn film(&self) -> Result<(Camera, FilmSpec), FilmExportError> {
         let (style, stops) = (self.project.style, &self.project.stops);
         let timing = (&self.project.timing, stops.as_slice());
@@ -225,16 +229,17 @@ impl FilmRequest {
             sequence: self.sequence.clone(),
             style,
             view,
+            // A file type without transparency gets the background colour in any case.
             ground: self.ground.or(is_opaque.then_some(style.ground)),
             captions: self.look.layout.has_captions.then_some(captions),
         };
         Ok((camera, film))
     }
 
-    /// A sheet of every method by which the pair can be seen.
+    /// Exports a comparison sheet: one row for each method that suits the pair.
     ///
     /// # Errors
-    /// There is none, or it cannot be written.
+    /// No method suits, or the sheet cannot be written.
     pub fn compare(
         self,
         staged: &LoadedProject,
@@ -242,7 +247,7 @@ impl FilmRequest {
     ) -> Result<PathBuf, FilmExportError> {
         check_writable(&self.folder)?;
         let rows = MethodRow::all(&staged.spec()?, progress)?;
-        // Of the two designs that are looked at, from one to the other.
+        // A segment is compared over all of it; a whole project over its film's range.
         let timing = &staged.project.timing;
         let times = if staged.is_leg() {
             even_times(0.0, 1.0, COLUMNS)
@@ -258,23 +263,23 @@ impl FilmRequest {
     }
 }
 
-/// Where the frames that are tried begin: where each moves on, as fast as frames do on average; at
-/// rest, or fast, they would tell little of the whole.
-fn usual(times: &[f64]) -> usize {
+/// Index of the first trial frame: a section in which every frame moves, at close to the average
+/// speed. Resting or fast sections would be unrepresentative.
+fn typical_start(times: &[f64]) -> usize {
     let moves: Vec<f64> = times
         .windows(2)
         .map(|two| (two[1] - two[0]).abs())
         .collect();
     let moving = moves.iter().filter(|way| **way > 0.0).count();
     let mean = moves.iter().sum::<f64>() / moving.max(1) as f64;
-    let tried = moves.windows(TRIED - 1).enumerate();
+    let tried = moves.windows(TRIALS - 1).enumerate();
     let moving = tried.filter(|(_, ways)| ways.iter().all(|way| *way > 0.0));
-    let beside = |ways: &[f64]| (ways.iter().sum::<f64>() / ways.len() as f64 - mean).abs();
-    let usual = moving.min_by(|(_, a), (_, b)| beside(a).total_cmp(&beside(b)));
-    usual.map_or(0, |(first, _)| first)
+    let deviation = |ways: &[f64]| (ways.iter().sum::<f64>() / ways.len() as f64 - mean).abs();
+    let typical = moving.min_by(|(_, a), (_, b)| deviation(a).total_cmp(&deviation(b)));
+    typical.map_or(0, |(first, _)| first)
 }
 
-/// The size of a file, or of all files of a folder.
+/// Size of a file, or of all files in a folder, in bytes.
 fn bytes(path: &Path) -> std::io::Result<u64> {
     if !path.is_dir() {
         return Ok(path.metadata()?.len());
@@ -286,12 +291,12 @@ fn bytes(path: &Path) -> std::io::Result<u64> {
     Ok(all)
 }
 
-/// Passes on how far a film is, and now and then draws where it is.
+/// Forwards progress and occasionally draws the current frame.
 struct PreviewingProgress<'a> {
     camera: Camera,
     times: &'a [f64],
     preview: &'a FilmPreview,
-    /// When it was drawn last.
+    /// Time of the last drawn image.
     drawn: Mutex<Option<Instant>>,
     progress: &'a dyn Progress,
 }
@@ -326,7 +331,7 @@ impl<'a> PreviewingProgress<'a> {
 impl Progress for PreviewingProgress<'_> {
     fn report(&self, stage: &'static str, fraction: f64) {
         self.progress.report(stage, fraction);
-        // Where another thread draws already, that will do.
+        // If another thread is drawing already, skip.
         let Ok(mut drawn) = self.drawn.try_lock() else {
             return;
         };
@@ -358,18 +363,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_tried_moves_as_the_film_does() {
+    fn trial_frames_move_at_average_speed() {
         let rest = [0.0; 20];
         let slow = (1..=20).map(|k| f64::from(k) * 0.001);
         let even = (1..=50).map(|k| 0.02 + f64::from(k) * 0.01);
         let times: Vec<f64> = rest.into_iter().chain(slow).chain(even).collect();
-        let first = usual(&times);
-        let moves = times[first + TRIED - 1] - times[first];
+        let first = typical_start(&times);
+        let moves = times[first + TRIALS - 1] - times[first];
         let mean = (times[times.len() - 1] - times[0]) / 70.0;
         assert!(
-            (moves / (TRIED - 1) as f64 - mean).abs() < 0.5 * mean,
+            (moves / (TRIALS - 1) as f64 - mean).abs() < 0.5 * mean,
             "{first}"
         );
-        assert_eq!([usual(&rest), usual(&[]), usual(&[0.0, 1.0])], [0; 3]);
+        assert_eq!(
+            [
+                typical_start(&rest),
+                typical_start(&[]),
+                typical_start(&[0.0, 1.0])
+            ],
+            [0; 3]
+        );
     }
 }

@@ -1,7 +1,7 @@
-//! Pictures of the stage and of the whole window.
+//! Saves images of the stage and of the whole window.
 //!
-//! A picture is drawn by the graphics card, encoded and written on a thread of its own; that it
-//! was written, or why not, is said on screen. Nothing is ever overwritten.
+//! The graphics card renders an image; a background job encodes and writes it, and a notice reports
+//! the result. Existing files are never overwritten.
 
 use std::collections::HashMap;
 use std::io::Write;
@@ -24,10 +24,10 @@ use crate::app::playback::player::Playback;
 use crate::app::session::state::Session;
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 
-/// The longer side of a 4K picture in pixels.
+/// Longer side of a 4K image, in pixels.
 const FOUR_K_PX: f32 = 3840.0;
 
-/// Pictures that are being taken or written.
+/// Images being rendered or written.
 #[derive(Resource, Debug, Default)]
 pub struct ImageCaptures {
     next_id: u64,
@@ -35,32 +35,32 @@ pub struct ImageCaptures {
     writing: Vec<BackgroundJob<PathBuf, SaveImageError>>,
 }
 
-/// Where a picture of the stage goes.
+/// Destination of a rendered image of the stage.
 #[derive(Debug)]
 enum ImageDestination {
-    /// To a file of this name.
+    /// A new file with this name.
     File(String),
-    /// To the clipboard.
+    /// The clipboard.
     Board,
 }
 
-/// Why a picture was not written.
+/// Why an image was not saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveImageError {
-    /// No file could be made for it.
+    /// The file could not be created.
     #[error(transparent)]
     File(#[from] CreateFileError),
-    /// It could not be encoded or written.
-    #[error("{} was not written: {error}", path.display())]
+    /// The image could not be encoded or written.
+    #[error("cannot write {}: {error}", path.display())]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What went wrong.
+        /// The error.
         error: ImageError,
     },
 }
 
-/// Asks the stage, or the window, for a picture.
+/// Requests an image of the stage or the window.
 pub fn ask(
     mut intents: MessageReader<Intent>,
     mut captures: ResMut<ImageCaptures>,
@@ -71,7 +71,7 @@ pub fn ask(
     (view, window): (Res<StageView>, Single<&Window, With<PrimaryWindow>>),
 ) {
     for intent in intents.read() {
-        // Named now: the picture comes some frames later, when t has moved on.
+        // Named now, because the image arrives some frames later, when t has moved on.
         let name = format!("{}-t{:.3}", session.file_stem(), playback.t());
         let wish = match intent {
             Intent::Screenshot { with_panels: true } => {
@@ -80,7 +80,7 @@ pub fn ask(
                     .observe(window_captured(name));
                 continue;
             }
-            // Of the blend there: see `blends`.
+            // The map's blend is handled by `blend_image`.
             _ if map.is_shown => continue,
             Intent::Screenshot { with_panels: false } => ImageDestination::File(name),
             Intent::CopyPicture if !marked.0 => ImageDestination::Board,
@@ -101,7 +101,7 @@ pub fn ask(
     }
 }
 
-/// How many pixels a picture of what is seen has.
+/// Resolution of an image of the visible stage.
 pub fn size_px(view: &StageView, scale_factor: f32, scale: ImageScale) -> UVec2 {
     let on_screen = view.viewport_px * scale_factor;
     let factor = match scale {
@@ -112,6 +112,7 @@ pub fn size_px(view: &StageView, scale_factor: f32, scale: ImageScale) -> UVec2 
     (on_screen * factor).round().as_uvec2().max(UVec2::ONE)
 }
 
+/// Observer that saves an image of the window.
 fn window_captured(
     name: String,
 ) -> impl FnMut(On<ScreenshotCaptured>, ResMut<ImageCaptures>, ResMut<Notices>, Res<CaptureFolder>)
@@ -121,38 +122,39 @@ fn window_captured(
         .clone()
         .try_into_dynamic()
     {
-        // The alpha of a window says nothing about what is seen in it.
+        // The alpha channel of a window has no meaning for the image.
         Ok(image) => captures.write(&folder, &name, image.to_rgb8().into()),
         Err(error) => notices.problem(
             NoticeTopic::Picture,
-            format!("The picture of the window was not taken: {error}"),
+            format!("Could not capture the window: {error}"),
         ),
     }
 }
 
 impl ImageCaptures {
-    /// A picture of the stage is awaited, which takes frames.
+    /// Whether an image is still being rendered, which takes frames.
     pub fn is_awaited(&self) -> bool {
         !self.awaited.is_empty()
     }
 
-    /// A picture is being written.
+    /// Whether an image is being written.
     pub fn is_writing(&self) -> bool {
         !self.writing.is_empty()
     }
 
-    /// Writes a picture of this name into the folder, beside the window.
+    /// Writes an image with this name to the folder, in the background.
     pub fn write(&mut self, folder: &CaptureFolder, name: &str, image: DynamicImage) {
         let (folder, name) = (folder.0.clone(), name.to_owned());
         self.writing
-            .push(BackgroundJob::start("a picture", move |_| {
+            .push(BackgroundJob::start("the image", move |_| {
                 save(&folder, &name, &image)
             }));
     }
 }
 
+/// Encodes an image as PNG and writes it to a new file.
 fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, SaveImageError> {
-    // Encoded first: from its first moment to its last, the file is there for a moment only.
+    // Encoded before the file is created, so that it is incomplete only for a moment.
     let mut encoded = std::io::Cursor::new(Vec::new());
     let encoding = image.write_to(&mut encoded, ImageFormat::Png);
     let (mut file, path) = create_new(folder, name, "png")?;
@@ -164,12 +166,12 @@ fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, Save
     keep_if_written(path, written)
 }
 
-/// Takes pictures from the stage.
+/// Receives rendered images of the stage.
 pub fn receive(
     mut answers: MessageReader<StageCaptured>,
     mut captures: ResMut<ImageCaptures>,
     mut notices: ResMut<Notices>,
-    mut board: NonSendMut<SystemClipboard>,
+    mut clipboard: NonSendMut<SystemClipboard>,
     folder: Res<CaptureFolder>,
 ) {
     for answer in answers.read() {
@@ -180,13 +182,13 @@ pub fn receive(
             (Ok(image), ImageDestination::File(name)) => {
                 captures.write(&folder, &name, image.clone().into())
             }
-            (Ok(image), ImageDestination::Board) => board.picture(image, &mut notices),
+            (Ok(image), ImageDestination::Board) => clipboard.picture(image, &mut notices),
             (Err(error), _) => notices.problem(NoticeTopic::Picture, error.clone()),
         }
     }
 }
 
-/// Says what was written.
+/// Reports images that were saved.
 pub fn report(mut captures: ResMut<ImageCaptures>, mut notices: ResMut<Notices>) {
     captures.bypass_change_detection().writing.retain(|job| {
         match job.poll() {

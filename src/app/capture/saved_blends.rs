@@ -1,4 +1,4 @@
-//! The places of the map that are kept, written as files beside the window.
+//! Exports the map's saved blends to files, in the background.
 
 use std::path::PathBuf;
 
@@ -13,14 +13,14 @@ use crate::app::output_files::{CaptureFolder, CreateFileError, create_new_folder
 use crate::app::session::state::Session;
 use crate::export::{Catalogue, CatalogueOrder, ExportError};
 
-/// What is being written.
+/// The export of saved blends, while it runs.
 #[derive(Resource, Debug, Default)]
 pub struct SavedBlendsExport(Option<BackgroundJob<PathBuf, SavedBlendsError>>);
 
-/// Why kept places were not written.
+/// Why the saved blends were not exported.
 #[derive(Debug, thiserror::Error)]
 pub enum SavedBlendsError {
-    /// There is no folder for them.
+    /// Their folder cannot be created.
     #[error(transparent)]
     Folder(#[from] CreateFileError),
     /// A file could not be written.
@@ -29,17 +29,17 @@ pub enum SavedBlendsError {
 }
 
 impl SavedBlendsExport {
-    /// Something is being written.
+    /// Whether an export is running.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.0.is_some()
     }
 }
 
-/// Writes what is kept where that is asked for, and tells that it was written.
+/// Starts the export on request and reports its result.
 pub fn export(
     mut intents: MessageReader<Intent>,
-    mut cataloguing: ResMut<SavedBlendsExport>,
+    mut export_job: ResMut<SavedBlendsExport>,
     (map, session, preferences): (Res<MapView>, Res<Session>, Res<Preferences>),
     folder: Res<CaptureFolder>,
     mut notices: ResMut<Notices>,
@@ -54,14 +54,14 @@ pub fn export(
         let style = session.style();
         let ground = (!preferences.capture_transparent).then_some(style.ground);
         let (folder, stem) = (folder.0.clone(), format!("{}-kept", session.file_stem()));
-        cataloguing.0 = Some(BackgroundJob::start("the kept blends", move |progress| {
+        export_job.0 = Some(BackgroundJob::start("the saved blends", move |progress| {
             let to = create_new_folder(&folder, &stem)?;
             let catalogue = Catalogue::new((&space, &map), &kept, 0, CatalogueOrder::Kept);
             catalogue.write(&space, (&style, ground), &to, progress)?;
             Ok(to.join("catalogue.png"))
         }));
     }
-    match BackgroundJob::take(&mut cataloguing.bypass_change_detection().0) {
+    match BackgroundJob::take(&mut export_job.bypass_change_detection().0) {
         None => {}
         Some(Ok(sheet)) => notices.wrote(sheet),
         Some(Err(error)) => notices.problem(NoticeTopic::Picture, error.to_string()),

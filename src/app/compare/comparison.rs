@@ -1,8 +1,8 @@
-//! The twin view: the same designs at the same t by a second method, beside the first.
+//! Comparison: the same designs at the same t by a second method, shown to the right of the stage.
 //!
-//! The second transition is an entity on the stage like the first, on a render layer of its own
-//! that a camera of its own shows. It is built beside the window, from the same settings but for
-//! the method; where the stage shows that method already, it is the same transition.
+//! The second transition is an entity on a render layer of its own, seen by a camera of its own. It
+//! is built in the background with the same settings except for the method; if the stage already
+//! uses that method, its transition is shared.
 
 use bevy::prelude::{
     Component, DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource,
@@ -18,12 +18,12 @@ use crate::transition::{Transition, TransitionMethod};
 use crate::warp::homotopy::Homotopy;
 use crate::work::progress::Progress;
 
-/// What stands beside the stage.
+/// The comparison and the work on it.
 #[derive(Resource, Debug, Default)]
 pub struct Comparison {
-    /// It is shown.
+    /// Whether the comparison is shown.
     pub is_shown: bool,
-    /// By which method, once one was chosen.
+    /// Method chosen by the user; `None` uses the default for the content.
     pub method: Option<ComparisonMethod>,
     settings: Option<Project>,
     job: Option<BackgroundJob<Transition, TransitionProblem>>,
@@ -31,36 +31,37 @@ pub struct Comparison {
     problem: Option<JobError<TransitionProblem>>,
 }
 
-/// The entity that is beside the stage.
+/// Marks the entity of the compared transition.
 #[derive(Component, Debug)]
 pub struct OnComparison;
 
 impl Comparison {
-    /// What is beside the stage.
+    /// The compared transition.
     #[must_use]
     pub fn transition(&self) -> Option<&Transition> {
         self.transition.as_ref()
     }
 
-    /// Why there is nothing beside the stage.
+    /// Why the compared transition could not be built.
     #[must_use]
     pub fn problem(&self) -> Option<&JobError<TransitionProblem>> {
         self.problem.as_ref()
     }
 
-    /// It is being built.
+    /// Whether it is being built.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.job.is_some()
     }
 
-    /// The method beside a project: what was chosen, or else the plainest.
+    /// Method compared with a project: the user's choice or the default.
     #[must_use]
     pub fn method_beside(&self, project: &Project) -> ComparisonMethod {
         self.method
             .unwrap_or(ComparisonMethod::plainest(project.content))
     }
 
+    /// Discards the compared transition; keeps the user's choices.
     fn forget(&mut self) {
         *self = Self {
             is_shown: self.is_shown,
@@ -69,6 +70,7 @@ impl Comparison {
         };
     }
 
+    /// Starts building the comparison if the settings on the stage, or the method, have changed.
     fn follow(&mut self, session: &Session) {
         let Some(staged) = session.staged() else {
             self.forget();
@@ -77,24 +79,24 @@ impl Comparison {
         let now = staged.project.clone();
         let mut wanted = staged;
         set(self.method_beside(&now), &mut wanted.project);
-        // Also where that came to nothing: the same settings would fail the same way.
+        // A failed build is not repeated: the same settings would fail the same way.
         if self.settings.as_ref() == Some(&wanted.project) {
             return;
         }
-        // What is shown stays until the new one is there, as on the stage.
+        // The old transition stays until the new one is ready, as on the stage.
         self.settings = Some(wanted.project.clone());
         self.problem = None;
         if wanted.project == now {
             self.job = None;
             self.transition = session.transition().cloned();
         } else {
-            self.job = Some(BackgroundJob::start("the second method", move |progress| {
+            self.job = Some(BackgroundJob::start("the comparison", move |progress| {
                 built(&wanted, progress)
             }));
         }
     }
 
-    /// Whether something was taken in.
+    /// Collects the result; returns whether there was one.
     fn take(&mut self) -> bool {
         let Some(answer) = BackgroundJob::take(&mut self.job) else {
             return false;
@@ -107,6 +109,7 @@ impl Comparison {
     }
 }
 
+/// Builds the transition to compare with, if the designs support its method.
 fn built(
     project: &LoadedProject,
     progress: &dyn Progress,
@@ -118,46 +121,46 @@ fn built(
     transition_of(project, progress)
 }
 
-/// Acts on the intents that concern the twin view.
-pub fn apply(mut intents: MessageReader<Intent>, mut twin: ResMut<Comparison>) {
+/// Applies the intents that concern the comparison.
+pub fn apply(mut intents: MessageReader<Intent>, mut comparison: ResMut<Comparison>) {
     for intent in intents.read() {
         match intent {
-            Intent::ToggleTwin => twin.is_shown = !twin.is_shown,
-            Intent::TwinMethod(method) => twin.method = Some(*method),
+            Intent::ToggleTwin => comparison.is_shown = !comparison.is_shown,
+            Intent::TwinMethod(method) => comparison.method = Some(*method),
             _ => {}
         }
     }
 }
 
-/// Builds what is to be beside the stage and takes it in.
-pub fn follow(session: Res<Session>, mut twin: ResMut<Comparison>) {
-    let is_new = session.is_changed() || twin.is_changed();
-    let now = twin.bypass_change_detection();
+/// Builds the comparison and collects the result.
+pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
+    let is_new = session.is_changed() || comparison.is_changed();
+    let now = comparison.bypass_change_detection();
     let is_taken = now.take();
     if !now.is_shown {
-        // Once: what is forgotten each frame would be new each frame.
+        // Only once: resetting it each frame would report a change each frame.
         if now.settings.is_some() {
             now.forget();
-            twin.set_changed();
+            comparison.set_changed();
         }
         return;
     }
-    // While the first is being built, what the second is held against is about to change.
+    // While the stage's transition is being built, the settings to compare with are about to
+    // change.
     if is_new && session.work().is_none() {
-        twin.follow(&session);
+        comparison.follow(&session);
     } else if is_taken {
-        twin.set_changed();
+        comparison.set_changed();
     }
 }
 
-/// The settings of a project, by this method.
+/// Sets a project to this method.
 fn set(method: ComparisonMethod, project: &mut Project) {
     let cell = method.cell();
     (project.warp, project.content) = (Some(cell.warp()), Some(cell.content()));
     match method {
         ComparisonMethod::Straight => {
-            // Linear local maps are those of straight lines, and no others: what is as rigid
-            // as possible then is the straight lines themselves.
+            // With linear local maps, the ARAP solution is exactly straight lines.
             project.options.arap.homotopy = Homotopy::Linear;
             project.options.arap.extra_turns.clear();
         }

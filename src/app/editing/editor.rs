@@ -1,4 +1,5 @@
-//! How the match editor is looked at, and what the hand holds in it.
+//! State of the match editor: tool, selection, what the pointer is over or drags, and the views of
+//! its panes.
 
 use bevy::prelude::Resource;
 
@@ -6,75 +7,75 @@ use crate::app::editing::panes::EditorPanes;
 use crate::app::input::editor_action::EditorTool;
 use crate::geometry::{DVec2, Side};
 
-/// What the hand can hold.
+/// Something that the user can select or drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EditorHandle {
-    /// A pin, by its number in the project.
+    /// A pin, by its index in the project.
     Pin(usize),
-    /// A point that was matched without being asked for, by its number on the sheet.
+    /// An automatically matched point, by its index on the sheet.
     Feature(usize),
-    /// An end of a cut, by its number on the sheet.
+    /// An end of a cut, by the cut's index on the sheet.
     Cut(usize, CutEnd),
-    /// An end of a line, 0 or 1, by the line's number in the project.
+    /// End 0 or 1 of a line, by the line's index in the project.
     Line(usize, usize),
 }
 
-/// An end of a cut.
+/// One of the two ends of a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CutEnd {
-    /// That on the boundary around the hole.
+    /// The end on the boundary around the hole.
     Outer,
-    /// That on the hole.
+    /// The end on the hole.
     Hole,
 }
 
-/// What the hand holds.
+/// The object being dragged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EditorGrab {
-    /// A pin, by its number in the project.
+    /// A pin, by its index in the project.
     Pin(usize),
-    /// A point that becomes a pin as soon as it moves.
+    /// An automatic point, by its index on the sheet; becomes a pin when it moves.
     Feature(usize),
-    /// A cut that becomes one of the project's as soon as it moves, by its number on the sheet.
+    /// An automatic cut, by its index on the sheet; becomes one of the project's when it moves.
     FoundCut(usize, CutEnd),
-    /// A cut, by its number in the project.
+    /// A cut, by its index in the project.
     Cut(usize, CutEnd),
-    /// An end of a line, by the line's number in the project.
+    /// End 0 or 1 of a line, by the line's index in the project.
     Line(usize, usize),
-    /// A line that is drawn as soon as the hand moves, from here.
+    /// A new line from this point; created when the pointer moves.
     NewLine(DVec2),
-    /// The second end, on both sides, of a line that is being drawn.
+    /// The second end of a new line, in both designs.
     Stretch(usize),
-    /// The view.
+    /// The view of a pane.
     View,
 }
 
-/// How the sheet is looked at, and what the hand does with it.
+/// State of the match editor.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct MatchEditor {
-    /// The editor is shown in place of the stage.
+    /// Whether the editor is shown in place of the stage.
     pub is_open: bool,
-    /// What a click does.
+    /// The selected tool.
     pub tool: EditorTool,
-    /// Pins snap to corners.
+    /// Whether pins snap to corners.
     pub snaps: bool,
-    /// The triangles are shown.
+    /// Whether the triangles of the mesh are shown.
     pub triangles: bool,
-    /// What is under the pointer.
+    /// The handle under the pointer.
     pub hovered: Option<EditorHandle>,
-    /// The boundary under the pointer and what it is matched with: source and target.
+    /// The boundary point under the pointer and its match: source and target.
     pub trace: Option<[DVec2; 2]>,
-    /// The part under the pointer while parts are being paired.
+    /// The part under the pointer, while the tool pairs parts: design and index.
     pub part: Option<(Side, usize)>,
-    /// What was clicked last.
+    /// The handle that was clicked last.
     pub selected: Option<EditorHandle>,
-    /// What the hand holds, and on which side.
+    /// The object being dragged, and the design in which the drag started.
     pub grabbed: Option<(Side, EditorGrab)>,
-    /// The first of two parts that are to be paired, with the point that names it.
+    /// The first of two parts being paired: design, index, and the point that was clicked.
     pub first_part: Option<(Side, usize, DVec2)>,
-    /// Why the last act came to nothing.
+    /// Why the last action had no effect.
     pub refusal: Option<&'static str>,
-    /// How the designs and the film are looked at.
+    /// Views of the designs and the film.
     pub panes: EditorPanes,
 }
 
@@ -98,19 +99,20 @@ impl Default for MatchEditor {
 }
 
 impl MatchEditor {
-    /// A handle is under the pointer, or is what was clicked last.
+    /// Whether a handle is hovered or selected.
     #[must_use]
     pub fn is_lit(&self, handle: EditorHandle) -> bool {
         [self.hovered, self.selected].contains(&Some(handle))
     }
 
-    /// The film is shown beside the designs.
+    /// Whether the film is shown next to the designs.
     #[must_use]
     pub fn shows_film(&self) -> bool {
         self.is_open && self.panes.film
     }
 
-    /// Leaves what was entered last; `false` where there is nothing to leave.
+    /// Handles Esc: drops a half-made pair of parts, or closes the editor; returns `false` if
+    /// neither applies.
     pub fn back(&mut self) -> bool {
         if self.first_part.take().is_some() {
             return true;

@@ -1,23 +1,23 @@
-//! What found points and parts are called: letters, and those of points stay with them while
-//! others come and go.
+//! Labels of automatically matched points and of parts. Points keep their letter while other points
+//! appear or disappear.
 //!
-//! Pins have numbers, those of the project, which messages name.
+//! Pins are labelled with their number in the project, which messages refer to.
 
 use crate::correspondence::PointPair;
 
-/// A point is the same as before where one of its ends lies no farther away than this share of the
-/// designs: the match that a pin has changed moves points a little along their outline.
+/// Maximum distance, as a fraction of the designs' size, at which a point counts as the same as
+/// before: a new pin shifts matched points slightly along the outline (heuristic).
 pub const SAME: f64 = 0.02;
 
-/// The letters of `points`, 0 for a: those of the points before that are the same, within `reach`,
-/// and for the others the first that none had.
+/// Letter indices of `points`, 0 for a. A point within `reach` of an earlier one keeps its letter;
+/// the others get the first letters that are free.
 #[must_use]
 pub fn stable_letters(
     points: &[PointPair],
     before: &[(PointPair, usize)],
     reach: f64,
 ) -> Vec<usize> {
-    // What kept its source is the same before what kept its target.
+    // Points that agree in the source take precedence over those that agree in the target.
     let mut pairs: Vec<(bool, f64, usize, usize)> = Vec::new();
     for (k, point) in points.iter().enumerate() {
         for (other, letter) in before {
@@ -37,26 +37,28 @@ pub fn stable_letters(
             letters[k] = Some(letter);
         }
     }
-    // None that was just read beside another point.
-    let was_there = |letter: &usize| before.iter().any(|(_, other)| other == letter);
-    let mut free = (0..).filter(|letter| !was_there(letter));
+    // Letters just used for other points are not reused, to avoid confusion.
+    let was_used = |letter: &usize| before.iter().any(|(_, other)| other == letter);
+    let mut free = (0..).filter(|letter| !was_used(letter));
     let own = letters.into_iter();
     own.map(|letter| letter.or_else(|| free.next()).unwrap_or_default())
         .collect()
 }
 
-/// What a point is called: a to z, and then a2, b2 …
+/// Label of a point: a to z, then a2, b2 …
 #[must_use]
 pub fn of_point(number: usize) -> String {
     letter(number, b'a')
 }
 
-/// What a part is called: A to Z, and then A2, B2 …
+/// Label of a part: A to Z, then A2, B2 …
 #[must_use]
 pub fn of_part(number: usize) -> String {
     letter(number, b'A')
 }
 
+/// Letter number `number` of the alphabet that starts at `first`; after the last, the letters
+/// repeat with 2, 3 and so on.
 fn letter(number: usize, first: u8) -> String {
     let letter = char::from(first + (number % 26) as u8);
     match number / 26 {

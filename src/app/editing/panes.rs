@@ -1,28 +1,18 @@
-//! How the panes of the editor are looked at: both designs, and the film between them.
+//! Views of the editor's panes: pan and zoom of both designs and of the film between them.
 
 use bevy::prelude::Vec2;
 
-use crate::geometry::Side;
+use crate::app::input::editor_action::EditorPane;
 
-/// The least and the most that a pane is enlarged: bounds that keep a slip of the wheel from
-/// losing the design. No test needs these very numbers.
-const ZOOMS: [f32; 2] = [0.2, 100.0];
+/// Minimum and maximum zoom (heuristic: prevents losing the design by a slip of the wheel).
+const ZOOM_RANGE: [f32; 2] = [0.2, 100.0];
 
-/// What is seen of a design or of the film.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EditorPane {
-    /// One of the designs.
-    Design(Side),
-    /// The film between them.
-    Film,
-}
-
-/// How far a pane was moved and enlarged from where all of it is seen.
+/// Pan and zoom of a pane, relative to fitting all of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaneView {
-    /// How far it was moved, in logical pixels, y down.
+    /// Offset in logical pixels, y down.
     pub pan: Vec2,
-    /// How much larger than fitted.
+    /// Zoom factor.
     pub zoom: f32,
 }
 
@@ -40,8 +30,8 @@ impl PaneView {
         if !(factor.is_finite() && factor > 0.0) {
             return;
         }
-        let zoom = (self.zoom * factor).clamp(ZOOMS[0], ZOOMS[1]);
-        // What lies under `at` is (at - pan) / zoom from the middle, before and after.
+        let zoom = (self.zoom * factor).clamp(ZOOM_RANGE[0], ZOOM_RANGE[1]);
+        // The point under `at` is (at − pan) / zoom from the centre, before and after.
         self.pan = at + (self.pan - at) * (zoom / self.zoom);
         self.zoom = zoom;
     }
@@ -50,9 +40,9 @@ impl PaneView {
 /// The panes of the editor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EditorPanes {
-    /// The film is shown beside the designs.
+    /// Whether the film is shown next to the designs.
     pub film: bool,
-    /// What is done to one pane is done to all.
+    /// Whether all panes pan and zoom together.
     pub together: bool,
     views: [PaneView; 3],
     moved_last: EditorPane,
@@ -70,18 +60,18 @@ impl Default for EditorPanes {
 }
 
 impl EditorPanes {
-    /// How a pane is looked at.
+    /// View of a pane.
     #[must_use]
     pub fn view(&self, pane: EditorPane) -> PaneView {
         self.views[index(pane)]
     }
 
-    /// Shows all of everything again.
+    /// Fits all panes again.
     pub fn fit(&mut self) {
         self.views = [PaneView::default(); 3];
     }
 
-    /// Lets all go together, as the one that was moved last, or each alone.
+    /// Links all panes, adopting the view moved last, or unlinks them.
     pub fn set_together(&mut self, together: bool) {
         self.together = together;
         if together {
@@ -89,20 +79,22 @@ impl EditorPanes {
         }
     }
 
-    /// Moves a pane, or all.
+    /// Pans a pane, or all if they are linked.
     pub fn pan(&mut self, pane: EditorPane, delta: Vec2) {
         for view in self.moved(pane) {
             view.pan += delta;
         }
     }
 
-    /// Enlarges a pane, or all, about a point given in logical pixels from its middle, y down.
+    /// Zooms a pane, or all if they are linked, about a point in logical pixels from its centre, y
+    /// down.
     pub fn zoom_at(&mut self, pane: EditorPane, at: Vec2, factor: f32) {
         for view in self.moved(pane) {
             view.zoom_at(at, factor);
         }
     }
 
+    /// Views affected by moving a pane: all of them if they are linked.
     fn moved(&mut self, pane: EditorPane) -> &mut [PaneView] {
         self.moved_last = pane;
         if self.together {
@@ -113,6 +105,7 @@ impl EditorPanes {
     }
 }
 
+/// Index of a pane's view.
 fn index(pane: EditorPane) -> usize {
     match pane {
         EditorPane::Design(side) => side.index(),
@@ -124,10 +117,11 @@ fn index(pane: EditorPane) -> usize {
 mod tests {
     use super::*;
 
+    /// Pane of the source design.
     const SOURCE: EditorPane = EditorPane::Design(Side::Source);
 
     #[test]
-    fn what_is_under_the_pointer_stays_there() {
+    fn zooming_fixes_the_point_under_the_pointer() {
         let mut panes = EditorPanes::default();
         let at = Vec2::new(30.0, -12.0);
         panes.zoom_at(SOURCE, at, 2.0);
@@ -139,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn panes_go_together_or_apart() {
+    fn panes_move_linked_or_separately() {
         let mut panes = EditorPanes {
             together: false,
             ..EditorPanes::default()

@@ -1,77 +1,82 @@
-//! The times of parts, as they are said piece by piece.
+//! Time windows of parts, edited piece by piece.
 //!
-//! The project names a part by a point of a design. A piece is named in the design in which its
-//! part is no other piece's, so that what is said of one half of a part that splits is not said of
-//! the other.
+//! The project identifies a part by a point of a design. A piece is identified in a design in which
+//! it is the only piece of its part; so setting the time of one half of a part that splits does not
+//! affect the other half.
 
 use crate::app::editing::polyline;
 use crate::app::editing::sheet::MatchSheet;
 use crate::app::editing::sheet_ring::SheetRing;
 use crate::geometry::{Bounds, DVec2, Side};
-use crate::settings::choice::named;
-use crate::time::easing::EasingFunction;
+use crate::settings::named;
+use crate::time::EasingFunction;
 use crate::transition::PartTime;
 use crate::warp::PartClock;
 
-/// How much of the film a part takes when parts set out one after the other.
-const SHARE: f64 = 0.5;
+/// Fraction of the film that each part takes when parts start one after the other (heuristic).
+const PART_DURATION: f64 = 0.5;
 
-/// In which order parts set out.
+/// Order in which parts start one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StaggerOrder {
-    /// The leftmost first.
+    /// The leftmost part first.
     LeftToRight,
-    /// The highest first.
+    /// The topmost part first.
     TopToBottom,
-    /// What is nearest to the middle first.
+    /// The part nearest to the centre first.
     FromTheMiddle,
 }
 
 named! { StaggerOrder {
-    LeftToRight: "left-to-right", "Left to right", "The leftmost part sets out first";
-    TopToBottom: "top-to-bottom", "Top to bottom", "The highest part sets out first";
-    FromTheMiddle: "from-the-middle", "From the middle", "The part nearest to the middle sets out first";
+    LeftToRight: "left-to-right", "Left to right", "Leftmost part starts first";
+    TopToBottom: "top-to-bottom", "Top to bottom", "Topmost part starts first";
+    FromTheMiddle: "from-the-middle", "From the centre", "Part nearest to the centre starts first";
 } }
 
-/// For each piece its time, by the number in the project: the last that was said.
+/// For each piece, the index of its time window in the project; later entries win.
 #[must_use]
 pub fn time_of_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Option<usize>> {
-    let mut said = vec![None; sheet.pieces.len()];
+    let mut time_of_piece = vec![None; sheet.pieces.len()];
     for (k, named) in named_pieces(sheet, times).into_iter().enumerate() {
         for piece in named {
-            said[piece] = Some(k);
+            time_of_piece[piece] = Some(k);
         }
     }
-    said
+    time_of_piece
 }
 
-/// Says when a piece makes its way, and forgets what was said of it, but not of others; the clock
-/// of the whole need not be said.
+/// Sets the time window of one piece and leaves other pieces unchanged. The whole film is the
+/// default and needs no entry.
 pub fn set(sheet: &MatchSheet, times: &mut Vec<PartTime>, piece: usize, clock: PartClock) {
-    let said = time_of_pieces(sheet, times);
+    let time_of_piece = time_of_pieces(sheet, times);
     let named_by = named_pieces(sheet, times);
-    let is_forgotten = |k: usize| named_by[k].contains(&piece);
-    // What goes with it was said of other pieces of its part too.
-    let others = said.iter().enumerate().filter_map(|(other, time)| {
-        let time = (*time).filter(|&k| other != piece && is_forgotten(k))?;
-        named(sheet, other, times[time].clock())
-    });
+    let is_removed = |k: usize| named_by[k].contains(&piece);
+    // Removed entries may also apply to other pieces of the same part, which get entries of their
+    // own.
+    let others = time_of_piece
+        .iter()
+        .enumerate()
+        .filter_map(|(other, time)| {
+            let time = (*time).filter(|&k| other != piece && is_removed(k))?;
+            named(sheet, other, times[time].clock())
+        });
     let others: Vec<PartTime> = others.collect();
     let mut number = 0..times.len();
-    times.retain(|_| !number.next().is_some_and(is_forgotten));
+    times.retain(|_| !number.next().is_some_and(is_removed));
     times.extend(others);
     if clock != PartClock::WHOLE {
         times.extend(named(sheet, piece, clock));
     }
 }
 
-/// All pieces, one after the other.
+/// Time windows that let all pieces start one after the other.
 #[must_use]
 pub fn staggered(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime> {
     let middle = |k: usize| sheet.pieces[k].at[side_of(sheet, k)];
     let count = sheet.pieces.len();
     let sum: DVec2 = (0..count).map(middle).sum();
     let centre = sum / count.max(1) as f64;
+    // Smaller ranks start earlier; y points up.
     let rank = |k: usize| match order {
         StaggerOrder::LeftToRight => middle(k).x,
         StaggerOrder::TopToBottom => -middle(k).y,
@@ -80,11 +85,12 @@ pub fn staggered(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime> {
     let mut pieces: Vec<usize> = (0..count).collect();
     pieces.sort_by(|a, b| rank(*a).total_cmp(&rank(*b)));
     let time = |(place, piece): (usize, usize)| {
-        let step = (1.0 - SHARE) / (count.max(2) - 1) as f64;
+        // The last piece starts just early enough to end with the film.
+        let step = (1.0 - PART_DURATION) / (count.max(2) - 1) as f64;
         let from = rounded(step * place as f64);
         let clock = PartClock {
             from,
-            to: rounded(from + SHARE),
+            to: rounded(from + PART_DURATION),
             easing: EasingFunction::default(),
         };
         named(sheet, piece, clock)
@@ -92,12 +98,12 @@ pub fn staggered(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime> {
     pieces.into_iter().enumerate().filter_map(time).collect()
 }
 
-/// To a thousandth, within the film.
+/// Rounds to a thousandth, within the film.
 fn rounded(t: f64) -> f64 {
     (t.clamp(0.0, 1.0) * 1000.0).round() / 1000.0
 }
 
-/// A piece's time, by a point of its own.
+/// Time window of a piece, identified by a point of it.
 fn named(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Option<PartTime> {
     let side = side_of(sheet, piece);
     let at = sheet.by[side]
@@ -113,10 +119,10 @@ fn named(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Option<PartTime>
     })
 }
 
-/// The design in which a piece is named.
+/// The design in which a piece is identified.
 fn side_of(sheet: &MatchSheet, piece: usize) -> Side {
     let own = &sheet.pieces[piece].parts;
-    let is_alone_in = |side: &Side| {
+    let is_only_piece_in = |side: &Side| {
         let same = sheet
             .pieces
             .iter()
@@ -125,15 +131,15 @@ fn side_of(sheet: &MatchSheet, piece: usize) -> Side {
     };
     let has = |side: &Side| own[*side].is_some();
     let sides = Side::BOTH.into_iter();
-    let found = sides
+    let identifying = sides
         .clone()
-        .find(is_alone_in)
+        .find(is_only_piece_in)
         .or_else(|| sides.clone().find(has));
-    found.unwrap_or(Side::Source)
+    identifying.unwrap_or(Side::Source)
 }
 
-/// The pieces that each time is of: those of the part that its point is in, the uppermost of
-/// several, or nearest to.
+/// For each time window, the pieces it applies to: those of the topmost part that contains its
+/// point, or else of the nearest part.
 fn named_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
     let mut of_pieces: Vec<Vec<&SheetRing>> = vec![Vec::new(); sheet.pieces.len()];
     for ring in &sheet.rings {
@@ -162,9 +168,11 @@ fn named_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
         };
         let part = |k: usize| sheet.pieces[k].parts[side];
         let holding = (0..of_pieces.len()).filter(is_in);
+        // The part with the largest index is painted last and so lies on top.
         let Some(named) = holding.max_by_key(|&k| part(k)).or_else(nearest) else {
             return Vec::new();
         };
+        // A time set for a part applies to all its pieces.
         let is_of_part = |&k: &usize| k == named || (part(k).is_some() && part(k) == part(named));
         (0..of_pieces.len()).filter(is_of_part).collect()
     };
@@ -176,7 +184,7 @@ mod tests {
     use super::*;
     use crate::app::editing::sheet::{PieceFate, SheetPiece};
     use crate::correspondence::{MatchSettings, RingKind};
-    use crate::time::easing::NamedEasing;
+    use crate::time::NamedEasing;
     use crate::transition::PaintRule;
     use crate::work::progress::Silent;
 
@@ -205,6 +213,7 @@ mod tests {
         }
     }
 
+    /// Second half of the film.
     const LATE: PartClock = PartClock {
         from: 0.5,
         to: 1.0,
@@ -212,7 +221,7 @@ mod tests {
     };
 
     #[test]
-    fn a_piece_of_a_part_that_splits_has_a_time_of_its_own() {
+    fn each_half_of_a_split_part_has_its_own_time() {
         let (sheet, mut times) = (sheet(), Vec::new());
         set(&sheet, &mut times, 1, LATE);
         assert_eq!(time_of_pieces(&sheet, &times), [None, Some(0), None]);
@@ -222,12 +231,12 @@ mod tests {
     }
 
     #[test]
-    fn what_is_said_of_a_part_is_said_of_its_pieces() {
+    fn the_time_of_a_part_applies_to_its_pieces() {
         let sheet = sheet();
         let mut time = named(&sheet, 0, LATE).expect("a piece");
         time.side = Side::Source;
         assert_eq!(time_of_pieces(&sheet, &[time]), [Some(0), Some(0), None]);
-        // The other half keeps what was said of both.
+        // The other half keeps the window that was set for both.
         let mut times = vec![time];
         set(&sheet, &mut times, 1, PartClock::WHOLE);
         assert_eq!(time_of_pieces(&sheet, &times), [Some(0), None, None]);
@@ -235,11 +244,13 @@ mod tests {
     }
 
     #[test]
-    fn parts_set_out_in_order_and_the_last_arrives_at_the_end() {
+    fn parts_start_in_order_and_the_last_ends_with_the_film() {
         let sheet = sheet();
         let times = staggered(&sheet, StaggerOrder::LeftToRight);
-        let said = time_of_pieces(&sheet, &times).into_iter();
-        let clocks: Vec<PartClock> = said.map(|k| times[k.expect("a time")].clock()).collect();
+        let time_of_piece = time_of_pieces(&sheet, &times).into_iter();
+        let clocks: Vec<PartClock> = time_of_piece
+            .map(|k| times[k.expect("a time")].clock())
+            .collect();
         let starts: Vec<f64> = clocks.iter().map(|clock| clock.from).collect();
         assert_eq!(starts, [0.0, 0.25, 0.5]);
         assert_eq!(clocks[2].to, 1.0);
@@ -248,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_upon_others_has_a_time_of_its_own() {
+    fn a_part_on_top_of_others_has_its_own_time() {
         let loaded = crate::project::gallery::load("day-to-night").expect("a project");
         let film = loaded.legs()[0].build(&Silent).expect("a film");
         let designs = [0, 1].map(|k| &*loaded.designs[k]);

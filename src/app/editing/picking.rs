@@ -1,4 +1,4 @@
-//! What is under the hand.
+//! Picking in the match editor: which handle, boundary or corner is under the pointer.
 
 use crate::app::editing::editor::{CutEnd, EditorGrab, EditorHandle};
 use crate::app::editing::sheet::{MatchSheet, SheetCut};
@@ -7,7 +7,7 @@ use crate::correspondence::RingCut;
 use crate::geometry::{DVec2, Side, SourceTarget};
 
 impl MatchSheet {
-    /// Where a handle is on one side; none where it is on the other side only.
+    /// Position of a handle in one design; `None` if it exists only in the other.
     #[must_use]
     pub fn place(&self, handle: EditorHandle, side: Side) -> Option<DVec2> {
         match handle {
@@ -24,15 +24,14 @@ impl MatchSheet {
         }
     }
 
-    /// A cut as it is to be drawn: where the hand wants it while the hand holds it, and otherwise
-    /// where it was made.
+    /// The cut to draw: where the user wants it while it is dragged, otherwise where it was made.
     #[must_use]
     pub fn drawn(&self, cut: &SheetCut, grab: Option<EditorGrab>) -> RingCut {
-        let is_held = matches!(grab, Some(EditorGrab::Cut(k, _)) if cut.asked == Some(k));
-        cut.wanted.filter(|_| is_held).unwrap_or(cut.cut)
+        let is_dragged = matches!(grab, Some(EditorGrab::Cut(k, _)) if cut.asked == Some(k));
+        cut.wanted.filter(|_| is_dragged).unwrap_or(cut.cut)
     }
 
-    /// All handles; what lies above comes first.
+    /// All handles, topmost first.
     pub fn handles(&self) -> impl Iterator<Item = EditorHandle> {
         let cuts = (0..self.cuts.len()).flat_map(|k| {
             [
@@ -50,27 +49,27 @@ impl MatchSheet {
             .chain(features)
     }
 
-    /// The handle that the hand points to.
+    /// Nearest handle within the pointer's reach.
     #[must_use]
     pub fn handle_at(&self, touch: EditorPointer) -> Option<EditorHandle> {
         let within = self.handles().filter_map(|handle| {
             let distance = self.place(handle, touch.side)?.distance(touch.at);
             (distance <= touch.reach).then_some((distance, handle))
         });
-        // The first of equals: `min_by` keeps it.
+        // Of equals, `min_by` returns the first, which is topmost.
         within
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, handle)| handle)
     }
 
-    /// Where a pin comes to lie: on the boundary, or anywhere where pins are
-    /// free.
+    /// Where a new or moved pin lands: on a corner or the boundary, or exactly here if pins may lie
+    /// anywhere.
     #[must_use]
     pub fn landing(&self, touch: EditorPointer, snaps: bool) -> Option<DVec2> {
         if self.in_colours() {
             return Some(touch.at);
         }
-        // A corner wins over the boundary that it lies on.
+        // A corner wins over the boundary it lies on.
         let corner = (snaps && !touch.is_free)
             .then(|| self.corner(touch.side, touch.at, touch.reach))
             .flatten();
@@ -83,7 +82,7 @@ impl MatchSheet {
         corner.or_else(on_boundary)
     }
 
-    /// The boundary under the hand and what it is matched with: source and target.
+    /// The boundary point under the pointer and its match: source and target.
     #[must_use]
     pub fn trace(&self, touch: EditorPointer) -> Option<[DVec2; 2]> {
         if self.is_free() {

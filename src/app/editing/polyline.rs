@@ -1,30 +1,30 @@
-//! Small geometry of closed polylines: what is near a pointer, and how far along it lies.
+//! Geometry of closed polylines: nearest points, corners, inside tests, arc-length positions.
 //!
-//! Rings are lists of points, closed from the last to the first. All distances are those of the
-//! frame that both designs lie in.
+//! Rings are lists of points, closed from the last to the first. Distances are measured in the
+//! frame that both designs are placed in.
 
 use crate::geometry::{DVec2, nearest_segment_parameter};
 
-/// A vertex that turns by more than this, in radians, is a corner that pins snap to: curves are
-/// flattened to smaller turns.
-const CORNER: f64 = 0.44;
+/// Minimum turn of a vertex, in radians, that counts as a corner to snap to; flattened curves turn
+/// less (heuristic).
+const MIN_CORNER_TURN: f64 = 0.44;
 
-/// A place on one of several rings.
+/// The nearest point on a set of rings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestRingPoint {
-    /// Which ring.
+    /// Index of the ring.
     pub ring: usize,
-    /// The vertex that the edge starts from.
+    /// Index of the vertex where the edge starts.
     pub edge: usize,
-    /// How far along the edge, 0 to 1.
+    /// Position along the edge, 0 to 1.
     pub along: f64,
-    /// Where that is.
+    /// The point.
     pub point: DVec2,
-    /// How far from the point that was asked about.
+    /// Distance from the query point.
     pub distance: f64,
 }
 
-/// The nearest place on any of the rings.
+/// Returns the nearest point on any of the rings.
 pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option<NearestRingPoint> {
     let mut best: Option<NearestRingPoint> = None;
     for (ring, points) in rings.enumerate() {
@@ -47,31 +47,31 @@ pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option
     best
 }
 
-/// Whether the rings, taken together, wind around a point an odd number of times.
+/// Whether a point lies inside the rings by the even–odd rule.
 pub fn encloses<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> bool {
     crossings(rings, p.y).filter(|x| *x > p.x).count() % 2 == 1
 }
 
-/// Where a line across the rings at the height of `y` lies inside, from left to right.
+/// Intervals of x in which the horizontal line at `y` lies inside the rings, from left to right.
 pub fn spans<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> Vec<[f64; 2]> {
     let mut xs: Vec<f64> = crossings(rings, y).collect();
     xs.sort_by(f64::total_cmp);
-    // Closed rings cross a height an even number of times: in, out, in, out.
+    // Closed rings cross a line an even number of times: in, out, in, out.
     xs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
-/// Where edges of the rings cross the height of `y`.
+/// The x at which edges of the rings cross the horizontal line at `y`.
 fn crossings<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> impl Iterator<Item = f64> {
     let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
     edges
-        // Half open: a vertex at this height counts once, and level edges, which would divide by 0
-        // below, do not count.
+        // Half-open: a vertex at this height counts once. Horizontal edges, which would divide by
+        // zero below, are excluded.
         .filter(move |(a, b)| (a.y > y) != (b.y > y))
         .map(move |(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
 }
 
-/// A point inside the rings where a word can stand: in the widest place at their middle height
-/// that none of what lies `above` covers. None where all of it is covered.
+/// A point inside the rings where a label fits: in the widest interval, near middle height, that no
+/// shape in `above` covers. `None` if everything is covered.
 pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2> {
     let ys = || rings.iter().flat_map(|ring| ring.iter().map(|p| p.y));
     let low = ys().reduce(f64::min)?;
@@ -79,49 +79,50 @@ pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2>
     let widest = |shares: &[f64]| {
         let free = shares.iter().flat_map(|share| {
             let y = low + share * (high - low);
-            let mut left = spans(rings.iter().copied(), y);
+            let mut remaining = spans(rings.iter().copied(), y);
             for cover in above {
                 for covered in spans(cover.iter().map(Vec::as_slice), y) {
-                    left = without(left, covered);
+                    remaining = subtract(remaining, covered);
                 }
             }
-            left.into_iter()
+            remaining
+                .into_iter()
                 .map(move |[a, b]| (b - a, DVec2::new(0.5 * (a + b), y)))
         });
         free.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at)
     };
-    // Where the middle runs along an edge or through a hole, another height has more room; what
-    // is nearly covered shows at few heights.
+    // If the middle runs along an edge or through a hole, another height has more room; nearly
+    // covered shapes are visible at few heights only.
     let many: [f64; 31] = std::array::from_fn(|k| (k + 1) as f64 / 32.0);
     widest(&[0.5, 0.4, 0.6, 0.25, 0.75]).or_else(|| widest(&many))
 }
 
-/// What is left of stretches of a line outside of another.
-fn without(stretches: Vec<[f64; 2]>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+/// Parts of intervals outside another interval.
+fn subtract(stretches: Vec<[f64; 2]>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let rests = |[a, b]: [f64; 2]| [[a, b.min(from)], [a.max(to), b]];
     let rests = stretches.into_iter().flat_map(rests);
     rests.filter(|[a, b]| a < b).collect()
 }
 
-/// The corners of a ring.
+/// Corners of a ring.
 pub fn corners(points: &[DVec2]) -> Vec<DVec2> {
     let n = points.len();
     (0..n)
         .filter(|&k| {
             let (before, here, after) = (points[(k + n - 1) % n], points[k], points[(k + 1) % n]);
-            turn(here - before, after - here).abs() > CORNER
+            turn(here - before, after - here).abs() > MIN_CORNER_TURN
         })
         .map(|k| points[k])
         .collect()
 }
 
-/// The angle from one direction to another, in (−π, π]; 0 where one of them is none.
+/// Angle from one direction to another, in (−π, π]; 0 if either is zero.
 pub fn turn(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }
 
-/// How far along its ring each vertex lies, as a share of the whole, from 0 at the first, and the
-/// length of the whole.
+/// Arc-length position of each vertex as a fraction of the ring, from 0 at the first, and the total
+/// length.
 pub fn places(points: &[DVec2]) -> (Vec<f64>, f64) {
     let mut places = Vec::with_capacity(points.len());
     let mut length = 0.0;
@@ -135,14 +136,14 @@ pub fn places(points: &[DVec2]) -> (Vec<f64>, f64) {
     (places, length)
 }
 
-/// The point at a place, a share of the whole that wraps round.
+/// The point at an arc-length position, a fraction that wraps round.
 ///
 /// # Panics
-/// There are no points.
+/// If there are no points.
 pub fn point_at(points: &[DVec2], places: &[f64], place: f64) -> DVec2 {
     let place = place.rem_euclid(1.0);
     let next = places.partition_point(|p| *p <= place);
-    // The first place is 0, so there is always one before.
+    // The first position is 0, so there is always one before.
     let k = next.saturating_sub(1);
     let end = places.get(next).copied().unwrap_or(1.0);
     let gap = end - places[k];
@@ -192,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_covered_in_its_middle_is_seen_beside() {
+    fn a_label_avoids_covered_heights() {
         let square = square();
         let cover = |from: f64, to: f64| {
             let corners = [(0.0, from), (2.0, from), (2.0, to), (0.0, to)];

@@ -1,4 +1,4 @@
-//! Lays the sheet out of what is open and what is on the stage.
+//! Rebuilds the match sheet from the open project and the transition on the stage.
 
 use bevy::prelude::{DetectChanges, Local, Res, ResMut};
 
@@ -8,21 +8,21 @@ use crate::app::session::load::TransitionProblem;
 use crate::app::session::state::Session;
 use crate::transition::Transition;
 
-/// Lays the sheet out anew where the project, its transition or the editor is another.
+/// Rebuilds the sheet when the project or its transition changes, or when the editor opens.
 pub fn refresh(
     session: Res<Session>,
     mut editor: ResMut<MatchEditor>,
     mut sheet: ResMut<MatchSheet>,
     mut was_open: Local<bool>,
 ) {
-    // A closed one too: the panel lists its parts.
+    // Also while the editor is closed, because a panel lists the parts.
     let is_opened = editor.is_open && !*was_open;
     *was_open = editor.is_open;
     if !(is_opened || session.is_changed()) {
         return;
     }
     let mut laid_out = MatchSheet::of(&session);
-    // Points of other designs are others, though they lie where these were.
+    // Points of other designs are different even if they coincide with earlier ones.
     let before = std::mem::take(&mut *sheet);
     let is_same = !is_opened && before.sides == laid_out.sides;
     laid_out.call(is_same.then_some(&before));
@@ -36,18 +36,19 @@ pub fn refresh(
 }
 
 impl MatchSheet {
-    /// The designs of the stage side by side, and how they go together.
+    /// Sheet of the designs on the stage and their match.
     #[must_use]
     pub fn of(session: &Session) -> Self {
         Self::laid_out(session).unwrap_or_default()
     }
 
+    /// As [`Self::of`]; `None` if there are not exactly two designs.
     fn laid_out(session: &Session) -> Option<Self> {
         let (project, staged) = (session.project()?, session.staged()?);
         let [source, target] = staged.designs.as_slice() else {
             return None;
         };
-        // As the stage has it and not as the settings are by now: the match is that of the stage.
+        // Placement as on the stage, not as in newer settings: the match belongs to the stage.
         let by = staged.arrangement().ok()?;
         let transition = session.transition();
         let matched = transition.and_then(Transition::matched);
@@ -55,7 +56,7 @@ impl MatchSheet {
             faulty: session
                 .problem()
                 .map_or_else(Vec::new, TransitionProblem::pins),
-            // But what pins are for is as the settings are: the tools change with the method at
+            // The content is that of the newest settings, so that tools change with the method at
             // once.
             content: project.content,
             ..Self::new(
@@ -67,7 +68,7 @@ impl MatchSheet {
             )
         };
         if sheet.is_free() {
-            // Once one is set none is found; the stage may still show the old ones.
+            // The user's first pin disables automatic ones, while the stage may still show them.
             let is_bare = sheet.pins.is_empty() && sheet.lines.is_empty();
             let shown = transition.filter(|_| is_bare);
             sheet.features = shown.map_or_else(Vec::new, |t| t.automatic_pins().to_vec());

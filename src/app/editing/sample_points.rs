@@ -1,28 +1,28 @@
-//! The few corresponding points that the editor shows of a match: corners of both sides, spread
-//! out, none near a pin.
+//! Selects a few automatically matched points to show in the editor: corners of both designs,
+//! spread out, and away from pins.
 
 use crate::app::editing::polyline;
 use crate::app::editing::sheet_ring::SheetRing;
 use crate::correspondence::{PointPair, RingKind};
 use crate::geometry::DVec2;
 
-/// How many points are shown of all rings together, more or less: enough to tell a shift along the
-/// boundary, few enough for their numbers not to cover it.
-const MANY: f64 = 12.0;
+/// Approximate number of points shown on all rings together: enough to notice a shift along the
+/// boundary, few enough for their labels not to cover it (heuristic).
+const TOTAL_POINTS: f64 = 12.0;
 
-/// The least that are shown of a ring: the share of a small one may be none.
-const FEW: usize = 2;
+/// Minimum number of points on each ring, because the share of a small ring may round to none
+/// (heuristic).
+const MIN_PER_RING: usize = 2;
 
-/// A corner is what turns over this share of the ring before and after it: a rounded one counts,
-/// and what was flattened from a curve hardly does.
-const REACH: f64 = 0.03;
+/// Distance before and after a vertex over which its turn is measured, as a fraction of the ring:
+/// rounded corners count, flattened curves hardly do (heuristic).
+const TURN_REACH: f64 = 0.03;
 
-/// What a place that is no corner counts for, against one for a reversal on both sides: above 0,
-/// so that a circle gets points too, and far below the half of a square's corner.
-const PLAIN: f64 = 0.02;
+/// Score of a vertex that is no corner; a reversal of direction on both sides scores 1. Above 0, so
+/// that circles get points too, and well below the ½ of a square's corner (heuristic).
+const BASE_SCORE: f64 = 0.02;
 
-/// Chooses points of the matched rings; places nearer to a pin than to the next point are left
-/// free.
+/// Selects points of the matched rings, keeping a distance from pins and from each other.
 pub fn chosen(rings: &[SheetRing], pins: &[PointPair]) -> Vec<PointPair> {
     let lengths: Vec<f64> = rings.iter().map(SheetRing::length).collect();
     let total: f64 = lengths.iter().sum();
@@ -31,33 +31,34 @@ pub fn chosen(rings: &[SheetRing], pins: &[PointPair]) -> Vec<PointPair> {
         if ring.kind != RingKind::Matched || total <= 0.0 {
             continue;
         }
-        let count = (MANY * length / total).round() as usize;
-        features.extend(of_ring(ring, count.max(FEW), pins));
+        let count = (TOTAL_POINTS * length / total).round() as usize;
+        features.extend(choose_on_ring(ring, count.max(MIN_PER_RING), pins));
     }
     features
 }
 
-/// The best vertex, again and again, where those far from what is there count more.
-fn of_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair> {
+/// Selects vertices greedily: the highest score, weighted by the distance to those selected and to
+/// pins.
+fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair> {
     let scores = scores(ring);
     let mut taken: Vec<f64> = pins.iter().filter_map(|pin| ring.place_of(pin)).collect();
-    // Half the gap that there would be if all lay at even distances on the ring of length 1.
+    // Half the gap between points if all were evenly spaced, as a fraction of the ring.
     let room = 0.5 / (count + taken.len()) as f64;
     let mut vertices = Vec::new();
     for _ in 0..count {
-        let weighed = ring.places.iter().enumerate().map(|(k, place)| {
-            let near = taken.iter().map(|other| apart(*place, *other));
+        let weighted = ring.places.iter().enumerate().map(|(k, place)| {
+            let near = taken.iter().map(|other| ring_distance(*place, *other));
             let distance = near.fold(1.0, f64::min);
             let value = if distance < room {
                 0.0
             } else {
-                // Beyond three times the room it is far enough, and the sharper corner wins.
+                // Beyond three times that distance, only the sharper corner counts.
                 scores[k] * (distance / room).min(3.0)
             };
             (value, k)
         });
-        // The first of equals, so that a shape shows the same points each time.
-        let Some((value, k)) = weighed.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))
+        // Ties go to the first vertex, so that a shape always shows the same points.
+        let Some((value, k)) = weighted.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))
         else {
             break;
         };
@@ -75,21 +76,21 @@ fn of_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair>
     vertices.into_iter().map(pair).collect()
 }
 
-/// The way between two places on a round of length 1.
-fn apart(a: f64, b: f64) -> f64 {
+/// Distance between two places on a closed ring of length 1.
+fn ring_distance(a: f64, b: f64) -> f64 {
     let gap = (a - b).abs();
     gap.min(1.0 - gap)
 }
 
-/// How much of a corner each vertex is, on both sides together.
+/// Corner score of each vertex, summed over both sides.
 fn scores(ring: &SheetRing) -> Vec<f64> {
-    let mut scores = vec![PLAIN; ring.places.len()];
+    let mut scores = vec![BASE_SCORE; ring.places.len()];
     for points in &ring.sides {
         let (places, _) = polyline::places(points);
         for (k, score) in scores.iter_mut().enumerate() {
             let step = |by: f64| -> DVec2 { polyline::point_at(points, &places, places[k] + by) };
-            let turn = polyline::turn(points[k] - step(-REACH), step(REACH) - points[k]);
-            // A reversal is half a turn, so on both sides together it comes to 1.
+            let turn = polyline::turn(points[k] - step(-TURN_REACH), step(TURN_REACH) - points[k]);
+            // A reversal turns by π, so both sides together score 1.
             *score += turn.abs() / std::f64::consts::TAU;
         }
     }
@@ -101,7 +102,7 @@ mod tests {
     use super::*;
 
     fn ring() -> SheetRing {
-        // A square with three points on each edge besides its corners.
+        // A square with three extra points on each edge.
         let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(DVec2::from);
         let points: Vec<DVec2> = (0..16)
             .map(|k| corners[k / 4].lerp(corners[(k / 4 + 1) % 4], (k % 4) as f64 / 4.0))
@@ -111,19 +112,19 @@ mod tests {
 
     #[test]
     fn corners_come_first() {
-        let found = of_ring(&ring(), 4, &[]);
+        let found = choose_on_ring(&ring(), 4, &[]);
         let points: Vec<DVec2> = found.iter().map(|pair| pair.source).collect();
         let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(DVec2::from);
         assert_eq!(points, corners);
     }
 
     #[test]
-    fn nothing_is_shown_next_to_a_pin() {
+    fn no_point_is_shown_near_a_pin() {
         let pin = PointPair {
             source: DVec2::new(4.0, 0.5),
             target: DVec2::new(4.0, 0.5),
         };
-        let found = of_ring(&ring(), 4, &[pin]);
+        let found = choose_on_ring(&ring(), 4, &[pin]);
         assert!(!found.is_empty());
         assert!(
             found
@@ -133,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn about_a_dozen_is_shown_of_one_ring() {
+    fn one_ring_shows_about_a_dozen_points() {
         let found = chosen(&[ring()], &[]);
         assert!((8..=16).contains(&found.len()), "{}", found.len());
     }

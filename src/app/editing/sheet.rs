@@ -1,7 +1,7 @@
-//! What the match editor shows: both designs and how they go together, in the frame that both lie
-//! in.
+//! The match sheet: everything the match editor shows of both designs and their match, in the frame
+//! that both are placed in.
 //!
-//! A sheet is made anew whenever the project or its transition changes, and never by drawing it.
+//! It is rebuilt whenever the project or its transition changes, and never while drawing.
 
 use bevy::prelude::Resource;
 
@@ -15,96 +15,95 @@ use crate::design::{Design, DesignForm, Picture};
 use crate::geometry::{Bounds, DVec2, Side, Similarity};
 use crate::transition::PaintRule;
 
-/// A cut that was asked for is shown by the one that came of it where the two are no farther apart
-/// than this share of the design: a cut that the match moved is still the one that was asked for.
-const SAME_CUT: f64 = 0.25;
+/// Maximum distance, as a fraction of the designs' size, between a requested cut and the actual one
+/// that counts as its result; the match may move a cut (heuristic).
+const CUT_SHIFT: f64 = 0.25;
 
 /// Both designs and their match.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct MatchSheet {
-    /// Source and target; none where there is nothing to match.
+    /// Source and target; `None` if there is nothing to match.
     pub sides: Option<[SheetSide; 2]>,
-    /// The matched rings; none while there is no transition.
+    /// The matched rings; empty while there is no transition.
     pub rings: Vec<SheetRing>,
-    /// The pieces that rings belong to.
+    /// The matched pieces.
     pub pieces: Vec<SheetPiece>,
-    /// Pins, as they stand in the project.
+    /// Pins of the project, in frame coordinates.
     pub pins: Vec<PointPair>,
-    /// The pins that the match failed on.
+    /// Indices of the pins that made the match fail.
     pub faulty: Vec<usize>,
-    /// Some points that were matched without being asked for.
+    /// Automatically matched points that are shown.
     pub features: Vec<PointPair>,
-    /// What each of those is called, 0 for a.
+    /// Letter index of each of them, 0 for a.
     pub letters: Vec<usize>,
-    /// Points of the sheet before that are not on this one, with their letters: on the next
-    /// they may be again, as where a first film is followed by the best.
+    /// Points of the previous sheet missing here, with their letters: they may return, as when a
+    /// draft is replaced by the best film.
     pub earlier: Vec<(PointPair, usize)>,
-    /// Pairs of lines, as they stand in the project.
+    /// Pairs of lines of the project, in frame coordinates.
     pub lines: Vec<LinePair>,
-    /// What is seen, and so what pins are for.
+    /// Content of the film; it decides what pins are for.
     pub content: Option<ContentKind>,
-    /// Pairs of parts that were asked for.
+    /// Pairs of parts set by the user.
     pub links: Vec<PointPair>,
-    /// Rings that are cut open.
+    /// Cuts that open rings around holes.
     pub cuts: Vec<SheetCut>,
-    /// What lays each design into the frame.
+    /// Transformations from each design's own coordinates to the frame.
     pub by: [Similarity; 2],
 }
 
-/// One design.
+/// One design on the sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetSide {
-    /// Its parts as they are matched, each an outline and its holes; a later one hides what lies
-    /// under it.
+    /// Its parts as matched, each an outline followed by its holes; later parts cover earlier ones.
     pub parts: Vec<Vec<Vec<DVec2>>>,
-    /// What pins snap to.
+    /// Corners that pins snap to.
     pub corners: Vec<DVec2>,
-    /// The box around it.
+    /// Bounding box.
     pub bounds: Bounds,
-    /// The picture that it came as, where it lies in the frame.
+    /// The picture it was read from, placed in the frame.
     pub picture: Option<Picture>,
 }
 
 /// One piece in both designs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetPiece {
-    /// What it is called: the same on both sides.
+    /// Label, the same in both designs.
     pub name: String,
-    /// What becomes of it.
+    /// Whether it exists in both designs.
     pub fate: PieceFate,
-    /// Where its name stands, in the source and in the target.
+    /// Position of its label in the source and in the target.
     pub at: [DVec2; 2],
-    /// It was paired by hand, or said to have no partner.
+    /// Whether the user paired it, or said that it has no partner.
     pub is_linked: bool,
-    /// The parts of the source and of the target that it comes of.
+    /// Indices of its parts in the source and in the target.
     pub parts: [Option<usize>; 2],
 }
 
-/// What becomes of a piece.
+/// Whether a piece exists in both designs or in only one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PieceFate {
-    /// It is in both designs.
+    /// It exists in both designs.
     Paired,
-    /// It is in the target only, and grows from a point.
+    /// It exists only in the target and appears, growing from a point.
     Born,
-    /// It is in the source only, and shrinks to a point.
+    /// It exists only in the source and disappears, shrinking to a point.
     Dies,
 }
 
-/// A cut that opens a ring.
+/// A cut that opens a ring around a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheetCut {
-    /// The cut, as it was made.
+    /// The cut as made.
     pub cut: RingCut,
-    /// As it was asked for, where it was.
+    /// The cut as requested by the user, if it was.
     pub wanted: Option<RingCut>,
-    /// Which of the project's cuts it came from; none where it was found.
+    /// Index of the project's cut that requested it; `None` for an automatic cut.
     pub asked: Option<usize>,
 }
 
 impl MatchSheet {
-    /// Lays out a pair of designs, given as their files have them and painted as they were
-    /// matched. Nothing where one of them has triangles or bars of its own.
+    /// Lays out a pair of designs, given as imported, in the paint they were matched in. Empty if
+    /// one of them has a mesh or bars of its own.
     #[must_use]
     pub fn new(
         designs: [&Design; 2],
@@ -123,7 +122,7 @@ impl MatchSheet {
         let diameter = source.bounds.diameter().max(target.bounds.diameter());
         let sides = [source, target];
         Self {
-            // A pin says more than a found point, so points keep away from pins.
+            // Automatic points keep away from pins, which matter more.
             features: sample_points::chosen(&rings, &placed.pins),
             pieces: names(pieces, &sides, &placed),
             cuts: cuts(pieces, &placed.cuts, diameter),
@@ -140,7 +139,8 @@ impl MatchSheet {
         }
     }
 
-    /// Calls each found point by a letter: as on the two sheets before where it was there already.
+    /// Assigns letters to the automatic points; points already on one of the last two sheets keep
+    /// theirs.
     pub fn call(&mut self, before: Option<&Self>) {
         let sizes = self.sides.iter().flatten();
         let largest = sizes.map(|side| side.bounds.diameter()).fold(0.0, f64::max);
@@ -156,7 +156,7 @@ impl MatchSheet {
         self.earlier = gone.collect();
     }
 
-    /// Pins and lines may lie anywhere: they move the plane and not a boundary.
+    /// Whether pins and lines may lie anywhere, because they move the plane and not a boundary.
     #[must_use]
     pub fn is_free(&self) -> bool {
         matches!(
@@ -165,20 +165,20 @@ impl MatchSheet {
         )
     }
 
-    /// Pictures are what is seen.
+    /// Whether the content is pictures.
     #[must_use]
     pub fn in_colours(&self) -> bool {
         self.content == Some(ContentKind::Colours)
     }
 
-    /// The nearest place on the boundary of one side.
+    /// Nearest point on the boundary of one design.
     #[must_use]
     pub fn on_boundary(&self, side: Side, p: DVec2) -> Option<polyline::NearestRingPoint> {
         let parts = &self.sides.as_ref()?[side].parts;
         polyline::nearest(parts.iter().flatten().map(Vec::as_slice), p)
     }
 
-    /// The corner nearest to a point, if one is within reach.
+    /// Nearest corner within `reach`.
     #[must_use]
     pub fn corner(&self, side: Side, p: DVec2, reach: f64) -> Option<DVec2> {
         let corners = &self.sides.as_ref()?[side].corners;
@@ -187,8 +187,7 @@ impl MatchSheet {
             .copied()
     }
 
-    /// The point of the other side that a point of one side is matched with; none on what has no
-    /// partner, and none while there is no match.
+    /// The point in the other design matched with a boundary point; `None` if there is no match.
     #[must_use]
     pub fn partner(&self, side: Side, p: DVec2) -> Option<DVec2> {
         let rings = self.rings.iter().map(|ring| ring.sides[side].as_slice());
@@ -199,33 +198,34 @@ impl MatchSheet {
         (ring.kind == RingKind::Matched).then(|| a.lerp(b, foot.along))
     }
 
-    /// The part of one side that a point lies in, the uppermost of several; or else one within
-    /// reach.
+    /// The topmost part containing a point, or else the nearest one within `reach`.
     #[must_use]
     pub fn part(&self, side: Side, p: DVec2, reach: f64) -> Option<usize> {
         let parts = &self.sides.as_ref()?[side].parts;
-        // Inside wins over near: a part may lie in the hole of another.
+        // Containing wins over near: a part may lie in the hole of another.
         uppermost(parts, p).or_else(|| {
             let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
-            let far = |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
-            let nearest = (0..parts.len()).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
-            (far(nearest) <= reach).then_some(nearest)
+            let gap = |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
+            let nearest = (0..parts.len()).min_by(|a, b| gap(*a).total_cmp(&gap(*b)))?;
+            (gap(nearest) <= reach).then_some(nearest)
         })
     }
 }
 
-/// The part that a point lies in: of several the last, which is painted over the others.
+/// The last part containing a point, because later parts are painted over earlier ones.
 fn uppermost(parts: &[Vec<Vec<DVec2>>], p: DVec2) -> Option<usize> {
     parts
         .iter()
         .rposition(|rings| polyline::encloses(rings.iter().map(Vec::as_slice), p))
 }
 
+/// Lays out one design; `None` if it is not an outline.
 fn side(design: &Design, by: &Similarity, paint: PaintRule) -> Option<SheetSide> {
     let DesignForm::Outline(outline) = &design.form else {
         return None;
     };
-    // In their own paint parts are matched coat by coat, and hide each other.
+    // Designs with their own colours are matched by paint layer, where upper layers cover lower
+    // ones.
     let painted = (paint == PaintRule::Own).then(|| design.painted_pieces());
     let painted = painted.flatten();
     let regions = painted.as_ref().unwrap_or(outline);
@@ -256,6 +256,7 @@ fn side(design: &Design, by: &Similarity, paint: PaintRule) -> Option<SheetSide>
     })
 }
 
+/// All rings of all pieces, including those in only one design.
 fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
     let of = |(k, piece): (usize, &PieceMatch)| -> Vec<SheetRing> {
         let ring = |ring: &crate::correspondence::RingMatch| {
@@ -266,21 +267,27 @@ fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
     pieces.iter().enumerate().flat_map(of).collect()
 }
 
-fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &MatchSettings) -> Vec<SheetPiece> {
+/// Names the pieces and places their labels.
+fn names(
+    pieces: &[PieceMatch],
+    sides: &[SheetSide; 2],
+    matching: &MatchSettings,
+) -> Vec<SheetPiece> {
     let part_at = |side: Side, p: DVec2| uppermost(&sides[side].parts, p);
-    let links = said.links.iter();
+    let links = matching.links.iter();
     let linked: Vec<[Option<usize>; 2]> = links
         .map(|link| Side::BOTH.map(|side| part_at(side, link[side])))
         .collect();
-    let lone = said.lone.iter();
-    let lone: Vec<(Side, Option<usize>)> = lone
-        .map(|lone| (lone.side, part_at(lone.side, lone.at)))
+    let unmatched = matching.lone.iter();
+    let unmatched: Vec<(Side, Option<usize>)> = unmatched
+        .map(|part| (part.side, part_at(part.side, part.at)))
         .collect();
-    let is_said = |parts: &[Option<usize>; 2]| {
+    // Pairings name parts by points, pieces by indices.
+    let is_user_set = |parts: &[Option<usize>; 2]| {
         let is_linked = parts.iter().all(Option::is_some) && linked.contains(parts);
-        let is_alone =
+        let is_unmatched =
             |(side, part): &(Side, Option<usize>)| part.is_some() && parts[*side] == *part;
-        is_linked || lone.iter().any(is_alone)
+        is_linked || unmatched.iter().any(is_unmatched)
     };
     let boxes = Side::BOTH.map(|side| {
         let parts = sides[side].parts.iter();
@@ -298,58 +305,59 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &MatchSettings) ->
         let at = Side::BOTH.map(|side| {
             let own = parts[side].and_then(|k| Some((k, (*boxes[side].get(k)?)?)));
             let Some((own, bounds)) = own else {
-                return middle(piece, side, &[]);
+                return label_position(piece, side, &[]);
             };
+            // Later parts are painted above this one; only those that meet its box can cover it.
             let all = sides[side].parts.iter().zip(&boxes[side]).skip(own + 1);
             let above = all.filter(|(_, other)| other.is_some_and(|other| other.meets(&bounds)));
             let above: Vec<&[Vec<DVec2>]> = above.map(|(part, _)| part.as_slice()).collect();
-            middle(piece, side, &above)
+            label_position(piece, side, &above)
         });
         SheetPiece {
             name: labels::of_part(k),
             fate,
             at,
-            is_linked: is_said(&parts),
+            is_linked: is_user_set(&parts),
             parts,
         }
     };
     pieces.iter().enumerate().map(piece).collect()
 }
 
-/// Where a piece is seen, outside of the parts that lie above.
-fn middle(piece: &PieceMatch, side: Side, above: &[&[Vec<DVec2>]]) -> DVec2 {
+/// Position of a piece's label, outside of the parts above it.
+fn label_position(piece: &PieceMatch, side: Side, above: &[&[Vec<DVec2>]]) -> DVec2 {
     let rings = piece.rings.iter().chain(&piece.lone);
     let rings = rings.map(|ring| [&ring.source, &ring.target][side].as_slice());
     let rings: Vec<&[DVec2]> = rings.collect();
     let first = rings.first().and_then(|ring| ring.first());
-    // What is covered is named where it would be; a ring that is a point has no inside.
+    // If the piece is covered, the label stands where it would be; a ring that is a point has no
+    // inside.
     polyline::label_point(&rings, above)
         .or_else(|| polyline::label_point(&rings, &[]))
         .or(first.copied())
         .unwrap_or_default()
 }
 
-/// The cuts that were made, each with the one that asked for it; then what was asked for and not
-/// made.
+/// The actual cuts, each with the request it answers; then requests without an actual cut.
 fn cuts(pieces: &[PieceMatch], asked: &[RingCut], diameter: f64) -> Vec<SheetCut> {
-    let far = |a: &RingCut, b: &RingCut| a.outer.distance(b.outer) + a.hole.distance(b.hole);
-    let mut left: Vec<usize> = (0..asked.len()).collect();
+    let gap = |a: &RingCut, b: &RingCut| a.outer.distance(b.outer) + a.hole.distance(b.hole);
+    let mut unanswered: Vec<usize> = (0..asked.len()).collect();
     let mut cuts: Vec<SheetCut> = Vec::new();
     for cut in pieces.iter().flat_map(|piece| &piece.cuts) {
-        let near = left
+        let near = unanswered
             .iter()
             .copied()
-            .filter(|&k| asked[k].side == cut.side && far(&asked[k], cut) < SAME_CUT * diameter)
-            .min_by(|&a, &b| far(&asked[a], cut).total_cmp(&far(&asked[b], cut)));
-        // One asked for is answered by one cut only.
-        left.retain(|k| Some(*k) != near);
+            .filter(|&k| asked[k].side == cut.side && gap(&asked[k], cut) < CUT_SHIFT * diameter)
+            .min_by(|&a, &b| gap(&asked[a], cut).total_cmp(&gap(&asked[b], cut)));
+        // Each request is answered by at most one cut.
+        unanswered.retain(|k| Some(*k) != near);
         cuts.push(SheetCut {
             cut: *cut,
             wanted: near.map(|k| asked[k]),
             asked: near,
         });
     }
-    cuts.extend(left.into_iter().map(|k| SheetCut {
+    cuts.extend(unanswered.into_iter().map(|k| SheetCut {
         cut: asked[k],
         wanted: Some(asked[k]),
         asked: Some(k),

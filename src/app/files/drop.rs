@@ -1,4 +1,4 @@
-//! Files that are dropped on the window.
+//! Handles files dropped on the window.
 
 use std::path::{Path, PathBuf};
 
@@ -10,33 +10,34 @@ use crate::app::persistence::autosave::Autosave;
 use crate::app::presentation::presenter::Presentation;
 use crate::app::unsaved_question::UnsavedQuestion;
 
-/// A file that was dropped, of which nobody knows what it is for.
+/// A single dropped design for which the user must choose between source, target and a new
+/// position.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct DroppedDesign {
     undecided: Option<PathBuf>,
 }
 
 impl DroppedDesign {
-    /// A single design that may become source or target.
+    /// The dropped design, while the question is open.
     #[must_use]
     pub fn undecided(&self) -> Option<&Path> {
         self.undecided.as_deref()
     }
 
-    /// Something is to be decided.
+    /// Whether the question is open.
     #[must_use]
     pub fn asks(&self) -> bool {
         self.undecided.is_some()
     }
 
-    /// Asks what a single design is for.
+    /// Asks where a single design should go.
     pub fn ask(&mut self, path: PathBuf) {
         self.undecided = Some(path);
     }
 }
 
-/// A name in which numbers are in the order of what they count: 2 before 10.
-fn in_numbers(name: &str) -> Vec<(String, u64)> {
+/// Sort key in which numbers compare by value: 2 before 10.
+fn natural_sort_key(name: &str) -> Vec<(String, u64)> {
     let digits = |c: &char| c.is_ascii_digit();
     let mut rest = name.chars().peekable();
     let mut parts = Vec::new();
@@ -54,15 +55,15 @@ fn in_numbers(name: &str) -> Vec<(String, u64)> {
     parts
 }
 
-/// Opens what is dropped together, of which the system tells file by file, but of all before the
-/// next frame (`winit` on X11, Windows and macOS).
+/// Opens all files dropped together. The system reports them one by one, but all before the next
+/// frame (`winit` on X11, Windows and macOS).
 pub fn read_drops(
     mut drops: MessageReader<FileDragAndDrop>,
-    presenting: Res<Presentation>,
+    presentation: Res<Presentation>,
     mut intents: MessageWriter<Intent>,
 ) {
-    if presenting.is_on() {
-        // Nothing is opened before an audience, and nothing asked.
+    if presentation.is_on() {
+        // Nothing is opened or asked during a talk.
         drops.clear();
     }
     let files = drops.read().filter_map(|drop| match drop {
@@ -73,23 +74,23 @@ pub fn read_drops(
     if files.is_empty() {
         return;
     }
-    // Many arrive in any order; that of their names is seen in every folder.
+    // Many files arrive in arbitrary order; sort them as file managers do.
     if files.len() > 2 {
-        files.sort_by_cached_key(|path| in_numbers(&path.to_string_lossy()));
+        files.sort_by_cached_key(|path| natural_sort_key(&path.to_string_lossy()));
     }
     intents.write(Intent::Open(files));
 }
 
-/// Forgets the undecided file once it is decided.
+/// Closes the question once it is answered.
 pub fn decide(
     mut intents: MessageReader<Intent>,
     mut state: ResMut<DroppedDesign>,
     (question, autosave): (Res<UnsavedQuestion>, Res<Autosave>),
 ) {
-    // Esc is meant for the question that is seen.
-    let is_seen = question.text().is_none() && autosave.lost().is_none();
+    // Esc is meant for the topmost question.
+    let is_topmost = question.text().is_none() && autosave.lost().is_none();
     let is_decided = |intent: &Intent| match intent {
-        Intent::Back => is_seen,
+        Intent::Back => is_topmost,
         intent => matches!(
             intent,
             Intent::Open(..) | Intent::ReplaceDesign(..) | Intent::InsertDesigns(..)
@@ -105,9 +106,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_in_the_order_that_folders_show() {
+    fn names_sort_as_in_file_managers() {
         let mut names = ["b10.svg", "B2.svg", "a.svg", "b2x.svg", "3.svg"];
-        names.sort_by_cached_key(|name| in_numbers(name));
+        names.sort_by_cached_key(|name| natural_sort_key(name));
         assert_eq!(names, ["3.svg", "a.svg", "B2.svg", "b2x.svg", "b10.svg"]);
     }
 }

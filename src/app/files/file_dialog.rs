@@ -1,8 +1,7 @@
-//! Files that the user points at, in a dialog of the window's own.
+//! State of the file dialog, which the panels draw inside the window.
 //!
-//! The system's dialogs hang on a portal or a program that may not be there, and then answer as
-//! if they had been left. Here is what is asked for and what comes of the answer; the panels draw
-//! it.
+//! System dialogs are not used: they need a portal or helper program that may be missing, and then
+//! report that the user cancelled.
 
 use std::path::{Path, PathBuf};
 
@@ -15,32 +14,32 @@ use crate::app::unsaved_question::UnsavedQuestion;
 use crate::design::{Format, extensions};
 use crate::project::Project;
 
-/// What files are asked for.
+/// Purpose of the dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DialogPurpose {
-    /// A project, or designs.
+    /// Open a project or designs.
     Open,
-    /// A design that takes the place of that of this number.
+    /// Replace the design with this index.
     Replace(usize),
-    /// Designs that come before that of this number, or after all.
+    /// Insert designs at this index; the number of designs appends.
     Insert(usize),
-    /// A place for the project, which may be called so.
+    /// Save the project, with this suggested file name.
     Save(String),
 }
 
 impl DialogPurpose {
-    /// The title of the dialog.
+    /// Title of the dialog.
     #[must_use]
     pub fn title(&self) -> &'static str {
         match self {
-            Self::Open => "Open a project, or designs",
-            Self::Replace(_) => "Choose a design",
+            Self::Open => "Open a project or designs",
+            Self::Replace(_) => "Replace file",
             Self::Insert(_) => "Add designs",
-            Self::Save(_) => "Save the project",
+            Self::Save(_) => "Save project",
         }
     }
 
-    /// The kinds of files that it shows, the first one from the start, and how their names end.
+    /// File filters, the default first: name and extensions.
     #[must_use]
     pub fn filters(&self) -> Vec<(String, Vec<&'static str>)> {
         let projects = ("Projects".to_owned(), vec![Project::EXTENSION]);
@@ -61,7 +60,7 @@ impl DialogPurpose {
     }
 }
 
-/// The dialog that is open, if any; never more than one.
+/// The open dialog, if any; at most one.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileDialogRequest {
     asks: Option<DialogPurpose>,
@@ -69,20 +68,20 @@ pub struct FileDialogRequest {
 }
 
 impl FileDialogRequest {
-    /// What it is for, while it is open.
+    /// Purpose of the dialog, while it is open.
     #[must_use]
     pub fn asks(&self) -> Option<&DialogPurpose> {
         self.asks.as_ref()
     }
 
-    /// The folder that something was last chosen from.
+    /// Folder last chosen from.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
 }
 
-/// Opens dialogs.
+/// Opens the dialog.
 pub fn open(
     mut intents: MessageReader<Intent>,
     mut dialog: ResMut<FileDialogRequest>,
@@ -102,23 +101,29 @@ pub fn open(
         let applies = session.project().is_some() || asks == DialogPurpose::Open;
         if dialog.asks.is_none() && applies {
             dialog.asks = Some(asks);
-            // Where the project lies, until something was chosen elsewhere.
-            let beside = session.path().and_then(Path::parent).map(Path::to_owned);
-            dialog.folder = dialog.folder.take().or(beside).or_else(usual_folder);
+            // The project's folder, until the user chooses another one.
+            let project_folder = session.path().and_then(Path::parent).map(Path::to_owned);
+            dialog.folder = dialog
+                .folder
+                .take()
+                .or(project_folder)
+                .or_else(default_folder);
         }
     }
 }
 
-fn usual_folder() -> Option<PathBuf> {
+/// The user's documents, or the home folder.
+fn default_folder() -> Option<PathBuf> {
     let documents = dirs::document_dir().filter(|folder| folder.is_dir());
     documents.or_else(dirs::home_dir)
 }
 
+/// File name of a project with this stem.
 fn named(stem: &str) -> String {
     format!("{stem}.{}", Project::EXTENSION)
 }
 
-/// Takes in what was chosen; nothing where the dialog was left.
+/// Turns the chosen files into intents; an empty choice means that the dialog was cancelled.
 pub fn choose(
     mut intents: MessageReader<Intent>,
     mut dialog: ResMut<FileDialogRequest>,
@@ -136,7 +141,7 @@ pub fn choose(
         }
         match (asks, first) {
             (Some(DialogPurpose::Save(_)), None) => {
-                notices.done("The project was not saved.");
+                notices.note("Save cancelled");
                 question.not_saved();
             }
             (None, _) | (_, None) => {}
@@ -150,13 +155,14 @@ pub fn choose(
                 commands.write_message(Intent::InsertDesigns(at, paths.clone()));
             }
             (Some(DialogPurpose::Save(_)), Some(path)) => match with_extension(path) {
-                // Asked about another file than that which would be lost.
+                // The dialog confirmed overwriting a different file: the name without the
+                // extension.
                 whole if whole != *path && whole.exists() => {
                     let name = whole.file_name().unwrap_or_default().to_string_lossy();
                     notices.problem(
                         NoticeTopic::Saving,
                         format!(
-                            "{} is there already: choose it to replace it, or another name.",
+                            "{} already exists. Select it to replace it, or choose another name",
                             whole.display()
                         ),
                     );
@@ -170,6 +176,7 @@ pub fn choose(
     }
 }
 
+/// Appends the project extension if it is missing.
 fn with_extension(path: &Path) -> PathBuf {
     if Project::is_named(path) {
         path.to_owned()
@@ -183,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn dialogs_show_whatever_an_importer_reads() {
+    fn dialogs_show_every_importable_file() {
         for purpose in [DialogPurpose::Open, DialogPurpose::Replace(0)] {
             let filters = purpose.filters();
             let (_, shown) = &filters[0];

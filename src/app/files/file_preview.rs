@@ -1,4 +1,4 @@
-//! What a file holds, in a small picture, before it is opened.
+//! Preview of a file's content in the file dialog.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,16 +15,16 @@ use crate::geometry::DVec2;
 use crate::project::{LoadedProject, Project};
 use crate::transition::{TransitionStyle, VectorFigure};
 
-/// Width and height in pixels: twice what is shown at scale factor 1.
+/// Width and height of the preview in pixels: twice its size on screen at scale factor 1.
 pub const PREVIEW_PX: (u32, u32) = (352, 352);
 
-/// So many designs of a project are shown: more are too small.
-const MOST: usize = 4;
+/// Maximum number of a project's designs in the preview (heuristic: more would be too small).
+const MAX_DESIGNS: usize = 4;
 
-/// Room around each design, a share of the picture.
-const ROOM: f64 = 0.05;
+/// Margin around each design, as a fraction of its diameter (heuristic).
+const MARGIN: f64 = 0.05;
 
-/// The file that is looked at.
+/// The file being previewed.
 #[derive(Resource, Debug, Default)]
 pub struct FilePreview {
     path: Option<PathBuf>,
@@ -32,14 +32,14 @@ pub struct FilePreview {
     picture: Option<Result<Arc<RgbaImage>, String>>,
 }
 
-/// Why there is nothing to see.
+/// Why there is no preview.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct FilePreviewError(String);
 
 impl FilePreview {
-    /// What a file holds, straight alpha on a transparent ground, or why it cannot be shown; none
-    /// while it is not known.
+    /// Preview of a file, with straight alpha on a transparent background, or the reason why there
+    /// is none; `None` until it is known.
     #[must_use]
     pub fn of(&self, path: &Path) -> Option<Result<&Arc<RgbaImage>, &str>> {
         let is_it = self.path.as_deref() == Some(path);
@@ -47,14 +47,14 @@ impl FilePreview {
         Some(picture.as_ref().map_err(String::as_str))
     }
 
-    /// It is of this file.
+    /// Whether the preview is of this file.
     #[must_use]
     pub fn is_for(&self, path: &Path) -> bool {
         self.path.as_deref() == Some(path)
     }
 }
 
-/// Draws what is looked at, beside the window, and forgets it with the dialog.
+/// Draws the preview in the background, and discards it when the dialog closes.
 pub fn follow(
     mut intents: MessageReader<Intent>,
     dialog: Res<FileDialogRequest>,
@@ -64,7 +64,7 @@ pub fn follow(
         Intent::LookAt(path) => Some(path),
         _ => None,
     });
-    // In each frame, and seldom anything new.
+    // Runs each frame; change detection is set by hand.
     let now = preview.bypass_change_detection();
     if let Some(path) = wanted.last()
         && now.path.as_ref() != Some(path)
@@ -72,7 +72,7 @@ pub fn follow(
         let file = path.clone();
         *now = FilePreview {
             path: Some(path.clone()),
-            job: Some(BackgroundJob::start("a preview", move |_| drawn(&file))),
+            job: Some(BackgroundJob::start("the preview", move |_| drawn(&file))),
             picture: None,
         };
     }
@@ -84,11 +84,12 @@ pub fn follow(
     }
 }
 
+/// Draws the preview of a project or design file.
 fn drawn(path: &Path) -> Result<RgbaImage, FilePreviewError> {
     let why = |error: &dyn std::error::Error| FilePreviewError(error.to_string());
     let designs = if Project::is_named(path) {
         let loaded = LoadedProject::open(path).map_err(|error| why(&error))?;
-        loaded.designs.into_iter().take(MOST).collect()
+        loaded.designs.into_iter().take(MAX_DESIGNS).collect()
     } else {
         let options = ImportOptions::default();
         vec![Arc::new(
@@ -103,9 +104,10 @@ fn drawn(path: &Path) -> Result<RgbaImage, FilePreviewError> {
     side_by_side(&designs).map_err(|error| why(&error))
 }
 
+/// Scales an image down to the size of the preview.
 fn small(pixels: &RgbaImage) -> RgbaImage {
     let (width, height) = pixels.dimensions();
-    let share = |px: u32, most: u32| f64::from(most) / f64::from(px.max(1));
+    let share = |px: u32, max_px: u32| f64::from(max_px) / f64::from(px.max(1));
     let scale = share(width, PREVIEW_PX.0)
         .min(share(height, PREVIEW_PX.1))
         .min(1.0);
@@ -113,6 +115,7 @@ fn small(pixels: &RgbaImage) -> RgbaImage {
     image::imageops::thumbnail(pixels, side(width), side(height))
 }
 
+/// Draws designs next to each other.
 fn side_by_side(designs: &[Arc<Design>]) -> Result<RgbaImage, crate::export::PixelSizeError> {
     let size = PixelSize::new(PREVIEW_PX.0, PREVIEW_PX.1)?;
     let cell = DVec2::new(
@@ -122,10 +125,10 @@ fn side_by_side(designs: &[Arc<Design>]) -> Result<RgbaImage, crate::export::Pix
     let style = TransitionStyle::default();
     let mut drawing = Drawing::new(size, None);
     for (index, design) in designs.iter().enumerate() {
-        let bounds = design.extent.padded(ROOM * design.extent.diameter());
+        let bounds = design.extent.padded(MARGIN * design.extent.diameter());
         let corner = DVec2::new(index as f64 * cell.x, 0.0);
         let view = PlaneView::fit_cell(bounds, size, corner, cell);
-        // In the colour that it has as source, or as target.
+        // In its source or target colour.
         let t = index as f64 / (designs.len().max(2) - 1) as f64;
         drawing.push_figure(&VectorFigure::of(design, t), t, &style, &view);
     }

@@ -1,8 +1,8 @@
-//! Drawings that another program changes while they are open are read again.
+//! Reloads designs whose files another program changes while they are open.
 //!
-//! A thread looks at their files now and then: so the window can rest meanwhile, and so it works on
-//! network folders too, whose systems tell nobody of changes. A file is read again when it has
-//! stayed the same from one look to the next: a program that saves writes for a while.
+//! A thread polls the files: this lets the window rest and works on network drives, which send no
+//! change events. A file is reloaded once it has stayed the same from one poll to the next, because
+//! saving takes a while.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -13,28 +13,29 @@ use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 use crate::app::notices::Notices;
 use crate::app::session::state::Session;
 
-/// How often the files are looked at.
-const EVERY: Duration = Duration::from_millis(700);
+/// Polling interval (heuristic).
+const POLL_INTERVAL: Duration = Duration::from_millis(700);
 
-/// When a file was written, and how long it is; none where it is not there.
+/// Modification time and size of a file; `None` if it does not exist.
 type FileStamp = Option<(SystemTime, u64)>;
 
+/// Reads the current state of a file.
 fn stamp(path: &Path) -> FileStamp {
     let data = std::fs::metadata(path).ok()?;
     Some((data.modified().ok()?, data.len()))
 }
 
-/// One file.
+/// A watched file.
 #[derive(Debug)]
 struct WatchedFile {
     path: PathBuf,
-    /// As it was read.
+    /// State when it was last read.
     read: FileStamp,
-    /// As it was at the last look.
+    /// State at the last poll.
     last: FileStamp,
 }
 
-/// The files of the open designs.
+/// Watches the files of the open designs.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct FileWatcher(Arc<Mutex<WatchedFiles>>);
 
@@ -49,9 +50,9 @@ impl FileWatcher {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Looks at all files; whether one has changed since it was read.
-    pub fn look(&self) -> bool {
-        // Looked at without holding the lock: a folder on a network may take its time.
+    /// Polls all files; returns whether any has changed since it was read.
+    pub fn poll(&self) -> bool {
+        // Without holding the lock, because network drives may be slow.
         let paths: Vec<PathBuf> = self.files().looked.iter().map(|l| l.path.clone()).collect();
         let stamps: Vec<FileStamp> = paths.iter().map(|path| stamp(path)).collect();
         let mut files = self.files();
@@ -71,29 +72,29 @@ impl FileWatcher {
         !files.changed.is_empty()
     }
 
-    /// Looks at them from a thread for as long as the window is there, and wakes it.
+    /// Polls from a thread until the application ends, and calls `wake` on changes.
     pub fn start(&self, wake: impl Fn() + Send + 'static) {
         let files: Weak<_> = Arc::downgrade(&self.0);
-        let look = move || {
+        let poll = move || {
             loop {
-                std::thread::sleep(EVERY);
+                std::thread::sleep(POLL_INTERVAL);
                 let Some(files) = files.upgrade() else {
                     return;
                 };
-                if Self(files).look() {
+                if Self(files).poll() {
                     wake();
                 }
             }
         };
-        // Without it drawings are not read again, and everything else works.
+        // Without the thread, files are not reloaded; everything else works.
         std::thread::Builder::new()
             .name("files".to_owned())
-            .spawn(look)
+            .spawn(poll)
             .ok();
     }
 }
 
-/// Looks at the files of what is open now, and reads those again that have changed.
+/// Updates the list of watched files, and reloads changed designs.
 pub fn follow(mut session: ResMut<Session>, watch: Res<FileWatcher>, mut notices: ResMut<Notices>) {
     let mut files = watch.files();
     if session.is_changed() {
@@ -110,19 +111,19 @@ pub fn follow(mut session: ResMut<Session>, watch: Res<FileWatcher>, mut notices
             }
         }
     }
-    // What is being built now is of what was read before.
+    // A running build uses the old files; reload after it.
     if files.changed.is_empty() || session.work().is_some() {
         return;
     }
     for path in std::mem::take(&mut files.changed) {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         if path.exists() {
-            notices.note(format!(
-                "{name} was changed by another program and is read again."
-            ));
+            notices.note(format!("{name} changed on disk and is being reloaded"));
             session.reread();
         } else {
-            notices.note(format!("{name} is gone; the drawing stays as it was read."));
+            notices.note(format!(
+                "{name} no longer exists on disk. The loaded drawing is kept"
+            ));
         }
     }
     session.set_changed();
@@ -133,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_has_changed_once_it_has_settled() -> std::io::Result<()> {
+    fn a_change_counts_once_the_file_is_stable() -> std::io::Result<()> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("a.svg");
         std::fs::write(&path, "one")?;
@@ -144,17 +145,17 @@ mod tests {
             read: now,
             last: now,
         });
-        assert!(!watch.look());
+        assert!(!watch.poll());
         std::fs::write(&path, "longer")?;
-        assert!(!watch.look(), "it may still be written");
+        assert!(!watch.poll(), "it may still be written");
         std::fs::write(&path, "longer still")?;
-        assert!(!watch.look());
-        assert!(watch.look());
+        assert!(!watch.poll());
+        assert!(watch.poll());
         watch.files().changed.clear();
-        assert!(!watch.look(), "once");
+        assert!(!watch.poll(), "once");
         std::fs::remove_file(&path)?;
-        watch.look();
-        assert!(watch.look());
+        watch.poll();
+        assert!(watch.poll());
         Ok(())
     }
 }

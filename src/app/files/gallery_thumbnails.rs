@@ -1,4 +1,4 @@
-//! The film strips of the gallery, drawn one after the other beside the window.
+//! Draws the gallery's film strips in the background, one after the other.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -16,16 +16,16 @@ use crate::project::gallery;
 use crate::transition::{Sequence, Transition};
 use crate::work::progress::Progress;
 
-/// Width and height of a strip in pixels: twice what is shown at scale factor 1.
+/// Width and height of a strip in pixels: twice its size on screen at scale factor 1.
 pub const STRIP_PX: (u32, u32) = (384, 128);
 
-/// How many forms a strip shows: both ends, and what is between them.
+/// Number of frames in a strip: both ends and one between (heuristic).
 const FRAMES: usize = 3;
 
-/// The most of them: more are too small.
-const MOST_FRAMES: usize = 5;
+/// Maximum number of frames in a strip (heuristic: more would be too small).
+const MAX_FRAMES: usize = 5;
 
-/// All strips that there are yet.
+/// The strips available so far, and the work on the others.
 #[derive(Resource, Debug)]
 pub struct GalleryThumbnails {
     waiting: VecDeque<StripTask>,
@@ -35,12 +35,12 @@ pub struct GalleryThumbnails {
 
 type StripsByName = HashMap<String, RgbaImage>;
 
-/// How strips are come by.
+/// How a strip is obtained.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum StripTask {
-    /// Those of an earlier start, all at once.
+    /// Read all strips cached by an earlier start.
     Read,
-    /// The one of that project.
+    /// Draw the strip of the project with this name.
     Draw(String),
 }
 
@@ -59,29 +59,30 @@ impl FromWorld for GalleryThumbnails {
 }
 
 impl GalleryThumbnails {
-    /// A strip is being drawn, or waits to be.
+    /// Whether strips are being drawn or waiting.
     pub fn is_busy(&self) -> bool {
         self.running.is_some() || !self.waiting.is_empty()
     }
 
-    /// The strip of a bundled project, once it is there: straight alpha, and a transparent ground
-    /// but for what has its own paint.
+    /// Strip of a gallery project, once available: straight alpha, on a transparent background
+    /// unless the designs have their own colours.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&RgbaImage> {
         self.done.get(name)
     }
 
-    /// Takes in what is done, and says what comes next.
+    /// Collects finished strips and returns the next task.
     fn next(&mut self, is_urgent_elsewhere: bool) -> Option<StripTask> {
         if let Some((task, job)) = &self.running {
+            // Strips must not slow down the transition that the user waits for.
             if is_urgent_elsewhere {
                 job.cancel();
             }
             match job.poll()? {
                 Ok(strips) => self.done.extend(strips),
-                // It was in the way, and has its turn again.
+                // Cancelled in favour of more urgent work: tried again later.
                 Err(_) if job.is_cancelled() => self.waiting.push_front(task.clone()),
-                // A project that cannot be shown has no strip; opening it tells why.
+                // A project that cannot be shown has no strip; opening it shows why.
                 Err(_) => {}
             }
             self.running = None;
@@ -96,23 +97,23 @@ impl GalleryThumbnails {
     }
 }
 
-/// Takes in a strip that is done and starts the next, while nothing more urgent is going on.
+/// Collects finished strips and starts the next one unless more urgent work is running.
 pub fn advance(
     session: Res<Session>,
     kept: Res<GalleryStripCache>,
     mut thumbnails: ResMut<GalleryThumbnails>,
 ) {
-    // Looked at in each frame; nobody asks whether it has changed.
+    // Change detection is not used for this resource.
     let thumbnails = thumbnails.bypass_change_detection();
     let Some(task) = thumbnails.next(session.work().is_some()) else {
         return;
     };
-    let (kept, theirs) = (kept.clone(), task.clone());
-    let job = BackgroundJob::start("a thumbnail", move |progress| match theirs {
+    let (kept, job_task) = (kept.clone(), task.clone());
+    let job = BackgroundJob::start("the gallery thumbnails", move |progress| match job_task {
         StripTask::Read => Ok(kept.read(STRIP_PX)),
         StripTask::Draw(name) => {
             let strip = strip(&name, progress)?;
-            // Nobody has asked for it: what cannot be kept is drawn again at the next start.
+            // A strip that cannot be cached is drawn again at the next start.
             kept.keep(&name, &strip).ok();
             Ok(HashMap::from([(name, strip)]))
         }
@@ -120,29 +121,30 @@ pub fn advance(
     thumbnails.running = Some((task, job));
 }
 
-/// Why a strip cannot be had; never shown, opening the project tells the same.
+/// Why a strip could not be drawn; never shown, because opening the project shows it.
 type StripError = Box<dyn std::error::Error + Send + Sync>;
 
+/// Loads and builds a gallery project and draws its strip.
 fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let loaded = gallery::load(name)?;
     let legs = loaded.legs();
     let built = legs.iter().map(|leg| Ok(leg.build(progress)?));
     let built: Vec<Transition> = built.collect::<Result<_, StripError>>()?;
-    let sequence = Sequence::new(built).ok_or("a project has a leg")?;
+    let sequence = Sequence::new(built).ok_or("a project has at least one segment")?;
     let sequence = sequence.leading_back(loaded.project.leads_back());
     let timing = loaded.project.timing;
-    // Of many designs some of them, and nothing between.
+    // With several segments, a selection of the designs without in-betweens.
     let frames = if legs.len() > 1 {
         legs.len() + 1
     } else {
         FRAMES
     };
-    let frames = frames.min(MOST_FRAMES);
+    let frames = frames.min(MAX_FRAMES);
     let times = even_times(timing.from, timing.to, frames);
     let cell = (STRIP_PX.0 / frames as u32, STRIP_PX.1);
     let style = &loaded.project.style;
     let drawn = draw_strip(&sequence, style, &times, cell)?;
-    // What has its own paint was drawn for paper: navy letters are lost on a dark window.
+    // Designs with their own colours were drawn for paper: navy letters vanish on a dark window.
     if loaded.designs.iter().all(|design| design.coats.is_empty()) {
         return Ok(drawn);
     }
@@ -169,7 +171,7 @@ mod tests {
         StripTask::Draw(name.to_owned())
     }
 
-    /// What comes next, once what is running has answered.
+    /// The next task, after the running one has finished.
     fn next(thumbnails: &mut GalleryThumbnails, is_urgent_elsewhere: bool) -> Option<StripTask> {
         while thumbnails.running.is_some() {
             if let Some(next) = thumbnails.next(is_urgent_elsewhere) {
@@ -181,9 +183,9 @@ mod tests {
     }
 
     #[test]
-    fn what_was_read_is_not_drawn() {
+    fn cached_strips_are_not_drawn_again() {
         let mut thumbnails = with([StripTask::Read, draw("gears"), draw("letters")]);
-        // Read at once, whatever else goes on.
+        // Reading the cache does not wait for other work.
         assert_eq!(next(&mut thumbnails, true), Some(StripTask::Read));
         let strip = HashMap::from([("gears".to_owned(), RgbaImage::new(1, 1))]);
         thumbnails.running = Some((
@@ -195,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_strip_makes_way_and_has_its_turn_again() {
+    fn a_strip_yields_to_urgent_work_and_is_retried() {
         let mut thumbnails = with([draw("letters")]);
         let endless = BackgroundJob::start("a strip", |progress| {
             loop {

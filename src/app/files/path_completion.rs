@@ -1,35 +1,36 @@
-//! A path that is typed into the dialog, and how it may go on.
+//! Completes a path typed into the file dialog.
 
 use std::path::{Path, PathBuf};
 
-/// The most that are offered at once: what fits beside the list of files.
-const MOST: usize = 6;
+/// Maximum number of completions (heuristic: as many as fit next to the file list).
+const MAX_COMPLETIONS: usize = 6;
 
-/// The path that was typed, from `folder`; `~` is the user's own.
+/// The typed path, relative to `folder`; `~` is the user's home folder.
 #[must_use]
 pub fn expand_path(typed: &str, folder: &Path) -> PathBuf {
     let typed = typed.trim();
-    let own = typed
+    let below_home = typed
         .strip_prefix("~/")
         .or_else(|| (typed == "~").then_some(""));
-    match own.and_then(|rest| Some(dirs::home_dir()?.join(rest))) {
+    match below_home.and_then(|rest| Some(dirs::home_dir()?.join(rest))) {
         Some(path) => path,
         None => folder.join(typed),
     }
 }
 
-/// Folders, and files that end as `extensions` say, whose names begin with what was typed last;
-/// folders first, by name. Hidden ones only where a dot was typed.
+/// Folders, and files with one of the `extensions`, whose names start with the last component
+/// typed: folders first, sorted by name, at most [`MAX_COMPLETIONS`]. Hidden entries appear only if
+/// a dot was typed.
 #[must_use]
 pub fn completions(typed: &str, folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     let path = expand_path(typed, folder);
     let is_folder = typed.is_empty() || typed.ends_with(['/', std::path::MAIN_SEPARATOR]);
-    let (inside, begins) = if is_folder {
+    let (inside, prefix) = if is_folder {
         (path.as_path(), String::new())
     } else {
         let name = path.file_name().unwrap_or_default();
-        let begins = name.to_string_lossy().to_lowercase();
-        (path.parent().unwrap_or(folder), begins)
+        let prefix = name.to_string_lossy().to_lowercase();
+        (path.parent().unwrap_or(folder), prefix)
     };
     let Ok(entries) = std::fs::read_dir(inside) else {
         return Vec::new();
@@ -39,7 +40,7 @@ pub fn completions(typed: &str, folder: &Path, extensions: &[&str]) -> Vec<PathB
             let path = entry.ok()?.path();
             let name = path.file_name()?.to_string_lossy().to_lowercase();
             let is_wanted =
-                name.starts_with(&begins) && (begins.starts_with('.') || !name.starts_with('.'));
+                name.starts_with(&prefix) && (prefix.starts_with('.') || !name.starts_with('.'));
             let is_file = !path.is_dir();
             let ends = path
                 .extension()
@@ -51,11 +52,11 @@ pub fn completions(typed: &str, folder: &Path, extensions: &[&str]) -> Vec<PathB
         })
         .collect();
     found.sort();
-    found.truncate(MOST);
+    found.truncate(MAX_COMPLETIONS);
     found.into_iter().map(|(_, _, path)| path).collect()
 }
 
-/// A path as it is typed on: folders with what separates them from what follows.
+/// The path as text; folders end with a separator.
 #[must_use]
 pub fn text(path: &Path) -> String {
     let separator = if path.is_dir() {
@@ -71,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_go_on_as_the_folder_has_them() {
+    fn names_complete_to_entries_of_the_folder() {
         let folder = tempfile::tempdir().expect("a folder");
         let here = folder.path();
         std::fs::create_dir(here.join("Drawings")).expect("a folder");

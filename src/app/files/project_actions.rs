@@ -1,4 +1,5 @@
-//! Opening, editing and saving: the intents that change the [`Session`].
+//! Systems that open, edit and save projects: they apply the intents that change the [`Session`]
+//! and report the results as notices.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,15 +19,15 @@ use crate::app::session::load::{LoadRequest, TransitionProblem};
 use crate::app::session::origin::absolute;
 use crate::app::session::save::SaveError;
 use crate::app::session::state::{Session, WorkOutcome};
+use crate::app::stage_area::AutoFit;
 use crate::app::unsaved_question::{UnsavedKind, UnsavedQuestion};
-use crate::app::view::stage_area::AutoFit;
 use crate::content::ContentKind;
 use crate::design::Design;
 use crate::project::{DesignEntry, Project, gallery};
 use crate::transition::{PlayMode, Transition, TransitionStop};
 use crate::warp::WarpKind;
 
-/// Acts on the intents that open something; asks first where changes would be lost.
+/// Opens projects and designs; asks first if unsaved changes would be lost.
 pub fn open(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
@@ -39,15 +40,17 @@ pub fn open(
             Intent::OpenGallery(name) => LoadRequest::Gallery(name.clone()),
             Intent::Open(paths) => match paths.as_slice() {
                 [project] if Project::is_named(project) => LoadRequest::File(project.clone()),
+                // With a project open, a single design may replace or extend its designs.
                 [design] if session.project().is_some() => {
                     drop.ask(design.clone());
                     continue;
                 }
-                // A design alone is its own partner until it gets another.
+                // A single design is paired with itself until another one is added.
                 [design] => LoadRequest::Designs(vec![design.clone(), design.clone()]),
                 [] => continue,
+                // A project cannot be combined with other files.
                 _ if paths.iter().any(|path| Project::is_named(path)) => {
-                    notices.problem(NoticeTopic::Opening, too_many(paths.len()));
+                    notices.problem(NoticeTopic::Opening, too_many_files(paths.len()));
                     continue;
                 }
                 designs => LoadRequest::Designs(designs.to_vec()),
@@ -55,7 +58,7 @@ pub fn open(
             _ => continue,
         };
         if session.is_dirty() {
-            // The intent comes again once it is decided, and is then looked at anew.
+            // The intent is sent again after the answer.
             question.ask(intent.clone(), UnsavedKind::Changes, session.unsaved_text());
         } else {
             session.open(request);
@@ -63,7 +66,7 @@ pub fn open(
     }
 }
 
-/// The bundled projects; none where a bundled document is wrong, which the tests rule out.
+/// The gallery projects; empty if a bundled project is invalid, which the tests rule out.
 #[derive(Resource, Clone, Debug, PartialEq, Eq)]
 pub struct GalleryEntries(pub Vec<gallery::GalleryEntry>);
 
@@ -73,11 +76,11 @@ impl Default for GalleryEntries {
     }
 }
 
-fn too_many(files: usize) -> String {
-    format!("{files} files cannot be opened together: open one project alone, or designs.")
+fn too_many_files(files: usize) -> String {
+    format!("Cannot open {files} files together. Open one project, or only designs")
 }
 
-/// Acts on the intents that change the open project.
+/// Applies the intents that change the open project.
 pub fn edit(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
@@ -91,19 +94,19 @@ pub fn edit(
             Intent::Insist => session.insist(),
             Intent::Undo => {
                 let undone = session.undo();
-                tell(undone, "There is nothing to undo.", &mut notices);
+                report_result(undone, "Nothing to undo", &mut notices);
             }
             Intent::Redo => {
                 let redone = session.redo();
-                tell(redone, "There is nothing to redo.", &mut notices);
+                report_result(redone, "Nothing to redo", &mut notices);
             }
             Intent::NextMethod => match next_cell(&session) {
                 Some(cell) => session.change(mark, |project| set_cell(project, cell)),
-                None => notices.done("These designs can be shown by one method only."),
+                None => notices.done("These designs support only one method"),
             },
             Intent::AddStop => {
                 let added = add_stop(&mut session, playback.t(), mark);
-                tell(Ok(added), "There is a stop here already.", &mut notices);
+                report_result(Ok(added), "There is already a stop here", &mut notices);
             }
             Intent::Edit(changed) => session.change(mark, |project| project.clone_from(changed)),
             Intent::UseCell(warp, content) => {
@@ -129,8 +132,9 @@ pub fn edit(
     }
 }
 
-fn tell(went: Result<bool, SaveError>, nothing: &str, notices: &mut Notices) {
-    match went {
+/// Reports an error, or `nothing` if there was nothing to do.
+fn report_result(result: Result<bool, SaveError>, nothing: &str, notices: &mut Notices) {
+    match result {
         Ok(true) => {}
         Ok(false) => notices.done(nothing),
         Err(error) => notices.problem(NoticeTopic::Saving, error.to_string()),
@@ -145,6 +149,7 @@ fn cycle(mode: &mut PlayMode) {
     };
 }
 
+/// Replaces a design's file and drops settings that refer to points of the old one.
 fn replace_design(project: &mut Project, index: usize, path: &Path) {
     let Some(entry) = project.designs.get_mut(index) else {
         return;
@@ -153,7 +158,7 @@ fn replace_design(project: &mut Project, index: usize, path: &Path) {
     for leg in 0..project.pair_count() {
         if project.pair_designs(leg).contains(&index) {
             let mut pair = project.pair_alone(leg);
-            // What was said of points of the old one means nothing in the new one.
+            // Pins and part settings refer to points of the old design.
             pair.options.matching = pair.options.matching.without_places();
             pair.options.parts.clear();
             project.take_pair(leg, pair);
@@ -161,6 +166,7 @@ fn replace_design(project: &mut Project, index: usize, path: &Path) {
     }
 }
 
+/// Inserts designs before index `at`, or appends them.
 fn insert_designs(project: &mut Project, at: usize, paths: &[PathBuf]) {
     let mut designs = project.in_order();
     let at = at.min(designs.len());
@@ -176,28 +182,28 @@ fn set_cell(project: &mut Project, (warp, content): (WarpKind, ContentKind)) {
     project.content = Some(content);
 }
 
-/// The next cell of the table, after the one in use, that can be had.
+/// The next method after the current one that the designs support.
 fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
     let project = session.project()?;
-    // All warps of what is seen first: pictures stay pictures.
+    // All warps for the same content first, so that pictures stay pictures.
     let cells: Vec<_> = ContentKind::ALL
         .into_iter()
         .flat_map(|content| WarpKind::ALL.map(|warp| (warp, content)))
         .collect();
     let here = (project.warp?, project.content?);
     let here = cells.iter().position(|cell| *cell == here)?;
-    // All but the one in use, which would be found again after a full round.
+    // Without the current method, which would come up again after a full round.
     let after = cells.iter().cycle().skip(here + 1).take(cells.len() - 1);
     after
         .copied()
         .find(|(warp, content)| session.available(*warp, *content).is_ok())
 }
 
-/// Whether a stop was put there; where there is one already, none is.
+/// Adds a stop at `t`; returns `false` if there is one already.
 fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
     let mut is_added = false;
     session.change(mark, |project| {
-        // Stops stand in the order of t.
+        // Stops are sorted by t.
         let place = project.stops.partition_point(|stop| stop.t < t - SAME_T);
         if project
             .stops
@@ -211,7 +217,7 @@ fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
     is_added
 }
 
-/// Acts on the intents that save; tells what was saved, and lets go on what waited for it.
+/// Saves the project, reports the result, and continues what waited for it.
 pub fn save(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
@@ -243,16 +249,16 @@ pub fn save(
     }
 }
 
-/// Takes in what was opened or built.
+/// Adopts opened projects and finished builds, and reports their problems and notes.
 pub fn poll(
     mut session: ResMut<Session>,
     mut notices: ResMut<Notices>,
     mut playback: ResMut<Playback>,
-    (mut keeps_fit, editor, presenting): (ResMut<AutoFit>, Res<MatchEditor>, Res<Presentation>),
-    mut told: Local<Vec<Arc<Design>>>,
+    (mut auto_fit, editor, presentation): (ResMut<AutoFit>, Res<MatchEditor>, Res<Presentation>),
+    mut reported: Local<Vec<Arc<Design>>>,
     mut is_to_play: Local<bool>,
 ) {
-    // Polled in each frame: only an outcome is a change.
+    // Polled each frame; only an outcome counts as a change.
     let may_change = playback.may_change_film(session.timing());
     let outcome = session.bypass_change_detection().poll(may_change);
     if outcome.is_some() {
@@ -263,11 +269,11 @@ pub fn poll(
     }
     match outcome {
         None => return,
-        // The match editor says it where it was caused.
+        // The match editor shows the problem where it was caused.
         Some(WorkOutcome::NotRebuilt) if editor.is_open => return,
         Some(WorkOutcome::NotRebuilt) => {}
         Some(WorkOutcome::Rebuilt) => {
-            // The last leg may be gone.
+            // The last segment may no longer exist.
             let end = session.leg_count() as f64;
             if playback.t() > end && session.timing().to <= end {
                 let (timing, stops) = (*session.timing(), session.stops().to_vec());
@@ -280,12 +286,14 @@ pub fn poll(
         }
         Some(WorkOutcome::Opened) => {
             playback.begin(session.timing());
-            keeps_fit.0 = true;
-            // Who brings two wants to see what lies between them; of more a way is chosen
-            // first, and a project is played by whoever shows it.
-            *is_to_play = session.is_new_pair() && !presenting.is_on();
+            auto_fit.0 = true;
+            // Two newly opened designs play at once. With more, the user first chooses an order; a
+            // saved project is started by the user.
+            *is_to_play = session.is_new_pair() && !presentation.is_on();
         }
     }
+    // Not before the requested film is there, if only as a draft, and not if the user has already
+    // moved t.
     if *is_to_play && session.has_film() {
         *is_to_play = false;
         if !playback.is_playing() && playback.t() == session.timing().from {
@@ -293,24 +301,24 @@ pub fn poll(
         }
     }
     notices.well(NoticeTopic::Opening);
-    tell_notes(session.all_designs(), &mut told, &mut notices);
+    show_notes(session.all_designs(), &mut reported, &mut notices);
     if let Some(problem) = session.problem() {
-        // Only the last one: what was tried before it is no longer asked for.
+        // Only the latest problem: earlier settings are no longer requested.
         notices.well(NoticeTopic::Transition);
         notices.problem(
             NoticeTopic::Transition,
-            why_not(problem, session.transition()),
+            problem_text(problem, session.transition()),
         );
     }
 }
 
-/// Says what of each design was repaired or left out, once while it is open.
-fn tell_notes(designs: &[Arc<Design>], told: &mut Vec<Arc<Design>>, notices: &mut Notices) {
+/// Shows once, for each design, what was repaired or ignored when it was read.
+fn show_notes(designs: &[Arc<Design>], reported: &mut Vec<Arc<Design>>, notices: &mut Notices) {
     for design in designs {
-        // A design alone is its own partner, read twice.
-        let is_told = told.contains(design);
-        told.push(Arc::clone(design));
-        let mut notes = design.notes.iter().filter(|_| !is_told);
+        // A single design is its own partner and has been read twice.
+        let is_reported = reported.contains(design);
+        reported.push(Arc::clone(design));
+        let mut notes = design.notes.iter().filter(|_| !is_reported);
         if let Some(first) = notes.next() {
             let more = match notes.count() {
                 0 => String::new(),
@@ -319,11 +327,12 @@ fn tell_notes(designs: &[Arc<Design>], told: &mut Vec<Arc<Design>>, notices: &mu
             notices.note(format!("{}: {first}{more}", design.name));
         }
     }
-    *told = designs.to_vec();
+    // Forgets designs that are no longer open: when opened again, their notes are shown again.
+    *reported = designs.to_vec();
 }
 
-/// Why there is nothing to see, or something else than was asked for.
-fn why_not(problem: &TransitionProblem, shown: Option<&Transition>) -> String {
-    let instead = shown.map(|shown| format!(" (shown meanwhile: {})", shown.cell().name()));
-    format!("{problem}{}", instead.unwrap_or_default())
+/// Describes a problem, and names the method shown instead, if any.
+fn problem_text(problem: &TransitionProblem, shown: Option<&Transition>) -> String {
+    let fallback = shown.map(|shown| format!(". Showing {} instead", shown.cell().name()));
+    format!("{problem}{}", fallback.unwrap_or_default())
 }

@@ -1,76 +1,83 @@
-//! What a hand can ask for in the match editor, as plain data.
+//! Actions of the match editor as plain data, so that tests can drive the editor without a window.
 
 use bevy::prelude::Vec2;
 
-use crate::app::editing::panes::EditorPane;
 use crate::geometry::{DVec2, Side};
 
-/// One act in the match editor.
+/// One action of the user in the match editor.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EditorAction {
-    /// Show the editor in place of the stage, or the stage again.
+    /// Open the editor in place of the stage, or close it.
     Toggle,
-    /// What a click does.
+    /// Select the tool that a click applies.
     Tool(EditorTool),
-    /// Pins snap to corners.
+    /// Whether pins snap to corners.
     Snap(bool),
-    /// The triangles are shown.
+    /// Whether the triangles of the mesh are shown.
     Triangles(bool),
-    /// The pointer is here, or nowhere.
+    /// The pointer hovers here; `None` when it leaves the designs.
     Hover(Option<EditorPointer>),
-    /// The hand takes what is here.
+    /// The mouse button goes down here.
     Press(EditorPointer),
-    /// The hand moves, by so many logical pixels, y down, to there.
+    /// The pointer is dragged to here, by an offset in logical pixels, y down.
     Drag(EditorPointer, Vec2),
-    /// The hand lets go.
+    /// The mouse button is released.
     Release,
-    /// A click.
+    /// A click: press and release without a drag.
     Click(EditorPointer),
-    /// Delete what is here.
+    /// Delete the pin, line or cut under the pointer.
     Remove(EditorPointer),
-    /// Delete what is selected.
+    /// Delete the selected pin, line or cut.
     RemoveSelected,
-    /// Delete everything that was said of the match by hand, the rules aside.
+    /// Delete all pins, lines, cuts and part pairings set by hand; matching rules stay.
     Clear,
-    /// Show the film beside the designs.
+    /// Whether the film is shown next to the designs.
     Film(bool),
-    /// Move and enlarge all panes together, or each alone.
+    /// Whether all panes pan and zoom together.
     Together(bool),
-    /// Move a pane by so many logical pixels, y down.
+    /// Move a pane by an offset in logical pixels, y down.
     Pan(EditorPane, Vec2),
-    /// Zoom a pane.
+    /// Zoom a pane about a point.
     Zoom {
-        /// Which.
+        /// The pane.
         pane: EditorPane,
-        /// The point that stays where it is, in logical pixels from the middle of the pane, y
-        /// down.
+        /// The point that stays fixed, in logical pixels from the centre of the pane, y down.
         at: Vec2,
-        /// Above 1 comes nearer.
+        /// Zoom factor; above 1 magnifies.
         factor: f32,
     },
 }
 
-/// A place that the hand points to.
+/// Pointer position on one of the two designs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EditorPointer {
-    /// In which design.
+    /// The design under the pointer.
     pub side: Side,
-    /// Where, in the frame.
+    /// Position in the frame that both designs are placed in.
     pub at: DVec2,
-    /// How near counts as there, in the frame.
+    /// Maximum distance, in the frame, at which the pointer picks something.
     pub reach: f64,
-    /// Pins do not snap.
+    /// Whether snapping is suspended (a modifier key is down).
     pub is_free: bool,
 }
 
-/// What a click does.
+/// Tool of the match editor: the effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EditorTool {
-    /// Sets a pin.
+    /// Sets a pin: a pair of points that correspond.
     #[default]
     Pins,
     /// Draws pairs of lines.
     Lines,
     /// Pairs parts.
     Parts,
+}
+
+/// One pane of the editor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EditorPane {
+    /// One of the designs.
+    Design(Side),
+    /// The film between them.
+    Film,
 }

@@ -1,21 +1,21 @@
-//! What the hands are at: a text field, or one movement of the pointer.
+//! Keyboard focus and mouse gestures: which changes belong to one undo step.
 
 use bevy::input::ButtonInput;
 use bevy::prelude::{MouseButton, Res, ResMut, Resource};
 
-/// A text field or a menu has the keyboard: keys belong to it and mean nothing here.
+/// Whether a text field or menu has the keyboard focus; keys then trigger no intents.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct KeyboardFocus(pub bool);
 
-/// Words of a message are marked: Ctrl C copies them and not the stage.
+/// Whether text of a notice is selected: Ctrl+C then copies the text instead of the stage.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TextSelected(pub bool);
 
-/// Frames from the release of a button until the last change that belongs to it was acted on:
-/// panels are drawn after the systems have run, so what they ask for is acted on a frame later.
+/// Number of frames after the release of a button during which changes still belong to it. Panels
+/// are drawn after the systems have run, so their changes arrive one frame later.
 const FRAMES_AFTER: u8 = 2;
 
-/// Which changes belong to one movement of the hand.
+/// The mouse gesture or text entry in progress, numbered so that its changes form one undo step.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Gesture {
     number: u64,
@@ -24,17 +24,18 @@ pub struct Gesture {
 }
 
 impl Gesture {
-    /// The movement that is going on; changes of one movement are one step.
+    /// Number of the gesture in progress; changes with the same number are one undo step.
     #[must_use]
     pub fn mark(&self) -> Option<u64> {
         (self.frames_left > 0).then_some(self.number)
     }
 
-    fn note(&mut self, is_new: bool, goes_on: bool) {
+    /// Records whether a gesture starts or continues in this frame.
+    fn note(&mut self, is_new: bool, is_ongoing: bool) {
         if is_new {
             self.number += 1;
         }
-        self.frames_left = if is_new || goes_on {
+        self.frames_left = if is_new || is_ongoing {
             FRAMES_AFTER
         } else {
             self.frames_left.saturating_sub(1)
@@ -42,17 +43,17 @@ impl Gesture {
     }
 }
 
-/// Notes what the hand does.
+/// Detects when a gesture starts and ends.
 pub fn track_gesture(
     buttons: Res<ButtonInput<MouseButton>>,
     typing: Res<KeyboardFocus>,
     mut gesture: ResMut<Gesture>,
 ) {
-    // What is typed into one field is one step: a field that gets the keyboard is a new movement.
+    // All typing into one field is one step: a field that receives the focus starts a new gesture.
     let begins_typing = typing.0 && !gesture.was_typing;
     let is_new = buttons.get_just_pressed().next().is_some() || begins_typing;
-    let goes_on = buttons.get_pressed().next().is_some() || typing.0;
-    gesture.note(is_new, goes_on);
+    let is_ongoing = buttons.get_pressed().next().is_some() || typing.0;
+    gesture.note(is_new, is_ongoing);
     gesture.was_typing = typing.0;
 }
 
@@ -61,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_button_marks_what_comes_shortly_after_it_too() {
+    fn changes_shortly_after_a_release_belong_to_the_gesture() {
         let mut gesture = Gesture::default();
         assert_eq!(gesture.mark(), None);
         gesture.note(true, true);

@@ -1,8 +1,8 @@
-//! What a user can ask for, as one message type.
+//! Everything the user can do, as one message type.
 //!
-//! Keys, panels, dialogs and dropped files only write [`Intent`]s; the systems of the other files
-//! act on them. So a key and a button that mean the same thing cannot drift apart, and a test can
-//! drive the program without a window.
+//! Keys, panels, dialogs and dropped files only write [`Intent`]s; systems in the other files act
+//! on them. So a key and a button with the same meaning cannot drift apart, and tests can drive the
+//! program without a window.
 
 use std::path::PathBuf;
 
@@ -17,208 +17,209 @@ use crate::project::{MapSettings, MovedDesigns, Project};
 use crate::space::MapLayout;
 use crate::warp::WarpKind;
 
-/// One act of the user.
+/// One action of the user.
 #[derive(Message, Clone, Debug, PartialEq)]
 pub enum Intent {
-    /// Play, or pause.
+    /// Play or pause.
     TogglePlay,
-    /// Play the other way.
+    /// Reverse the direction of playback.
     Reverse,
-    /// Move t by so many hundredths.
+    /// Move t by this many hundredths.
     Step(i32),
-    /// Set t; any finite number, outside 0..1 extrapolates.
+    /// Set t to any finite number; outside 0..1 the blend extrapolates.
     Seek(f64),
-    /// Jump to where the pass starts.
+    /// Jump to the start of the film.
     SeekStart,
-    /// Jump to where the pass ends.
+    /// Jump to the end of the film.
     SeekEnd,
     /// Jump to the next stop.
     JumpToNextStop,
-    /// Jump to the stop before.
+    /// Jump to the previous stop.
     JumpToPreviousStop,
     /// Play to the next stop and wait there.
     PlayToNextStop,
-    /// Play backwards to the stop before and wait there.
+    /// Play backwards to the previous stop and wait there.
     PlayToPreviousStop,
-    /// The next faster speed.
+    /// Next faster playback speed.
     Faster,
-    /// The next slower speed.
+    /// Next slower playback speed.
     Slower,
-    /// Speed 1.
+    /// Reset the playback speed to 1.
     NormalSpeed,
-    /// This speed, a factor on that of the timing.
+    /// Set the playback speed, a factor on the film's own timing.
     Speed(f64),
-    /// Once, loop, ping-pong, and round again.
+    /// Cycle through once, loop and ping-pong.
     CyclePlayMode,
-    /// Put a stop where t is.
+    /// Add a stop at the current t.
     AddStop,
-    /// Take the last change of the project back.
+    /// Undo the last change of the project.
     Undo,
-    /// Make the change again that was taken back last.
+    /// Redo the change that was undone last.
     Redo,
-    /// Replace the project's settings; the designs stay those that are named in it.
+    /// Replace the settings of the current segment; shared settings change for the whole project.
     Edit(Box<Project>),
-    /// Show the transition by this cell.
+    /// Use the method with this warp and content.
     UseCell(WarpKind, ContentKind),
-    /// Show the transition by the next cell that can be had.
+    /// Use the next method that these designs support.
     NextMethod,
-    /// Try the methods that could suit, and show the transition by the best.
+    /// Try all suitable methods in the background, then use the best.
     ChooseMethod,
     /// Stop trying methods.
     CancelChoice,
-    /// Ask for files to open.
+    /// Open the dialog that asks for files to open.
     AskOpen,
-    /// The answer of the dialog that asked for files; none where it was left.
+    /// Files chosen in the dialog; empty if it was cancelled.
     Choose(Vec<PathBuf>),
-    /// Show what this file holds, in the dialog that asks for files.
+    /// Preview this file in the dialog.
     LookAt(PathBuf),
-    /// Open these files: one project, or designs, one after the other.
+    /// Open these files: one project, or designs that become a new project.
     Open(Vec<PathBuf>),
-    /// Open a bundled project by its name.
+    /// Open the gallery project with this name.
     OpenGallery(String),
-    /// Ask for a file that replaces the design of this number, from 0.
+    /// Open the dialog that asks for a replacement of the design with this index.
     AskReplace(usize),
-    /// Replace the design of this number, from 0, by this file.
+    /// Replace the design with this index by this file.
     ReplaceDesign(usize, PathBuf),
-    /// Ask for files of designs that come before the design of this number, or after all.
+    /// Open the dialog that asks for designs to insert at this index; the number of designs
+    /// appends.
     AskInsert(usize),
-    /// Let designs of these files come before the design of this number, or after all.
+    /// Insert these designs at this index; the number of designs appends.
     InsertDesigns(usize, Vec<PathBuf>),
-    /// Other designs, or the same in another order, each with its number until now.
+    /// Replace the list of designs: each entry is new or names the index it had before.
     Arrange(Vec<MovedDesigns>),
-    /// Let the last design lead back to the first, or no more.
+    /// Close the loop: whether the last design leads back to the first.
     LeadBack(bool),
-    /// Write the project where it came from; asks for a place if it has none.
+    /// Save the project to its file; asks for a file if it has none.
     Save,
-    /// Ask for a place and write the project there.
+    /// Ask for a file and save the project there.
     SaveAs,
-    /// Write the project to this path.
+    /// Save the project to this file.
     SaveTo(PathBuf),
-    /// Save a picture of the stage, or of the whole window.
+    /// Save an image of the stage or of the whole window.
     Screenshot {
-        /// With the panels, as the window shows it.
+        /// Whether the image includes the panels.
         with_panels: bool,
     },
-    /// Put a picture of the stage on the clipboard.
+    /// Copy an image of the stage to the clipboard.
     CopyPicture,
-    /// Put what the stage shows on the clipboard, as an SVG document.
+    /// Copy the stage to the clipboard as an SVG document.
     CopyShapes,
-    /// Record one pass as a film in the background.
+    /// Export the film in the background.
     Record,
-    /// Write a sheet of every method by which the pair can be seen, in the background.
+    /// Export a comparison sheet of all methods for this pair, in the background.
     Compare,
-    /// Stop the work that is going on.
+    /// Cancel building the transition.
     CancelWork,
-    /// Build all the same what would take very long.
+    /// Build anyway, although the estimate exceeds the time or memory limit.
     Insist,
-    /// Stop the recording that is going on.
+    /// Cancel the export in progress.
     CancelRecording,
-    /// Begin a talk, or end it.
+    /// Start or end a talk.
     Present {
-        /// The window is there for it, and closes with it.
+        /// Whether the window was opened for the talk and closes with it.
         is_all: bool,
     },
-    /// Make the screen black in a talk, or show the drawing again.
+    /// Blacken the screen during a talk, or show the drawing again.
     Black,
-    /// Show or hide the speaker's window in a talk.
+    /// Show or hide the speaker's window during a talk.
     ToggleSpeaker,
-    /// Show or hide the captions in a talk.
+    /// Show or hide captions during a talk.
     ToggleCaptions,
-    /// Whole screen, or window.
+    /// Switch between full screen and window.
     ToggleFullscreen,
     /// Hide everything but the stage, or show it again.
     TogglePanels,
     /// Show or hide the list of keys.
     ToggleHelp,
-    /// Show or hide the times of a frame.
+    /// Show or hide the frame times.
     ToggleTimes,
-    /// Show or hide the measures against t.
+    /// Show or hide the graphs over time.
     TogglePlots,
-    /// Do what the verdict advises about this finding.
+    /// Apply the remedy suggested for the finding with this index.
     TakeAdvice(usize),
-    /// Take what was tried and helps, by its number.
+    /// Apply the suggestion with this index.
     TakeOffer(usize),
-    /// Measure the transition, which was stopped.
+    /// Measure the film again after measuring was stopped.
     Measure,
-    /// Show or hide a second method beside the stage.
+    /// Show or hide the comparison with a second method next to the stage.
     ToggleTwin,
-    /// The method that is shown beside the stage.
+    /// Set the method of the comparison.
     TwinMethod(ComparisonMethod),
-    /// Show or hide the map of all designs in place of the stage.
+    /// Show the map of all designs in place of the stage, or hide it.
     ToggleMap,
-    /// Lay the designs out on the map.
+    /// Set how the designs are laid out on the map.
     LayOut(MapLayout),
-    /// Move the puck there on the map, y up.
+    /// Move the marker to this point of the map, y up.
     Puck(DVec2),
-    /// Move the design of this number there on the map.
+    /// Move the design with this index to this point of the map.
     MoveSite(usize, DVec2),
-    /// Replace what is said of the map.
+    /// Replace the map's settings.
     EditMap(Box<MapSettings>),
-    /// Show the contours of a measure on the map, or none.
+    /// Show contours of this measure on the map; `None` shows none.
     ShowMeasure(Option<MapMeasure>),
-    /// A click on the map sets a stop of the path, or moves the puck.
+    /// Whether a click on the map adds a stop to the path instead of moving the marker.
     DrawPath(bool),
-    /// Let the path go on through these places of the map, to a stop at the last of them.
+    /// Extend the path through these points of the map; the last becomes a stop.
     ExtendPath(Vec<DVec2>),
-    /// Take the last stop of the path off.
+    /// Remove the last stop of the path.
     ShortenPath,
-    /// Record the way of the puck as a path, or end that.
+    /// Start or end recording the marker's movement as a path.
     RecordPath,
-    /// Keep the blend under the puck.
+    /// Save the blend under the marker.
     Keep,
-    /// Write the places that are kept as files.
+    /// Export the saved blends to files.
     ExportKept,
-    /// Leave what was entered last: help, question, hidden panels, whole screen.
+    /// Esc: close the topmost question, overlay or mode, and last cancel an export.
     Back,
-    /// Show the whole transition.
+    /// Fit the whole transition into the view.
     FitView,
-    /// Move the view by so many logical pixels, y down.
+    /// Move the view by an offset in logical pixels, y down.
     Pan(Vec2),
-    /// Zoom the view.
+    /// Zoom the view about a point.
     Zoom {
-        /// The point that stays where it is, in logical pixels from the stage area's upper left
-        /// corner, y down.
+        /// The point that stays fixed, in logical pixels from the top left corner of the stage
+        /// area, y down.
         at: Vec2,
-        /// Above 1 comes nearer.
+        /// Zoom factor; above 1 magnifies.
         factor: f32,
     },
-    /// An act in the match editor.
+    /// An action in the match editor.
     Editor(EditorAction),
-    /// Show or hide the grid that shows the warp.
+    /// Show or hide the grid deformed by the warp.
     ToggleGrid,
-    /// Show or hide thin outlines of the film at other t.
+    /// Show or hide onion skins: thin outlines of the film at other t.
     ToggleOnion,
-    /// Replace what the person at the screen chose.
+    /// Replace the user's preferences.
     Prefer(Preferences),
-    /// Make films as was kept under this name.
+    /// Use the export preset with this name.
     UsePreset(String),
-    /// Keep how films are made under this name.
+    /// Save the export settings as a preset with this name.
     KeepPreset(String),
-    /// Forget what was kept under this name.
+    /// Remove the preset with this name.
     ForgetPreset(String),
-    /// A message was read.
+    /// Dismiss the notice with this id.
     Dismiss(u64),
-    /// Close the window; asks first where something would be lost.
+    /// Close the window; asks first if work would be lost.
     Close,
-    /// The answer to the question about what would be lost.
+    /// Answer to the question about unsaved work.
     Answer(UnsavedAnswer),
-    /// The answer to what can be taken up again.
+    /// Answer to the offer to recover unsaved work.
     Rescue(RecoveryAnswer),
 }
 
-/// An answer to "this was not saved when the program ended".
+/// Answer to "Recover unsaved work?".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RecoveryAnswer {
-    /// Open it as it was.
+    /// Open the recovered project.
     Restore,
-    /// It is not wanted.
+    /// Delete it.
     Discard,
     /// Ask again at the next start.
     Later,
 }
 
 impl Intent {
-    /// It may be asked for in a talk: it shows nothing but the drawing.
+    /// Whether the intent is allowed during a talk: it shows the audience nothing but the drawing.
     #[must_use]
     pub const fn is_of_a_talk(&self) -> bool {
         matches!(
@@ -246,13 +247,13 @@ impl Intent {
     }
 }
 
-/// An answer to "this would be lost".
+/// Answer to a question about unsaved work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnsavedAnswer {
-    /// Save it, or wait for it, then go on.
+    /// Save the project, or wait for the export, then continue.
     Save,
-    /// Go on without it.
+    /// Continue without saving.
     Discard,
-    /// Do not go on.
+    /// Cancel the action that raised the question.
     Stay,
 }

@@ -1,16 +1,17 @@
-//! The table of keys: what each means, and what the list of keys says of it.
+//! The table of keys: every key combination, its intent, and its description in the list of keys.
+//! The README repeats it; a test compares the two.
 
 use bevy::input::keyboard::Key;
 
 use crate::app::input::editor_action::EditorAction;
 use crate::app::input::intent::Intent;
-use crate::app::key_map::KeyTrigger;
-use crate::app::key_map::KeyTrigger::{Digit, Letter, Named, Sign};
-use crate::app::key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow};
+use crate::app::input::key_map::KeyTrigger;
+use crate::app::input::key_map::KeyTrigger::{Digit, Letter, Named, Sign};
+use crate::app::input::key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow};
 
 impl Default for KeyMap {
     fn default() -> Self {
-        Self::new([playing(), stops(), talk(), changing(), view(), files()].concat())
+        Self::new([playback(), stops(), talk(), edit(), view(), files()].concat())
     }
 }
 
@@ -46,7 +47,7 @@ fn group<const N: usize>(
     rows.into_iter().map(row).collect()
 }
 
-fn playing() -> Vec<KeyTableRow> {
+fn playback() -> Vec<KeyTableRow> {
     use Intent::{
         CyclePlayMode, Faster, NormalSpeed, Reverse, Seek, SeekEnd, SeekStart, Slower, Step,
         TogglePlay,
@@ -62,23 +63,23 @@ fn playing() -> Vec<KeyTableRow> {
         "Play",
         [
             ("Play or pause", vec![key(Named(Key::Space), TogglePlay)]),
-            ("Step by one hundredth", step(1).into()),
-            ("Ten steps", step(10).map(KeyBinding::shift).into()),
+            ("Step by 0.01", step(1).into()),
+            ("Step by 0.1", step(10).map(KeyBinding::shift).into()),
             (
-                "Start and end of the pass",
+                "Jump to start and end",
                 ends.map(|(end, seek)| key(Named(end), seek)).into(),
             ),
             (
                 "Slower and faster",
                 speeds.map(|(c, act)| key(Sign(c), act)).into(),
             ),
-            ("Speed 1", vec![key(Named(Key::Backspace), NormalSpeed)]),
-            ("Play the other way", vec![key(Letter('r'), Reverse)]),
+            ("Reset speed", vec![key(Named(Key::Backspace), NormalSpeed)]),
+            ("Reverse direction", vec![key(Letter('r'), Reverse)]),
             (
                 "Once, loop, ping-pong",
                 vec![key(Letter('l'), CyclePlayMode)],
             ),
-            ("Jump to a tenth", (1..=9).map(tenth).collect()),
+            ("Jump to 0.1 … 0.9", (1..=9).map(tenth).collect()),
         ],
     )
 }
@@ -90,10 +91,10 @@ fn stops() -> Vec<KeyTableRow> {
         (Key::ArrowDown, JumpToPreviousStop),
     ];
     group(
-        "Stops and slides",
+        "Stops",
         [
             (
-                "Set a stop here; on the map: one of the path",
+                "Add a stop; on the map: add a stop to the path",
                 vec![key(Letter('m'), AddStop)],
             ),
             (
@@ -105,7 +106,7 @@ fn stops() -> Vec<KeyTableRow> {
                 vec![key(Named(Key::PageDown), PlayToNextStop)],
             ),
             (
-                "Play back to the stop before",
+                "Play back to the previous stop and wait",
                 vec![key(Named(Key::PageUp), PlayToPreviousStop)],
             ),
         ],
@@ -119,33 +120,36 @@ fn talk() -> Vec<KeyTableRow> {
         "Talk",
         [
             (
-                "Present: the drawing alone, from the first stop",
+                "Start a talk: full screen, from the first stop",
                 vec![key(Named(Key::F5), present)],
             ),
             (
-                "Black, and back",
+                "Black screen on and off",
                 vec![key(Letter('b'), Black), key(Sign('.'), Black)],
             ),
-            ("Captions", vec![key(Letter('t'), ToggleCaptions)]),
             (
-                "Notes and the next stop, in a window",
+                "Captions on and off",
+                vec![key(Letter('t'), ToggleCaptions)],
+            ),
+            (
+                "Speaker window: notes and next stop",
                 vec![key(Letter('n'), ToggleSpeaker)],
             ),
         ],
     )
 }
 
-fn changing() -> Vec<KeyTableRow> {
+fn edit() -> Vec<KeyTableRow> {
     let remove = |name: Key| key(Named(name), Intent::Editor(EditorAction::RemoveSelected));
     group(
-        "Match and changes",
+        "Edit",
         [
             (
                 "Edit the match; on the map: draw a path",
                 vec![key(Letter('e'), Intent::Editor(EditorAction::Toggle))],
             ),
             (
-                "Delete the chosen pin or cut",
+                "Delete the selected pin, line or cut",
                 vec![remove(Key::Delete), remove(Key::Backspace)],
             ),
             ("Undo", vec![key(Letter('z'), Intent::Undo).control()]),
@@ -171,42 +175,36 @@ fn view() -> Vec<KeyTableRow> {
         "View",
         [
             ("Next method", vec![named(Key::Tab, NextMethod)]),
-            ("A second method beside the stage", letter('v', ToggleTwin)),
+            ("Compare with a second method", letter('v', ToggleTwin)),
             (
-                "The map of all designs; arrows walk on it",
+                "Map of all designs; arrow keys move on it",
                 letter('d', ToggleMap),
             ),
+            ("On the map: save this blend", letter('k', Intent::Keep)),
             (
-                "Keep the blend under the puck of the map",
-                letter('k', Intent::Keep),
-            ),
-            (
-                "A grid of the warp; on the map: record a way",
+                "Grid of the warp; on the map: record a path",
                 letter('w', ToggleGrid),
             ),
             (
-                "Onion skins: the film at its stops, in thin lines",
+                "Onion skins: outlines at all stops",
                 letter('o', ToggleOnion),
             ),
-            ("Plots of the measures against t", letter('p', TogglePlots)),
-            ("Show the whole transition", letter('z', FitView)),
+            ("Graphs over time", letter('p', TogglePlots)),
+            ("Fit to view", letter('z', FitView)),
             (
-                "Whole screen",
+                "Full screen",
                 vec![
                     key(Letter('f'), ToggleFullscreen),
                     named(Key::F11, ToggleFullscreen),
                 ],
             ),
             ("Hide everything but the stage", letter('h', TogglePanels)),
+            ("Close, cancel or go back", vec![named(Key::Escape, Back)]),
             (
-                "Back, or stop what is being built",
-                vec![named(Key::Escape, Back)],
-            ),
-            (
-                "This list",
+                "List of keys",
                 vec![key(Sign('?'), ToggleHelp), named(Key::F1, ToggleHelp)],
             ),
-            ("Times of a frame", vec![named(Key::F3, ToggleTimes)]),
+            ("Frame times", vec![named(Key::F3, ToggleTimes)]),
         ],
     )
 }
@@ -216,23 +214,23 @@ fn files() -> Vec<KeyTableRow> {
     let letter = |c: char, intent: Intent| key(Letter(c), intent);
     let picture = |with_panels: bool| letter('s', Screenshot { with_panels });
     group(
-        "Files and pictures",
+        "Files and export",
         [
             ("Open", vec![letter('o', AskOpen).control()]),
             ("Save", vec![letter('s', Save).control()]),
             ("Save as", vec![letter('s', SaveAs).control().shift()]),
-            ("Picture of the stage", vec![picture(false)]),
-            ("Picture with the panels", vec![picture(true).shift()]),
+            ("Save image", vec![picture(false)]),
+            ("Save image with panels", vec![picture(true).shift()]),
             (
-                "Copy the stage: as a picture, as SVG",
+                "Copy as image, as SVG",
                 vec![
                     letter('c', CopyPicture).control(),
                     letter('c', CopyShapes).control().shift(),
                 ],
             ),
-            ("Record one pass", vec![letter('g', Record)]),
+            ("Export film", vec![letter('g', Record)]),
             (
-                "Sheet of all methods, side by side",
+                "Export a comparison sheet of all methods",
                 vec![letter('c', Compare)],
             ),
         ],
@@ -245,7 +243,8 @@ mod tests {
 
     use super::*;
 
-    /// The chords of one row of the README: `R`, `→ ←`, `1 – 9`, `Ctrl+S, Ctrl+O`.
+    /// Key combinations in one row of the README's table, such as `R`, `→ ←`, `1 – 9`, `Ctrl+S,
+    /// Ctrl+O`.
     fn chords(keys: &str, does: &str) -> BTreeSet<String> {
         let keys = keys.replace("Page ", "Page_").replace('`', "");
         let mut words: Vec<String> = keys
@@ -270,10 +269,10 @@ mod tests {
     }
 
     #[test]
-    fn the_readme_tells_of_all_keys_and_of_no_others() {
+    fn the_readme_lists_exactly_the_bound_keys() {
         let readme = include_str!("../../../README.md");
         let table = readme.split_once("| key | does |").expect("a table").1;
-        let told: BTreeSet<String> = table
+        let documented: BTreeSet<String> = table
             .lines()
             .skip(2)
             .map_while(|line| line.strip_prefix('|')?.strip_suffix('|')?.rsplit_once('|'))
@@ -282,10 +281,10 @@ mod tests {
         let map = KeyMap::default();
         let bindings = map.rows().iter().flat_map(|row| &row.bindings);
         let bound: BTreeSet<String> = bindings
-            // Backspace deletes as Del does; the README tells of its other meaning.
+            // Backspace appears twice: the README documents only its meaning outside the editor.
             .map(KeyBinding::chord)
             .collect();
-        assert_eq!(told, bound);
+        assert_eq!(documented, bound);
     }
 
     #[test]
@@ -302,16 +301,16 @@ mod tests {
     }
 
     #[test]
-    fn the_list_tells_keys_in_few_words() {
+    fn the_list_abbreviates_keys() {
         let map = KeyMap::default();
         let keys: Vec<String> = map.rows().iter().map(KeyTableRow::keys).collect();
-        for known in [
+        for expected in [
             "Space",
             "Shift Right  Left",
             "1 – 9",
             "Ctrl Shift Z  Ctrl Y",
         ] {
-            assert!(keys.iter().any(|keys| keys == known), "{keys:?}");
+            assert!(keys.iter().any(|keys| keys == expected), "{keys:?}");
         }
         assert!(map.rows().iter().all(|row| !row.help.is_empty()));
     }

@@ -1,39 +1,40 @@
-//! What there is to choose from at the screen.
+//! Preferences of the user that belong to no project: theme, display toggles, export settings,
+//! comparison method.
 
 use bevy::prelude::Resource;
 
 use crate::content::ContentKind;
 use crate::export::{FilmKind, PictureLayout, has_ffmpeg};
-use crate::settings::choice::named;
+use crate::settings::named;
 use crate::stage::StageVisibility;
 use crate::transition::{PlayMode, Timing, TransitionMethod, TransitionStop};
 
-/// What the person at the screen chose; not part of any project.
+/// Preferences of the user; not part of any project.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Preferences {
-    /// The colours of the panels.
+    /// Colour theme of the panels.
     pub theme: ThemeChoice,
-    /// What the stage draws.
+    /// Layers that the stage draws.
     pub show: StageVisibility,
-    /// Onion skins are shown: thin outlines of the film at other t.
+    /// Whether onion skins are shown: thin outlines of the film at other t.
     pub onion: bool,
-    /// Panels are shown.
+    /// Whether the panels are shown.
     pub panels: bool,
-    /// The list of keys is shown.
+    /// Whether the list of keys is shown.
     pub help: bool,
-    /// The times of a frame are shown.
+    /// Whether the frame times are shown.
     pub times: bool,
-    /// The measures against t are shown.
+    /// Whether the graphs over time are shown.
     pub plots: bool,
-    /// Size of screenshots.
+    /// Resolution of saved images.
     pub capture_scale: ImageScale,
-    /// Screenshots have a transparent ground.
+    /// Whether saved images have a transparent background.
     pub capture_transparent: bool,
-    /// Kind of file of a recording; none takes what suits what is seen.
+    /// File type of exported films; `None` chooses one that suits the content.
     pub record_format: Option<FilmFileFormat>,
-    /// How films lie in their pictures.
+    /// Layout, rate and range of exported films.
     pub film: FilmExportOptions,
-    /// The options of pictures and films are shown.
+    /// Whether the export settings are shown.
     pub film_options: bool,
 }
 
@@ -56,23 +57,23 @@ impl Default for Preferences {
     }
 }
 
-/// How films look, besides what they show.
+/// Export settings of a film, apart from its content.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmExportOptions {
-    /// Their shape and size.
+    /// Aspect ratio, resolution, margin and captions.
     pub layout: PictureLayout,
-    /// Frames a second.
+    /// Frames per second.
     pub fps: u32,
-    /// The t that it begins at and that it ends at, where that is not those of the pass.
+    /// First and last t, where they differ from those of the film on the stage.
     pub span: [Option<f64>; 2],
-    /// How it goes on at its end.
+    /// Behaviour at the end of the film.
     pub ending: FilmEnding,
-    /// Nothing lies behind it, where the file can have that.
+    /// Whether the background is transparent, if the file type supports it.
     pub is_transparent: bool,
 }
 
 impl Default for FilmExportOptions {
-    /// For slides, at a rate that GIF's clock of hundredths keeps exactly.
+    /// Layout for slides at 25 fps, a rate that GIF's clock of 1/100 s represents exactly.
     fn default() -> Self {
         Self {
             layout: PictureLayout::default(),
@@ -85,8 +86,8 @@ impl Default for FilmExportOptions {
 }
 
 impl FilmExportOptions {
-    /// The t that it begins at and that it ends at, as far as these are places of the project:
-    /// another one may be open by now, or a stop may be gone.
+    /// First and last t of the export. Drops values that are neither an end nor a stop of the
+    /// project: another project may be open by now, or a stop may have been removed.
     #[must_use]
     pub fn places(&self, pass: &Timing, stops: &[TransitionStop]) -> [Option<f64>; 2] {
         let is_there = |t: &f64| {
@@ -96,7 +97,7 @@ impl FilmExportOptions {
         self.span.map(|at| at.filter(is_there))
     }
 
-    /// The timing of the film: a part of the pass runs as fast as the pass does.
+    /// Timing of the exported film; a section runs at the same speed as in the whole film.
     #[must_use]
     pub fn timing(&self, pass: &Timing, stops: &[TransitionStop]) -> Timing {
         let [from, to] = self.places(pass, stops);
@@ -116,62 +117,62 @@ impl FilmExportOptions {
     }
 }
 
-/// How a film goes on at its end.
+/// Behaviour at the end of an exported film.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FilmEnding {
-    /// As the pass on the stage.
+    /// As played on the stage.
     #[default]
     AsPlayed,
-    /// It ends.
+    /// It stops.
     Once,
-    /// It comes back, and begins again where it began.
+    /// It plays back to its start, so that it can loop.
     Seamless,
 }
 
 named! { FilmEnding {
-    AsPlayed: "as-played", "As played", "As the stage plays: set below, beside Lasts";
-    Once: "once", "One way", "From the first form to the last, and no further";
-    Seamless: "seamless", "Loop", "There and back, so that it can go round without a jump";
+    AsPlayed: "as-played", "As on the stage", "Plays as on the stage (set next to Duration)";
+    Once: "once", "Play once", "Plays from the first design to the last and stops";
+    Seamless: "seamless", "Loop", "Plays forwards and back, so that it loops without a jump";
 } }
 
-/// The colours of the panels.
+/// Colour theme of the panels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ThemeChoice {
-    /// Light panels on a dark ground.
+    /// Dark panels with light text.
     #[default]
     Dark,
-    /// Dark panels on a light ground.
+    /// Light panels with dark text.
     Light,
 }
 
-/// The size of a screenshot of the stage.
+/// Resolution of a saved image of the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ImageScale {
-    /// As many pixels as the window has.
+    /// The window's own pixels.
     #[default]
     One,
-    /// Twice as many along each side.
+    /// Twice as many pixels along each side.
     Two,
     /// 3840 pixels along the longer side.
     FourK,
 }
 
-/// The kind of file that a recording writes.
+/// File type of an exported film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FilmFileFormat {
-    /// One file that moves.
+    /// One animated file.
     Film(FilmKind),
-    /// A folder of numbered PNGs.
+    /// A folder of numbered PNG images.
     Pngs,
 }
 
 impl FilmFileFormat {
-    /// That which has no transparency: its films get the ground colour whatever was chosen.
+    /// The type without transparency: its films always get the background colour.
     pub const OPAQUE: Self = Self::Film(FilmKind::Mp4);
 }
 
 impl Preferences {
-    /// The kind of file that a recording of this content writes.
+    /// File type of an exported film with this content.
     #[must_use]
     pub fn format(&self, content: Option<ContentKind>) -> FilmFileFormat {
         self.record_format
@@ -180,7 +181,8 @@ impl Preferences {
 }
 
 impl FilmFileFormat {
-    /// What plays everywhere; of photographs that would be large, and lack colours.
+    /// GIF, which plays everywhere; for pictures MP4 or APNG, because GIF has few colours and
+    /// becomes large.
     fn suited(content: Option<ContentKind>) -> Self {
         Self::Film(match content {
             Some(ContentKind::Colours) if has_ffmpeg() => FilmKind::Mp4,
@@ -190,23 +192,22 @@ impl FilmFileFormat {
     }
 }
 
-/// A method that the twin view can show.
+/// Method shown by the comparison next to the stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComparisonMethod {
-    /// Each vertex of the common triangulation goes straight to its place.
+    /// Every vertex of the shared mesh moves on a straight line.
     Straight,
-    /// A cell of the table.
+    /// A cell of the table of methods (warp × content).
     Cell(TransitionMethod),
 }
 
 impl ComparisonMethod {
-    /// All of them, in the order of the list.
+    /// All methods, in the order of the list.
     pub fn all() -> impl Iterator<Item = Self> {
         std::iter::once(Self::Straight).chain(TransitionMethod::all().map(Self::Cell))
     }
 
-    /// What a content is best held against: pictures with a dissolve, shapes
-    /// with straight lines.
+    /// Default method to compare with: cross-dissolve for pictures, straight lines for shapes.
     #[must_use]
     pub fn plainest(content: Option<ContentKind>) -> Self {
         if content == Some(ContentKind::Colours) {
@@ -216,7 +217,7 @@ impl ComparisonMethod {
         }
     }
 
-    /// The cell of the table that it is.
+    /// The cell of the method table that builds this comparison.
     #[must_use]
     pub fn cell(self) -> TransitionMethod {
         match self {
@@ -225,7 +226,7 @@ impl ComparisonMethod {
         }
     }
 
-    /// What it is called, in a few words.
+    /// Short name of the method.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,8 +1,8 @@
-//! Work beside the window: a thread that tells how far it is and can be cancelled.
+//! Background job: a thread that reports progress and can be cancelled.
 //!
-//! A thread of its own, not a place in Bevy's pool: on a machine with two cores that pool has a
-//! single worker, and a film that is being written must not keep a transition from being built.
-//! A panic in the work is an answer like any other and takes nothing else down.
+//! Uses threads of its own instead of Bevy's task pool: on a two-core machine that pool has one
+//! worker, and exporting a film must not delay building a transition. A panic inside a job is
+//! returned as an error and affects nothing else.
 
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -11,24 +11,24 @@ use std::time::{Duration, Instant};
 
 use crate::work::progress::Progress;
 
-/// What wakes the window. One for the process, as its event loop is.
+/// Function that wakes the window; one for the process, as there is one event loop.
 static WAKE: OnceLock<Box<dyn Fn() + Send + Sync>> = OnceLock::new();
 
-/// Has the window woken by this whenever work has something to tell. Without it, as in tests,
-/// answers are found where they are looked for.
+/// Sets the function that wakes the window whenever a job has news. Without it, as in tests,
+/// results are picked up by polling.
 pub fn set_waker(wake: impl Fn() + Send + Sync + 'static) {
-    // A second window of one process would wake by the same event loop.
+    // A second window of the same process would use the same event loop.
     drop(WAKE.set(Box::new(wake)));
 }
 
-/// Work has something to tell.
+/// Wakes the window because a job has news.
 pub fn wake() {
     if let Some(wake) = WAKE.get() {
         wake();
     }
 }
 
-/// Wakes when it is dropped, so that a panic is told as soon as an answer.
+/// Wakes the window on drop, so that a panic is noticed as soon as a result.
 struct WakeOnDrop;
 
 impl Drop for WakeOnDrop {
@@ -37,7 +37,7 @@ impl Drop for WakeOnDrop {
     }
 }
 
-/// How far the work is, and whether it is still wanted.
+/// Progress of a job and its cancellation flag, shared with its thread.
 #[derive(Debug, Default)]
 pub struct JobTracker {
     stage: Mutex<&'static str>,
@@ -48,9 +48,9 @@ pub struct JobTracker {
 impl Progress for JobTracker {
     fn report(&self, stage: &'static str, fraction: f64) {
         *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
-        // There is no atomic float, and a bar of 120 points shows no more than a thousandth.
+        // There is no atomic float; a progress bar of 120 points shows no more than a thousandth.
         let permille = (fraction.clamp(0.0, 1.0) * 1000.0) as u32;
-        // Relaxed, here and below: each value stands alone, and nothing is read because of another.
+        // Relaxed, here and below: the values are independent of each other.
         self.permille.store(permille, Ordering::Relaxed);
     }
 
@@ -59,84 +59,85 @@ impl Progress for JobTracker {
     }
 }
 
-/// Why work came to nothing.
+/// Reason why a job has no result.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum JobError<E> {
-    /// It says so.
+    /// The work itself returned an error.
     #[error(transparent)]
     Failed(E),
-    /// It did not come back: it panicked, or no thread could be had for it.
-    #[error("the work on {0} broke off; this is a fault of the program, please report it")]
+    /// The thread panicked or could not be started; the job's name.
+    #[error("internal error ({0}); this is a bug, please report it")]
     Broken(&'static str),
 }
 
-/// A piece of work that runs beside the window.
+/// Work running in the background.
 #[derive(Debug)]
 pub struct BackgroundJob<T, E> {
     name: &'static str,
     started: Instant,
     tracker: Arc<JobTracker>,
-    answer: Mutex<Receiver<Result<T, E>>>,
+    result: Mutex<Receiver<Result<T, E>>>,
 }
 
 impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
-    /// Starts the work on a thread of that name.
+    /// Starts the work on a thread with this name. The name also appears in error messages.
     pub fn start(
         name: &'static str,
         work: impl FnOnce(&JobTracker) -> Result<T, E> + Send + 'static,
     ) -> Self {
         let (sender, receiver) = channel();
         let tracker = Arc::new(JobTracker::default());
-        let theirs = Arc::clone(&tracker);
-        // Where no thread can be had the sender is dropped here, and `poll` says that it broke.
+        let thread_tracker = Arc::clone(&tracker);
+        // If the thread cannot be started, the sender is dropped here and `poll` returns `Broken`.
         std::thread::Builder::new()
             .name(name.to_owned())
             .spawn(move || {
-                // Before the sender, so that it is dropped after.
+                // Declared before the sender, so that it is dropped after it and wakes the window
+                // last.
                 let _wakes = WakeOnDrop;
                 let sender = sender;
-                // Nobody listens any more once the job was dropped; then the answer is not wanted.
-                sender.send(work(&theirs)).ok();
+                // Sending fails once the job has been dropped; the result is then unwanted.
+                sender.send(work(&thread_tracker)).ok();
             })
             .ok();
         Self {
             name,
             started: Instant::now(),
             tracker,
-            answer: Mutex::new(receiver),
+            result: Mutex::new(receiver),
         }
     }
 
-    /// The answer, once, when it is there.
+    /// Result of the work, returned once; `None` while it runs.
     ///
     /// # Errors
     /// The work failed, panicked or could not be started.
     pub fn poll(&self) -> Option<Result<T, JobError<E>>> {
-        let answer = self.answer.lock().unwrap_or_else(PoisonError::into_inner);
-        match answer.try_recv() {
-            Ok(answer) => Some(answer.map_err(JobError::Failed)),
+        let result = self.result.lock().unwrap_or_else(PoisonError::into_inner);
+        match result.try_recv() {
+            Ok(result) => Some(result.map_err(JobError::Failed)),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => Some(Err(JobError::Broken(self.name))),
         }
     }
 
-    /// The answer, when it is there; then the job is gone.
+    /// Result of a finished job, which is then removed; `None` while it runs.
     ///
     /// # Errors
     /// As [`poll`](Self::poll).
     pub fn take(job: &mut Option<Self>) -> Option<Result<T, JobError<E>>> {
-        let answer = job.as_ref()?.poll()?;
+        let result = job.as_ref()?.poll()?;
         *job = None;
-        Some(answer)
+        Some(result)
     }
 
-    /// How long it has been going on.
+    /// Time since the job started.
     #[must_use]
     pub fn lasts(&self) -> Duration {
         self.started.elapsed()
     }
 
-    /// What it is at, and how far, 0 to 1.
+    /// Current stage and progress in it, 0 to 1.
     #[must_use]
     pub fn progress(&self) -> (&'static str, f64) {
         let stage = *self
@@ -150,12 +151,12 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
         )
     }
 
-    /// Asks the work to stop; it answers when it has.
+    /// Asks the work to stop; it still returns a result.
     pub fn cancel(&self) {
         self.tracker.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// It was asked to stop.
+    /// Whether the job was asked to stop.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.tracker.is_cancelled()
@@ -164,7 +165,8 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
 
 impl<T, E> Drop for BackgroundJob<T, E> {
     fn drop(&mut self) {
-        // Nobody takes the answer any more, and the thread is not joined: it ends where it looks.
+        // The thread is not joined: it stops at its next cancellation check, and its result is
+        // discarded.
         self.tracker.cancelled.store(true, Ordering::Relaxed);
     }
 }
@@ -178,28 +180,28 @@ mod tests {
         job: &BackgroundJob<T, Cancelled>,
     ) -> Result<T, JobError<Cancelled>> {
         loop {
-            if let Some(answer) = job.poll() {
-                return answer;
+            if let Some(result) = job.poll() {
+                return result;
             }
             std::thread::yield_now();
         }
     }
 
     #[test]
-    fn an_answer_comes_back() {
+    fn a_result_comes_back() {
         let job = BackgroundJob::start("sum", |_| Ok(1 + 1));
         assert_eq!(wait(&job), Ok(2));
     }
 
     #[test]
-    fn a_panic_is_an_answer() {
+    fn a_panic_is_an_error() {
         let job: BackgroundJob<(), _> =
-            BackgroundJob::start("fault", |_| panic!("as the test wants it"));
+            BackgroundJob::start("fault", |_| panic!("intended by the test"));
         assert_eq!(wait(&job), Err(JobError::Broken("fault")));
     }
 
     #[test]
-    fn work_hears_that_it_is_cancelled() {
+    fn a_cancelled_job_stops() {
         let job = BackgroundJob::start("endless", |tracker| {
             while !tracker.is_cancelled() {
                 tracker.report("waiting", 0.25);

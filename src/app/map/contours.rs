@@ -1,5 +1,5 @@
-//! What lies under the map: the contours of a measure, and hatching where blends fold or cross
-//! themselves. Measured beside the window, coarsely first.
+//! Contours of a measure over the map, and hatching where blends fold or cross themselves. Sampled
+//! in the background, first coarsely, then finely.
 
 use std::sync::Arc;
 
@@ -13,119 +13,123 @@ use crate::measure::{MapLandscape, MapMeasure};
 use crate::space::{DesignSpace, WeightMap};
 use crate::work::progress::Cancelled;
 
-/// Places along each side of the map: at once, and after some seconds.
-const SIDES: [usize; 2] = [16, 64];
+/// Numbers of sample points along each side of the map, coarse and fine (resource limit: the fine
+/// grid takes some seconds).
+const SAMPLES_PER_SIDE: [usize; 2] = [16, 64];
 
-/// Pixels along each side of the picture.
+/// Side of the image, in pixels (heuristic).
 const SIDE_PX: u32 = 704;
 
-/// Contours between the least and the largest value.
+/// Number of contours between the smallest and the largest value (heuristic).
 const CONTOURS: f64 = 9.0;
 
-/// Pixels from one line of the hatching to the next, and how wide it is.
+/// Distance between hatching lines and their width, in pixels (heuristic).
 const HATCH_PX: (u32, u32) = (9, 2);
 
-/// What is hatched, on light and on dark grounds.
-const TROUBLE: Rgb = Rgb([196, 84, 40]);
+/// Colour of the hatching, visible on light and dark backgrounds.
+const HATCH_COLOUR: Rgb = Rgb([196, 84, 40]);
 
-/// A landscape and its picture, on their way.
+/// Samples of all measures over the map, and the image drawn from them.
 #[derive(Debug, Default)]
 pub struct MapContours {
     found: Option<MapLandscape>,
-    surveying: Option<BackgroundJob<MapLandscape, Cancelled>>,
+    sampling: Option<BackgroundJob<MapLandscape, Cancelled>>,
+    /// Content of the image: the measure, the colour, and the samples per side.
     of: Option<(ShownMeasure, Rgb, usize)>,
-    painting: Option<BackgroundJob<Arc<RgbaImage>, Cancelled>>,
+    drawing: Option<BackgroundJob<Arc<RgbaImage>, Cancelled>>,
     picture: Option<Arc<RgbaImage>>,
 }
 
-/// What is shown, if anything.
+/// The measure whose contours are shown, if any.
 type ShownMeasure = Option<MapMeasure>;
 
 impl MapContours {
-    /// The picture, once there is one.
+    /// The image; `None` until it is drawn.
     #[must_use]
     pub fn picture(&self) -> Option<&Arc<RgbaImage>> {
         self.picture.as_ref()
     }
 
-    /// The measures, as far as they are known.
+    /// The samples taken so far.
     #[must_use]
     pub fn found(&self) -> Option<&MapLandscape> {
         self.found.as_ref()
     }
 
-    /// It is being measured, or drawn.
+    /// Whether samples are being taken or drawn.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.surveying.is_some() || self.painting.is_some()
+        self.sampling.is_some() || self.drawing.is_some()
     }
 
-    /// Measures what is not measured as finely as it is to be, and draws it with this ink;
-    /// whether something new is there.
+    /// Takes the next finer samples and redraws the image in the colour `ink` where needed; returns
+    /// whether the image is new.
     pub fn work(
         &mut self,
         (space, map): (&DesignSpace, &WeightMap),
         shown: ShownMeasure,
         ink: Rgb,
     ) -> bool {
-        if let Some(Ok(found)) = BackgroundJob::take(&mut self.surveying) {
+        if let Some(Ok(found)) = BackgroundJob::take(&mut self.sampling) {
             self.found = Some(found);
         }
-        let known = self.found.as_ref().map_or(0, MapLandscape::side);
-        let next = SIDES.into_iter().find(|side| *side > known);
-        if let Some(side) = next.filter(|_| self.surveying.is_none()) {
+        let sampled = self.found.as_ref().map_or(0, MapLandscape::side);
+        let next = SAMPLES_PER_SIDE.into_iter().find(|side| *side > sampled);
+        if let Some(side) = next.filter(|_| self.sampling.is_none()) {
             let (space, map) = (space.clone(), map.clone());
-            self.surveying = Some(BackgroundJob::start("measuring the map", move |progress| {
+            self.sampling = Some(BackgroundJob::start("measuring the map", move |progress| {
                 MapLandscape::of((&space, &map), side, REACH, progress)
             }));
         }
         let mut is_new = false;
-        if let Some(answer) = BackgroundJob::take(&mut self.painting) {
+        if let Some(answer) = BackgroundJob::take(&mut self.drawing) {
             self.picture = answer.ok();
             is_new = true;
         }
-        let of = (shown, ink, known);
+        let of = (shown, ink, sampled);
         if let Some(found) = self.found.as_ref().filter(|_| self.of != Some(of)) {
             let found = found.clone();
             self.of = Some(of);
-            self.painting = Some(BackgroundJob::start("drawing the map", move |_| {
-                Ok(Arc::new(painted(&found, shown, ink)))
+            self.drawing = Some(BackgroundJob::start("drawing the map", move |_| {
+                Ok(Arc::new(draw(&found, shown, ink)))
             }));
         }
         is_new
     }
 }
 
-/// The contours of what is shown, and the hatching; straight alpha on a transparent ground.
-fn painted(land: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
+/// Draws the contours of `shown` and the hatching; straight alpha on a transparent background.
+fn draw(land: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
     let px = 2.0 * REACH / f64::from(SIDE_PX);
     let place = |x: u32, y: u32| {
         let [across, down] = [x, y].map(|k| (f64::from(k) + 0.5) * px - REACH);
         DVec2::new(across, -down)
     };
     let range = shown.and_then(|measure| Some((measure, land.range(measure)?)));
-    // What is the same everywhere has no contours.
-    let range = range.filter(|(_, [least, most])| most - least > 1e-9 * most.abs());
+    // A constant measure has no contours.
+    let range = range.filter(|(_, [min, max])| max - min > 1e-9 * max.abs());
     RgbaImage::from_fn(SIDE_PX, SIDE_PX, |x, y| {
         let at = place(x, y);
         let is_line = (x + y) % HATCH_PX.0 < HATCH_PX.1;
         if is_line && land.trouble(at) > 0.5 {
-            let Rgb([r, g, b]) = TROUBLE;
+            let Rgb([r, g, b]) = HATCH_COLOUR;
             return Rgba([r, g, b, 200]);
         }
-        let shade = range.and_then(|(measure, [least, most])| {
+        let shade = range.and_then(|(measure, [min, max])| {
             let height = |at: DVec2| {
                 let value = land.value(measure, at)?;
-                Some((value - least) / (most - least) * CONTOURS)
+                Some((value - min) / (max - min) * CONTOURS)
             };
             let here = height(at)?;
+            // Change of the height from one pixel to the next, by forward differences.
             let slope = DVec2::new(
                 height(at + DVec2::X * px)? - here,
                 height(at + DVec2::Y * px)? - here,
             );
-            // How many pixels it is to the nearest contour.
-            let far = (here - here.round()).abs() / slope.length().max(1e-9);
-            let line = (1.3 - far).clamp(0.0, 1.0);
+            // Distance to the nearest contour, in pixels.
+            let distance_px = (here - here.round()).abs() / slope.length().max(1e-9);
+            // Antialiased lines on top of a shade that grows with the value.
+            let line = (1.3 - distance_px).clamp(0.0, 1.0);
             Some(0.22 * here / CONTOURS + 0.4 * line)
         });
         let Rgb([r, g, b]) = ink;

@@ -1,5 +1,4 @@
-//! What the hand does on the map: the puck, where the designs are, the path, and the places that
-//! are kept.
+//! Actions on the map: moving the marker and the designs, drawing the path, saving blends.
 
 use bevy::prelude::{MessageReader, Res, ResMut};
 
@@ -13,13 +12,14 @@ use crate::geometry::DVec2;
 use crate::project::{MOST_PLACES, MapSettings, SavedPlace};
 use crate::space::{MapPath, Waypoint, thinned};
 
-/// What is nearer to a design or to a stop than this is there.
-const SNAPS: f64 = 0.05 * REACH;
+/// Distance within which a new stop snaps to a design or another stop (heuristic).
+const SNAP_DISTANCE: f64 = 0.05 * REACH;
 
-/// How far a line that was drawn by hand may be off what is kept of it: the trembling of a hand.
-const TREMBLES: f64 = 0.015 * REACH;
+/// Maximum deviation of the simplified path from a line drawn by hand (heuristic: removes the
+/// trembling of a hand).
+const PATH_TOLERANCE: f64 = 0.015 * REACH;
 
-/// Acts on the intents that concern the map.
+/// Applies the intents that concern the map.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut view: ResMut<MapView>,
@@ -39,8 +39,8 @@ pub fn apply(
                     path.places.truncate(MOST_PLACES);
                     session.change_whole(gesture.mark(), |project| project.follow(path));
                 }
-                Some(_) => notices.done("The puck did not move: there is no path."),
-                None => notices.done("Move the puck: its way becomes the path. W ends it."),
+                Some(_) => notices.done("The marker did not move, so no path was recorded"),
+                None => notices.done("Recording a path: move the marker, then press W to finish"),
             },
             Intent::ExtendPath(through) => {
                 let path = session.whole().map(|whole| whole.map.path.clone());
@@ -56,7 +56,7 @@ pub fn apply(
     }
 }
 
-/// Acts on those that change the project alone.
+/// Applies those intents that only change the project.
 fn change(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: Option<u64>) {
     match intent {
         Intent::LayOut(layout) => session.change_whole(mark, |project| {
@@ -73,7 +73,7 @@ fn change(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: 
             project.follow(path);
         }),
         Intent::Keep if view.made().is_some() && view.is_shown => {
-            let place = kept(view);
+            let place = saved_blend(view);
             session.change_whole(mark, |project| {
                 if project.map.kept.len() < MOST_PLACES {
                     project.map.kept.push(place);
@@ -92,14 +92,14 @@ fn change(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: 
     }
 }
 
-/// A path that goes on through these places to a stop at the last of them.
+/// Extends a path through these points; the last becomes a stop.
 fn extended(mut path: MapPath, through: &[DVec2], view: &MapView) -> MapPath {
     let Some((&to, before)) = through.split_last() else {
         return path;
     };
-    let mut way = thinned(through, TREMBLES);
+    let mut way = thinned(through, PATH_TOLERANCE);
     if path.places.is_empty() && !before.is_empty() {
-        // Drawn in one go, it begins with a stop as well.
+        // A path drawn in one go also starts with a stop.
         path.places.push(stop(way.remove(0), &path, view));
     } else {
         way.remove(0);
@@ -107,29 +107,31 @@ fn extended(mut path: MapPath, through: &[DVec2], view: &MapView) -> MapPath {
     way.pop();
     path.places.extend(way.into_iter().map(Waypoint::passed));
     let last = stop(to, &path, view);
-    // A second click in one place is none.
+    // A second click on the same place adds nothing.
     if path.places.last().is_none_or(|place| place.at != last.at) {
         path.places.push(last);
     }
     path
 }
 
-/// A stop at a place, or where a design or another stop is near; with a name.
+/// A named stop at a point, snapped to the nearest design or stop.
 fn stop(at: DVec2, path: &MapPath, view: &MapView) -> Waypoint {
     let made = view.made();
     let sites = made.map_or(&[][..], |made| made.map().sites());
     let stops = path.places.iter().filter(|place| !place.passed);
     let known = sites.iter().copied().chain(stops.map(|place| place.at));
     let near = known.min_by(|a, b| a.distance(at).total_cmp(&b.distance(at)));
-    let at = near.filter(|near| near.distance(at) < SNAPS).unwrap_or(at);
+    let at = near
+        .filter(|near| near.distance(at) < SNAP_DISTANCE)
+        .unwrap_or(at);
     Waypoint {
-        name: told(at, view),
+        name: blend_name(at, view),
         ..Waypoint::stop(at)
     }
 }
 
-/// What the blend at a place is called.
-fn told(at: DVec2, view: &MapView) -> String {
+/// Name of the blend at a point.
+fn blend_name(at: DVec2, view: &MapView) -> String {
     view.made().map_or_else(String::new, |made| {
         let mut weights = vec![0.0; made.map().sites().len()];
         made.map().weights(at, &mut weights);
@@ -137,14 +139,15 @@ fn told(at: DVec2, view: &MapView) -> String {
     })
 }
 
-fn kept(view: &MapView) -> SavedPlace {
+/// Saved blend at the marker.
+fn saved_blend(view: &MapView) -> SavedPlace {
     SavedPlace {
-        name: told(view.puck(), view),
+        name: blend_name(view.puck(), view),
         ..SavedPlace::new(view.puck())
     }
 }
 
-/// Takes the last stop off, and the way to it.
+/// Removes the last stop and the points leading to it.
 fn shorten(path: &mut MapPath) {
     path.places.pop();
     while path.places.last().is_some_and(|place| place.passed) {

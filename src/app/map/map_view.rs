@@ -1,8 +1,8 @@
-//! The map of all designs: where each of them is, what lies between them, and the blend under
-//! the puck, drawn in place of the stage.
+//! The map of all designs, shown in place of the stage: every point is a blend, and a marker
+//! selects one.
 //!
-//! The space is built beside the window, and so is what lies on the map; the blend is placed and
-//! drawn in the frame in which the puck moves, which goes along where the film is played.
+//! The space of blends and its thumbnails are built in the background. The blend under the marker
+//! is drawn in the frame in which the marker moves; during playback the marker follows the film.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -23,79 +23,79 @@ use crate::space::{DesignSpace, MapCurve, WeightMap};
 use crate::stage::StageTimes;
 use crate::transition::{BuildQuality, Timing, TransitionStyle, segment_at};
 
-/// How far an arrow key moves the puck, of the map's reach.
+/// Distance that an arrow key moves the marker, as a fraction of the map's half side (heuristic).
 const STEP: f64 = 0.02;
 
-/// Why there is no map.
+/// Why the map could not be built.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct MapBuildError(Arc<ProjectError>);
 
-/// The map in place of the stage.
+/// State of the map view.
 #[derive(Resource, Debug, Default)]
 pub struct MapView {
-    /// It is shown.
+    /// Whether the map is shown in place of the stage.
     pub is_shown: bool,
-    /// A click on it sets a stop of the path.
+    /// Whether a click on the map adds a stop to the path.
     pub draws_path: bool,
-    /// The measure whose contours lie under it.
+    /// Measure whose contours are shown.
     pub shown: Option<MapMeasure>,
-    /// Where the puck is.
+    /// Position of the marker, y up.
     puck: DVec2,
-    /// Where it was since its way is recorded.
+    /// Positions of the marker since recording started; `None` when not recording.
     recorded: Option<Vec<DVec2>>,
-    /// The t that the film was at last.
+    /// Playback position in the previous frame.
     t: Option<f64>,
-    /// What the map is of.
+    /// The project that the map shows.
     whole: Option<LoadedProject>,
     curve: Option<MapCurve>,
-    /// What is being built is a draft.
+    /// Whether the space being built is a draft.
     is_draft: bool,
     job: Option<BackgroundJob<DesignSpace, MapBuildError>>,
     problem: Option<JobError<MapBuildError>>,
     made: Option<MapPictures>,
-    /// From the puck's place to the picture of the blend.
+    /// Durations from a move of the marker to the new image of the blend.
     times: StageTimes,
 }
 
 impl MapView {
-    /// Where the puck is, y up.
+    /// Position of the marker, y up.
     #[must_use]
     pub fn puck(&self) -> DVec2 {
         self.puck
     }
 
-    /// The map and what is drawn of it.
+    /// The map with its images; `None` until it is built.
     #[must_use]
     pub fn made(&self) -> Option<&MapPictures> {
         self.made.as_ref()
     }
 
-    /// The curve of the path over it, if there is one.
+    /// Curve of the path over the map, if there is one.
     #[must_use]
     pub fn curve(&self) -> Option<&MapCurve> {
         self.curve.as_ref()
     }
 
-    /// Why there is no map.
+    /// Why the map could not be built.
     #[must_use]
     pub fn problem(&self) -> Option<&JobError<MapBuildError>> {
         self.problem.as_ref()
     }
 
-    /// It is being built, or drawn.
+    /// Whether the map is being built or drawn.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.job.is_some() || self.made.as_ref().is_some_and(MapPictures::is_busy)
     }
 
-    /// The way of the puck is being recorded.
+    /// Whether the marker's movement is being recorded.
     #[must_use]
     pub fn is_recording(&self) -> bool {
         self.recorded.is_some()
     }
 
-    /// Begins to record the way of the puck, or ends it: then where it was.
+    /// Starts recording the marker's movement, or stops and returns the recorded positions.
     pub fn record(&mut self) -> Option<Vec<DVec2>> {
         if self.recorded.is_none() {
             self.recorded = Some(vec![self.puck]);
@@ -104,8 +104,8 @@ impl MapView {
         self.recorded.take()
     }
 
-    /// What a key means while the map is shown: arrows move the puck, a stop is one of the
-    /// path.
+    /// Replacement for the intent of a key while the map is shown: arrow keys move the marker, and
+    /// the stop key adds a stop to the path.
     #[must_use]
     pub fn instead(&self, intent: &Intent) -> Option<Intent> {
         let by = match intent {
@@ -124,7 +124,7 @@ impl MapView {
         Some(Intent::Puck(self.puck + by * STEP * REACH))
     }
 
-    /// Moves the puck.
+    /// Moves the marker, clamped to the map.
     pub fn move_puck(&mut self, to: DVec2) {
         self.puck = to.clamp(DVec2::splat(-REACH), DVec2::splat(REACH));
         if let Some(recorded) = &mut self.recorded {
@@ -132,17 +132,17 @@ impl MapView {
         }
     }
 
-    /// Where the map's designs are to be when one is moved; none where it cannot be there.
+    /// Places of all designs after moving one of them; `None` if it cannot be there.
     #[must_use]
     pub fn sites_with(&self, design: usize, to: DVec2) -> Option<Vec<DVec2>> {
         let mut sites = self.made.as_ref()?.map().sites().to_vec();
         let site = sites.get_mut(design).filter(|_| to.is_finite())?;
         *site = to.clamp(DVec2::splat(-1.0), DVec2::ONE);
-        // Two in one place stay where they were.
+        // Two designs in one place are refused.
         WeightMap::new(&sites).ok().map(|_| sites)
     }
 
-    /// Takes the puck along where the film moves on; whether it did.
+    /// Moves the marker along with playback; returns whether it moved.
     pub fn go_with(&mut self, t: f64) -> bool {
         let is_new = self.t.replace(t).is_some_and(|before| before != t);
         if !(is_new && self.is_shown) {
@@ -163,7 +163,7 @@ impl MapView {
         to.is_some()
     }
 
-    /// Builds the space of what is open and has its map drawn; whether something new is there.
+    /// Builds the map of the open project and its images; returns whether something is new.
     pub fn work(&mut self, session: &Session, is_new: bool) -> bool {
         let mut is_changed = self.take();
         if !self.is_shown {
@@ -186,7 +186,7 @@ impl MapView {
         is_changed
     }
 
-    /// Draws the blend under the puck, unless it is drawn so already; whether it was.
+    /// Draws the blend under the marker unless the current image shows it; returns whether it drew.
     pub fn look(&mut self, size: PixelSize, style: TransitionStyle) -> bool {
         let (puck, start) = (self.puck, Instant::now());
         let made = self.made.as_mut();
@@ -197,17 +197,18 @@ impl MapView {
         is_new
     }
 
-    /// How long the last moves of the puck took, from its place to the picture of the blend.
+    /// Durations of the last moves of the marker, up to the new image of the blend.
     #[must_use]
     pub fn times(&self) -> &StageTimes {
         &self.times
     }
 
+    /// Adopts a newly built space and lays out its map.
     fn place(&mut self, space: DesignSpace) {
         let Some(whole) = &self.whole else {
             return;
         };
-        // What was drawn stays until the new one is there.
+        // The old thumbnails stay until the new ones are drawn.
         let ground = self.made.take().and_then(|made| made.ground().cloned());
         let ground = ground.filter(|ground| ground.count == space.designs().len());
         match whole.map_of(&space) {
@@ -216,11 +217,11 @@ impl MapView {
         }
     }
 
-    /// Takes in what is open as it is now; whether the map is another one.
+    /// Adopts the project's current settings; returns whether the map changes.
     fn follow(&mut self, whole: LoadedProject) -> bool {
         let before = self.whole.replace(whole.clone());
         let is_same = before.is_some_and(|before| {
-            let same_space = needs_no_other_space(&before.project, &whole.project);
+            let same_space = have_same_space(&before.project, &whole.project);
             let designs = before.designs.iter().zip(&whole.designs);
             same_space && designs.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
         });
@@ -237,12 +238,13 @@ impl MapView {
             return true;
         }
         self.problem = None;
-        // A draft first, where the best takes longer, so that there is a map at once.
+        // A draft first, so that a map appears at once.
         self.is_draft = whole.project.options.quality != BuildQuality::Draft;
         self.start(whole, self.is_draft.then_some(BuildQuality::Draft));
         true
     }
 
+    /// Starts building the space, as a draft or in the project's own quality.
     fn start(&mut self, whole: LoadedProject, quality: Option<BuildQuality>) {
         self.job = Some(BackgroundJob::start("the map", move |progress| {
             let built = whole.built_space(quality, progress);
@@ -250,16 +252,18 @@ impl MapView {
         }));
     }
 
+    /// Replaces the map by the reason why there is none.
     fn refuse(&mut self, problem: JobError<MapBuildError>) {
         (self.problem, self.made, self.is_draft) = (Some(problem), None, false);
     }
 
+    /// Collects a space that was built; returns whether there was a result.
     fn take(&mut self) -> bool {
         match BackgroundJob::take(&mut self.job) {
             None => return false,
             Some(Ok(space)) => {
                 self.place(space);
-                // Fields and meshes that are given have no draft.
+                // Spaces of fields and of given meshes have no draft.
                 let is_matched = self.made.as_ref().is_some_and(MapPictures::is_matched);
                 let is_draft = std::mem::take(&mut self.is_draft);
                 if let Some(whole) = self.whole.clone().filter(|_| is_draft && is_matched) {
@@ -272,8 +276,8 @@ impl MapView {
     }
 }
 
-/// Whether two projects are of one space: how it is played, painted and laid out makes no other.
-fn needs_no_other_space(a: &Project, b: &Project) -> bool {
+/// Whether two projects have the same space; timing, colours and layout do not affect it.
+fn have_same_space(a: &Project, b: &Project) -> bool {
     let bare = |project: &Project| Project {
         title: String::new(),
         description: String::new(),

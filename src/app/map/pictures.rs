@@ -1,4 +1,5 @@
-//! A space with its map, and what is drawn of them.
+//! The map of a space of designs with everything drawn on it: thumbnails, contours, saved blends
+//! and the blend under the marker.
 
 use std::sync::Arc;
 
@@ -16,34 +17,35 @@ use crate::project::SavedPlace;
 use crate::space::{DesignSpace, SpaceFrame, WeightMap};
 use crate::transition::TransitionStyle;
 
-/// Pixels along each side of a place that is kept.
-const KEPT_PX: u32 = 96;
+/// Side of a saved blend's thumbnail, in pixels (heuristic).
+const SAVED_BLEND_PX: u32 = 96;
 
-/// How many of them are drawn in one frame: a blend of fields takes some milliseconds.
-const KEPT_AT_ONCE: usize = 4;
+/// Maximum number of them drawn in one frame (resource limit: a blend of fields takes some
+/// milliseconds).
+const SAVED_BLENDS_PER_FRAME: usize = 4;
 
-/// A space with its map, and what is drawn of them.
+/// The map of a space of designs with everything drawn on it.
 #[derive(Debug)]
 pub struct MapPictures {
     space: DesignSpace,
     map: WeightMap,
     frame: SpaceFrame,
-    /// What lies between the designs, and the designs.
+    /// Thumbnails of blends and designs.
     ground: Option<MapThumbnails>,
     drawing: Option<BackgroundJob<MapThumbnails, PixelSizeError>>,
-    /// How that is drawn.
+    /// Colours used for the thumbnails.
     style: Option<TransitionStyle>,
-    /// The blend under the puck.
+    /// The blend under the marker.
     blend: Option<BlendPicture>,
-    /// What is measured all over the map.
+    /// Contours of a measure.
     land: MapContours,
-    /// The places that are kept, in small.
+    /// Thumbnails of the saved blends, by their place on the map.
     kept: Vec<(DVec2, Arc<RgbaImage>)>,
-    /// Some of them are not drawn yet.
-    lacks_kept: bool,
+    /// Whether some of them are not drawn yet.
+    lacks_saved_blends: bool,
 }
 
-/// The blend as it was drawn last.
+/// The blend under the marker as drawn last.
 #[derive(Debug)]
 struct BlendPicture {
     of: (Vec<f64>, PixelSize, TransitionStyle),
@@ -51,7 +53,7 @@ struct BlendPicture {
 }
 
 impl MapPictures {
-    /// Not drawn yet, but for what was drawn before.
+    /// A map without images, except for thumbnails `ground` of the previous map, if any.
     #[must_use]
     pub fn new(space: DesignSpace, map: WeightMap, ground: Option<MapThumbnails>) -> Self {
         Self {
@@ -64,47 +66,47 @@ impl MapPictures {
             blend: None,
             land: MapContours::default(),
             kept: Vec::new(),
-            lacks_kept: false,
+            lacks_saved_blends: false,
         }
     }
 
-    /// The space.
+    /// The space of designs.
     #[must_use]
     pub fn space(&self) -> &DesignSpace {
         &self.space
     }
 
-    /// The map.
+    /// Layout of the designs on the map.
     #[must_use]
     pub fn map(&self) -> &WeightMap {
         &self.map
     }
 
-    /// The weights under the puck.
+    /// Weights of the blend drawn last.
     #[must_use]
     pub fn weights(&self) -> &[f64] {
         self.frame.weights()
     }
 
-    /// What lies on the map, once it was drawn.
+    /// Thumbnails of blends and designs, once they are drawn.
     #[must_use]
     pub fn ground(&self) -> Option<&MapThumbnails> {
         self.ground.as_ref()
     }
 
-    /// What is measured all over the map.
+    /// Contours of a measure.
     #[must_use]
     pub fn land(&self) -> &MapContours {
         &self.land
     }
 
-    /// The blend under the puck.
+    /// Image of the blend under the marker.
     #[must_use]
     pub fn blend(&self) -> Option<&Arc<RgbaImage>> {
         self.blend.as_ref().map(|blend| &blend.picture)
     }
 
-    /// Whether its outlines were matched for it.
+    /// Whether the designs were matched automatically for this space.
     #[must_use]
     pub fn is_matched(&self) -> bool {
         let designs = self.space.designs().iter();
@@ -112,27 +114,27 @@ impl MapPictures {
         self.space.family().is_some() && forms.any(|form| matches!(form, DesignForm::Outline(_)))
     }
 
-    /// A place that is kept, in small.
+    /// Thumbnail of the saved blend at a place.
     #[must_use]
     pub fn kept(&self, at: DVec2) -> Option<&Arc<RgbaImage>> {
         let found = self.kept.iter().find(|(place, _)| *place == at);
         found.map(|(_, picture)| picture)
     }
 
-    /// Draws the places that are kept and not drawn yet; whether there were some.
-    fn draw_kept(&mut self, places: &[SavedPlace], style: &TransitionStyle) -> bool {
-        let Ok(size) = PixelSize::new(KEPT_PX, KEPT_PX) else {
+    /// Draws thumbnails of saved blends that lack one; returns whether it drew any.
+    fn draw_saved_blends(&mut self, places: &[SavedPlace], style: &TransitionStyle) -> bool {
+        let Ok(size) = PixelSize::new(SAVED_BLEND_PX, SAVED_BLEND_PX) else {
             return false;
         };
         self.kept
             .retain(|(at, _)| places.iter().any(|kept| kept.at == *at));
         let before = self.kept.len();
         let mut weights = vec![0.0; self.space.designs().len()];
-        self.lacks_kept = false;
+        self.lacks_saved_blends = false;
         for place in places {
             if self.kept(place.at).is_none() {
-                if self.kept.len() >= before + KEPT_AT_ONCE {
-                    self.lacks_kept = true;
+                if self.kept.len() >= before + SAVED_BLENDS_PER_FRAME {
+                    self.lacks_saved_blends = true;
                     break;
                 }
                 self.map.weights(place.at, &mut weights);
@@ -143,13 +145,13 @@ impl MapPictures {
         }
         let is_new = self.kept.len() > before;
         if is_new {
-            // The frame is the puck's.
+            // The frame was moved off the marker; the blend must be drawn again.
             self.blend = None;
         }
         is_new
     }
 
-    /// The blend under the puck, over a ground or none.
+    /// Vector drawing of the blend drawn last, on a background colour or none.
     #[must_use]
     pub fn drawing(
         &self,
@@ -164,7 +166,7 @@ impl MapPictures {
         drawing
     }
 
-    /// Draws the blend at a place, unless it is drawn so already; whether it was.
+    /// Draws the blend at a place unless the current image shows it; returns whether it drew.
     pub fn look(&mut self, puck: DVec2, size: PixelSize, style: TransitionStyle) -> bool {
         let mut weights = vec![0.0; self.space.designs().len()];
         self.map.weights(puck, &mut weights);
@@ -178,15 +180,14 @@ impl MapPictures {
         true
     }
 
-    /// It is being drawn, or measured.
+    /// Whether something is still being drawn or measured.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.drawing.is_some() || self.lacks_kept || self.land.is_busy()
+        self.drawing.is_some() || self.lacks_saved_blends || self.land.is_busy()
     }
 
-    /// Has drawn what is not drawn yet, or otherwise: what lies on the map, the places that are
-    /// kept, and, where no better map is to come, what lies under it. Whether something new is
-    /// there.
+    /// Draws whatever is missing or outdated: thumbnails, saved blends and, if no better map is
+    /// still being built (`is_final`), contours. Returns whether something is new.
     pub fn work(
         &mut self,
         style: TransitionStyle,
@@ -194,9 +195,9 @@ impl MapPictures {
         shown: Option<MapMeasure>,
         is_final: bool,
     ) -> bool {
-        let mut is_new = self.paint(style);
-        is_new |= self.draw_kept(kept, &style);
-        // First what is seen of all, then what is known of it.
+        let mut is_new = self.update_thumbnails(style);
+        is_new |= self.draw_saved_blends(kept, &style);
+        // Thumbnails first, measures afterwards.
         if is_final && self.ground.is_some() && self.drawing.is_none() {
             let ink = text_colour_on(Some(style.ground));
             is_new |= self.land.work((&self.space, &self.map), shown, ink);
@@ -204,10 +205,10 @@ impl MapPictures {
         is_new
     }
 
-    /// Has the map drawn, where it is not drawn so; whether something new is there.
-    fn paint(&mut self, style: TransitionStyle) -> bool {
+    /// Starts or finishes drawing the thumbnails; returns whether they are new.
+    fn update_thumbnails(&mut self, style: TransitionStyle) -> bool {
         if let Some(answer) = BackgroundJob::take(&mut self.drawing) {
-            // What cannot be drawn is not shown: the sites and the puck are.
+            // If thumbnails fail, the map still shows the designs' places and the marker.
             self.ground = answer.ok();
             return true;
         }

@@ -1,4 +1,4 @@
-//! What lies on the map: small pictures of the blends, and of the designs.
+//! Thumbnails on the map: blends at regular points, and the designs themselves.
 
 use std::sync::Arc;
 
@@ -9,33 +9,35 @@ use crate::geometry::{Bounds, DVec2};
 use crate::space::{DesignSpace, WeightMap};
 use crate::transition::TransitionStyle;
 
-/// How far the map reaches from its middle: sites are within 1 of it.
+/// Half the side of the map. The designs lie within 1 of its centre; the rest is margin
+/// (heuristic).
 pub const REACH: f64 = 1.2;
 
-/// Small pictures along each side of the map.
+/// Number of blend thumbnails along each side of the map (heuristic).
 const CELLS: u32 = 9;
 
-/// Pixels along each side of the picture of what lies between the designs.
+/// Side of the thumbnail images, in pixels (heuristic).
 const SIDE_PX: u32 = 1056;
 
-/// How much of a design's picture on the map is wider than that of a blend.
-const DESIGN: f64 = 1.3;
+/// Size of a design's thumbnail relative to that of a blend (heuristic).
+const DESIGN_SCALE: f64 = 1.3;
 
-/// Pictures of the whole map, from −[`REACH`] to [`REACH`]; straight alpha on a transparent ground.
+/// Images of the whole map, from −[`REACH`] to [`REACH`] along each axis; straight alpha on a
+/// transparent background.
 #[derive(Clone, Debug)]
 pub struct MapThumbnails {
-    /// How many designs there are.
+    /// Number of designs.
     pub count: usize,
-    /// What lies between the designs.
+    /// Thumbnails of the blends.
     pub between: Arc<RgbaImage>,
-    /// The designs.
+    /// Thumbnails of the designs.
     pub designs: Arc<RgbaImage>,
 }
 
-/// Draws what lies between the designs, and the designs.
+/// Draws the thumbnails of the blends and of the designs.
 ///
 /// # Errors
-/// Never: the size is one that pictures may have.
+/// None in practice: the size is valid.
 pub fn draw_thumbnails(
     space: &DesignSpace,
     map: &WeightMap,
@@ -63,23 +65,23 @@ pub fn draw_thumbnails(
         let [column, row] = [at % CELLS, at / CELLS].map(|k| (f64::from(k) + 0.5) * cell - REACH);
         DVec2::new(column, row)
     });
-    // None under a design's picture, or its name below that.
+    // No blend is drawn under a design's thumbnail or its name.
     let is_free = |place: &DVec2| {
         map.sites().iter().all(|site| {
             let [across, below] = [(place.x - site.x).abs(), site.y - place.y];
             across > 0.9 * cell || !(-0.9 * cell..1.3 * cell).contains(&below)
         })
     };
-    let between = steps.filter(|place| map.holds(*place, 0.3 * cell));
-    let between: Vec<DVec2> = between.filter(is_free).collect();
+    let blend_places = steps.filter(|place| map.holds(*place, 0.3 * cell));
+    let blend_places: Vec<DVec2> = blend_places.filter(is_free).collect();
     Ok(MapThumbnails {
         count: map.sites().len(),
-        between: picture(&between, 1.0),
-        designs: picture(map.sites(), DESIGN),
+        between: picture(&blend_places, 1.0),
+        designs: picture(map.sites(), DESIGN_SCALE),
     })
 }
 
-/// The square around a box.
+/// Smallest square around a box, with the same centre.
 fn square(bounds: Bounds) -> Bounds {
     let half = DVec2::splat(0.5 * bounds.size().max_element());
     Bounds {

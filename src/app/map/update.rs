@@ -1,4 +1,5 @@
-//! The blend under the puck, drawn as large as it is seen, in the frame in which the puck moves.
+//! System that keeps the map up to date and redraws the blend under the marker in the frame in
+//! which the marker moves.
 
 use bevy::math::Vec2;
 use bevy::prelude::{DetectChanges, DetectChangesMut, Query, Res, ResMut, With};
@@ -7,14 +8,14 @@ use bevy::window::{PrimaryWindow, Window};
 use crate::app::map::map_view::MapView;
 use crate::app::playback::player::Playback;
 use crate::app::session::state::Session;
-use crate::app::view::stage_area::StageArea;
+use crate::app::stage_area::StageArea;
 use crate::export::PixelSize;
 
-/// Pixels along the longer side of the blend's picture, at most: a trade for the time of a
-/// move on a large window.
-const LONGEST_PX: f32 = 1400.0;
+/// Maximum length of the blend image's longer side, in pixels (heuristic: limits the time per move
+/// on large windows).
+const MAX_SIDE_PX: f32 = 1400.0;
 
-/// Has the map built and drawn, and draws the blend.
+/// Builds the map where needed and draws the blend under the marker.
 pub fn follow(
     session: Res<Session>,
     area: Res<StageArea>,
@@ -23,14 +24,14 @@ pub fn follow(
     mut view: ResMut<MapView>,
 ) {
     let is_new = session.is_changed() || view.is_changed();
-    // Marked as changed by hand: it is looked at in each frame, and seldom new.
+    // Change detection is set by hand: this system runs each frame but seldom changes anything.
     let map = view.bypass_change_detection();
     let mut is_changed = map.work(&session, is_new);
     is_changed |= map.go_with(playback.t());
     if map.is_shown {
         let scale = window.single().map_or(1.0, Window::scale_factor);
         let seen = area.size * scale;
-        let wanted = seen * (LONGEST_PX / seen.max_element()).min(1.0);
+        let wanted = seen * (MAX_SIDE_PX / seen.max_element()).min(1.0);
         let wanted = wanted.max(Vec2::ONE).as_uvec2();
         if let Ok(size) = PixelSize::new(wanted.x, wanted.y) {
             is_changed |= map.look(size, session.style());

@@ -1,5 +1,5 @@
-//! Changes that are not saved are kept in the state folder some seconds after they were made, and
-//! offered at the next start where the program ended without asking: killed, crashed, out of power.
+//! Autosave: unsaved changes are written to the state folder within seconds, and offered for
+//! recovery at the next start after a crash, kill or power failure.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,43 +18,46 @@ use crate::app::unsaved_question::UnsavedQuestion;
 use crate::io::atomic_file::reason;
 use crate::project::Project;
 
-/// The shortest time between two writes: with what a write takes, no more than five seconds of
-/// work are lost.
-const EVERY: Duration = Duration::from_secs(2);
+/// Minimum interval between two autosaves: with the time for writing, at most five seconds of work
+/// are lost (heuristic).
+const PERIOD: Duration = Duration::from_secs(2);
 
-/// The folder for what is kept; none where nothing is to be kept, as in tests.
+/// Folder for autosaves; `None` if the system has no such folder.
 #[must_use]
 pub fn folder() -> Option<PathBuf> {
     let state = dirs::state_dir().or_else(dirs::data_local_dir);
     state.map(|state| state.join("morphospace").join("autosave"))
 }
 
-/// What is kept of the open project, and what others have left.
+/// The autosave of this window, and those that other windows left behind.
 #[derive(Resource, Debug, Default)]
 pub struct Autosave {
+    /// Current slot of this window; `None` switches autosave off, as in tests.
     slot: Option<AutosaveSlot>,
-    /// That of this window from the beginning, where it has taken up another since.
+    /// Slot that this window started with, after it has taken over a recovered one.
     first: Option<AutosaveSlot>,
-    /// That of what is being taken up; it becomes this window's once it is open.
+    /// Slot of the project being recovered; it becomes this window's once the project is open.
     opening: Option<AutosaveSlot>,
+    /// Autosaves left behind by windows that ended without saving.
     lost: Vec<AbandonedProject>,
-    /// What was written last, and when.
+    /// The project written last, and when.
     written: Option<(Project, Instant)>,
-    /// The open project is another than what was written.
+    /// Whether the open project differs from the autosave.
     is_behind: bool,
-    /// What lies in its place is of the open project.
+    /// Whether the slot contains changes of the open project.
     is_own: bool,
-    /// It is of changes that are saved, or given up.
+    /// Whether those changes have been saved or discarded, so that the slot can be cleared.
     is_over: bool,
     job: Option<BackgroundJob<(), io::Error>>,
-    is_told: bool,
+    /// Whether a failed autosave has been reported; reported only once.
+    is_reported: bool,
 }
 
 impl Autosave {
-    /// Keeps changes in that folder.
+    /// Starts autosaving in a folder.
     ///
     /// # Errors
-    /// It cannot be made or written to.
+    /// The folder cannot be created or written to.
     pub fn enter(folder: &Path) -> io::Result<Self> {
         let (slot, lost) = AutosaveSlot::enter(folder)?;
         let mut entered = Self::default();
@@ -62,13 +65,13 @@ impl Autosave {
         Ok(entered)
     }
 
-    /// Where this window makes what takes long.
+    /// Scratch folder of this window for long-running exports.
     #[must_use]
     pub fn workshop(&self) -> ScratchFolder {
         ScratchFolder(self.slot.as_ref().map(AutosaveSlot::workshop))
     }
 
-    /// What can be taken up again: its title, and how long ago it was kept.
+    /// The newest autosave to recover: its title and its age.
     #[must_use]
     pub fn lost(&self) -> Option<(&str, Option<Duration>)> {
         let lost = self.lost.first()?;
@@ -78,7 +81,7 @@ impl Autosave {
         Some((&lost.kept.title, age))
     }
 
-    /// Something is not kept yet.
+    /// Whether changes are not autosaved yet.
     #[must_use]
     pub fn is_behind(&self) -> bool {
         self.is_behind || self.job.is_some()
@@ -86,20 +89,21 @@ impl Autosave {
 }
 
 impl Drop for Autosave {
-    /// What is being written may be of changes that are saved, or were given up, by now.
+    /// Waits for the last write, which may belong to changes saved or discarded since, and then
+    /// clears the slot.
     fn drop(&mut self) {
         let began = Instant::now();
         while self.job.is_some()
             && BackgroundJob::take(&mut self.job).is_none()
-            && began.elapsed() < EVERY
+            && began.elapsed() < PERIOD
         {
-            std::thread::sleep(EVERY / 200);
+            std::thread::sleep(PERIOD / 200);
         }
         self.clear_where_over();
     }
 }
 
-/// Acts on the answer to what can be taken up again.
+/// Applies the user's answer to the offer to recover a project.
 pub fn rescue(
     mut intents: MessageReader<Intent>,
     (mut autosave, mut session): (ResMut<Autosave>, ResMut<Session>),
@@ -117,34 +121,35 @@ pub fn rescue(
             continue;
         }
         match answer {
-            // Left where it is for the next start.
+            // Stays in its slot for the next start.
             RecoveryAnswer::Later => autosave.lost.clear(),
             RecoveryAnswer::Discard => autosave.lost.remove(0).slot.clear(),
             RecoveryAnswer::Restore if session.is_dirty() => {
-                notices.done("Save or undo your changes first: then it can be restored.");
+                notices.done("Save or undo your changes first, then recover the project");
             }
             RecoveryAnswer::Restore => {
                 let lost = autosave.lost.remove(0);
                 session.open(LoadRequest::Rescued(Box::new(lost.kept)));
+                // Keeps the lock: the autosave is still the only copy of these changes.
                 autosave.opening = Some(lost.slot);
             }
         }
     }
 }
 
-/// Keeps what has changed, and forgets what was saved.
+/// Writes changes, and clears the autosave after saving.
 pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices: ResMut<Notices>) {
-    // Looked at in each frame; nobody asks whether it has changed.
+    // Change detection is not used for this resource.
     let autosave = autosave.bypass_change_detection();
     autosave.take_up(&session);
     let Some(slot) = &autosave.slot else {
         return;
     };
     if let Some(Err(error)) = BackgroundJob::take(&mut autosave.job) {
-        // Tried again after a while.
+        // Tried again later.
         autosave.is_behind = session.is_dirty();
-        if !std::mem::replace(&mut autosave.is_told, true) {
-            notices.problem(NoticeTopic::Saving, cannot_keep(&slot.path, &error));
+        if !std::mem::replace(&mut autosave.is_reported, true) {
+            notices.problem(NoticeTopic::Saving, autosave_problem(&slot.path, &error));
         }
     }
     if session.is_changed() {
@@ -154,6 +159,7 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
             (autosave.is_own, autosave.is_over) = (true, false);
         } else {
             autosave.is_behind = false;
+            // Only an autosave written for this project may be deleted.
             autosave.is_over = autosave.is_own;
         }
     }
@@ -161,23 +167,24 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
     autosave.write_where_due(&session);
 }
 
-fn cannot_keep(path: &Path, error: &JobError<io::Error>) -> String {
+/// Text of the notice about a failed autosave.
+fn autosave_problem(path: &Path, error: &JobError<io::Error>) -> String {
     let reason = match error {
         JobError::Failed(error) => reason(error),
         broken => broken.to_string(),
     };
     format!(
-        "Changes cannot be kept in {} ({reason}): save the project now and then.",
+        "Cannot autosave to {} ({reason}). Save the project regularly",
         path.display()
     )
 }
 
 impl Autosave {
-    /// What is taken up stays in its place until it is saved; where it could not be opened, until
-    /// the next start.
+    /// Takes over the slot of a recovered project, so that its autosave stays until the project is
+    /// saved. If it could not be opened, the slot stays for the next start.
     fn take_up(&mut self, session: &Session) {
         if session.is_opening() {
-            // It is not known yet whether it can be.
+            // Still unknown whether it can be opened.
         } else if session.is_rescued() {
             if let Some(slot) = self.opening.take() {
                 let own = self.slot.replace(slot);
@@ -189,6 +196,7 @@ impl Autosave {
         }
     }
 
+    /// Deletes the autosave once its changes are saved or discarded and nothing is being written.
     fn clear_where_over(&mut self) {
         if self.is_over && self.job.is_none() {
             self.slot.iter().for_each(AutosaveSlot::clear);
@@ -196,16 +204,17 @@ impl Autosave {
         }
     }
 
+    /// Starts writing an autosave if changes are pending and the last one is old enough.
     fn write_where_due(&mut self, session: &Session) {
         let last = self.written.as_ref().map(|(_, when)| when.elapsed());
-        let is_due = last.is_none_or(|last| last >= EVERY) && self.job.is_none();
+        let is_due = last.is_none_or(|last| last >= PERIOD) && self.job.is_none();
         if !(self.is_behind && is_due) {
             return;
         }
         let kept = session.kept().and_then(Result::ok);
         if let (Some(slot), Some(kept), Some(project)) = (&self.slot, kept, session.whole()) {
             let path = slot.path.clone();
-            self.job = Some(BackgroundJob::start("an autosave", move |_| {
+            self.job = Some(BackgroundJob::start("the autosave", move |_| {
                 kept.write(&path)
             }));
             self.written = Some((project.clone(), Instant::now()));

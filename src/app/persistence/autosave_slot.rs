@@ -1,8 +1,7 @@
-//! A place of its own for each window that is open, and those of windows that ended without
-//! saving.
+//! Autosave slots: one numbered file for each open window.
 //!
-//! A window holds the lock of its place for as long as it lives; the system lets go of it however
-//! it ends. What is kept where nobody holds the lock was lost.
+//! A window locks its slot for its lifetime, and the system releases the lock however the window
+//! ends. So an autosave in an unlocked slot was left behind by a window that ended without saving.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -11,31 +10,31 @@ use std::time::SystemTime;
 
 use crate::app::session::unsaved_project::UnsavedProject;
 
-/// The most windows that have a place at once.
-const MOST: u32 = 64;
+/// Maximum number of slots (resource limit: windows open at once, and autosaves to recover).
+const MAX_SLOTS: u32 = 64;
 
-/// A place that nobody else writes to.
+/// A slot that this process has locked.
 #[derive(Debug)]
 pub struct AutosaveSlot {
-    /// What is kept there, if anything is.
+    /// Path of the autosave, which may not exist.
     pub path: PathBuf,
-    /// Never removed: another window may be about to lock it.
+    /// The lock file is never deleted: another window may be about to lock it.
     _lock: File,
 }
 
-/// What a window has left that ended without saving.
+/// An autosave left behind by a window that ended without saving.
 #[derive(Debug)]
 pub struct AbandonedProject {
     /// The project.
     pub kept: UnsavedProject,
-    /// When it was kept.
+    /// When it was written.
     pub when: Option<SystemTime>,
-    /// Where it lies.
+    /// Its slot.
     pub slot: AutosaveSlot,
 }
 
 impl AutosaveSlot {
-    /// The place of that number, where nobody holds it.
+    /// Locks slot `number`; `None` if another window holds it.
     fn take(folder: &Path, number: u32) -> io::Result<Option<Self>> {
         let file = File::create(folder.join(format!("{number}.lock")))?;
         match file.try_lock() {
@@ -48,26 +47,27 @@ impl AutosaveSlot {
         }
     }
 
-    /// A free place in a folder, which is made where it is missing, and what was lost there, the
-    /// newest first.
+    /// Locks a free slot in a folder, which is created if missing, and collects the autosaves left
+    /// behind, newest first.
     ///
     /// # Errors
-    /// The folder cannot be made or written to.
+    /// The folder cannot be created or written to, or all slots are in use.
     pub fn enter(folder: &Path) -> io::Result<(Self, Vec<AbandonedProject>)> {
         fs::create_dir_all(folder)?;
         let mut free = None;
         let mut lost = Vec::new();
-        for number in 0..MOST {
-            let is_there = ["json", "making"]
+        for number in 0..MAX_SLOTS {
+            let is_used = ["json", "making"]
                 .iter()
                 .any(|kind| folder.join(format!("{number}.{kind}")).exists());
-            if free.is_some() && !is_there {
+            // One free slot is enough; all others only matter if they hold something.
+            if free.is_some() && !is_used {
                 continue;
             }
             let Some(slot) = Self::take(folder, number)? else {
                 continue;
             };
-            // What was being made there will not be finished.
+            // Exports of the window that ended will not be finished.
             fs::remove_dir_all(slot.workshop()).ok();
             match UnsavedProject::read(&slot.path) {
                 Ok(kept) => lost.push(AbandonedProject {
@@ -75,7 +75,7 @@ impl AutosaveSlot {
                     kept,
                     slot,
                 }),
-                // What is no project of ours is overwritten.
+                // A file that is no valid autosave is overwritten.
                 Err(_) => free = free.or(Some(slot)),
             }
         }
@@ -84,13 +84,13 @@ impl AutosaveSlot {
         Ok((free, lost))
     }
 
-    /// A folder for what is being made.
+    /// Folder for unfinished exports of the window.
     #[must_use]
     pub fn workshop(&self) -> PathBuf {
         self.path.with_extension("making")
     }
 
-    /// Nothing is kept there any more.
+    /// Deletes the autosave.
     pub fn clear(&self) {
         fs::remove_file(&self.path).ok();
     }
@@ -98,7 +98,7 @@ impl AutosaveSlot {
 
 impl Drop for AutosaveSlot {
     fn drop(&mut self) {
-        // Where nothing is being made it is empty.
+        // Only if it is empty, that is, no export is in progress.
         fs::remove_dir(self.workshop()).ok();
     }
 }
@@ -110,7 +110,7 @@ mod tests {
     use crate::project::gallery;
 
     #[test]
-    fn only_what_nobody_holds_is_lost() -> Result<(), Box<dyn std::error::Error>> {
+    fn only_autosaves_in_unlocked_slots_are_recovered() -> Result<(), Box<dyn std::error::Error>> {
         let folder = tempfile::tempdir()?;
         let name = gallery::list()?.remove(0).name;
         let loaded = gallery::load(&name)?;

@@ -1,4 +1,4 @@
-//! How films are made, kept under names of the user's own; the command line knows them too.
+//! Export presets saved under names of the user's choice; the command line can use them too.
 
 use std::io;
 use std::path::PathBuf;
@@ -12,23 +12,23 @@ use crate::app::session::state::Session;
 use crate::content::ContentKind;
 use crate::export::{FilmPreset, FilmPresets};
 
-/// All that are kept.
+/// The user's export presets, in memory and in their file.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct StoredPresets {
     presets: FilmPresets,
-    /// None where nothing is to be kept, as in tests.
+    /// `None` if nothing is written, as in tests.
     path: Option<PathBuf>,
 }
 
 impl StoredPresets {
-    /// Those of a file. One that cannot be read stays as it is.
+    /// Reads presets from a file. An unreadable file is left untouched.
     #[must_use]
     pub fn of_file(path: Option<PathBuf>) -> Self {
         let read = path.as_deref().map(FilmPresets::read);
         match read {
             Some(Ok(presets)) => Self { presets, path },
             Some(Err(error)) => {
-                warn!("kept looks of films: {error}");
+                warn!("cannot read the export presets: {error}");
                 Self {
                     presets: FilmPresets::default(),
                     path,
@@ -38,26 +38,26 @@ impl StoredPresets {
         }
     }
 
-    /// Makes a change, also in the file: in what is there now, for another window may have changed
-    /// it, too.
+    /// Changes the presets in memory and in the file, which is read first because another window
+    /// may have changed it.
     fn change(&mut self, change: impl Fn(&mut FilmPresets)) -> io::Result<()> {
         change(&mut self.presets);
         let Some(path) = &self.path else {
             return Ok(());
         };
-        let mut there = FilmPresets::read(path)?;
-        change(&mut there);
-        there.write(path)?;
-        self.presets = there;
+        let mut stored = FilmPresets::read(path)?;
+        change(&mut stored);
+        stored.write(path)?;
+        self.presets = stored;
         Ok(())
     }
 
-    /// Their names.
+    /// Names of the presets.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.presets.0.keys().map(String::as_str)
     }
 
-    /// The one that is in use, by its name.
+    /// Name of the preset that equals the current export settings.
     #[must_use]
     pub fn in_use(&self, preferences: &Preferences, content: Option<ContentKind>) -> Option<&str> {
         let now = preset(preferences, content);
@@ -66,6 +66,7 @@ impl StoredPresets {
     }
 }
 
+/// The current export settings as a preset.
 fn preset(preferences: &Preferences, content: Option<ContentKind>) -> FilmPreset {
     let format = preferences.format(content);
     let layout = preferences.film.layout;
@@ -82,7 +83,7 @@ fn preset(preferences: &Preferences, content: Option<ContentKind>) -> FilmPreset
     }
 }
 
-/// Keeps, takes and forgets them.
+/// Saves, applies and removes presets.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut kept: ResMut<StoredPresets>,
@@ -116,7 +117,7 @@ pub fn apply(
             _ => continue,
         };
         if let Err(error) = changed {
-            let words = format!("It is not kept for the next start: {error}.");
+            let words = format!("The preset was not saved: {error}");
             notices.problem(NoticeTopic::Film, words);
         }
     }

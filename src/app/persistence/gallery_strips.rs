@@ -1,5 +1,5 @@
-//! The film strips of the gallery, so that they are there at the next start: all of them take both
-//! cores of a small machine half a minute.
+//! Disk cache of the gallery's film strips; drawing all of them takes a small machine half a
+//! minute.
 
 use std::collections::HashMap;
 use std::fs;
@@ -14,15 +14,14 @@ use image::{ImageFormat, RgbaImage};
 
 use crate::io::atomic_file::AtomicFile;
 
-/// Strips as pictures, each by the name of its project. What cannot be kept or read is no loss: it
-/// is drawn again.
+/// Cached strips by project name. Failures are harmless: a missing strip is drawn again.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct GalleryStripCache {
-    /// None where nothing is to be kept, as in tests.
+    /// `None` if nothing is cached, as in tests.
     place: Option<StripCacheFolder>,
 }
 
-/// A folder for each program, which draw otherwise, in one of all.
+/// Cache folder, with one subfolder per version of the program, because versions draw differently.
 #[derive(Clone, Debug)]
 struct StripCacheFolder {
     all: PathBuf,
@@ -30,18 +29,19 @@ struct StripCacheFolder {
 }
 
 impl StripCacheFolder {
+    /// Subfolder of this version.
     fn own(&self) -> PathBuf {
         self.all.join(&self.program)
     }
 
-    /// Makes the folder. Those of other programs would lie there for good.
+    /// Creates the subfolder and deletes those of other versions, which would never be cleaned up.
     fn make(&self) -> io::Result<()> {
         fs::create_dir_all(self.own())?;
         for other in fs::read_dir(&self.all)?.flatten() {
             let name = other.file_name();
             let is_program = name.to_str().is_some_and(is_program);
             if is_program && name != *self.program {
-                // Whoever else uses them draws them again.
+                // Another installed version draws its strips again.
                 fs::remove_dir_all(other.path()).ok();
             }
         }
@@ -50,7 +50,7 @@ impl StripCacheFolder {
 }
 
 impl GalleryStripCache {
-    /// Those of this program, in the user's folder for what can be made again.
+    /// Cache of this program version in the user's cache folder.
     #[must_use]
     pub fn usual() -> Self {
         let all = dirs::cache_dir().map(|cache| cache.join("morphospace").join("strips"));
@@ -60,7 +60,7 @@ impl GalleryStripCache {
         }
     }
 
-    /// All that there are, of that width and height in pixels.
+    /// All cached strips with this width and height in pixels.
     #[must_use]
     pub fn read(&self, size: (u32, u32)) -> HashMap<String, RgbaImage> {
         let files = self
@@ -76,10 +76,10 @@ impl GalleryStripCache {
         strips.collect()
     }
 
-    /// Keeps one.
+    /// Stores a strip.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub fn keep(&self, name: &str, strip: &RgbaImage) -> io::Result<()> {
         let Some(place) = &self.place else {
             return Ok(());
@@ -97,7 +97,7 @@ impl GalleryStripCache {
     }
 }
 
-/// What tells this program from others, which draw otherwise: version, length and date.
+/// Identifies this version of the program by version number, file size and modification time.
 fn program() -> Option<String> {
     let file = std::env::current_exe().and_then(fs::metadata).ok()?;
     let since = file.modified().ok()?.duration_since(SystemTime::UNIX_EPOCH);
@@ -108,7 +108,7 @@ fn program() -> Option<String> {
     Some(format!("{:016x}", hasher.finish()))
 }
 
-/// Whether that is such a name: nothing else is taken away.
+/// Whether a name is such an identifier; nothing else is deleted.
 fn is_program(name: &str) -> bool {
     name.len() == 16 && name.bytes().all(|byte| byte.is_ascii_hexdigit())
 }
@@ -118,6 +118,7 @@ mod tests {
     use super::*;
     use image::Rgba;
 
+    /// Width and height of the test strips, in pixels.
     const SIZE: (u32, u32) = (6, 2);
 
     fn within(folder: &tempfile::TempDir) -> GalleryStripCache {
@@ -129,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_is_read_again() -> io::Result<()> {
+    fn stored_strips_are_read_back() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
         let [other, foreign] = ["fedcba9876543210", "mine"].map(|name| folder.path().join(name));
         fs::create_dir_all(&other)?;
@@ -139,13 +140,13 @@ mod tests {
         let strip = RgbaImage::from_fn(SIZE.0, SIZE.1, |x, y| Rgba([x as u8, y as u8, 7, 128]));
         kept.keep("gears", &strip)?;
         assert_eq!(kept.read(SIZE), HashMap::from([("gears".into(), strip)]));
-        assert!(!other.exists(), "it would lie there for good");
-        assert!(foreign.exists(), "what is no program's is left alone");
+        assert!(!other.exists(), "strips of other versions are deleted");
+        assert!(foreign.exists(), "other folders are kept");
         Ok(())
     }
 
     #[test]
-    fn what_is_no_strip_is_left_out() -> io::Result<()> {
+    fn invalid_strips_are_left_out() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
         let kept = within(&folder);
         kept.keep("small", &RgbaImage::new(1, 1))?;
@@ -156,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_folder_nothing_is_kept() -> io::Result<()> {
+    fn without_a_folder_nothing_is_cached() -> io::Result<()> {
         let kept = GalleryStripCache::default();
         kept.keep("gears", &RgbaImage::new(SIZE.0, SIZE.1))?;
         assert!(kept.read(SIZE).is_empty());

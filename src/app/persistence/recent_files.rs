@@ -1,4 +1,4 @@
-//! What was opened last, so that it is a click away at the next start.
+//! Recent files: what was opened last, one click away at the next start.
 
 use crate::project::title::title_of;
 use std::io::{self, Write};
@@ -11,18 +11,18 @@ use crate::app::session::state::Session;
 use crate::io::atomic_file::AtomicFile;
 use crate::io::sanitize::SanitizedLine;
 
-/// The most that is kept: what fits above the gallery without hiding it.
-const MOST: usize = 5;
+/// Maximum number of entries (heuristic: as many as fit above the gallery).
+const MAX_ENTRIES: usize = 5;
 
-/// What was opened together.
+/// Files that were opened together.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecentEntry {
-    /// A project, or one or two designs.
+    /// One project, or designs.
     pub files: Vec<PathBuf>,
 }
 
 impl RecentEntry {
-    /// In a few words.
+    /// Short title of the entry.
     #[must_use]
     pub fn title(&self) -> String {
         let stem = |path: &PathBuf| {
@@ -34,7 +34,7 @@ impl RecentEntry {
     }
 }
 
-/// What was opened, the last first.
+/// Entries of the list, the newest first.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecentFiles {
     #[serde(default)]
@@ -42,19 +42,20 @@ pub struct RecentFiles {
 }
 
 impl RecentFiles {
-    /// Where it is kept; none where the system has no such place.
+    /// Path of the list's file; `None` if the system has no folder for it.
     #[must_use]
     pub fn usual_path() -> Option<PathBuf> {
         let state = dirs::state_dir().or_else(dirs::data_local_dir);
         state.map(|state| state.join("morphospace").join("recent.toml"))
     }
 
-    /// Reads it; empty where there is none, or none that can be read: it is no loss.
+    /// Reads the list; empty if the file is missing or invalid.
     fn read(path: &Path) -> Self {
         let text = std::fs::read_to_string(path).unwrap_or_default();
         toml::from_str(&text).unwrap_or_default()
     }
 
+    /// Writes the list atomically.
     fn write(&self, path: &Path) -> io::Result<()> {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder)?;
@@ -68,36 +69,36 @@ impl RecentFiles {
     fn add(&mut self, opened: RecentEntry) {
         self.opened.retain(|other| *other != opened);
         self.opened.insert(0, opened);
-        self.opened.truncate(MOST);
+        self.opened.truncate(MAX_ENTRIES);
     }
 }
 
-/// What was opened last, in memory and in its file.
+/// The list of recent files, in memory and in its file.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct StoredRecentFiles {
     recent: RecentFiles,
-    /// None where nothing is to be kept, as in tests.
+    /// `None` if nothing is written, as in tests.
     path: Option<PathBuf>,
 }
 
 impl StoredRecentFiles {
-    /// That of a file.
+    /// Reads the list from a file.
     #[must_use]
     pub fn of_file(path: Option<PathBuf>) -> Self {
         let mut recent = path.as_deref().map(RecentFiles::read).unwrap_or_default();
-        // What is gone cannot be opened; looked at once, and not in each frame.
+        // Missing files are dropped; checked once and not in each frame.
         let is_there = |opened: &RecentEntry| opened.files.iter().all(|file| file.exists());
         recent.opened.retain(is_there);
         Self { recent, path }
     }
 
-    /// What was opened, the last first.
+    /// Entries, the newest first.
     #[must_use]
     pub fn opened(&self) -> &[RecentEntry] {
         &self.recent.opened
     }
 
-    /// The folders that it lies in, each once.
+    /// Folders of all entries, without duplicates.
     #[must_use]
     pub fn folders(&self) -> Vec<&Path> {
         let mut folders: Vec<&Path> = Vec::new();
@@ -115,21 +116,21 @@ impl StoredRecentFiles {
         let Some(path) = &self.path else {
             return Ok(());
         };
-        // Another window may have opened something meanwhile.
-        let mut there = RecentFiles::read(path);
-        there.add(opened);
-        there.write(path)
+        // Another window may have added entries meanwhile.
+        let mut stored = RecentFiles::read(path);
+        stored.add(opened);
+        stored.write(path)
     }
 }
 
-/// Notes what is open, once it is.
+/// Adds the open project to the list.
 pub fn follow(session: Res<Session>, mut recent: ResMut<StoredRecentFiles>) {
     if !session.is_changed() || session.transition().is_none() {
         return;
     }
     let files = match (session.path(), session.gallery_name()) {
         (Some(path), _) => vec![path.to_owned()],
-        // These have cards of their own.
+        // Gallery projects have cards of their own.
         (None, Some(_)) => return,
         (None, None) => session.files(),
     };
@@ -141,8 +142,8 @@ pub fn follow(session: Res<Session>, mut recent: ResMut<StoredRecentFiles>) {
         return;
     }
     if let Err(error) = recent.add(RecentEntry { files }) {
-        // Not told in the window: nothing is lost by it.
-        warn!("what was opened is not kept: {error}");
+        // Logged only: the user loses nothing.
+        warn!("cannot write the list of recent files: {error}");
     }
 }
 
@@ -157,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_comes_first_and_once() {
+    fn the_newest_comes_first_without_duplicates() {
         let mut recent = RecentFiles::default();
         for name in ["a", "b", "a", "c", "d", "e", "f"] {
             recent.add(opened(name));
@@ -167,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_gone_or_broken_is_left_out() {
+    fn missing_and_broken_files_are_left_out() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("state").join("recent.toml");
         let mut kept = StoredRecentFiles::of_file(Some(path.clone()));

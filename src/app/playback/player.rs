@@ -1,9 +1,9 @@
-//! Time in the window: playing, stepping, stops as slides.
+//! Playback: moves t over time and handles stops like slides.
 //!
-//! [`Playback`] is a plain value: every act on it is a method that a test can call. A pass runs on
-//! [`Timing`], which the export shares. Playing to a stop runs on a leg of its own, which starts
-//! from where t is, eases as the timing says, knows no holds, and so reaches stops outside the
-//! pass too.
+//! [`Playback`] is a plain value whose actions are methods, so that tests can call them. The film
+//! runs on [`Timing`], which the export shares. Playing to a stop uses a separate motion: it starts
+//! at the current t, eases like the film, ignores pauses, and so also reaches stops outside the
+//! film's range.
 
 use bevy::prelude::{MessageReader, Res, ResMut, Resource, Time};
 
@@ -11,27 +11,29 @@ use crate::app::input::intent::Intent;
 use crate::app::session::state::Session;
 use crate::transition::{EasingFunction, PlayMode, Timing, TransitionStop};
 
-/// Two stops nearer than this are one; the finest step on screen is a thousandth.
+/// Two t closer than this are the same stop (tolerance: the finest step on screen is 0.001).
 pub const SAME_T: f64 = 1e-6;
 
-/// So near to an end two films of the same designs look the same: the steps of a slow film.
-const SAME_FILM: f64 = 0.03;
+/// Distance in t from a design within which two films of the same designs look the same
+/// (heuristic).
+const SAME_FILM_T: f64 = 0.03;
 
-/// The speeds that `[` and `]` go through, as factors of the timing's.
+/// Playback speeds that `[` and `]` step through, as factors (heuristic).
 pub const SPEEDS: [f64; 10] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
 
 /// How t moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum PlaybackMotion {
     Still,
-    /// Along the pass, at this second of it.
+    /// Plays the film; `secs` is the time since its start.
     Pass {
         secs: f64,
     },
+    /// Plays to a stop.
     Leg(SegmentToStop),
 }
 
-/// The way to a stop.
+/// Motion to a stop, eased over `secs`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SegmentToStop {
     from: f64,
@@ -41,7 +43,7 @@ struct SegmentToStop {
     easing: EasingFunction,
 }
 
-/// Where t is and how it moves.
+/// Current t and how it moves.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct Playback {
     t: f64,
@@ -68,42 +70,43 @@ impl Playback {
         self.t
     }
 
-    /// t is moving.
+    /// Whether t is moving.
     #[must_use]
     pub fn is_playing(&self) -> bool {
         self.motion != PlaybackMotion::Still
     }
 
-    /// Another film of the same designs can take this one's place without being seen to: at rest,
-    /// and where all films are the same. Where the pass never comes there, any time is as good.
+    /// Whether the film may be replaced unnoticed by another one of the same designs: at rest, near
+    /// a design, or at any time if the film never reaches a design.
     #[must_use]
     pub fn may_change_film(&self, timing: &Timing) -> bool {
-        // All films of a leg are the same at the designs.
-        let is_end = |t: f64| t < SAME_FILM || (t - t.round()).abs() < SAME_FILM;
+        // At the designs all films of a segment are equal.
+        let is_end = |t: f64| t < SAME_FILM_T || (t - t.round()).abs() < SAME_FILM_T;
         let meets_an_end = [timing.from, timing.to].into_iter().any(is_end);
         !self.is_playing() || is_end(self.t) || !meets_an_end
     }
 
-    /// A pass runs, or would run, from its end to its start.
+    /// Whether the film plays, or would play, backwards.
     #[must_use]
     pub fn is_backwards(&self) -> bool {
         self.backwards
     }
 
-    /// The factor on the timing's speed.
+    /// Playback speed, a factor on the timing.
     #[must_use]
     pub fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Goes to where a pass starts and stays there; the speed stays too.
+    /// Stops at the start of the film; keeps the speed.
     pub fn begin(&mut self, timing: &Timing) {
         self.motion = PlaybackMotion::Still;
         self.backwards = false;
         self.t = timing.from;
     }
 
-    /// Sets t. A running pass goes on from there, a leg to a stop ends. Not a number is ignored.
+    /// Sets t. A running film continues from there; a motion to a stop ends. Ignores non-finite
+    /// values.
     pub fn seek(&mut self, t: f64, timing: &Timing, stops: &[TransitionStop]) {
         if !t.is_finite() {
             return;
@@ -117,15 +120,15 @@ impl Playback {
         };
     }
 
-    /// Moves t by so many hundredths and stops there, on a whole hundredth where t was on one.
+    /// Moves t by a number of hundredths and stops. A t on a whole hundredth stays on one.
     pub fn step(&mut self, hundredths: i32) {
         self.motion = PlaybackMotion::Still;
         let t = self.t + f64::from(hundredths) / 100.0;
-        // Hundredths are no sums of powers of two: ten steps of them would end beside a tenth.
+        // Rounded, because hundredths are no binary fractions: ten steps would miss a tenth.
         self.t = (t * 1e9).round() / 1e9;
     }
 
-    /// Plays, or pauses. At its end a pass starts again.
+    /// Plays or pauses. A film at its end starts again.
     pub fn toggle(&mut self, timing: &Timing, stops: &[TransitionStop]) {
         if self.is_playing() {
             self.motion = PlaybackMotion::Still;
@@ -133,13 +136,14 @@ impl Playback {
         }
         let pass = timing.pass_secs(stops);
         let secs = timing.secs_at(self.t, stops);
+        // Where the film starts, in seconds, and where it ends, in t, in the current direction.
         let (start, end) = if self.backwards {
             (pass, timing.from)
         } else {
             (0.0, timing.to)
         };
         let at_end = (self.t - end).abs() < SAME_T;
-        // To and fro there is no end: the pass turns round there by itself.
+        // Ping-pong has no end: the film turns round by itself.
         let secs = if at_end && timing.play != PlayMode::PingPong {
             start
         } else {
@@ -148,11 +152,11 @@ impl Playback {
         self.motion = PlaybackMotion::Pass { secs };
     }
 
-    /// Plays the other way; a leg to a stop turns back to where it came from.
+    /// Reverses the direction; a motion to a stop returns to where it started.
     pub fn reverse(&mut self) {
         self.backwards = !self.backwards;
         if let PlaybackMotion::Leg(leg) = &mut self.motion {
-            // Where the way back is as far along as the way there, eased as it is.
+            // Time at which the eased motion back has the same t as now.
             let there = if leg.secs > 0.0 {
                 leg.easing.apply(leg.elapsed / leg.secs)
             } else {
@@ -167,9 +171,9 @@ impl Playback {
         }
     }
 
-    /// Plays to `to` and waits there; `backwards` is how a pass would go on from it.
+    /// Plays to `to` and waits there.
     pub fn play_to(&mut self, to: f64, timing: &Timing, stops: &[TransitionStop]) {
-        // As fast as a pass runs over the same way.
+        // As fast as the film covers the same distance.
         let middle = 0.5 * (self.t + to);
         let secs = (to - self.t).abs() / timing.speed_at(middle, stops);
         self.motion = PlaybackMotion::Leg(SegmentToStop {
@@ -181,25 +185,25 @@ impl Playback {
         });
     }
 
-    /// The stop that slides go to from here: that after the one which t is already on its way to.
+    /// The t from which the next stop is counted: where t is, or where it is already heading.
     fn heading(&self) -> f64 {
         match self.motion {
-            // Pressed twice in a row, the second time means the stop after the next.
+            // Pressing twice in a row means the stop after the next.
             PlaybackMotion::Leg(leg) => leg.to,
             PlaybackMotion::Still | PlaybackMotion::Pass { .. } => self.t,
         }
     }
 
-    /// Where slides go to from here; none beyond the last.
+    /// Next stop from here; `None` after the last.
     #[must_use]
     pub fn next_stop(&self, timing: &Timing, stops: &[TransitionStop]) -> Option<f64> {
         next_landmark(self.heading(), false, timing, stops)
     }
 
-    /// The next faster (or slower) speed of the fixed list.
+    /// Selects the next faster or slower speed of [`SPEEDS`].
     pub fn change_speed(&mut self, faster: bool) {
         let next = if faster {
-            // From a speed between two of the list, as it may be set, to the next of them.
+            // A speed between two entries moves to the next entry.
             SPEEDS.iter().find(|speed| **speed > self.speed)
         } else {
             SPEEDS.iter().rev().find(|speed| **speed < self.speed)
@@ -207,14 +211,14 @@ impl Playback {
         self.speed = next.copied().unwrap_or(self.speed);
     }
 
-    /// This speed, kept within those of the fixed list; not a number is ignored.
+    /// Sets the speed, clamped to the range of [`SPEEDS`]; ignores non-finite values.
     pub fn set_speed(&mut self, speed: f64) {
         if speed.is_finite() {
             self.speed = speed.clamp(SPEEDS[0], SPEEDS[SPEEDS.len() - 1]);
         }
     }
 
-    /// Moves t by `dt_secs` of the clock on the wall.
+    /// Moves t by `dt_secs` of real time.
     pub fn advance(&mut self, dt_secs: f64, timing: &Timing, stops: &[TransitionStop]) {
         let step = dt_secs * self.speed;
         match self.motion {
@@ -231,7 +235,7 @@ impl Playback {
     }
 
     fn advance_leg(&mut self, leg: SegmentToStop) {
-        // Also where a leg takes no time: what is divided by below is above 0.
+        // Also if the motion takes no time, so that the division below is safe.
         if leg.elapsed >= leg.secs {
             self.t = leg.to;
             self.motion = PlaybackMotion::Still;
@@ -241,6 +245,7 @@ impl Playback {
         self.motion = PlaybackMotion::Leg(leg);
     }
 
+    /// Moves along the film to time `raw`, in seconds, and handles its ends.
     fn advance_pass(&mut self, raw: f64, timing: &Timing, stops: &[TransitionStop]) {
         let pass = timing.pass_secs(stops);
         let over = if self.backwards {
@@ -249,12 +254,12 @@ impl Playback {
             raw >= pass
         };
         let secs = match timing.play {
-            // A pass that takes no time is over at once, and nothing can be divided by it.
+            // A film without duration ends at once; nothing may be divided by it.
             _ if pass <= 0.0 => 0.0,
             PlayMode::Once => raw.clamp(0.0, pass),
             PlayMode::Loop => raw.rem_euclid(pass),
             PlayMode::PingPong => {
-                // A slow frame at ten times the speed may run past more than one end.
+                // A slow frame at tenfold speed may pass several ends.
                 let turns = (raw / pass).floor();
                 let along = raw - turns * pass;
                 if turns.rem_euclid(2.0) == 0.0 {
@@ -275,19 +280,19 @@ impl Playback {
     }
 }
 
-/// The places that ↑ ↓ and the slides go to: the stops and the two ends of the pass, in order.
+/// The t that stop navigation visits: the stops and both ends of the film, sorted.
 #[must_use]
 pub fn landmarks(timing: &Timing, stops: &[TransitionStop]) -> Vec<f64> {
     let mut all: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
     all.extend([timing.from, timing.to]);
     all.sort_by(f64::total_cmp);
-    // Sorted before, so that those that are one lie side by side.
+    // Sorted above, so duplicates are adjacent.
     all.dedup_by(|a, b| (*a - *b).abs() < SAME_T);
     all
 }
 
-/// Where a talk begins: the first stop in the direction of the pass; the start of the pass where
-/// there is none.
+/// Where a talk starts: the first stop in the film's direction, or the film's start if there are no
+/// stops.
 #[must_use]
 pub fn first_stop(timing: &Timing, stops: &[TransitionStop]) -> f64 {
     let along = |stop: &TransitionStop| {
@@ -301,7 +306,7 @@ pub fn first_stop(timing: &Timing, stops: &[TransitionStop]) -> f64 {
     first.map_or(timing.from, |stop| stop.t)
 }
 
-/// The first landmark after `t` in the direction of the pass, or the last before it.
+/// The first landmark after `t` in the film's direction, or with `backwards` the last before it.
 #[must_use]
 pub fn next_landmark(
     t: f64,
@@ -310,7 +315,7 @@ pub fn next_landmark(
     stops: &[TransitionStop],
 ) -> Option<f64> {
     let all = landmarks(timing, stops);
-    // A pass may run from a larger t to a smaller one: on is then down.
+    // A film may run from a larger t to a smaller one.
     if backwards != (timing.to < timing.from) {
         all.into_iter().rev().find(|place| *place < t - SAME_T)
     } else {
@@ -318,7 +323,7 @@ pub fn next_landmark(
     }
 }
 
-/// Acts on the intents that concern time.
+/// Applies the intents that concern time.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut playback: ResMut<Playback>,
@@ -331,7 +336,7 @@ pub fn apply(
 }
 
 impl Playback {
-    /// Acts on one intent; ignores those that do not concern time.
+    /// Applies one intent; ignores those that do not concern time.
     pub fn act(&mut self, intent: &Intent, timing: &Timing, stops: &[TransitionStop]) {
         match intent {
             Intent::TogglePlay => self.toggle(timing, stops),
@@ -352,6 +357,7 @@ impl Playback {
         }
     }
 
+    /// Jumps to the next or previous stop.
     fn jump(&mut self, backwards: bool, timing: &Timing, stops: &[TransitionStop]) {
         if let Some(t) = next_landmark(self.t, backwards, timing, stops) {
             self.motion = PlaybackMotion::Still;
@@ -359,6 +365,7 @@ impl Playback {
         }
     }
 
+    /// Plays to the next or previous stop.
     fn slide(&mut self, backwards: bool, timing: &Timing, stops: &[TransitionStop]) {
         if let Some(t) = next_landmark(self.heading(), backwards, timing, stops) {
             self.play_to(t, timing, stops);
@@ -366,7 +373,7 @@ impl Playback {
     }
 }
 
-/// Lets t move with the clock.
+/// Moves t with the clock.
 pub fn advance(time: Res<Time>, mut playback: ResMut<Playback>, session: Res<Session>) {
     if playback.is_playing() {
         playback.advance(time.delta_secs_f64(), session.timing(), session.stops());

@@ -1,7 +1,7 @@
-//! A talk: nothing but the drawing, from stop to stop, on the whole screen.
+//! Talks: the drawing in full screen, from stop to stop.
 //!
-//! While one is given the panels are hidden and only the keys of a talk mean anything, so that
-//! nothing else can come before an audience. It begins at the first stop.
+//! During a talk the panels are hidden and only the keys of a talk work, so that nothing else can
+//! appear before an audience. It starts at the first stop.
 
 use std::time::{Duration, Instant};
 
@@ -22,45 +22,46 @@ use crate::app::playback::player::{Playback, first_stop};
 use crate::app::session::state::Session;
 use crate::export::Captions;
 
-/// How long a pointer that rests is still seen.
+/// Seconds after which a resting pointer is hidden (heuristic).
 const POINTER_SECS: f32 = 1.0;
 
-/// The talk that is being given, if any.
+/// State of the talk, if one is given.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Presentation {
     talk: Option<ActiveTalk>,
 }
 
+/// A talk in progress.
 #[derive(Clone, Debug, PartialEq)]
 struct ActiveTalk {
-    /// The window was opened for it and closes with it.
+    /// Whether the window was opened for the talk and closes with it.
     is_all: bool,
-    /// It has come to its first stop, which takes a film.
+    /// Whether it has reached its first stop, which requires a film.
     has_begun: bool,
     is_black: bool,
-    /// As it was asked for; else they are shown where stops are named.
+    /// Captions on or off, if the user chose; `None` shows them if stops are named.
     captions: Option<bool>,
     began: Instant,
-    /// How long the pointer has rested.
+    /// Seconds since the pointer last moved.
     rest_secs: f32,
-    /// How the window was before.
+    /// Preferences and window mode to restore afterwards.
     before: (Preferences, Option<WindowMode>),
 }
 
 impl Presentation {
-    /// A talk is being given.
+    /// Whether a talk is given.
     #[must_use]
     pub fn is_on(&self) -> bool {
         self.talk.is_some()
     }
 
-    /// The screen is black, so that the speaker is looked at.
+    /// Whether the screen is black.
     #[must_use]
     pub fn is_black(&self) -> bool {
         self.talk.as_ref().is_some_and(|talk| talk.is_black)
     }
 
-    /// What stands below the drawing; none where nothing is to.
+    /// Captions below the drawing; `None` if none are shown.
     #[must_use]
     pub fn captions(&self, session: &Session) -> Option<Captions> {
         let talk = self.talk.as_ref()?;
@@ -72,20 +73,21 @@ impl Presentation {
         are_wanted.then(|| Captions::new(stops, names, session.style().ground))
     }
 
-    /// How long it has run.
+    /// Duration of the talk so far.
     #[must_use]
     pub fn lasts(&self) -> Duration {
         let talk = self.talk.as_ref();
         talk.map_or(Duration::ZERO, |talk| talk.began.elapsed())
     }
 
-    /// The pointer is still seen, and will not be for ever.
+    /// Whether the talk is about to change by itself: to begin, or to hide the pointer.
     #[must_use]
     pub fn waits(&self) -> bool {
         let talk = self.talk.as_ref();
         talk.is_some_and(|talk| !talk.has_begun || talk.rest_secs < POINTER_SECS)
     }
 
+    /// Starts a talk; `before` is restored when it ends.
     fn begin(&mut self, is_all: bool, before: (Preferences, Option<WindowMode>)) {
         self.talk = Some(ActiveTalk {
             is_all,
@@ -99,36 +101,41 @@ impl Presentation {
     }
 }
 
-/// Begins and ends talks, and acts on what is asked for in one.
+/// Starts and ends talks, and applies the intents of a talk.
 pub fn apply(
     mut intents: MessageReader<Intent>,
-    mut presenting: ResMut<Presentation>,
+    mut presentation: ResMut<Presentation>,
     mut preferences: ResMut<Preferences>,
-    (mut editor, mut twin, mut map): (ResMut<MatchEditor>, ResMut<Comparison>, ResMut<MapView>),
+    (mut editor, mut comparison, mut map): (
+        ResMut<MatchEditor>,
+        ResMut<Comparison>,
+        ResMut<MapView>,
+    ),
     session: Res<Session>,
     mut windows: Query<(&mut Window, &mut CursorOptions), With<PrimaryWindow>>,
     mut commands: Commands,
 ) {
     for intent in intents.read() {
-        match (intent, &mut presenting.talk) {
+        match (intent, &mut presentation.talk) {
             (Intent::Present { is_all }, None) => {
                 let window = windows.single_mut().ok();
                 let mode = window
                     .map(|(mut window, _)| std::mem::replace(&mut window.mode, fullscreen_mode()));
-                // It may have been opened on the whole screen for this.
+                // A window opened for the talk may already be full screen.
                 let mode = mode.map(|mode| if *is_all { WindowMode::Windowed } else { mode });
-                presenting.begin(*is_all, (*preferences, mode));
+                presentation.begin(*is_all, (*preferences, mode));
+                // Closes everything but the drawing.
                 (preferences.panels, preferences.help) = (false, false);
                 preferences.film_options = false;
                 commands.write_message(Intent::FitView);
                 editor.is_open = false;
-                (twin.is_shown, map.is_shown) = (false, false);
+                (comparison.is_shown, map.is_shown) = (false, false);
             }
             (Intent::Back | Intent::Present { .. } | Intent::Close, Some(talk)) => {
                 if talk.is_all {
                     commands.write_message(Intent::Close);
                 } else {
-                    // What closing may ask is seen again.
+                    // The panels return first, because closing may ask a question.
                     *preferences = talk.before.0;
                     if let (Ok((mut window, _)), Some(mode)) = (windows.single_mut(), talk.before.1)
                     {
@@ -138,12 +145,13 @@ pub fn apply(
                 if let Ok((_, mut cursor)) = windows.single_mut() {
                     cursor.visible = true;
                 }
-                presenting.talk = None;
+                presentation.talk = None;
             }
             (Intent::Black, Some(talk)) => talk.is_black = !talk.is_black,
+            // Toggles what is visible now, whether it was chosen or is the default.
             (Intent::ToggleCaptions, Some(_)) => {
-                let are_shown = presenting.captions(&session).is_some();
-                if let Some(talk) = &mut presenting.talk {
+                let are_shown = presentation.captions(&session).is_some();
+                if let Some(talk) = &mut presentation.talk {
                     talk.captions = Some(!are_shown);
                 }
             }
@@ -152,20 +160,21 @@ pub fn apply(
     }
 }
 
-/// Borderless: the other kind may change the screen's resolution, which takes seconds.
+/// Borderless full screen: the exclusive mode may change the screen's resolution, which takes
+/// seconds.
 pub fn fullscreen_mode() -> WindowMode {
     WindowMode::BorderlessFullscreen(MonitorSelection::Current)
 }
 
-/// Goes to the first stop as soon as there is a film; ends where there will be none.
+/// Moves to the first stop as soon as there is a film; ends the talk if there will be none.
 pub fn begin(
-    mut presenting: ResMut<Presentation>,
+    mut presentation: ResMut<Presentation>,
     session: Res<Session>,
     mut playback: ResMut<Playback>,
     mut intents: MessageWriter<Intent>,
 ) {
     let waits = |talk: &&mut ActiveTalk| !talk.has_begun;
-    let waiting = presenting
+    let waiting = presentation
         .bypass_change_detection()
         .talk
         .as_mut()
@@ -176,28 +185,29 @@ pub fn begin(
     if session.transition().is_some() {
         let (timing, stops) = (session.timing(), session.stops());
         playback.begin(timing);
-        // Of many designs stops lie at those within: the first one is where it begins.
+        // With several segments, stops lie at the designs between; the talk starts at the very
+        // first.
         if session.leg_count() == 1 {
             playback.seek(first_stop(timing, stops), timing, stops);
         }
         talk.has_begun = true;
     } else if session.work().is_none() {
-        // There is nothing to show, and what there is to tell is told in the window.
+        // Nothing to show; the window shows the reason.
         talk.is_all = false;
         intents.write(Intent::Back);
     }
 }
 
-/// Hides the pointer once it has rested.
+/// Hides the pointer when it has rested.
 pub fn hide_pointer(
     mut moved: MessageReader<CursorMoved>,
     time: Res<Time<Real>>,
-    mut presenting: ResMut<Presentation>,
+    mut presentation: ResMut<Presentation>,
     mut cursors: Query<&mut CursorOptions, With<PrimaryWindow>>,
 ) {
     let is_moved = moved.read().count() > 0;
-    // Nobody asks how long it has rested.
-    let Some(talk) = &mut presenting.bypass_change_detection().talk else {
+    // The time at rest is no visible change and must not trigger a redraw.
+    let Some(talk) = &mut presentation.bypass_change_detection().talk else {
         return;
     };
     if is_moved {

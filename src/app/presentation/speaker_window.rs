@@ -1,8 +1,7 @@
-//! The window that only the speaker sees: how long the talk has run, what to say here, and the next
-//! stop.
+//! The speaker's window of a talk: elapsed time, notes and the next stop.
 //!
-//! It comes of its own accord where there is a second screen, and then the audience gets that
-//! screen; with one screen it comes when it is asked for, to be dragged to where nobody sees it.
+//! It opens by itself if there is a second screen, which the audience's window then uses. With one
+//! screen it opens on request.
 
 use std::sync::Arc;
 
@@ -24,38 +23,38 @@ use crate::colour::Rgb;
 use crate::export::{Camera as FilmCamera, PixelSize, PixelSizeError, PlaneView};
 use crate::transition::{Sequence, TransitionStyle};
 
-/// The picture of the next stop, in pixels.
+/// Width and height of the image of the next stop, in pixels (heuristic).
 const PICTURE_PX: (u32, u32) = (640, 360);
 
-/// The camera of the speaker's window.
+/// Camera of the speaker's window.
 #[derive(Component, Debug)]
 pub struct SpeakerCamera;
 
-/// The speaker's window and what it shows.
+/// The speaker's window and its content.
 #[derive(Resource, Debug, Default)]
 pub struct SpeakerWindow {
-    /// The window and its camera.
+    /// The window and its camera, while open.
     window: Option<(Entity, Entity)>,
-    /// What the picture shows: that film at that t.
+    /// The film and the t that the image shows.
     shown: Option<(Sequence, f64)>,
     picture: Option<Arc<RgbaImage>>,
     job: Option<BackgroundJob<RgbaImage, PixelSizeError>>,
 }
 
 impl SpeakerWindow {
-    /// It is open.
+    /// Whether the window is open.
     #[must_use]
     pub fn is_open(&self) -> bool {
         self.window.is_some()
     }
 
-    /// This is its window.
+    /// Whether `window` is the speaker's window.
     #[must_use]
     pub fn is_its(&self, window: Entity) -> bool {
         self.window.is_some_and(|(own, _)| own == window)
     }
 
-    /// What the next stop looks like.
+    /// Image of the next stop.
     #[must_use]
     pub fn picture(&self) -> Option<Arc<RgbaImage>> {
         self.picture.clone()
@@ -67,24 +66,25 @@ pub fn apply(
     mut intents: MessageReader<Intent>,
     mut closing: MessageReader<WindowCloseRequested>,
     mut speaker: ResMut<SpeakerWindow>,
-    presenting: Res<Presentation>,
+    presentation: Res<Presentation>,
     monitors: Query<Entity, With<Monitor>>,
     mut audience: Query<(&mut Window, Option<&OnMonitor>), With<PrimaryWindow>>,
     mut commands: Commands,
 ) {
-    // That which the window is not on; some systems do not tell, and then nothing opens unasked.
+    // A screen other than the window's own. Some systems do not report it; then nothing opens by
+    // itself.
     let own = audience.single().ok().and_then(|(_, on)| Some(on?.0));
     let second = own.and_then(|own| monitors.iter().find(|screen| *screen != own));
     for intent in intents.read() {
         match intent {
-            Intent::Present { .. } if presenting.is_on() && speaker.window.is_none() => {
+            Intent::Present { .. } if presentation.is_on() && speaker.window.is_none() => {
                 if let (Some(screen), Ok((mut window, _))) = (second, audience.single_mut()) {
                     let screen = MonitorSelection::Entity(screen);
                     window.mode = WindowMode::BorderlessFullscreen(screen);
                     speaker.window = Some(open(&mut commands, own));
                 }
             }
-            Intent::ToggleSpeaker if presenting.is_on() && speaker.window.is_none() => {
+            Intent::ToggleSpeaker if presentation.is_on() && speaker.window.is_none() => {
                 speaker.window = Some(open(&mut commands, own));
             }
             Intent::ToggleSpeaker => close(&mut speaker, &mut commands),
@@ -97,15 +97,16 @@ pub fn apply(
             .is_some_and(|(window, _)| window == request.window)
     };
     let is_closed = closing.read().filter(|request| is_own(request)).count() > 0;
-    if speaker.window.is_some() && (is_closed || !presenting.is_on()) {
+    if speaker.window.is_some() && (is_closed || !presentation.is_on()) {
         close(&mut speaker, &mut commands);
     }
 }
 
+/// Opens the window on a screen; returns the window and its camera.
 fn open(commands: &mut Commands, screen: Option<Entity>) -> (Entity, Entity) {
     let screen = screen.map_or(MonitorSelection::Primary, MonitorSelection::Entity);
     let window = Window {
-        title: "Morphospace: for the speaker".to_owned(),
+        title: "Morphospace – Speaker".to_owned(),
         name: Some("morphospace".to_owned()),
         resolution: WindowResolution::new(960, 540),
         position: WindowPosition::Centered(screen),
@@ -115,12 +116,14 @@ fn open(commands: &mut Commands, screen: Option<Entity>) -> (Entity, Entity) {
     let camera = commands.spawn((
         Camera2d,
         RenderTarget::Window(WindowRef::Entity(window)),
+        // Draws only egui's panels, nothing of the stage.
         RenderLayers::none(),
         SpeakerCamera,
     ));
     (window, camera.id())
 }
 
+/// Closes the window.
 fn close(speaker: &mut SpeakerWindow, commands: &mut Commands) {
     if let Some((window, camera)) = speaker.window.take() {
         commands.entity(camera).despawn();
@@ -129,12 +132,12 @@ fn close(speaker: &mut SpeakerWindow, commands: &mut Commands) {
     *speaker = SpeakerWindow::default();
 }
 
-/// Draws the next stop, beside the window, wherever it is another.
+/// Draws the next stop in the background whenever it changes.
 pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playback: Res<Playback>) {
     if !speaker.is_open() {
         return;
     }
-    // Looked at in each frame; nobody asks whether it has changed.
+    // Change detection is not used for this resource.
     let speaker = speaker.bypass_change_detection();
     if let Some(picture) = BackgroundJob::take(&mut speaker.job) {
         speaker.picture = picture.ok().map(Arc::new);
@@ -156,6 +159,7 @@ pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playbac
     });
 }
 
+/// Draws the film at `t`.
 fn drawn(sequence: Sequence, style: TransitionStyle, t: f64) -> Result<RgbaImage, PixelSizeError> {
     let bounds = sequence.bounds();
     let room = bounds.padded(0.04 * bounds.diameter());

@@ -1,4 +1,4 @@
-//! A project that is open: where it comes from, how it was changed, what of it is on the stage.
+//! The open project: its settings, its saved state, its undo history and the segments on the stage.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,29 +22,29 @@ use crate::transition::{Sequence, Transition, TransitionMethod};
 /// A project that is open.
 #[derive(Debug)]
 pub struct OpenDocument {
-    /// The settings as they are now, and the designs of what is on the stage.
+    /// Current settings, with the designs of what is on the stage.
     pub loaded: LoadedProject,
-    /// The settings of what is on the stage.
+    /// Settings of what is on the stage.
     pub staged: Project,
-    /// The steps that can be taken back.
+    /// Undo history.
     pub history: UndoHistory,
-    /// A file of its designs has changed.
+    /// Whether a design file has changed on disk.
     pub must_reread: bool,
-    /// It was taken up again after the program had ended without saving it.
+    /// Whether it was recovered from an autosave.
     pub is_rescued: bool,
-    /// What there is of each leg of what is on the stage.
+    /// The segments on the stage: one for each pair of consecutive designs.
     legs: Vec<BuiltSegment>,
-    /// The leg that is looked at.
+    /// Index of the current segment: the one at the current t.
     leg: usize,
-    /// The project of that leg, as it is now.
+    /// Current settings of the current segment.
     seen: Project,
     origin: ProjectOrigin,
-    /// As it was opened or saved last.
+    /// Settings as last opened or saved.
     saved: Project,
 }
 
 impl OpenDocument {
-    /// A project that has just been read.
+    /// Opens a project that has just been read.
     #[must_use]
     pub fn new(loaded: BuiltProject, origin: ProjectOrigin) -> Self {
         let project = loaded.project.project.clone();
@@ -62,7 +62,7 @@ impl OpenDocument {
         }
     }
 
-    /// The same with changes that no file has: they were made before the program ended.
+    /// Opens a recovered project: all of it counts as unsaved.
     #[must_use]
     pub fn unsaved(loaded: BuiltProject, origin: ProjectOrigin) -> Self {
         Self {
@@ -72,7 +72,7 @@ impl OpenDocument {
         }
     }
 
-    /// Two designs that were opened together, as they came.
+    /// Whether it consists of two designs just opened together, without changes.
     #[must_use]
     pub fn is_new_pair(&self) -> bool {
         let is_pair = match self.loaded.project.designs.as_slice() {
@@ -82,7 +82,7 @@ impl OpenDocument {
         is_pair && self.origin == ProjectOrigin::Unsaved && !self.is_dirty()
     }
 
-    /// What is kept of it until it is saved.
+    /// Data for an autosave of the project.
     ///
     /// # Errors
     /// As [`UnsavedProject::new`].
@@ -90,43 +90,44 @@ impl OpenDocument {
         UnsavedProject::new(self.title(), &self.origin, &self.loaded)
     }
 
-    /// The number of the leg that is looked at.
+    /// Index of the current segment.
     #[must_use]
     pub fn leg(&self) -> usize {
         self.leg
     }
 
-    /// How many legs are on the stage.
+    /// Number of segments on the stage.
     #[must_use]
     pub fn leg_count(&self) -> usize {
         self.legs.len()
     }
 
-    /// Looks at another leg.
+    /// Makes another segment the current one.
     pub fn look_at(&mut self, leg: usize) {
         self.leg = leg.min(self.legs.len().saturating_sub(1));
         self.look_again();
     }
 
-    /// The settings of the leg that is looked at, or of the last one where it is gone.
+    /// Updates `seen`, the settings of the current segment, or of the last one if that no longer
+    /// exists.
     fn look_again(&mut self) {
         let last = self.loaded.project.leg_count() - 1;
         self.seen = self.loaded.project.leg(self.leg.min(last));
     }
 
-    /// The project of the leg that is looked at, as it is now.
+    /// Current settings of the current segment.
     #[must_use]
     pub fn seen(&self) -> &Project {
         &self.seen
     }
 
-    /// The project with the designs and the settings that are on the stage.
+    /// The whole project, with the designs and settings on the stage.
     #[must_use]
     pub fn whole_on_stage(&self) -> LoadedProject {
         self.loaded.with(self.staged.clone())
     }
 
-    /// The leg that is looked at, with the designs and the settings that are on the stage.
+    /// The current segment, with the designs and settings on the stage.
     #[must_use]
     pub fn leg_on_stage(&self) -> LoadedProject {
         let mut legs = self.whole_on_stage().legs();
@@ -134,7 +135,7 @@ impl OpenDocument {
         legs.swap_remove(leg)
     }
 
-    /// The designs of the leg that is looked at.
+    /// The two designs of the current segment.
     #[must_use]
     pub fn designs(&self) -> [&Arc<Design>; 2] {
         self.staged
@@ -142,19 +143,19 @@ impl OpenDocument {
             .map(|k| &self.loaded.designs[k])
     }
 
-    /// What is on the stage of the leg that is looked at.
+    /// Transition on the stage for the current segment.
     #[must_use]
     pub fn transition(&self) -> Option<&Transition> {
         self.stage().map(|stage| &stage.transition)
     }
 
-    /// The same, with what it was built from.
+    /// The same, with the settings it was built from.
     #[must_use]
     pub fn stage(&self) -> Option<&PlayableSegment> {
         self.legs.get(self.leg)?.stage.as_ref()
     }
 
-    /// All that is on the stage, where every leg has something to show.
+    /// All transitions on the stage; `None` unless every segment has one.
     #[must_use]
     pub fn sequence(&self) -> Option<Sequence> {
         let legs = self
@@ -165,7 +166,7 @@ impl OpenDocument {
         Some(sequence.leading_back(self.staged.leads_back()))
     }
 
-    /// The box that holds every frame of what is on the stage, nearly.
+    /// Approximate bounding box of all frames of all segments; frames are sampled.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         let stages = self.legs.iter().filter_map(|leg| leg.stage.as_ref());
@@ -173,22 +174,22 @@ impl OpenDocument {
         boxes.reduce(|a, b| a.union(&b))
     }
 
-    /// Why the settings, as they are now, make no transition: of the leg that is looked at, or of
-    /// another.
+    /// Why the current settings make no transition: the problem of the current segment, or else the
+    /// first one.
     #[must_use]
     pub fn problem(&self) -> Option<&TransitionProblem> {
         let here = self.legs.get(self.leg).and_then(|leg| leg.problem.as_ref());
         here.or_else(|| self.legs.iter().find_map(|leg| leg.problem.as_ref()))
     }
 
-    /// There is no problem any more.
+    /// Clears the problems of all segments.
     pub fn forget_problems(&mut self) {
         for leg in &mut self.legs {
             leg.problem = None;
         }
     }
 
-    /// The file that it is saved to.
+    /// File that the project is saved to.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
         match &self.origin {
@@ -197,7 +198,7 @@ impl OpenDocument {
         }
     }
 
-    /// Its name, where it is a bundled one.
+    /// Gallery name of a bundled project.
     #[must_use]
     pub fn gallery_name(&self) -> Option<&str> {
         match &self.origin {
@@ -206,14 +207,14 @@ impl OpenDocument {
         }
     }
 
-    /// The files that its designs are read from.
+    /// Files that the designs are read from.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         let folder = self.loaded.folder.as_deref();
         let entries = self.loaded.project.designs.iter();
         let sources = entries.filter_map(|entry| match folder {
             Some(folder) => Some(DesignSource::in_folder(folder, &entry.path)),
-            // A file that took the place of a bundled design.
+            // A user's file that replaced a bundled design.
             None => entry
                 .path
                 .is_absolute()
@@ -224,22 +225,22 @@ impl OpenDocument {
             .collect()
     }
 
+    /// Name of the project file without extension.
     fn stem(&self) -> Option<String> {
         let stem = self.path().and_then(Path::file_stem);
         stem.map(|stem| SanitizedLine(stem.to_string_lossy()).to_string())
     }
 
-    /// What it is called.
+    /// Title of the project.
     #[must_use]
     pub fn title(&self) -> String {
         let stem = self.stem();
-        // A title that was given says more than the name of a file, and that more than those of the
-        // designs.
+        // An explicit title comes first, then the file name, then the names of the designs.
         stem.filter(|_| self.loaded.project.title.is_empty())
             .unwrap_or_else(|| self.loaded.title())
     }
 
-    /// What files that belong to it are called.
+    /// Base name for files exported from the project.
     #[must_use]
     pub fn file_stem(&self) -> String {
         let name = || self.gallery_name().map(str::to_owned);
@@ -251,19 +252,19 @@ impl OpenDocument {
         }
     }
 
-    /// There are changes that are not saved.
+    /// Whether there are unsaved changes.
     #[must_use]
     pub fn is_dirty(&self) -> bool {
         self.loaded.project != self.saved
     }
 
-    /// Takes the changes for saved.
+    /// Treats the current settings as saved.
     pub fn forget_changes(&mut self) {
         self.is_rescued = false;
         self.saved = self.loaded.project.clone();
     }
 
-    /// Changes the settings. Changes of one mark are one step of the history.
+    /// Replaces the settings. Changes with the same `mark` are one undo step.
     pub fn edit(&mut self, project: Project, mark: Option<u64>) {
         let before = self.snapshot();
         self.loaded.project = project;
@@ -271,7 +272,7 @@ impl OpenDocument {
         self.history.note(before, self.snapshot(), mark);
     }
 
-    /// Changes the settings of the leg that is looked at, as [`Self::edit`] does.
+    /// Replaces the settings of the current segment, as [`Self::edit`] does.
     pub fn edit_leg(&mut self, pair: Project, mark: Option<u64>) {
         let mut whole = self.loaded.project.clone();
         let last = whole.leg_count() - 1;
@@ -279,10 +280,10 @@ impl OpenDocument {
         self.edit(whole, mark);
     }
 
-    /// Takes the settings of a step of the history; `false` where there is none.
+    /// Applies an undo or redo step; returns `false` if there is none.
     ///
     /// # Errors
-    /// A bundled design that the step names cannot be written; the project is as it was.
+    /// A bundled design named by the step cannot be written; the project stays as it was.
     pub fn go(
         &mut self,
         step: impl FnOnce(&mut UndoHistory) -> Option<ProjectSnapshot>,
@@ -291,7 +292,7 @@ impl OpenDocument {
             return Ok(false);
         };
         self.loaded.project = match &self.loaded.folder {
-            // Saved elsewhere since: the step names its designs from a folder that is no longer the
+            // Saved elsewhere since: the paths of the step refer to a folder that is no longer the
             // project's.
             Some(now) if folder.as_ref() != Some(now) => {
                 save::named_from(project, folder.as_deref(), now)?
@@ -302,23 +303,24 @@ impl OpenDocument {
         Ok(true)
     }
 
-    /// Whether the settings make another transition than that on the stage. Where they are those
-    /// of the stage again, there is no problem any more.
+    /// Whether the settings require another transition than the one on the stage. If not, problems
+    /// are cleared.
     pub fn is_stale(&mut self) -> bool {
         let is_stale = self.must_reread || load::needs_build(&self.staged, &self.loaded.project);
         if !is_stale {
-            self.forget_problems_of_what_is_shown();
+            self.clear_problems_of_shown_segments();
         }
         is_stale
     }
 
-    fn forget_problems_of_what_is_shown(&mut self) {
+    /// Clears the problems of all segments that have something to show.
+    fn clear_problems_of_shown_segments(&mut self) {
         for leg in self.legs.iter_mut().filter(|leg| leg.stage.is_some()) {
             leg.problem = None;
         }
     }
 
-    /// What is to be built where it is stale.
+    /// Input for rebuilding the segments on the stage.
     #[must_use]
     pub fn rebuild(&self) -> RebuildRequest {
         RebuildRequest {
@@ -333,17 +335,19 @@ impl OpenDocument {
         }
     }
 
-    /// Takes in what was built; whether there is a new transition. The settings may have changed
-    /// again meanwhile: they stay, and so does what is on the stage where there is nothing new.
+    /// Adopts newly built segments; returns whether anything on the stage changes.
+    ///
+    /// The settings are kept, because they may have changed again; so is any segment on the stage
+    /// whose replacement could not be built.
     pub fn restage(&mut self, built: BuiltProject) -> bool {
         let can_stay = built.legs.len() == self.legs.len();
         if can_stay && built.legs.iter().all(|leg| leg.problem.is_some()) {
-            // What was built in its place is on the stage already, or something better.
+            // Every replacement failed: what is on the stage is at least as good.
             let new = self.legs.iter_mut().zip(built.legs);
             new.for_each(|(leg, built)| leg.problem = built.problem);
             return false;
         }
-        // The settings are not taken from what was built: they may be newer.
+        // The current settings may be newer than those that were built.
         self.loaded.designs = built.project.designs;
         self.staged = built.settings;
         self.must_reread = false;
@@ -362,22 +366,22 @@ impl OpenDocument {
         true
     }
 
-    /// The settings go back to those of the stage; no step of the history is left of it.
+    /// Resets the settings to those on the stage; the change leaves no undo step.
     pub fn give_up_changes(&mut self) {
         self.must_reread = false;
         let cell = self.cell_on_stage();
         self.amend(|now, staged| {
             now.clone_from(staged);
-            // What was refused as it was opened is not what the stage shows.
+            // If the requested method was refused on opening, the stage shows another one.
             if let Some(cell) = cell {
                 (now.warp, now.content) = (Some(cell.warp()), Some(cell.content()));
             }
         });
-        // What could not be had is not asked for any more.
-        self.forget_problems_of_what_is_shown();
+        // The failed settings are no longer requested.
+        self.clear_problems_of_shown_segments();
     }
 
-    /// By what all legs are shown; none where they differ.
+    /// Method by which all segments are shown; `None` if they differ.
     fn cell_on_stage(&self) -> Option<TransitionMethod> {
         let cell = |leg: &BuiltSegment| Some(leg.stage.as_ref()?.transition.cell());
         let first = cell(self.legs.first()?)?;
@@ -385,11 +389,11 @@ impl OpenDocument {
         self.legs.iter().all(is_same).then_some(first)
     }
 
-    /// The designs go back to those of the stage: a file that cannot be read is not kept.
+    /// Resets the designs to those on the stage, because a file cannot be read.
     pub fn give_up_designs(&mut self) {
         self.must_reread = false;
         self.amend(|now, staged| {
-            // Another number of them has other legs.
+            // A different number of designs means different segments.
             if now.designs.len() == staged.designs.len() {
                 now.designs.clone_from(&staged.designs);
                 now.fit = staged.fit;
@@ -399,6 +403,8 @@ impl OpenDocument {
         });
     }
 
+    /// Changes the settings and corrects the last undo step accordingly; `change` receives the
+    /// settings on the stage as second argument.
     fn amend(&mut self, change: impl FnOnce(&mut Project, &Project)) {
         let before = self.snapshot();
         change(&mut self.loaded.project, &self.staged);
@@ -406,12 +412,12 @@ impl OpenDocument {
         self.history.amend(before, self.snapshot());
     }
 
-    /// Writes it to a file, which is its file from then on.
+    /// Saves the project to `path`, which becomes its file.
     ///
     /// # Errors
-    /// The document or a bundled design cannot be written; the project is as it was.
+    /// The project file or a bundled design cannot be written; the project stays as it was.
     pub fn save(&mut self, path: PathBuf) -> Result<(), SaveError> {
-        // What is on the stage may be another film than the project asks for, a draft of it.
+        // Results of the search are saved only if the stage shows what the settings ask for.
         if !load::needs_build(&self.staged, &self.loaded.project) {
             for (k, leg) in self.legs.iter().enumerate() {
                 if let Some(found) = leg.stage.as_ref().and_then(|s| s.transition.found()) {
@@ -422,7 +428,7 @@ impl OpenDocument {
         save::save(&mut self.loaded, &path)?;
         self.look_again();
         self.saved = self.loaded.project.clone();
-        // Only their names have changed, which is no reason to build again.
+        // Only paths changed, which requires no rebuild.
         if self.staged.designs.len() == self.saved.designs.len() {
             self.staged.designs.clone_from(&self.saved.designs);
             for (k, leg) in self.legs.iter_mut().enumerate() {
@@ -436,6 +442,7 @@ impl OpenDocument {
         Ok(())
     }
 
+    /// Current state for the undo history.
     fn snapshot(&self) -> ProjectSnapshot {
         ProjectSnapshot {
             project: self.loaded.project.clone(),

@@ -1,9 +1,8 @@
-//! Undo and redo of every change of the project.
+//! Undo and redo of all changes to the project.
 //!
-//! What a hand does in one go is one step: all changes while a mouse button is held, and all that
-//! is typed into one field. A change is kept as the whole project before and after it, with the
-//! folder that its paths start from, so that saving elsewhere does not make old steps point to
-//! nowhere.
+//! One gesture is one step: all changes while a mouse button is held, or all text typed into one
+//! field. A step stores the whole project before and after it, together with the folder that its
+//! relative paths refer to, so that old steps remain valid after saving to another folder.
 
 use std::path::PathBuf;
 
@@ -11,20 +10,20 @@ use undo::{Edit, Merged, Record};
 
 use crate::project::Project;
 
-/// The most steps that are kept: each holds two whole projects, some kilobytes, and more where
-/// faces have weights of their own.
-const MOST_STEPS: usize = 200;
+/// Maximum number of undo steps (resource limit: each stores two projects of some kilobytes, more
+/// if triangles have individual weights).
+const MAX_STEPS: usize = 200;
 
-/// A project at one moment.
+/// The project at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProjectSnapshot {
-    /// The project.
+    /// The project's settings.
     pub project: Project,
-    /// What its relative paths are relative to; `None` where it is bundled.
+    /// Folder that relative paths refer to; `None` for a bundled project.
     pub folder: Option<PathBuf>,
 }
 
-/// One step.
+/// One undo step.
 #[derive(Clone, Debug)]
 struct HistoryStep {
     before: ProjectSnapshot,
@@ -46,7 +45,7 @@ impl Edit for HistoryStep {
     }
 
     fn merge(&mut self, other: Self) -> Merged<Self> {
-        // Without a mark no hand did it, and each is a step of its own.
+        // A change without a gesture number is always a step of its own.
         let is_same = self.mark.is_some() && self.mark == other.mark;
         if !(is_same || other.amends) {
             return Merged::No(other);
@@ -60,23 +59,23 @@ impl Edit for HistoryStep {
     }
 }
 
-/// The steps that can be taken back and taken again.
+/// The steps that can be undone and redone.
 #[derive(Debug)]
 pub struct UndoHistory(Record<HistoryStep>);
 
 impl Default for UndoHistory {
     fn default() -> Self {
-        Self(Record::builder().limit(MOST_STEPS).saved(false).build())
+        Self(Record::builder().limit(MAX_STEPS).saved(false).build())
     }
 }
 
 impl UndoHistory {
-    /// Notes a change that was made.
+    /// Records a change. Changes of the same gesture (`mark`) form one step.
     pub fn note(&mut self, before: ProjectSnapshot, after: ProjectSnapshot, mark: Option<u64>) {
         self.push(before, after, mark, false);
     }
 
-    /// Notes that the last change did not come to stay, or not as it was.
+    /// Corrects the last step, because its change was rejected or replaced.
     pub fn amend(&mut self, before: ProjectSnapshot, after: ProjectSnapshot) {
         self.push(before, after, None, true);
     }
@@ -100,24 +99,24 @@ impl UndoHistory {
         self.0.edit(&mut (), step);
     }
 
-    /// There is a step to take back.
+    /// Whether there is a step to undo.
     #[must_use]
     pub fn can_undo(&self) -> bool {
         self.0.can_undo()
     }
 
-    /// There is a step to take again.
+    /// Whether there is a step to redo.
     #[must_use]
     pub fn can_redo(&self) -> bool {
         self.0.can_redo()
     }
 
-    /// What to go back to.
+    /// Undoes the last step; returns the project to restore.
     pub fn undo(&mut self) -> Option<ProjectSnapshot> {
         self.0.undo(&mut ())
     }
 
-    /// What to go on to.
+    /// Redoes the next step; returns the project to restore.
     pub fn redo(&mut self) -> Option<ProjectSnapshot> {
         self.0.redo(&mut ())
     }
@@ -137,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn one_movement_is_one_step() {
+    fn one_gesture_is_one_step() {
         let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), Some(7));
         history.note(at("1"), at("2"), Some(7));
@@ -149,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_hand_did_is_never_joined() {
+    fn changes_without_a_gesture_are_separate_steps() {
         let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), None);
         history.note(at("1"), at("2"), None);
@@ -157,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_movement_that_comes_back_is_no_step() {
+    fn a_gesture_that_returns_to_its_start_is_no_step() {
         let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), Some(7));
         history.note(at("1"), at("0"), Some(7));
@@ -165,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_that_was_given_up_is_no_step() {
+    fn a_rejected_change_is_no_step() {
         let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), None);
         history.note(at("1"), at("2"), None);
@@ -174,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_change_forgets_what_was_taken_back() {
+    fn a_new_change_discards_undone_steps() {
         let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), None);
         history.undo();

@@ -1,4 +1,4 @@
-//! What takes time: reading files and building transitions, off the main thread.
+//! Reads project and design files and builds transitions; runs in a background job.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,52 +16,52 @@ use crate::transition::{
 };
 use crate::work::progress::{Cancelled, Progress, ProgressShares, ProgressSpan, checkpoint};
 
-/// A project with its designs.
+/// A project with its designs and the transitions built from it.
 #[derive(Debug)]
 pub struct BuiltProject {
     /// The project and its designs.
     pub project: LoadedProject,
-    /// What its legs were built from: the project's settings, or those with the plainest
-    /// method, or those of drafts.
+    /// Settings that the transitions were built from: the project's own, or those of the plainest
+    /// method or of drafts while the final result is being built.
     pub settings: Project,
-    /// What there is of each leg.
+    /// One entry per segment of the path through the designs.
     pub legs: Vec<BuiltSegment>,
 }
 
-/// What there is of a leg.
+/// Result of building one segment: the part of the film between two consecutive designs.
 #[derive(Debug, Default)]
 pub struct BuiltSegment {
-    /// What can be played, if anything.
+    /// The playable part; `None` if nothing could be built.
     pub stage: Option<PlayableSegment>,
-    /// Why that is not what the project asks for.
+    /// Why the segment differs from what the project asks for.
     pub problem: Option<TransitionProblem>,
 }
 
-/// What can be played of a leg.
+/// A built segment.
 #[derive(Clone, Debug)]
 pub struct PlayableSegment {
-    /// What it was built from.
+    /// Settings it was built from.
     pub settings: SegmentSettings,
     /// The transition.
     pub transition: Transition,
 }
 
-/// What a leg is built from.
+/// All settings that determine a segment's transition.
 #[derive(Clone, Debug)]
 pub struct SegmentSettings {
-    /// Two designs, and all that is said of them.
+    /// The two designs of the segment and their settings.
     pub pair: Project,
-    /// The designs of the whole, where the leg hangs on them: they are laid over the first of
-    /// them, and fields share one grid.
+    /// All designs of the project, if the segment depends on them: they share a frame aligned with
+    /// the first design, and fields share one grid. Empty otherwise.
     among: Vec<DesignEntry>,
-    /// The number of the leg, where it is one of a path over the map.
+    /// Index of the segment, if it belongs to a path on the map.
     path_leg: Option<usize>,
 }
 
 impl SegmentSettings {
-    /// Those of a leg of a project.
+    /// Settings of one segment of a project.
     #[must_use]
-    pub fn of(whole: &LoadedProject, leg: usize) -> Self {
+    pub fn of(whole: &LoadedProject, segment: usize) -> Self {
         let project = &whole.project;
         let has_bars = |design: &Arc<Design>| matches!(design.form, DesignForm::Truss(_));
         let stands_alone = project.follows_path()
@@ -70,8 +70,8 @@ impl SegmentSettings {
                 && project.fit == DesignFit::AsDrawn
                 && !whole.designs.iter().any(has_bars));
         Self {
-            pair: project.leg(leg),
-            path_leg: project.follows_path().then_some(leg),
+            pair: project.leg(segment),
+            path_leg: project.follows_path().then_some(segment),
             among: if stands_alone {
                 Vec::new()
             } else {
@@ -80,7 +80,7 @@ impl SegmentSettings {
         }
     }
 
-    /// The designs have other names by now, and are the same.
+    /// Adopts new file names of unchanged designs, as after saving to another folder.
     pub fn rename(&mut self, whole: &Project, leg: usize) {
         self.pair.designs = whole.leg(leg).designs;
         if !self.among.is_empty() {
@@ -88,17 +88,17 @@ impl SegmentSettings {
         }
     }
 
-    /// Whether another transition is to be built for these.
+    /// Whether the settings `now` require another transition.
     fn needs_build(&self, now: &Self) -> bool {
-        let own = (&self.among, self.path_leg);
-        needs_build(&self.pair, &now.pair) || own != (&now.among, now.path_leg)
+        let context = (&self.among, self.path_leg);
+        needs_build(&self.pair, &now.pair) || context != (&now.among, now.path_leg)
     }
 }
 
-/// Why there is nothing to play.
+/// Why a segment has no transition.
 #[derive(Debug, thiserror::Error)]
 pub enum TransitionProblem {
-    /// The settings do not go with the designs.
+    /// The settings do not fit the designs.
     #[error(transparent)]
     Project(#[from] ProjectError),
     /// No transition can be built from them.
@@ -106,67 +106,70 @@ pub enum TransitionProblem {
     Build(#[from] BuildError),
 }
 
-/// Work to be done.
+/// A request to open or rebuild a project.
 #[derive(Clone, Debug)]
 pub enum LoadRequest {
-    /// Open a bundled project.
+    /// Open a gallery project.
     Gallery(String),
     /// Open a project file.
     File(PathBuf),
-    /// Open a project as it was before the program ended without saving it.
+    /// Open a project recovered from an autosave.
     Rescued(Box<UnsavedProject>),
-    /// Open designs, one after the other, as a new project.
+    /// Open designs, in this order, as a new project.
     Designs(Vec<PathBuf>),
-    /// Build what is open with its new settings.
+    /// Rebuild the open project with changed settings.
     Rebuild(Box<RebuildRequest>),
 }
 
-/// A project that is open, and what of it is on the stage.
+/// The open project with its new settings, and what is on the stage.
 #[derive(Clone, Debug)]
 pub struct RebuildRequest {
-    /// With the new settings and the old designs. Designs are read again where their file, or how
-    /// it is read, has changed.
+    /// New settings with the old designs. Designs are read again if their file, or the way it is
+    /// imported, has changed.
     pub now: LoadedProject,
-    /// The settings of what is on the stage.
+    /// Settings of what is on the stage.
     pub staged: Project,
-    /// What is on the stage.
+    /// Segments on the stage.
     pub stages: Vec<PlayableSegment>,
-    /// A file of its designs has changed.
+    /// Whether a design file has changed on disk.
     pub must_reread: bool,
 }
 
-/// What is shown until what was asked for is there.
+/// Result to show while the requested one is being built.
 #[derive(Debug)]
 pub enum InterimResult {
-    /// By the plainest method.
+    /// Built by the plainest method: a blend without a warp.
     Plain(BuiltProject),
-    /// The first film of several.
+    /// A draft: the first film found, before better ones are tried.
     Draft(BuiltProject),
 }
 
 impl RebuildRequest {
+    /// Rebuilds the segments, reusing as much as possible.
     fn carry_out(
         self,
         progress: &dyn Progress,
         meanwhile: &mut dyn FnMut(InterimResult),
     ) -> Result<BuiltProject, LoadError> {
-        // Its sliders are dragged, and the distance transforms take far longer than the mixing.
+        // Shortcut for sliders being dragged: distance transforms take far longer than the blend.
         if !self.must_reread
-            && let Some(stages) = self.mixed_otherwise().or_else(|| self.shown_otherwise())
+            && let Some(stages) = self
+                .with_new_field_blend()
+                .or_else(|| self.with_new_part_times())
         {
-            return Ok(done(self.now, stages));
+            return Ok(all_built(self.now, stages));
         }
         let (mut project, mut known) = (self.now, self.stages);
         if self.must_reread {
             project = project.reread()?;
-            // Of files that have changed nothing is known any more.
+            // Segments built from the old files cannot be reused.
             known.clear();
             choose_cell(&mut project);
         } else if reads_differently(&self.staged, &project.project) {
             project = project.read_beside(&self.staged)?;
             choose_cell(&mut project);
         }
-        Ok(built_by_steps(
+        Ok(build_in_steps(
             project,
             &known,
             Vec::new(),
@@ -175,42 +178,44 @@ impl RebuildRequest {
         ))
     }
 
-    /// Where nothing but the times of parts and how coats lie has changed, the film is the same.
-    fn shown_otherwise(&self) -> Option<Vec<PlayableSegment>> {
+    /// Reuses the films if only the times of parts or the order of paint layers changed.
+    fn with_new_part_times(&self) -> Option<Vec<PlayableSegment>> {
         let change = |options: &mut TransitionOptions, now: &TransitionOptions| {
             options.parts.clone_from(&now.parts);
             options.coats = now.coats;
         };
-        self.changed(change, |leg, transition| {
+        self.reuse_segments(change, |leg, transition| {
             let TransitionOptions { parts, coats, .. } = leg.spec().ok()?.options;
             Some(transition.with_coats(&coats).with_part_times(&parts))
         })
     }
 
-    /// Where nothing but the mixing of the fields has changed, they need not be measured again.
-    fn mixed_otherwise(&self) -> Option<Vec<PlayableSegment>> {
+    /// Reuses the distance transforms if only the blend of the fields changed.
+    fn with_new_field_blend(&self) -> Option<Vec<PlayableSegment>> {
         let blend = self.now.project.options.field.blend;
         let change = |options: &mut TransitionOptions, now: &TransitionOptions| {
             options.field.blend = now.field.blend
         };
-        self.changed(change, |_, transition| transition.with_blend(blend).ok()?)
+        self.reuse_segments(change, |_, transition| transition.with_blend(blend).ok()?)
     }
 
-    /// Another transition of each leg, where what is on the stage would be what is asked for if
-    /// this were changed in its settings. What stands there in place of what could not be had has
-    /// other settings.
-    fn changed(
+    /// Derives each segment's transition from the one on the stage, if `change` accounts for all
+    /// differences in its settings; `None` otherwise.
+    ///
+    /// A segment on the stage that stands in for one that failed has other settings and is never
+    /// reused.
+    fn reuse_segments(
         &self,
         change: impl Fn(&mut TransitionOptions, &TransitionOptions),
         make: impl Fn(&LoadedProject, &Transition) -> Option<Transition>,
     ) -> Option<Vec<PlayableSegment>> {
-        // Designs that have come are not read yet.
+        // Added designs have not been read yet.
         if self.now.project.leg_count() != self.stages.len() {
             return None;
         }
         let legs = self.now.legs();
-        let made = legs.iter().zip(&self.stages).enumerate();
-        let made = made.map(|(k, (leg, stage))| {
+        let pairs = legs.iter().zip(&self.stages).enumerate();
+        let reused = pairs.map(|(k, (leg, stage))| {
             let (mut was, settings) = (stage.settings.clone(), SegmentSettings::of(&self.now, k));
             change(&mut was.pair.options, &settings.pair.options);
             if was.needs_build(&settings) {
@@ -221,23 +226,23 @@ impl RebuildRequest {
                 settings,
             })
         });
-        made.collect()
+        reused.collect()
     }
 }
 
 /// Why nothing could be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// The project, or one of its designs.
+    /// The project or one of its designs cannot be read.
     #[error(transparent)]
     Project(#[from] ProjectError),
-    /// Nobody waits for it any more.
+    /// The request was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
 impl LoadRequest {
-    /// Where what it opens comes from; none where that is open already.
+    /// Origin of the project to open; `None` for a rebuild.
     #[must_use]
     pub fn origin(&self) -> Option<ProjectOrigin> {
         Some(match self {
@@ -249,7 +254,7 @@ impl LoadRequest {
         })
     }
 
-    /// The settings that it builds, where they are known before it is read.
+    /// Settings to be built, if known before reading any file.
     #[must_use]
     pub fn settings(&self) -> Option<&Project> {
         match self {
@@ -258,13 +263,15 @@ impl LoadRequest {
         }
     }
 
-    /// Does the work. Where something is opened, `meanwhile` gets it by the plainest method before
-    /// that which is asked for is built, and then as a draft; where the whole cannot be had, the
-    /// last of these is the answer.
+    /// Carries out the request.
+    ///
+    /// When opening, `meanwhile` receives the project built by the plainest method, and then a
+    /// draft, while the requested transition is being built. If that fails, the last of these is
+    /// returned.
     ///
     /// # Errors
-    /// The project or a design cannot be read. That a transition cannot be built from them is no
-    /// error: it stands in the answer.
+    /// The project or a design cannot be read. A transition that cannot be built is no error: the
+    /// returned segments contain the reason.
     pub fn carry_out(
         self,
         progress: &dyn Progress,
@@ -282,12 +289,12 @@ impl LoadRequest {
             Self::Rebuild(rebuild) => return rebuild.carry_out(progress, &mut meanwhile),
         };
         choose_cell(&mut project);
-        let plain = plainest(&project, progress);
+        let plain = build_plainest(&project, progress);
         let stages = plain.as_ref().map_or_else(Vec::new, |plain| plain.stages());
         if let Some(plain) = plain {
             meanwhile(InterimResult::Plain(plain));
         }
-        Ok(built_by_steps(
+        Ok(build_in_steps(
             project,
             &[],
             stages,
@@ -297,17 +304,17 @@ impl LoadRequest {
     }
 }
 
-/// Writes down the cell that suits the designs, where the project names none that they can be
-/// shown by, so that what the panel says is what the stage shows.
+/// Replaces an unspecified or unsupported method by one that suits the designs, so that the panel
+/// names the method that the stage shows.
 fn choose_cell(loaded: &mut LoadedProject) {
     let legs = loaded.legs();
-    let can = |cell: &TransitionMethod| {
-        let can = |leg: &LoadedProject| leg.available(cell.warp(), cell.content()).is_ok();
-        legs.iter().all(can)
+    let suits_all = |cell: &TransitionMethod| {
+        let suits = |leg: &LoadedProject| leg.available(cell.warp(), cell.content()).is_ok();
+        legs.iter().all(suits)
     };
-    let asked = legs[0].cell().ok().filter(can);
-    // What asks most of the designs comes first; what asks least is always among them.
-    let suited = asked.or_else(|| TransitionMethod::all().find(can));
+    let asked = legs[0].cell().ok().filter(suits_all);
+    // Methods with the strictest requirements come first; the last one suits any designs.
+    let suited = asked.or_else(|| TransitionMethod::all().find(suits_all));
     if let Some(cell) = suited {
         loaded.project.warp = Some(cell.warp());
         loaded.project.content = Some(cell.content());
@@ -315,13 +322,14 @@ fn choose_cell(loaded: &mut LoadedProject) {
 }
 
 impl BuiltProject {
+    /// The playable part of each segment.
     fn stages(&self) -> Vec<Option<PlayableSegment>> {
         self.legs.iter().map(|leg| leg.stage.clone()).collect()
     }
 }
 
-/// A project all of whose legs are as it asks for.
-fn done(project: LoadedProject, stages: Vec<PlayableSegment>) -> BuiltProject {
+/// A project whose segments are all built as requested.
+fn all_built(project: LoadedProject, stages: Vec<PlayableSegment>) -> BuiltProject {
     let leg = |stage| BuiltSegment {
         stage: Some(stage),
         problem: None,
@@ -333,22 +341,23 @@ fn done(project: LoadedProject, stages: Vec<PlayableSegment>) -> BuiltProject {
     }
 }
 
-/// How much of the work is done once there is a draft, as it is told: a quarter of most pairs'.
-const DRAFTED: f64 = 0.25;
+/// Share of the progress bar given to drafts (heuristic).
+const DRAFT_SHARE: f64 = 0.25;
 
-/// Builds what a project asks for, by way of drafts where these are sooner there; where it cannot be
-/// had, the draft stands in its place, or what there is `already`. Legs that are `known` stay as
-/// they are.
-fn built_by_steps(
+/// Builds the segments of a project, with drafts first where they are quicker.
+///
+/// Segments that are `known` are reused. One that cannot be built is replaced by its draft, or else
+/// by the `plain` one, if given.
+fn build_in_steps(
     project: LoadedProject,
     known: &[PlayableSegment],
-    already: Vec<Option<PlayableSegment>>,
+    plain: Vec<Option<PlayableSegment>>,
     progress: &dyn Progress,
     meanwhile: &mut dyn FnMut(InterimResult),
 ) -> BuiltProject {
     let legs = project.legs();
     let known: Vec<Option<PlayableSegment>> = (0..legs.len())
-        .map(|leg| of_settings(known, &SegmentSettings::of(&project, leg)))
+        .map(|leg| find_reusable(known, &SegmentSettings::of(&project, leg)))
         .collect();
     let drafting = ProgressShares::new(progress, legs.len());
     let draft = |leg: usize| {
@@ -358,24 +367,25 @@ fn built_by_steps(
             draft(
                 &project,
                 (leg, &legs[leg]),
-                &ProgressSpan::new(&part, 0.0, DRAFTED),
+                &ProgressSpan::new(&part, 0.0, DRAFT_SHARE),
             )
         });
         draft.flatten()
     };
     let drafts: Vec<Option<PlayableSegment>> = (0..legs.len()).map(draft).collect();
     let has_drafts = drafts.iter().any(Option::is_some);
-    let standing = |leg: usize| {
-        let before = already.get(leg).cloned().flatten();
+    // Shown for a segment until, or unless, it is built.
+    let fallback = |leg: usize| {
+        let before = plain.get(leg).cloned().flatten();
         known[leg].clone().or(drafts[leg].clone()).or(before)
     };
     if has_drafts {
-        let stages = (0..legs.len()).map(standing).collect();
+        let stages = (0..legs.len()).map(fallback).collect();
         let mut settings = project.project.clone();
         settings.options.quality = BuildQuality::Draft;
-        meanwhile(InterimResult::Draft(shown(&project, settings, stages)));
+        meanwhile(InterimResult::Draft(interim(&project, settings, stages)));
     }
-    let from = if has_drafts { DRAFTED } else { 0.0 };
+    let from = if has_drafts { DRAFT_SHARE } else { 0.0 };
     let building = ProgressSpan::new(progress, from, 1.0);
     let building = ProgressShares::new(&building, legs.len());
     let built = (0..legs.len()).map(|leg| match &known[leg] {
@@ -383,10 +393,10 @@ fn built_by_steps(
             stage: Some(stage.clone()),
             problem: None,
         },
-        None => built(
+        None => build_segment(
             &project,
             (leg, &legs[leg]),
-            standing(leg),
+            fallback(leg),
             &building.part(leg),
         ),
     });
@@ -397,11 +407,11 @@ fn built_by_steps(
     }
 }
 
-/// A leg as the project asks for it; where it cannot be had, what stands in its place.
-fn built(
+/// Builds one segment; if that fails, `fallback` takes its place.
+fn build_segment(
     whole: &LoadedProject,
     (leg, project): (usize, &LoadedProject),
-    standing: Option<PlayableSegment>,
+    fallback: Option<PlayableSegment>,
     progress: &dyn Progress,
 ) -> BuiltSegment {
     match transition_of(project, progress) {
@@ -413,22 +423,22 @@ fn built(
             problem: None,
         },
         Err(problem) => BuiltSegment {
-            stage: standing,
+            stage: fallback,
             problem: Some(problem),
         },
     }
 }
 
-/// What was built from these settings before.
-fn of_settings(known: &[PlayableSegment], settings: &SegmentSettings) -> Option<PlayableSegment> {
-    let found = known
+/// A segment that was built from the same settings before.
+fn find_reusable(known: &[PlayableSegment], settings: &SegmentSettings) -> Option<PlayableSegment> {
+    let same = known
         .iter()
         .find(|stage| !stage.settings.needs_build(settings));
-    found.cloned()
+    same.cloned()
 }
 
-/// A project on the way to what it asks for.
-fn shown(
+/// A project with interim segments.
+fn interim(
     project: &LoadedProject,
     settings: Project,
     stages: Vec<Option<PlayableSegment>>,
@@ -444,8 +454,8 @@ fn shown(
     }
 }
 
-/// The first film of a leg that asks for the best of several; none where it asks for nothing
-/// of the kind, or it cannot be had.
+/// Draft of a segment, if its settings ask for the best of several films; `None` otherwise, or if
+/// it cannot be built.
 fn draft(
     whole: &LoadedProject,
     (leg, project): (usize, &LoadedProject),
@@ -460,9 +470,9 @@ fn draft(
     })
 }
 
-/// The transitions of a project by the method that moves nothing, which is had of almost any two
-/// designs, and at once; none where that is what it asks for.
-fn plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<BuiltProject> {
+/// Segments built by the method without a warp, which suits almost any two designs and takes no
+/// time; `None` if the project asks for that method anyway.
+fn build_plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<BuiltProject> {
     let asked = project.legs()[0].cell().ok()?;
     let cell = asked.plain();
     if cell == asked {
@@ -478,10 +488,10 @@ fn plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<BuiltPro
         })
     };
     let stages = plain.legs().iter().enumerate().map(stage).collect();
-    Some(shown(project, plain.project.clone(), stages))
+    Some(interim(project, plain.project.clone(), stages))
 }
 
-/// Hears that it is cancelled and tells nothing: a bar that ran once would run again.
+/// Forwards cancellation but hides progress; otherwise the progress bar would run twice.
 struct CancelOnlyProgress<'a>(&'a dyn Progress);
 
 impl Progress for CancelOnlyProgress<'_> {
@@ -495,7 +505,7 @@ impl Progress for CancelOnlyProgress<'_> {
 /// Builds the transition of a project.
 ///
 /// # Errors
-/// The settings do not go with the designs, or no transition can be built from them.
+/// The settings do not fit the designs, or no transition can be built from them.
 pub fn transition_of(
     project: &LoadedProject,
     progress: &dyn Progress,
@@ -509,13 +519,13 @@ pub fn transition_of(
 }
 
 impl TransitionProblem {
-    /// It would take very long, or much memory, and can be had all the same.
+    /// Whether the build was refused only because it would take too long or too much memory.
     #[must_use]
     pub fn is_too_much(&self) -> bool {
         matches!(self, Self::Build(error) if matches!(error.reason(), BuildError::TooMuch(_)))
     }
 
-    /// The pins that it comes from, by their numbers in the project.
+    /// Indices, in the project, of the pins that cause the problem.
     #[must_use]
     pub fn pins(&self) -> Vec<usize> {
         let Self::Build(error) = self else {
@@ -527,19 +537,19 @@ impl TransitionProblem {
                 PinError::SamePoint(a, b) | PinError::Crossing(a, b) => vec![*a, *b],
             },
             BuildError::Match(RegionMatchError::PinAcross(a)) => vec![*a],
-            // All else is wrong with the designs or the method, and no pin is to blame.
+            // All other problems lie in the designs or the method.
             _ => Vec::new(),
         }
     }
 }
 
-/// The settings that a transition is built from differ: all but those of how it is told, played
-/// and painted.
+/// Whether two projects differ in settings that affect the transition: all except title,
+/// description, timing, stops, colours and the layout of the map.
 #[must_use]
 pub fn needs_build(staged: &Project, now: &Project) -> bool {
-    let built = |project: &Project| Project {
-        // Reset on both sides: a setting that is added later makes a new build, which may be
-        // needless but is never wrong.
+    let relevant = |project: &Project| Project {
+        // Settings without effect on the transition are reset in both. So a setting added later
+        // causes a rebuild by default: maybe needless, but never wrong.
         title: String::new(),
         description: String::new(),
         timing: Timing::default(),
@@ -548,9 +558,10 @@ pub fn needs_build(staged: &Project, now: &Project) -> bool {
         map: MapSettings::default(),
         ..project.clone()
     };
-    !staged.map.plays_as(&now.map) || built(staged) != built(now)
+    !staged.map.plays_as(&now.map) || relevant(staged) != relevant(now)
 }
 
+/// Whether some design is read from another file or in another way.
 fn reads_differently(staged: &Project, now: &Project) -> bool {
     let reading = |project: &Project| -> Vec<_> {
         project

@@ -1,24 +1,24 @@
-//! Where a project comes from, and its designs.
+//! Where a project and its designs come from.
 
 use std::path::{Path, PathBuf};
 
 use crate::design::DesignSource;
 
-/// Where the open project comes from.
+/// Origin of the open project.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ProjectOrigin {
-    /// A bundled project, by its name.
+    /// A gallery project with this name.
     Gallery(String),
-    /// A file.
+    /// A project file.
     File(PathBuf),
-    /// Designs that were opened together, or a project that was changed beyond its file.
+    /// No file yet: designs that were opened together.
     Unsaved,
 }
 
-/// A design's path from the root, whatever within the file it names.
+/// Absolute path of a design; keeps the part of the name that selects something within a file.
 #[must_use]
 pub fn absolute(path: &Path) -> PathBuf {
-    // Not canonical: a link that is followed later names the file that it then points to.
-    let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    DesignSource::of(path).at(whole).to_path()
+    // Not canonicalised: a symbolic link must keep naming whatever it points to later.
+    let absolute_file = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    DesignSource::of(path).at(absolute_file).to_path()
 }

@@ -1,7 +1,7 @@
-//! Writing a project so that it can be opened again where it now lies.
+//! Saves a project so that it can be opened again from its new place.
 //!
-//! Paths of designs are relative to the document. A document that moves to another folder names
-//! them anew; designs that were bundled with the program are written beside it.
+//! Paths of designs are relative to the project file. They are rewritten when it moves to another
+//! folder; bundled designs are written next to it.
 
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -13,31 +13,30 @@ use crate::project::{LoadedProject, Project, ProjectError, gallery};
 /// Why a project was not saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
-    /// Nothing is open.
+    /// No project is open.
     #[error("There is no project to save.")]
     NothingOpen,
-    /// The document could not be written.
+    /// The project file could not be written.
     #[error(transparent)]
     Project(#[from] ProjectError),
-    /// A bundled design could not be written beside it.
-    #[error("{file} cannot be written ({error}); save the project in another folder")]
+    /// A bundled design could not be written next to the project file.
+    #[error("cannot write {file} ({error}); save the project in another folder")]
     Design {
-        /// The file.
+        /// Path of the design file.
         file: String,
-        /// What the system says.
+        /// Error of the operating system.
         error: io::Error,
     },
 }
 
-/// Writes a project to a path. Where that worked, the loaded project names its designs from
-/// there.
+/// Saves a project to `path`; on success its designs are named relative to the new folder.
 ///
 /// # Errors
-/// The document or a bundled design cannot be written; the loaded project is as it was.
+/// The project file or a bundled design cannot be written; the loaded project stays as it was.
 pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    // A copy, so that a save that fails leaves the open project as it was.
+    // Works on a copy, so that a failed save leaves the open project unchanged.
     let project = named_from(loaded.project.clone(), loaded.folder.as_deref(), &folder)?;
     project.save_atomically(&path)?;
     loaded.project = project;
@@ -45,8 +44,8 @@ pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
     Ok(())
 }
 
-/// The project with its designs named from another folder than the old one, which is none where
-/// they are bundled; those are written there.
+/// Rewrites the paths of designs from folder `old` to `folder`. With `old` being `None` the project
+/// is bundled, and its designs are written to `folder`.
 ///
 /// # Errors
 /// A bundled design cannot be written.
@@ -60,24 +59,24 @@ pub fn named_from(
             Some(old) => DesignSource::in_folder(old, &entry.path)
                 .at(|file| relative(folder, file))
                 .to_path(),
-            // Letters of the bundled font are at home everywhere.
+            // Text in the bundled font has no file.
             None if DesignSource::of(&entry.path).file().is_none() => continue,
-            // A file that took the place of a bundled design is where it was.
+            // A user's file that replaced a bundled design stays where it is.
             None if entry.path.is_absolute() => relative(folder, &entry.path),
-            None => written_beside(folder, &entry.path)?,
+            None => write_bundled_design(folder, &entry.path)?,
         };
     }
     Ok(project)
 }
 
-/// Writes a bundled file into a folder; one that is there with the same content will do.
-fn written_beside(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveError> {
+/// Writes a bundled design into a folder; an existing file with the same content is reused.
+fn write_bundled_design(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveError> {
     let failed = |error: io::Error| SaveError::Design {
         file: folder.join(bundled).display().to_string(),
         error,
     };
     let bytes = gallery::bytes(bundled).ok_or_else(|| failed(io::ErrorKind::NotFound.into()))?;
-    // Else each save of a bundled project would write its designs once more, under new names.
+    // Otherwise each save would write the designs again under new names.
     if std::fs::read(folder.join(bundled)).is_ok_and(|there| there == bytes) {
         return Ok(bundled.to_owned());
     }
@@ -90,12 +89,12 @@ fn written_beside(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveError> {
     Ok(path.file_name().map(PathBuf::from).unwrap_or(path))
 }
 
-/// The way from a folder to a file, both absolute; the file itself where there is none, as
+/// Relative path from a folder to a file, both absolute; the file's own path if there is none, as
 /// between two drives.
 fn relative(folder: &Path, file: &Path) -> PathBuf {
     let (from, to): (Vec<_>, Vec<_>) = (parts(folder), parts(file));
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    // Nothing is shared between two drives, not even the root.
+    // Two drives share nothing, not even the root.
     if shared == 0 || !file.is_absolute() {
         return file.to_owned();
     }
@@ -103,6 +102,7 @@ fn relative(folder: &Path, file: &Path) -> PathBuf {
     up.chain(to[shared..].iter().copied()).collect()
 }
 
+/// Components of a path without `.`.
 fn parts(path: &Path) -> Vec<Component<'_>> {
     path.components()
         .filter(|part| *part != Component::CurDir)
@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_way_is_relative() {
+    fn paths_are_relative() {
         let way = |folder, file| relative(Path::new(folder), Path::new(file));
         assert_eq!(way("/a/b", "/a/b/c.svg"), Path::new("c.svg"));
         assert_eq!(way("/a/b", "/a/c.svg"), Path::new("../c.svg"));
@@ -135,7 +135,7 @@ mod tests {
             let again = LoadedProject::open(&path)?;
             assert_eq!(again.project, loaded.project);
             assert_eq!(again.designs, loaded.designs);
-            // To another folder, and onto what is there already.
+            // Saving into another folder, and then onto existing files.
             let other = folder.path().join(format!("{}.morph", entry.name));
             save(&mut loaded, &other)?;
             save(&mut loaded, &other)?;

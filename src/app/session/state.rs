@@ -1,9 +1,8 @@
-//! The project that is open and the transition on the stage.
+//! The open project, the transition on the stage, and the background work on the next one.
 //!
-//! Work that takes time runs beside the window: the stage shows the old transition until the new
-//! one is ready, and keeps it where the new one cannot be had. While a build is running, newer
-//! settings wait for it to end, so that a slider that is being dragged shows its way; a build that
-//! takes long is given up for the newest settings.
+//! The stage keeps showing the old transition until the new one is ready, or for good if that
+//! fails. While a build runs, newer settings wait for it, so that a slider being dragged shows
+//! intermediate results; a build that takes long is abandoned for the newest settings.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
@@ -27,31 +26,32 @@ use crate::transition::{
 };
 use crate::warp::{Arap, WarpKind};
 
-/// What [`Session::poll`] found.
+/// Result of [`Session::poll`].
 #[derive(Debug)]
 pub enum WorkOutcome {
-    /// Another project is open; [`Session::problem`] tells why, where it has no transition.
+    /// Another project is open; if it has no transition, [`Session::problem`] gives the reason.
     Opened,
     /// The open project has a new transition.
     Rebuilt,
-    /// The settings make no transition, the old one stays; [`Session::problem`] tells why.
+    /// The settings make no transition and the old one stays; [`Session::problem`] gives the
+    /// reason.
     NotRebuilt,
-    /// It did not work.
+    /// Opening or rebuilding failed.
     Failed(JobError<LoadError>),
 }
 
-/// Why a method cannot be had.
+/// Why a method is not available.
 #[derive(Debug, thiserror::Error)]
 pub enum MethodUnavailable {
-    /// There is nothing to show by it.
+    /// No project is open.
     #[error("no project is open")]
     NothingOpen,
-    /// The designs are not of its kind.
+    /// The method does not suit the designs.
     #[error(transparent)]
     Designs(#[from] BuildError),
 }
 
-/// The project that is open, its transition, and the work on the next one.
+/// The open project, its transitions, and the work on the next ones.
 #[derive(Resource, Debug, Default)]
 pub struct Session {
     open: Option<OpenDocument>,
@@ -59,51 +59,51 @@ pub struct Session {
     is_stale: bool,
 }
 
-/// What is done sooner is not worth a word: while a slider or a pin is dragged, one build follows
-/// the other.
-const WORTH_A_WORD: Duration = Duration::from_millis(300);
+/// Work is shown to the user only after this time: while a slider or pin is dragged, one short
+/// build follows the other (heuristic).
+const SHOWN_AFTER: Duration = Duration::from_millis(300);
 
-/// What is told of the work once its draft can be played.
-const IMPROVING: &str = "improving the film";
+/// Progress text while a draft can already be played.
+const IMPROVING_FILM: &str = "Improving film";
 
-static NO_TIMING: LazyLock<Timing> = LazyLock::new(Timing::default);
+/// Timing reported while no project is open.
+static DEFAULT_TIMING: LazyLock<Timing> = LazyLock::new(Timing::default);
 
-/// What is open.
+/// Queries about the open project.
 impl Session {
-    /// The leg that is looked at with all its settings: two designs, of a project that may have
-    /// more.
+    /// Current settings of the current segment: two designs, out of a project that may have more.
     #[must_use]
     pub fn project(&self) -> Option<&Project> {
         self.open.as_ref().map(OpenDocument::seen)
     }
 
-    /// The open project with all its legs.
+    /// The whole open project.
     #[must_use]
     pub fn whole(&self) -> Option<&Project> {
         self.open.as_ref().map(|open| &open.loaded.project)
     }
 
-    /// The open project, as it is now, with all its designs.
+    /// The whole open project with its designs.
     #[must_use]
     pub fn whole_loaded(&self) -> Option<LoadedProject> {
         self.open.as_ref().map(|open| open.loaded.clone())
     }
 
-    /// The designs of the leg that is looked at as their files have them.
+    /// The two designs of the current segment, as imported.
     #[must_use]
     pub fn designs(&self) -> Vec<&Arc<Design>> {
         let open = self.open.as_ref();
         open.map_or_else(Vec::new, |open| open.designs().to_vec())
     }
 
-    /// All designs as their files have them.
+    /// All designs, as imported.
     #[must_use]
     pub fn all_designs(&self) -> &[Arc<Design>] {
         let open = self.open.as_ref();
         open.map_or(&[], |open| &open.loaded.designs)
     }
 
-    /// The names of the designs that the film comes by, at each whole t.
+    /// Names of the designs along the film, one for each whole t.
     #[must_use]
     pub fn names_on_the_way(&self) -> Vec<String> {
         self.open.as_ref().map_or_else(Vec::new, |open| {
@@ -113,70 +113,70 @@ impl Session {
         })
     }
 
-    /// The transition on the stage, of the leg that is looked at.
+    /// Transition on the stage for the current segment.
     #[must_use]
     pub fn transition(&self) -> Option<&Transition> {
         self.open.as_ref()?.transition()
     }
 
-    /// All transitions on the stage, where there is one of each leg.
+    /// All transitions on the stage; `None` unless every segment has one.
     #[must_use]
     pub fn sequence(&self) -> Option<Sequence> {
         self.open.as_ref()?.sequence()
     }
 
-    /// The box that holds every frame of what is on the stage, nearly.
+    /// Approximate bounding box of all frames on the stage; frames are sampled.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         self.open.as_ref()?.bounds()
     }
 
-    /// The number of the leg that is looked at, from 0.
+    /// Index of the current segment, from 0.
     #[must_use]
     pub fn leg(&self) -> usize {
         self.open.as_ref().map_or(0, OpenDocument::leg)
     }
 
-    /// How many legs there are.
+    /// Number of segments of the project.
     #[must_use]
     pub fn leg_count(&self) -> usize {
         self.whole().map_or(1, Project::leg_count)
     }
 
-    /// Where in the leg that is looked at a t of the whole is.
+    /// Converts t of the whole film to t within the current segment.
     #[must_use]
     pub fn within(&self, t: f64) -> f64 {
         t - self.leg() as f64
     }
 
-    /// The t of the whole that is there in the leg that is looked at.
+    /// Converts t within the current segment to t of the whole film.
     #[must_use]
     pub fn beyond(&self, within: f64) -> f64 {
         within + self.leg() as f64
     }
 
-    /// The leg of what is on the stage that is shown at a t.
+    /// Index of the segment that is shown at `t`.
     #[must_use]
     pub fn leg_at(&self, t: f64) -> usize {
         let legs = self.open.as_ref().map_or(1, OpenDocument::leg_count);
         segment_at(legs, t).0
     }
 
-    /// Looks at another leg.
+    /// Makes another segment the current one.
     pub fn look_at(&mut self, leg: usize) {
         if let Some(open) = &mut self.open {
             open.look_at(leg);
         }
     }
 
-    /// The settings that the transition on the stage was built from.
+    /// Settings that the current segment on the stage was built from.
     #[must_use]
     pub fn staged_settings(&self) -> Option<&Project> {
         let stage = self.open.as_ref()?.stage()?;
         Some(&stage.settings.pair)
     }
 
-    /// Two designs with the settings that the transition on the stage was built from.
+    /// The current segment with the settings it was built from, and its two designs.
     #[must_use]
     pub fn staged(&self) -> Option<LoadedProject> {
         let open = self.open.as_ref()?;
@@ -184,57 +184,58 @@ impl Session {
         Some(open.leg_on_stage())
     }
 
-    /// Why the settings, as they are now, make no transition.
+    /// Why the current settings make no transition.
     #[must_use]
     pub fn problem(&self) -> Option<&TransitionProblem> {
         self.open.as_ref()?.problem()
     }
 
-    /// How time runs.
+    /// Timing of the film.
     #[must_use]
     pub fn timing(&self) -> &Timing {
-        self.whole().map_or(&NO_TIMING, |project| &project.timing)
+        self.whole()
+            .map_or(&DEFAULT_TIMING, |project| &project.timing)
     }
 
-    /// How the open project is painted.
+    /// Colours of the project.
     #[must_use]
     pub fn style(&self) -> TransitionStyle {
         self.whole()
             .map_or_else(TransitionStyle::default, |p| p.style)
     }
 
-    /// How the leg that is looked at is painted.
+    /// Colours of the current segment.
     #[must_use]
     pub fn style_here(&self) -> TransitionStyle {
         style_of(self.leg(), self.way(), &self.style())
     }
 
-    /// How many legs there are, and whether they lead back.
+    /// Number of segments, and whether they form a closed loop.
     #[must_use]
     pub fn way(&self) -> (usize, bool) {
         let leads_back = self.whole().is_some_and(Project::leads_back);
         (self.leg_count(), leads_back)
     }
 
-    /// The stops of the open project.
+    /// Stops of the project.
     #[must_use]
     pub fn stops(&self) -> &[TransitionStop] {
         self.whole().map_or(&[], |project| &project.stops)
     }
 
-    /// The file that the project is saved to.
+    /// File that the project is saved to.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
         self.open.as_ref()?.path()
     }
 
-    /// The bundled project that is open.
+    /// Gallery name of the open project.
     #[must_use]
     pub fn gallery_name(&self) -> Option<&str> {
         self.open.as_ref()?.gallery_name()
     }
 
-    /// The files that its designs were read from.
+    /// Files that the designs were read from.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         self.open
@@ -242,7 +243,7 @@ impl Session {
             .map_or_else(Vec::new, OpenDocument::files)
     }
 
-    /// What the open project is called.
+    /// Title of the open project.
     #[must_use]
     pub fn title(&self) -> String {
         self.open
@@ -250,17 +251,17 @@ impl Session {
             .map_or_else(String::new, OpenDocument::title)
     }
 
-    /// What files that belong to the project are called.
+    /// Base name for files exported from the project.
     #[must_use]
     pub fn file_stem(&self) -> String {
         let open = self.open.as_ref();
         open.map_or_else(|| "untitled".to_owned(), OpenDocument::file_stem)
     }
 
-    /// Whether the open designs can be shown by this cell; otherwise why not.
+    /// Whether the open designs can be shown by this method.
     ///
     /// # Errors
-    /// The reason, for a grey button.
+    /// The reason why not, as tooltip of a disabled button.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), MethodUnavailable> {
         let open = self.open.as_ref().ok_or(MethodUnavailable::NothingOpen)?;
         for leg in open.whole_on_stage().legs() {
@@ -269,21 +270,21 @@ impl Session {
         Ok(())
     }
 
-    /// How many parts can turn on their own.
+    /// Number of parts that can be rotated individually.
     #[must_use]
     pub fn parts(&self) -> usize {
         let arap = self.transition().and_then(Transition::arap);
         arap.map_or(0, Arap::part_count)
     }
 
-    /// Some design is a truss.
+    /// Whether any design is a truss.
     #[must_use]
     pub fn has_bars(&self) -> bool {
         let mut designs = self.all_designs().iter();
         designs.any(|design| matches!(design.form, DesignForm::Truss(_)))
     }
 
-    /// Some design names its own colours.
+    /// Whether any design has colours of its own.
     #[must_use]
     pub fn has_paints(&self) -> bool {
         let is_painted = |design: &Arc<Design>| match &design.form {
@@ -293,8 +294,8 @@ impl Session {
         self.all_designs().iter().any(is_painted)
     }
 
-    /// Both designs are outlines: there is something to match. On a path over the map all are
-    /// matched with all.
+    /// Whether both designs are outlines, so that the match editor applies. Not on a path over the
+    /// map, where all designs are matched together.
     #[must_use]
     pub fn can_match(&self) -> bool {
         let pair = self.designs();
@@ -306,79 +307,78 @@ impl Session {
     }
 }
 
-/// Its changes.
+/// Changes to the project.
 impl Session {
-    /// There are changes that are not saved.
+    /// Whether there are unsaved changes.
     #[must_use]
     pub fn is_dirty(&self) -> bool {
         self.open.as_ref().is_some_and(OpenDocument::is_dirty)
     }
 
-    /// Two designs that were opened together are open, as they came.
+    /// Whether two designs have just been opened together, without changes since.
     #[must_use]
     pub fn is_new_pair(&self) -> bool {
         self.open.as_ref().is_some_and(OpenDocument::is_new_pair)
     }
 
-    /// The film on the stage is by the method that is asked for, be it as a draft.
+    /// Whether the film on the stage uses the requested method, possibly as a draft.
     #[must_use]
     pub fn has_film(&self) -> bool {
-        let is_by_it = |work: &TransitionWork| work.has_draft;
-        self.transition().is_some() && self.work.as_ref().is_none_or(is_by_it)
+        let shows_draft = |work: &TransitionWork| work.has_draft;
+        self.transition().is_some() && self.work.as_ref().is_none_or(shows_draft)
     }
 
-    /// The open project was taken up again after the program had ended without saving it.
+    /// Whether the open project was recovered from an autosave.
     #[must_use]
     pub fn is_rescued(&self) -> bool {
         self.open.as_ref().is_some_and(|open| open.is_rescued)
     }
 
-    /// Something else is being opened.
+    /// Whether another project is being opened.
     #[must_use]
     pub fn is_opening(&self) -> bool {
         let work = self.work.as_ref();
         work.is_some_and(|work| work.origin.is_some())
     }
 
-    /// What is to be kept of the open project until it is saved.
+    /// Data for an autosave of the open project.
     ///
     /// # Errors
-    /// A project cannot be written as text.
+    /// The project cannot be written as text.
     #[must_use]
     pub fn kept(&self) -> Option<Result<UnsavedProject, ProjectError>> {
         self.open.as_ref().map(OpenDocument::kept)
     }
 
-    /// What to ask about them.
+    /// Question text about unsaved changes.
     #[must_use]
     pub fn unsaved_text(&self) -> String {
-        format!("“{}” has changes that are not saved.", self.title())
+        format!("“{}” has unsaved changes.", self.title())
     }
 
-    /// Takes the changes for saved.
+    /// Treats the current settings as saved.
     pub fn forget_changes(&mut self) {
         if let Some(open) = &mut self.open {
             open.forget_changes();
         }
     }
 
-    /// Changes the open project, as the leg that is looked at has it: what is said of its two
-    /// designs is changed there, all else for all legs. Changes of one mark are one step of its
-    /// history.
+    /// Edits the settings of the current segment. Settings of its two designs change for this
+    /// segment, all others for the whole project. Changes with the same `mark` are one undo step.
     pub fn change(&mut self, mark: Option<u64>, edit: impl FnOnce(&mut Project)) {
         let Some(open) = &mut self.open else {
             return;
         };
-        // A copy, so that an edit that comes to nothing is no step of the history.
+        // Edits a copy, so that an edit without effect creates no undo step.
         let mut changed = open.seen().clone();
         edit(&mut changed);
         if changed != *open.seen() {
             open.edit_leg(changed, mark);
-            self.look();
+            self.check_stale();
         }
     }
 
-    /// Changes the open project as a whole.
+    /// Edits the whole project.
     pub fn change_whole(&mut self, mark: Option<u64>, edit: impl FnOnce(&mut Project)) {
         let Some(open) = &mut self.open else {
             return;
@@ -387,46 +387,48 @@ impl Session {
         edit(&mut changed);
         if changed != open.loaded.project {
             open.edit(changed, mark);
-            self.look();
+            self.check_stale();
         }
     }
 
-    /// Looks whether the settings, which have changed, make another transition than that which is
-    /// on the stage or on its way there.
-    fn look(&mut self) {
+    /// Checks whether the changed settings require another transition than the one on the stage or
+    /// the one being built.
+    fn check_stale(&mut self) {
         let Some(open) = &mut self.open else {
             return;
         };
         self.is_stale = open.is_stale();
+        // Opening another project goes on; only a rebuild can become unnecessary.
         let building = self.work.take_if(|work| work.origin.is_none());
-        // Where the stage shows again what is asked for, nobody waits for another.
+        // If the stage already shows what is requested, the running build is cancelled.
         if let Some(work) = building.filter(|_| self.is_stale) {
+            // A build of the very same settings just continues.
             self.is_stale = work.is_not_of(&open.loaded.project);
             self.work = Some(work);
         }
     }
 
-    /// There is a change to take back.
+    /// Whether there is a change to undo.
     #[must_use]
     pub fn can_undo(&self) -> bool {
         self.open.as_ref().is_some_and(|o| o.history.can_undo())
     }
 
-    /// There is a change to make again.
+    /// Whether there is a change to redo.
     #[must_use]
     pub fn can_redo(&self) -> bool {
         self.open.as_ref().is_some_and(|o| o.history.can_redo())
     }
 
-    /// Takes the last change back; `false` where there is none.
+    /// Undoes the last change; returns `false` if there is none.
     ///
     /// # Errors
-    /// A bundled design that it names cannot be written; the project is as it was.
+    /// A bundled design that it names cannot be written; the project stays as it was.
     pub fn undo(&mut self) -> Result<bool, SaveError> {
         self.go(UndoHistory::undo)
     }
 
-    /// Makes the change again that was taken back last; `false` where there is none.
+    /// Redoes the change that was undone last; returns `false` if there is none.
     ///
     /// # Errors
     /// As [`undo`](Self::undo).
@@ -441,17 +443,17 @@ impl Session {
         let Some(open) = &mut self.open else {
             return Ok(false);
         };
-        let is_gone = open.go(step)?;
-        if is_gone {
-            self.look();
+        let has_changed = open.go(step)?;
+        if has_changed {
+            self.check_stale();
         }
-        Ok(is_gone)
+        Ok(has_changed)
     }
 
-    /// Writes the project to its file, or to another, which is its file from then on.
+    /// Saves the project to its file, or to `to`, which becomes its file; returns the path.
     ///
     /// # Errors
-    /// There is nothing to write, or it cannot be written; the project is as it was.
+    /// No project is open, or it cannot be written; the project stays as it was.
     pub fn save(&mut self, to: Option<&Path>) -> Result<PathBuf, SaveError> {
         let path = to.or(self.path()).map(Path::to_owned);
         let (Some(open), Some(path)) = (&mut self.open, path) else {
@@ -462,29 +464,33 @@ impl Session {
     }
 }
 
-/// The work on the next transition.
+/// Background work on the next transition.
 impl Session {
-    /// What is being worked on and how far it is.
+    /// Current stage of the work and progress in it, 0 to 1.
     #[must_use]
     pub fn work(&self) -> Option<(&'static str, f64)> {
         self.work.as_ref().map(|work| work.job.progress())
     }
 
-    /// The work, once it is worth a word.
+    /// The same, once the work has taken long enough to be shown.
     #[must_use]
     pub fn told_work(&self) -> Option<(&'static str, f64)> {
         let work = self.work.as_ref()?;
         let (stage, share) = work.job.progress();
-        let stage = if work.has_draft { IMPROVING } else { stage };
-        (work.job.lasts() > WORTH_A_WORD).then_some((stage, share))
+        let stage = if work.has_draft {
+            IMPROVING_FILM
+        } else {
+            stage
+        };
+        (work.job.lasts() > SHOWN_AFTER).then_some((stage, share))
     }
 
-    /// Builds what would take very long, which was refused for that, and from now on whatever is
-    /// asked for of this project.
+    /// Builds a transition that was refused for its cost, and lifts the limits for this project
+    /// from now on.
     pub fn insist(&mut self) {
         if let Some(open) = &mut self.open {
             open.loaded.patient = true;
-            // It is tried again, and says anew what is wrong.
+            // The build is tried again and reports its problems anew.
             open.forget_problems();
             self.is_stale = true;
         }
@@ -498,15 +504,15 @@ impl Session {
         }
     }
 
-    /// Opens something else, beside the stage.
+    /// Opens another project in the background.
     pub fn open(&mut self, request: LoadRequest) {
         self.is_stale = false;
         self.work = Some(TransitionWork::start(request));
     }
 
-    /// Gives up the work; the settings go back to what the stage shows.
+    /// Cancels the work and resets the settings to what the stage shows.
     pub fn cancel(&mut self) {
-        // Dropped, the job hears that it is not wanted; nobody waits for it to end.
+        // Dropping the job cancels it; there is no need to wait for its end.
         let Some(work) = self.work.take() else {
             return;
         };
@@ -516,21 +522,22 @@ impl Session {
         }
     }
 
-    /// Takes in work that is done and starts what waits for it. A better film than the draft that
-    /// is on the stage waits until it `may_change`, which nobody should see.
+    /// Adopts finished work and starts the next. A better film replaces a draft on the stage only
+    /// when `may_change`, so that the swap is not visible.
     pub fn poll(&mut self, may_change: bool) -> Option<WorkOutcome> {
-        let is_held = |work: &TransitionWork| work.has_draft && !may_change;
+        let must_wait = |work: &TransitionWork| work.has_draft && !may_change;
         let outcome = match &self.work {
-            Some(work) if is_held(work) => None,
+            Some(work) if must_wait(work) => None,
             _ => self.take_work().or_else(|| self.take_meanwhile()),
         };
-        // A build runs on while a slider is dragged, so that its way is seen; but not for long.
-        let is_free = self
+        // A build continues while a slider is dragged, so that intermediate results appear; but not
+        // for long.
+        let can_start = self
             .work
             .as_ref()
             .is_none_or(TransitionWork::can_be_given_up);
         if self.is_stale
-            && is_free
+            && can_start
             && let Some(open) = &self.open
         {
             self.is_stale = false;
@@ -541,11 +548,13 @@ impl Session {
         outcome
     }
 
+    /// Adopts an interim result that is due.
     fn take_meanwhile(&mut self) -> Option<WorkOutcome> {
         let work = self.work.as_mut()?;
         let opened = work.opened();
         let (loaded, origin) = work.take_meanwhile()?;
         match (origin, &mut self.open) {
+            // First interim result of a project being opened: it replaces the open one.
             (Some(origin), open) => {
                 self.is_stale = false;
                 *open = Some(opened(loaded, origin));
@@ -556,6 +565,7 @@ impl Session {
         }
     }
 
+    /// Adopts the result of finished work.
     fn take_work(&mut self) -> Option<WorkOutcome> {
         let answer = self.work.as_ref()?.job.poll()?;
         let work = self.work.take()?;
@@ -573,11 +583,11 @@ impl Session {
                     WorkOutcome::NotRebuilt
                 }
             }
-            // What is open is never closed, only followed by something else.
+            // Unreachable in practice: an open project is never closed, only replaced by another.
             (Ok(_), None, None) => return None,
             (Err(error), origin, open) => {
                 if let (None, Some(open)) = (origin, open) {
-                    // What cannot be read would fail at every build from now on.
+                    // A file that cannot be read would make every later build fail.
                     open.give_up_designs();
                 }
                 WorkOutcome::Failed(error)

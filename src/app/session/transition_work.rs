@@ -1,4 +1,5 @@
-//! The work on the next transition, beside the stage.
+//! Background work on the next transition: one job that opens or rebuilds a project, and the
+//! interim results it sends.
 
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Mutex, PoisonError};
@@ -11,20 +12,20 @@ use crate::app::session::load::{BuiltProject, InterimResult, LoadError, LoadRequ
 use crate::app::session::origin::ProjectOrigin;
 use crate::project::Project;
 
-/// A build that takes longer is given up when the settings change again. Shorter, and a build that
-/// takes a second would never be seen while a slider moves; longer, and the slider seems stuck.
+/// A rebuild older than this is abandoned when the settings change again. Shorter, and builds of a
+/// second would never appear while a slider moves; longer, and the slider seems stuck (heuristic).
 const PATIENCE: Duration = Duration::from_millis(1500);
 
-/// What is opened is shown by the plainest method when it takes longer than this: sooner, and each
-/// project would be seen twice; later, and a stage stays empty that need not.
+/// A project being opened is shown by the plainest method after this time. Sooner, and every
+/// project would appear twice; later, and the stage stays empty needlessly (heuristic).
 const PLAIN_AFTER: Duration = Duration::from_millis(1000);
 
-/// A draft of what is open is shown when what it is a draft of takes longer than this: sooner, and
-/// while a pin is dragged each place of it would be seen twice. Of what is being opened it is shown
-/// at once.
+/// During a rebuild, a draft is shown after this time. Sooner, and every position of a dragged pin
+/// would appear twice. While opening, a draft is shown at once (heuristic).
 const DRAFT_AFTER: Duration = Duration::from_millis(300);
 
 impl InterimResult {
+    /// Age of the work from which this result is shown.
     fn is_shown_after(&self, is_opening: bool) -> Duration {
         match self {
             Self::Plain(_) => PLAIN_AFTER,
@@ -34,27 +35,27 @@ impl InterimResult {
     }
 }
 
-/// Work that is going on.
+/// Work in progress.
 #[derive(Debug)]
 pub struct TransitionWork {
-    /// Where what is being opened comes from; none where what is open is being built with its new
-    /// settings.
+    /// Origin of the project being opened; `None` for a rebuild of the open one.
     pub origin: Option<ProjectOrigin>,
-    /// The settings that it builds, as far as they are known.
+    /// Settings being built, as far as they are known.
     pub wanted: Option<Project>,
-    /// The work.
+    /// The background job.
     pub job: BackgroundJob<BuiltProject, LoadError>,
-    /// What it opens has changes that no file has.
+    /// Whether the project being opened has unsaved changes.
     pub is_unsaved: bool,
-    /// A draft of it is on the stage.
+    /// Whether a draft of the result is on the stage.
     pub has_draft: bool,
-    /// What can be shown before it is done, and the last that was not shown yet.
+    /// Channel for interim results.
     meanwhile: Mutex<Receiver<InterimResult>>,
+    /// Latest interim result not shown yet.
     waiting: Option<InterimResult>,
 }
 
 impl TransitionWork {
-    /// Starts it.
+    /// Starts the work.
     #[must_use]
     pub fn start(request: LoadRequest) -> Self {
         let (sender, receiver) = channel();
@@ -63,7 +64,7 @@ impl TransitionWork {
             wanted: request.settings().cloned(),
             is_unsaved: matches!(request, LoadRequest::Rescued(_)),
             job: BackgroundJob::start("the transition", move |progress| {
-                // Nobody listens any more once the work was given up.
+                // Sending fails once the work has been abandoned.
                 request.carry_out(progress, |meanwhile| {
                     drop(sender.send(meanwhile));
                     job::wake();
@@ -75,7 +76,7 @@ impl TransitionWork {
         }
     }
 
-    /// How what it opens is taken in.
+    /// Constructor that turns the result into an open project.
     #[must_use]
     pub fn opened(&self) -> fn(BuiltProject, ProjectOrigin) -> OpenDocument {
         if self.is_unsaved {
@@ -85,26 +86,25 @@ impl TransitionWork {
         }
     }
 
-    /// It may be given up for newer settings.
+    /// Whether the work may be abandoned for newer settings.
     #[must_use]
     pub fn can_be_given_up(&self) -> bool {
         self.origin.is_none() && self.job.lasts() > PATIENCE
     }
 
-    /// It builds something else than these settings.
+    /// Whether the work builds something else than these settings ask for.
     #[must_use]
     pub fn is_not_of(&self, project: &Project) -> bool {
         let wanted = self.wanted.as_ref();
         wanted.is_none_or(|wanted| needs_build(wanted, project))
     }
 
-    /// What can be shown before it is done, once that is worth showing. What is being opened comes
-    /// with where it is from: from then on it is open, and the work builds it with the settings
-    /// that it asks for.
+    /// Interim result that is due to be shown. The first one of a project being opened comes with
+    /// its origin: from then on the project is open, and the work counts as its rebuild.
     pub fn take_meanwhile(&mut self) -> Option<(BuiltProject, Option<ProjectOrigin>)> {
         let receiver = self.meanwhile.get_mut();
         let receiver = receiver.unwrap_or_else(PoisonError::into_inner);
-        // Of two the last: a draft is better than what moves nothing.
+        // Only the latest: a draft is better than the plainest method.
         self.waiting = receiver.try_iter().last().or(self.waiting.take());
         let lasts = self.job.lasts();
         let is_opening = self.origin.is_some();
@@ -112,6 +112,7 @@ impl TransitionWork {
         let shown = self.waiting.take_if(is_due)?;
         self.has_draft |= matches!(shown, InterimResult::Draft(_));
         let (InterimResult::Plain(loaded) | InterimResult::Draft(loaded)) = shown;
+        // The settings are known only now that the project has been read.
         self.wanted = Some(loaded.project.project.clone());
         Some((loaded, self.origin.take()))
     }

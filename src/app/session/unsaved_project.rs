@@ -1,4 +1,4 @@
-//! A project with changes that were not saved, as it is kept and taken up again.
+//! Autosave data: a project with unsaved changes, written as JSON and recovered at the next start.
 
 use std::fs;
 use std::io::{self, Write};
@@ -11,17 +11,17 @@ use crate::design::DesignSource;
 use crate::io::atomic_file::AtomicFile;
 use crate::project::{LoadedProject, Project, ProjectError};
 
-/// A project as it was when it was last changed.
+/// A project with unsaved changes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct UnsavedProject {
-    /// What it is called.
+    /// Title of the project.
     pub title: String,
     origin: UnsavedOrigin,
-    /// The document; its designs are named from the root, or as the gallery names them.
+    /// The project file as text, with absolute paths of designs; gallery names for bundled ones.
     document: String,
 }
 
-/// Where it came from.
+/// Serialised form of [`ProjectOrigin`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum UnsavedOrigin {
     Gallery(String),
@@ -30,10 +30,10 @@ enum UnsavedOrigin {
 }
 
 impl UnsavedProject {
-    /// A project as it is now.
+    /// Captures a project in its current state.
     ///
     /// # Errors
-    /// It cannot be written as a document, which no project does.
+    /// The project cannot be written as text; this does not happen for a valid project.
     pub fn new(
         title: String,
         origin: &ProjectOrigin,
@@ -58,7 +58,7 @@ impl UnsavedProject {
         })
     }
 
-    /// Where it came from, and is saved to.
+    /// Where the project came from; saving writes there.
     #[must_use]
     pub fn origin(&self) -> ProjectOrigin {
         match &self.origin {
@@ -68,10 +68,10 @@ impl UnsavedProject {
         }
     }
 
-    /// The project with its designs.
+    /// Reads the project and its designs.
     ///
     /// # Errors
-    /// A design is no longer there, or is another.
+    /// A design no longer exists or can no longer be read.
     pub fn load(&self) -> Result<LoadedProject, ProjectError> {
         let folder = match &self.origin {
             UnsavedOrigin::Gallery(_) => None,
@@ -81,20 +81,20 @@ impl UnsavedProject {
         LoadedProject::load(Project::parse(&self.document)?, folder)
     }
 
-    /// Writes it, whole or not at all.
+    /// Writes the data atomically.
     ///
     /// # Errors
-    /// The disk is full, or the folder is gone.
+    /// The disk is full, or the folder no longer exists.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         let mut file = AtomicFile::create(path)?;
         file.file_mut().write_all(&serde_json::to_vec(self)?)?;
         file.commit()
     }
 
-    /// Reads it.
+    /// Reads the data.
     ///
     /// # Errors
-    /// It is not there, or none that this program wrote.
+    /// The file does not exist or was not written by this program.
     pub fn read(path: &Path) -> io::Result<Self> {
         Ok(serde_json::from_slice(&fs::read(path)?)?)
     }
@@ -106,7 +106,7 @@ mod tests {
     use crate::project::gallery;
 
     #[test]
-    fn what_was_kept_is_there_again() -> Result<(), Box<dyn std::error::Error>> {
+    fn written_data_is_read_back() -> Result<(), Box<dyn std::error::Error>> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("kept.json");
         let name = gallery::list()?.remove(0).name;

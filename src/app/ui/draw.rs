@@ -1,4 +1,4 @@
-//! Draws everything around the stage, once a frame.
+//! Plugin that draws everything around the stage with egui, once a frame.
 
 use std::time::Duration;
 
@@ -12,6 +12,7 @@ use bevy_egui::{
 use crate::app::input::gesture::{KeyboardFocus, TextSelected};
 use crate::app::input::intent::Intent;
 use crate::app::redraw_pace::PanelRepaint;
+use crate::app::stage_area::StageArea;
 use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::{file_dialog, frame_times, help, notices, progress, questions};
 use crate::app::ui::panels::inspector;
@@ -21,7 +22,6 @@ use crate::app::ui::stage::{
 use crate::app::ui::timeline::{panel, plots};
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::ui::{gallery, match_editor, speaker, toolbar};
-use crate::app::view::stage_area::StageArea;
 
 /// Draws the panels with egui.
 #[derive(Debug)]
@@ -35,18 +35,21 @@ impl Plugin for UiPlugin {
             .add_systems(
                 PreUpdate,
                 keep_keys_from_widgets
-                    // After the events are there and before the pass that reads them.
+                    // Between collecting the events and the egui pass that reads them.
                     .after(EguiInputSet::WriteEguiEvents)
                     .before(EguiPreUpdateSet::BeginPass),
             )
-            .add_systems(PreUpdate, hush.after(EguiPreUpdateSet::InitContexts))
-            // A letter that is new would be missing for a frame: the texture that it was put into
-            // is sent to the renderer with the changes that are noted by then.
+            .add_systems(
+                PreUpdate,
+                silence_repaints.after(EguiPreUpdateSet::InitContexts),
+            )
+            // Otherwise a glyph drawn for the first time would be missing for one frame: its
+            // texture is uploaded with the asset changes recorded by then.
             .configure_sets(
                 PostUpdate,
                 EguiPostUpdateSet::PostProcessOutput.before(AssetEventSystems),
             )
-            .add_observer(dress)
+            .add_observer(install_theme)
             .add_observer(speaker::join)
             .add_systems(speaker::SpeakerPass, speaker::draw)
             .add_systems(EguiPrimaryContextPass, draw)
@@ -55,47 +58,48 @@ impl Plugin for UiPlugin {
                 PostUpdate,
                 note_repaint
                     .after(EguiPostUpdateSet::EndPass)
-                    // Which takes the output away.
+                    // ProcessOutput consumes the output.
                     .before(EguiPostUpdateSet::ProcessOutput),
             );
     }
 }
 
-/// A window as wide as this has room for the gallery beside the match editor, and with the film in
-/// it as wide as that.
+/// Window widths, in points, from which the gallery fits next to the match editor: without and with
+/// the editor's film pane.
 const ROOMY: [f32; 2] = [1200.0, 1600.0];
 
-/// Before the first frame that is drawn: a font is there from the next pass on only, and a family
-/// that is not there makes egui panic.
-fn dress(added: On<Add, EguiContext>, mut contexts: Query<&mut EguiContext>) -> Result {
+/// Installs theme and fonts before the first frame: fonts take effect in the next pass, and egui
+/// panics on a font family it does not know.
+fn install_theme(added: On<Add, EguiContext>, mut contexts: Query<&mut EguiContext>) -> Result {
     theme::install(contexts.get_mut(added.entity)?.get_mut());
     Ok(())
 }
 
-/// When the next frame comes is the pace's to say, which knows what the panels ask for by
-/// [`note_repaint`]. They would also wake the window themselves, at work and at rest.
-fn hush(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
+/// Stops egui from waking the window by itself: only the frame pacing decides when the next frame
+/// is drawn, and it learns of egui's requests from [`note_repaint`].
+fn silence_repaints(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
     for mut context in &mut contexts {
         context.get_mut().set_request_repaint_callback(|_| {});
     }
 }
 
+/// Removes key events unless text is being edited, so that shortcuts do not also drive a widget.
 fn keep_keys_from_widgets(
     mut contexts: Query<&mut bevy_egui::EguiInput>,
     typing: Res<KeyboardFocus>,
-    mut held: Local<egui::Modifiers>,
+    mut modifiers: Local<egui::Modifiers>,
 ) {
     for mut input in &mut contexts {
         input.events.retain(|event| match event {
             egui::Event::Key { .. } | egui::Event::Text(_) => typing.0,
-            // Told in each frame; and egui draws once more after whatever it is told of.
-            egui::Event::ModifiersChanged(now) => std::mem::replace(&mut *held, *now) != *now,
+            // Sent in every frame; egui would repaint after each event, so only changes go through.
+            egui::Event::ModifiersChanged(now) => std::mem::replace(&mut *modifiers, *now) != *now,
             _ => true,
         });
     }
 }
 
-/// The panels say themselves when they move: a switch that slides, a tip that is about to come.
+/// Records when the panels want to be drawn again, for example while a switch slides.
 fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepaint>) {
     let outputs = outputs.iter().filter_map(|output| output.0.as_ref());
     let delays = outputs.flat_map(|output| output.viewport_output.values());
@@ -103,20 +107,21 @@ fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepain
     repaint.0 = soonest.unwrap_or(Duration::MAX);
 }
 
+/// Draws panels, stage overlays and dialogs, and sends the intents that they produce.
 fn draw(
     mut contexts: EguiContexts,
-    scene: UiState,
+    state: UiState,
     (mut textures, mut files): (
         ResMut<gallery::GalleryTextures>,
         ResMut<file_dialog::FileDialogState>,
     ),
     (mut typing, mut marked): (ResMut<KeyboardFocus>, ResMut<TextSelected>),
     mut area: ResMut<StageArea>,
-    mut intents: MessageWriter<Intent>,
+    mut writer: MessageWriter<Intent>,
 ) -> Result {
     let ctx = contexts.ctx_mut()?.clone();
-    theme::apply_theme(&ctx, scene.preferences.theme);
-    let mut acts = Intents::new();
+    theme::apply_theme(&ctx, state.preferences.theme);
+    let mut intents = Intents::new();
     let mut root = egui::Ui::new(
         ctx.clone(),
         "window".into(),
@@ -124,121 +129,123 @@ fn draw(
             .layer_id(egui::LayerId::background())
             .max_rect(ctx.viewport_rect()),
     );
-    if scene.preferences.panels {
-        panels(&mut root, &scene, &mut textures, &mut acts);
+    if state.preferences.panels {
+        panels(&mut root, &state, &mut textures, &mut intents);
     }
     let stage = root.available_rect_before_wrap();
-    let first = middle(&mut root, &scene, stage, &mut acts);
-    overlays(&ctx, &scene, stage, &mut acts);
-    file_dialog::show(&ctx, &scene, &mut files, &mut acts);
-    area.set_if_neq(StageArea::from_points(first.left_top(), first.size()));
+    let visible = middle(&mut root, &state, stage, &mut intents);
+    overlays(&ctx, &state, stage, &mut intents);
+    file_dialog::show(&ctx, &state, &mut files, &mut intents);
+    area.set_if_neq(StageArea::from_points(visible.left_top(), visible.size()));
     typing.set_if_neq(KeyboardFocus(
-        // A menu takes arrows and Esc for itself, and so does what asks for files.
-        ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx) || scene.dialog.asks().is_some(),
+        // Menus and the file dialog handle arrow keys and Esc themselves.
+        ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx) || state.dialog.asks().is_some(),
     ));
     let selection = ctx.plugin_or_default::<egui::text_selection::LabelSelectionState>();
     marked.set_if_neq(TextSelected(selection.lock().has_selection()));
-    // Acted on in the next frame: the panels are drawn when the systems have run.
-    intents.write_batch(acts);
+    // Handled in the next frame, because the panels are drawn after the systems have run.
+    writer.write_batch(intents);
     Ok(())
 }
 
-/// What the panels leave: the stage, a second method beside it, the map, or the match editor. Returns the
-/// part that the stage takes.
+/// Draws what fills the space between the panels: stage, comparison, map, match editor or talk.
+///
+/// Returns the rectangle that the stage takes.
 fn middle(
     root: &mut egui::Ui,
-    scene: &UiState,
+    state: &UiState,
     stage: egui::Rect,
-    acts: &mut Intents,
+    intents: &mut Intents,
 ) -> egui::Rect {
-    if scene.presenting.is_on() {
-        return presentation::show(root, scene, stage, acts);
+    if state.presenting.is_on() {
+        return presentation::show(root, state, stage, intents);
     }
-    if scene.editor.is_open {
-        return match_editor::show(root, scene, stage, acts);
+    if state.editor.is_open {
+        return match_editor::show(root, state, stage, intents);
     }
-    if scene.map.is_shown {
-        return map::show(root, scene, stage, acts);
+    if state.map.is_shown {
+        return map::show(root, state, stage, intents);
     }
-    if scene.twin.is_shown {
-        return comparison::show(root, scene, stage, acts);
+    if state.twin.is_shown {
+        return comparison::show(root, state, stage, intents);
     }
-    area::show(root, stage, "stage", acts);
-    if scene.preferences.panels {
-        area::empty_hint(root, scene, stage);
-        onion::show(root, scene, stage);
-        checks::mark(root, scene, stage);
-        film_frame::frame(root, scene, stage);
+    area::show(root, stage, "stage", intents);
+    if state.preferences.panels {
+        area::empty_hint(root, state, stage);
+        onion::show(root, state, stage);
+        checks::mark(root, state, stage);
+        film_frame::frame(root, state, stage);
     }
     stage
 }
 
 fn panels(
     root: &mut egui::Ui,
-    scene: &UiState,
+    state: &UiState,
     textures: &mut gallery::GalleryTextures,
-    acts: &mut Intents,
+    intents: &mut Intents,
 ) {
-    toolbar::show(root, scene, acts);
-    // Each takes its edge from what the ones before it have left: the timeline is as wide as the
-    // window, the side panels stand between it and the toolbar.
-    panel::show(root, scene, acts);
-    if scene.preferences.plots {
-        plots::show(root, scene, acts);
+    toolbar::show(root, state, intents);
+    // The order matters, because each panel takes its edge from the remaining space: the timeline
+    // is as wide as the window, the side panels stand between it and the toolbar.
+    panel::show(root, state, intents);
+    if state.preferences.plots {
+        plots::show(root, state, intents);
     }
-    // Designs side by side need the room that the gallery takes in a small window.
-    let roomy = ROOMY[usize::from(scene.editor.shows_film())];
-    if !scene.editor.is_open || root.available_width() >= roomy {
-        gallery::show(root, scene, textures, acts);
+    // In a small window the match editor needs the gallery's space.
+    let roomy = ROOMY[usize::from(state.editor.shows_film())];
+    if !state.editor.is_open || root.available_width() >= roomy {
+        gallery::show(root, state, textures, intents);
     }
-    inspector::show(root, scene, acts);
-    if scene.preferences.times {
-        frame_times::strip(root, scene);
+    inspector::show(root, state, intents);
+    if state.preferences.times {
+        frame_times::strip(root, state);
     }
-    if !scene.editor.is_open {
-        if scene.map.is_shown {
-            map_toolbar::strip(root, scene, acts);
+    if !state.editor.is_open {
+        if state.map.is_shown {
+            map_toolbar::strip(root, state, intents);
         } else {
-            if scene.twin.is_shown {
-                comparison::strip(root, scene, acts);
+            if state.twin.is_shown {
+                comparison::strip(root, state, intents);
             }
-            checks::strip(root, scene, acts);
+            checks::strip(root, state, intents);
         }
     }
 }
 
-fn overlays(ctx: &egui::Context, scene: &UiState, stage: egui::Rect, acts: &mut Intents) {
-    if scene.editor.is_open {
-        match_editor::overlay(ctx, scene, stage, acts);
+fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &mut Intents) {
+    if state.editor.is_open {
+        match_editor::overlay(ctx, state, stage, intents);
     }
-    // An audience sees the drawing: what there is to tell waits until the panels are back.
-    if scene.preferences.panels {
-        told(ctx, scene, stage, acts);
+    // An audience sees only the drawing; notices wait until the panels are back.
+    if state.preferences.panels {
+        messages(ctx, state, stage, intents);
     }
-    // These were just asked for, by a key or by closing.
-    if scene.preferences.help {
-        help::show(ctx, scene, acts);
+    // Shown even without panels, because the user has just asked for them.
+    if state.preferences.help {
+        help::show(ctx, state, intents);
     }
-    if !scene.presenting.is_on() {
-        questions::show(ctx, scene, acts);
+    if !state.presenting.is_on() {
+        questions::show(ctx, state, intents);
     }
 }
 
-/// What the program has to tell of itself.
-fn told(ctx: &egui::Context, scene: &UiState, stage: egui::Rect, acts: &mut Intents) {
-    // What is left in the middle for messages: each layer takes its height from it.
-    let mut below = stage;
-    if scene.editor.is_open {
-        below.min.y += match_editor::BAR_HEIGHT;
+/// Draws progress and notices.
+fn messages(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &mut Intents) {
+    // The match editor's toolbar and instructions stay uncovered.
+    let mut free = stage;
+    if state.editor.is_open {
+        free.min.y += match_editor::BAR_HEIGHT;
     }
-    progress::show(ctx, scene, below, acts);
-    if scene.editor.is_open {
-        below.max.y -= match_editor::ADVICE_HEIGHT;
+    progress::show(ctx, state, free, intents);
+    if state.editor.is_open {
+        free.max.y -= match_editor::ADVICE_HEIGHT;
     }
-    notices::show(ctx, scene, below, acts);
+    notices::show(ctx, state, free, intents);
 }
 
 impl StageArea {
+    /// Converts from egui's points.
     fn from_points(corner: egui::Pos2, size: egui::Vec2) -> Self {
         Self {
             corner: Vec2::new(corner.x, corner.y),

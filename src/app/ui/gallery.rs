@@ -1,4 +1,4 @@
-//! The bundled projects, each as a film strip.
+//! Panel on the left: recent projects, and the bundled projects as film strips.
 
 use std::collections::HashMap;
 
@@ -15,29 +15,32 @@ use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::project::gallery;
 
+/// Width of the panel, in points.
 const WIDTH: f32 = 232.0;
+
+/// Height of the film strip on a card, in points.
 const PICTURE_HEIGHT: f32 = 72.0;
 
-/// The thumbnails that egui already has.
+/// Film strips already uploaded to the GPU, by project name.
 #[derive(Resource, Default)]
 pub struct GalleryTextures(HashMap<String, TextureHandle>);
 
-/// Draws the gallery on the left.
-pub fn show(root: &mut Ui, scene: &UiState, textures: &mut GalleryTextures, acts: &mut Intents) {
+/// Draws the panel.
+pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 8, 8, 0]);
     Panel::left("gallery")
         .exact_size(WIDTH)
         .resizable(false)
         .frame(frame)
         .show(root, |ui| {
-            recent(ui, scene, acts);
+            recent(ui, state, intents);
             ui.label(secondary_text(ui, "Gallery").strong());
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                // Less than there is: the scroll bar stands in the rest.
+                // Narrower than the panel, to leave room for the scroll bar.
                 ui.set_width(WIDTH - 32.0);
-                for entry in &scene.gallery.0 {
-                    if card(ui, scene, textures, entry).clicked() {
-                        acts.push(Intent::OpenGallery(entry.name.clone()));
+                for entry in &state.gallery.0 {
+                    if card(ui, state, textures, entry).clicked() {
+                        intents.push(Intent::OpenGallery(entry.name.clone()));
                     }
                 }
                 ui.add_space(GRID);
@@ -45,9 +48,9 @@ pub fn show(root: &mut Ui, scene: &UiState, textures: &mut GalleryTextures, acts
         });
 }
 
-/// What was opened last, a line each.
-fn recent(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let opened = scene.recent.opened();
+/// Draws one line per recently opened project.
+fn recent(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let opened = state.recent.opened();
     if opened.is_empty() {
         return;
     }
@@ -61,7 +64,7 @@ fn recent(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
             let files = opened.files.iter().map(|file| file.display().to_string());
             let tip = files.collect::<Vec<_>>().join("\n");
             if ui.add(line).on_hover_text(tip).clicked() {
-                acts.push(Intent::Open(opened.files.clone()));
+                intents.push(Intent::Open(opened.files.clone()));
             }
         }
     });
@@ -70,19 +73,19 @@ fn recent(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
 
 fn card(
     ui: &mut Ui,
-    scene: &UiState,
+    state: &UiState,
     textures: &mut GalleryTextures,
     entry: &gallery::GalleryEntry,
 ) -> Response {
     let palette = ThemePalette::of(ui);
     let (width, ink) = (ui.available_width(), palette.text);
-    // Wrapped: what tells two of them apart may stand at the end.
+    // Wrapped, not truncated: similar titles often differ only at the end.
     let title = ui
         .painter()
         .layout(entry.title.clone(), SMALL, ink, width - 16.0);
     let size = vec2(width, PICTURE_HEIGHT + 12.0 + title.size().y);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let is_open = scene.session.gallery_name() == Some(entry.name.as_str());
+    let is_open = state.session.gallery_name() == Some(entry.name.as_str());
     if is_open {
         show_when_new(ui, &entry.name, &response);
     }
@@ -97,18 +100,18 @@ fn card(
     ui.painter()
         .rect(rect, CARD_RADIUS, fill, (1.0, line), StrokeKind::Inside);
     let picture = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT)).shrink(4.0);
-    thumbnail(ui, scene, textures, &entry.name, picture);
+    thumbnail(ui, state, textures, &entry.name, picture);
     let text_at = rect.left_top() + vec2(8.0, PICTURE_HEIGHT + 4.0);
     ui.painter().galley(text_at, title, ink);
     response.on_hover_text(&entry.description)
 }
 
-/// Scrolls to the card of a project that has just been opened, and then leaves the list alone.
+/// Scrolls to the card of a project that was just opened; later frames leave the list as it is.
 fn show_when_new(ui: &Ui, name: &str, card: &Response) {
-    let shown = egui::Id::new("the card that was scrolled to");
+    let id = egui::Id::new("the card that was scrolled to");
     let is_new = ui.data_mut(|data| {
-        let last = data.get_temp_mut_or_default::<String>(shown);
-        // Only when it is another: else the list could not be scrolled away from it.
+        let last = data.get_temp_mut_or_default::<String>(id);
+        // Only once per project, so that the user can scroll away from it.
         let is_new = last != name;
         name.clone_into(last);
         is_new
@@ -118,13 +121,13 @@ fn show_when_new(ui: &Ui, name: &str, card: &Response) {
     }
 }
 
-fn thumbnail(ui: &Ui, scene: &UiState, textures: &mut GalleryTextures, name: &str, rect: Rect) {
+fn thumbnail(ui: &Ui, state: &UiState, textures: &mut GalleryTextures, name: &str, rect: Rect) {
     ui.painter()
         .rect_filled(rect, RADIUS, ThemePalette::of(ui).panel);
-    let Some(image) = scene.thumbnails.get(name) else {
+    let Some(image) = state.thumbnails.get(name) else {
         return;
     };
-    // Strips never change, so each goes to the graphics card once.
+    // Strips never change, so each is uploaded once.
     let texture = textures.0.entry(name.to_owned()).or_insert_with(|| {
         let size = [image.width() as usize, image.height() as usize];
         let pixels = ColorImage::from_rgba_unmultiplied(size, image.as_raw());

@@ -1,7 +1,8 @@
-//! What all panels are made of: colours, icons, controls.
+//! Building blocks of all panels: colours, icons, controls and textures.
 
 pub mod easing_editor;
 pub mod icons;
+pub mod text;
 pub mod texture;
 pub mod theme;
 pub mod time_bar;

@@ -1,9 +1,9 @@
-//! The match editor: source and target side by side, and the film beside them.
+//! Match editor: source and target side by side, optionally with the film in a third pane.
 //!
-//! The designs are drawn with egui, the film is the stage itself; what the hand does becomes an
-//! [`EditorAct`](crate::app::EditorAct) in the coordinates of the frame. Colours run along the
-//! boundary, the same on both sides, and numbers and letters say the same again, so that nothing
-//! hangs on colour alone: numbers are pins, as the project counts them, letters what was found.
+//! The designs are drawn with egui; the film is the stage itself. Pointer input becomes
+//! [`EditorAct`](crate::app::EditorAct)s in the common frame of both designs. Matched boundary
+//! points have the same colour on both sides. Numbers (pins, in the project's order) and letters
+//! (automatic points) repeat this, so that no meaning depends on colour alone.
 
 mod boundary_stripe;
 mod colours;

@@ -1,4 +1,4 @@
-//! What lies above everything: files, help, questions, notices, work, times.
+//! Layers above the panels: file dialog, shortcuts, questions, notices, progress and frame times.
 
 pub mod file_dialog;
 mod file_side_panel;

@@ -1,4 +1,4 @@
-//! The panel on the right: everything that can be set about the transition.
+//! Inspector: one file per section or group of sections.
 
 pub mod appearance;
 pub mod content;

@@ -1,4 +1,4 @@
-//! What stands in the speaker's window: how long the talk has run, what to say here, what is next.
+//! Contents of the speaker's window: elapsed time, current stop with its notes, and the next stop.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -19,18 +19,18 @@ use crate::app::ui::kit::theme::{self, GRID};
 use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::transition::TransitionStop;
 
-/// When egui draws the speaker's window.
+/// Schedule in which egui draws the speaker's window.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SpeakerPass;
 
-/// Lets egui draw through the camera of the speaker's window.
+/// Makes egui draw through the camera of the speaker's window.
 pub fn join(added: On<Add, SpeakerCamera>, mut commands: Commands) {
     commands
         .entity(added.entity)
         .insert(EguiSchedule::new(SpeakerPass));
 }
 
-/// Draws it.
+/// Draws the window, if it is open.
 pub fn draw(
     mut contexts: Query<&mut EguiContext, Without<PrimaryEguiContext>>,
     (session, playback): (Res<Session>, Res<Playback>),
@@ -65,7 +65,7 @@ pub fn draw(
             ui.add_space(2.0 * GRID);
             ui.vertical(|ui| {
                 ui.set_width(half);
-                coming(
+                upcoming(
                     ui,
                     next.map(|t| SpeakerMoment::at(t, stops, &names)),
                     speaker.picture(),
@@ -75,16 +75,16 @@ pub fn draw(
     });
 }
 
-/// What there is to say of a t.
+/// Stop and design at one t, as the speaker's window shows them.
 struct SpeakerMoment<'a> {
     t: f64,
     stop: Option<&'a TransitionStop>,
-    /// Of the design that is there.
+    /// Name of the design at this t.
     design: Option<&'a str>,
 }
 
 impl<'a> SpeakerMoment<'a> {
-    /// `names` are those of the designs, at each whole t.
+    /// Looks up the stop and the design at `t`; `names[k]` is the design at t = k.
     fn at(t: f64, stops: &'a [TransitionStop], names: &'a [String]) -> Self {
         let is_here = |place: f64| (place - t).abs() < SAME_T;
         let design = names.iter().enumerate().find(|(k, _)| is_here(*k as f64));
@@ -95,21 +95,21 @@ impl<'a> SpeakerMoment<'a> {
         }
     }
 
-    /// The stop's name; where it has none, the design's.
+    /// Returns the stop's name or, if it has none, the design's.
     fn name(&self) -> Option<&'a str> {
         let stop = self.stop.map(|stop| stop.name.as_str());
         stop.filter(|name| !name.is_empty()).or(self.design)
     }
 }
 
-fn head(ui: &mut Ui, lasts: Duration) {
-    let secs = lasts.as_secs();
+fn head(ui: &mut Ui, elapsed: Duration) {
+    let secs = elapsed.as_secs();
     let (minutes, secs) = (secs / 60, secs % 60);
     ui.label(RichText::new(format!("{minutes}:{secs:02}")).size(44.0))
-        .on_hover_text("How long the talk has run.");
+        .on_hover_text("Elapsed time of the talk");
     ui.label(secondary_text(
         ui,
-        "Page Down: on · Page Up: back · B: black · T: captions · N: this window · Esc: end",
+        "Page Down: next · Page Up: back · B: black · T: captions · N: this window · Esc: end",
     ));
     ui.add_space(2.0 * GRID);
 }
@@ -119,7 +119,7 @@ fn here(ui: &mut Ui, place: SpeakerMoment<'_>) {
     match (place.name(), place.stop) {
         (Some(name), _) => large(ui, name),
         (None, Some(_)) => {}
-        (None, None) => large(ui, "on the way"),
+        (None, None) => large(ui, "between stops"),
     }
     let Some(stop) = place.stop else {
         return;
@@ -129,7 +129,7 @@ fn here(ui: &mut Ui, place: SpeakerMoment<'_>) {
         if stop.note.is_empty() {
             ui.label(secondary_text(
                 ui,
-                "No notes: right-click a stop on the timeline to write some.",
+                "No notes. Right-click a stop on the timeline to add some.",
             ));
         } else {
             ui.add(Label::new(RichText::new(&stop.note).size(18.0)).wrap());
@@ -137,14 +137,14 @@ fn here(ui: &mut Ui, place: SpeakerMoment<'_>) {
     });
 }
 
-fn large(ui: &mut Ui, words: &str) {
-    ui.add(Label::new(RichText::new(words).size(22.0)).wrap());
+fn large(ui: &mut Ui, text: &str) {
+    ui.add(Label::new(RichText::new(text).size(22.0)).wrap());
 }
 
-fn coming(ui: &mut Ui, next: Option<SpeakerMoment<'_>>, picture: Option<Arc<RgbaImage>>) {
+fn upcoming(ui: &mut Ui, next: Option<SpeakerMoment<'_>>, picture: Option<Arc<RgbaImage>>) {
     ui.label(secondary_text(ui, "Next"));
     let Some(place) = next else {
-        large(ui, "the end");
+        large(ui, "End");
         return;
     };
     let t = || format!("t = {:.3}", place.t);

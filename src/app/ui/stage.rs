@@ -1,4 +1,4 @@
-//! What lies on the stage: the hand on it, the second method beside it, the map, the verdict, a talk.
+//! Overlays of the stage and bars next to it: hints, comparison, map, checks and presentation.
 
 pub mod area;
 pub mod checks;

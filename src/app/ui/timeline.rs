@@ -1,4 +1,4 @@
-//! The strips at the bottom: transport, track and plots.
+//! Panels at the bottom: transport controls, track with film strip, and graphs over time.
 
 mod design_thumbnails;
 mod filmstrip;

@@ -1,4 +1,4 @@
-//! The line at the top: whose window this is, what is open, and what can be done with it.
+//! Toolbar at the top: program and project name, and buttons for files, history, export and views.
 
 use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichText, Ui, vec2};
 
@@ -10,13 +10,14 @@ use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{from_right, intent_button, secondary_text};
 use crate::app::ui::ui_state::{Intents, UiState};
 
+/// Height of the toolbar, in points.
 const HEIGHT: f32 = 48.0;
 
-/// What the word beside the title of an edited project takes.
+/// Width reserved for the word “edited” after the project's title, in points.
 const EDITED: f32 = 56.0;
 
 /// Draws the toolbar.
-pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
+pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = egui::Frame::new()
         .fill(ThemePalette::of(root).panel)
         .inner_margin(Margin::symmetric(16, 8));
@@ -29,16 +30,16 @@ pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
                 ui.label(RichText::new("Morphospace").heading());
                 ui.add_space(2.0 * GRID);
                 from_right(ui, |ui| {
-                    buttons(ui, scene, acts);
+                    buttons(ui, state, intents);
                     ui.add_space(GRID);
-                    // In what the buttons leave.
-                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| title(ui, scene));
+                    // The title gets the space that the buttons leave.
+                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| title(ui, state));
                 });
             });
         });
 }
 
-/// The sign of the program: a disc on its way to a square.
+/// Draws the logo: a disc turning into a square.
 fn mark(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(40.0, 24.0), egui::Sense::hover());
     let ends = [
@@ -58,114 +59,117 @@ fn mark(ui: &mut Ui) {
     }
 }
 
-fn title(ui: &mut Ui, scene: &UiState) {
-    let is_edited = scene.session.is_dirty();
+fn title(ui: &mut Ui, state: &UiState) {
+    let is_edited = state.session.is_dirty();
     ui.scope(|ui| {
-        let beside = if is_edited { EDITED } else { 0.0 };
-        ui.set_max_width((ui.available_width() - beside).max(0.0));
-        ui.add(egui::Label::new(scene.session.title()).truncate());
+        let reserved = if is_edited { EDITED } else { 0.0 };
+        ui.set_max_width((ui.available_width() - reserved).max(0.0));
+        ui.add(egui::Label::new(state.session.title()).truncate());
     });
     if is_edited {
         ui.label(secondary_text(ui, "edited"))
-            .on_hover_text("Has changes that are not saved yet. Ctrl S saves them.");
+            .on_hover_text("Unsaved changes. Save with Ctrl S.");
     }
 }
 
-fn buttons(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
+fn buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.spacing_mut().item_spacing.x = 4.0;
-    if ui.button("?").on_hover_text("All keys (? or F1)").clicked() {
-        acts.push(Intent::ToggleHelp);
+    if ui
+        .button("?")
+        .on_hover_text("Keyboard shortcuts (? or F1)")
+        .clicked()
+    {
+        intents.push(Intent::ToggleHelp);
     }
-    theme_button(ui, scene, acts);
-    let tip = "Show the whole transition (Z)";
-    intent_button(ui, icons::FIT, tip, Intent::FitView, acts);
+    theme_button(ui, state, intents);
+    let tip = "Fit to view (Z)";
+    intent_button(ui, icons::FIT, tip, Intent::FitView, intents);
     ui.add_space(GRID);
     let accent = ThemePalette::of(ui).accent;
-    let tip = "A second method beside the stage (V)";
-    let icon = icons::COMPARE.inked(scene.twin.is_shown.then_some(accent));
-    intent_button(ui, icon, tip, Intent::ToggleTwin, acts);
-    let tip = "The map of all designs (D)";
-    let icon = icons::MAP.inked(scene.map.is_shown.then_some(accent));
-    intent_button(ui, icon, tip, Intent::ToggleMap, acts);
-    let tip = "Plots of the measures against t (P)";
-    let icon = icons::PLOT.inked(scene.preferences.plots.then_some(accent));
-    intent_button(ui, icon, tip, Intent::TogglePlots, acts);
-    match_button(ui, scene, acts);
+    let tip = "Compare with a second method (V)";
+    let icon = icons::COMPARE.inked(state.twin.is_shown.then_some(accent));
+    intent_button(ui, icon, tip, Intent::ToggleTwin, intents);
+    let tip = "Map of all designs (D)";
+    let icon = icons::MAP.inked(state.map.is_shown.then_some(accent));
+    intent_button(ui, icon, tip, Intent::ToggleMap, intents);
+    let tip = "Graphs over time (P)";
+    let icon = icons::PLOT.inked(state.preferences.plots.then_some(accent));
+    intent_button(ui, icon, tip, Intent::TogglePlots, intents);
+    match_button(ui, state, intents);
     ui.add_space(GRID);
-    capture_buttons(ui, scene, acts);
+    capture_buttons(ui, state, intents);
     ui.add_space(GRID);
-    history_buttons(ui, scene, acts);
+    history_buttons(ui, state, intents);
     ui.add_space(GRID);
-    let tip = "Save the project (Ctrl S)";
-    intent_button(ui, icons::SAVE, tip, Intent::Save, acts);
-    let tip = "Open a project, or one or two designs (Ctrl O)";
-    intent_button(ui, icons::OPEN, tip, Intent::AskOpen, acts);
+    let tip = "Save project (Ctrl S)";
+    intent_button(ui, icons::SAVE, tip, Intent::Save, intents);
+    let tip = "Open a project or designs (Ctrl O)";
+    intent_button(ui, icons::OPEN, tip, Intent::AskOpen, intents);
 }
 
-/// From right to left.
-fn capture_buttons(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
+/// Buttons for export and presenting, from right to left.
+fn capture_buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let options = Preferences {
-        film_options: !scene.preferences.film_options,
-        ..*scene.preferences
+        film_options: !state.preferences.film_options,
+        ..*state.preferences
     };
-    let ink = scene
+    let ink = state
         .preferences
         .film_options
         .then_some(ThemePalette::of(ui).accent);
-    let tip = "Shape, size and kind of pictures and films";
+    let tip = "Export settings";
     intent_button(
         ui,
         icons::MORE.inked(ink),
         tip,
         Intent::Prefer(options),
-        acts,
+        intents,
     );
-    let tip = "Present: nothing but the drawing, from the first stop (F5)";
+    let tip = "Present: only the drawing, from the first stop (F5)";
     let talk = Intent::Present { is_all: false };
-    intent_button(ui, icons::PRESENT, tip, talk, acts);
-    let tip = "Record one pass as a film, in the background (G)";
+    intent_button(ui, icons::PRESENT, tip, talk, intents);
+    let tip = "Export film in the background (G)";
     let icon = icons::RECORD.inked(Some(ThemePalette::of(ui).problem));
-    intent_button(ui, icon, tip, Intent::Record, acts);
-    let tip = "Picture of the stage (S); with the panels: Shift S";
+    intent_button(ui, icon, tip, Intent::Record, intents);
+    let tip = "Save image (S); with panels: Shift S";
     let picture = Intent::Screenshot { with_panels: false };
-    intent_button(ui, icons::CAMERA, tip, picture, acts);
+    intent_button(ui, icons::CAMERA, tip, picture, intents);
 }
 
-fn match_button(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let can = scene.session.can_match();
-    let tip = if can {
-        "Which point is which: source and target side by side (E)"
+fn match_button(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let is_enabled = state.session.can_match();
+    let tip = if is_enabled {
+        "Edit match: pair points of source and target, side by side (E)"
     } else {
-        "Not available: there is nothing to match in designs that have triangles or bars of their \
-         own"
+        "Not available: designs with triangles or bars of their own have nothing to match"
     };
-    let ink = scene.editor.is_open.then_some(ThemePalette::of(ui).accent);
+    let ink = state.editor.is_open.then_some(ThemePalette::of(ui).accent);
     let icon = icons::MATCH.inked(ink);
-    ui.add_enabled_ui(can, |ui| {
-        intent_button(ui, icon, tip, Intent::Editor(EditorAction::Toggle), acts);
+    ui.add_enabled_ui(is_enabled, |ui| {
+        intent_button(ui, icon, tip, Intent::Editor(EditorAction::Toggle), intents);
     });
 }
 
-/// From right to left.
-fn history_buttons(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    ui.add_enabled_ui(scene.session.can_redo(), |ui| {
-        let tip = "Make the change again that was undone (Ctrl Shift Z or Ctrl Y)";
-        intent_button(ui, icons::REDO, tip, Intent::Redo, acts);
+/// Undo and redo, from right to left.
+fn history_buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    ui.add_enabled_ui(state.session.can_redo(), |ui| {
+        let tip = "Redo (Ctrl Shift Z or Ctrl Y)";
+        intent_button(ui, icons::REDO, tip, Intent::Redo, intents);
     });
-    ui.add_enabled_ui(scene.session.can_undo(), |ui| {
-        let tip = "Undo the last change (Ctrl Z)";
-        intent_button(ui, icons::UNDO, tip, Intent::Undo, acts);
+    ui.add_enabled_ui(state.session.can_undo(), |ui| {
+        let tip = "Undo (Ctrl Z)";
+        intent_button(ui, icons::UNDO, tip, Intent::Undo, intents);
     });
 }
 
-fn theme_button(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let (icon, theme, tip) = match scene.preferences.theme {
-        ThemeChoice::Dark => (icons::SUN, ThemeChoice::Light, "Light panels"),
-        ThemeChoice::Light => (icons::MOON, ThemeChoice::Dark, "Dark panels"),
+fn theme_button(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let (icon, theme, tip) = match state.preferences.theme {
+        ThemeChoice::Dark => (icons::SUN, ThemeChoice::Light, "Light theme"),
+        ThemeChoice::Light => (icons::MOON, ThemeChoice::Dark, "Dark theme"),
     };
     let other = Preferences {
         theme,
-        ..*scene.preferences
+        ..*state.preferences
     };
-    intent_button(ui, icon, tip, Intent::Prefer(other), acts);
+    intent_button(ui, icon, tip, Intent::Prefer(other), intents);
 }

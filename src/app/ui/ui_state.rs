@@ -1,4 +1,4 @@
-//! What the panels show, and what the user does to it.
+//! Read-only view of the application for the panels, and the intents that they send back.
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::Res;
@@ -19,8 +19,8 @@ use crate::app::files::file_preview::FilePreview;
 use crate::app::files::gallery_thumbnails::GalleryThumbnails;
 use crate::app::files::project_actions::GalleryEntries;
 use crate::app::input::intent::Intent;
+use crate::app::input::key_map::KeyMap;
 use crate::app::input::preferences::Preferences;
-use crate::app::key_map::KeyMap;
 use crate::app::map::map_view::MapView;
 use crate::app::notices::Notices;
 use crate::app::persistence::autosave::Autosave;
@@ -35,7 +35,7 @@ use crate::app::view::frame_intervals::FrameIntervals;
 use crate::app::view::onion_skins::OnionSkins;
 use crate::stage::{FrameTimes, StageView};
 
-/// Everything that the panels show.
+/// Resources that the panels read.
 #[derive(SystemParam)]
 pub struct UiState<'w> {
     pub session: Res<'w, Session>,
@@ -71,5 +71,5 @@ pub struct UiState<'w> {
     pub whole: Res<'w, FrameIntervals>,
 }
 
-/// What the user does this frame.
+/// Intents that the user triggered in this frame.
 pub type Intents = Vec<Intent>;

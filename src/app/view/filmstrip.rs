@@ -1,7 +1,7 @@
-//! Small pictures of the film at every tenth of t, or so, and at each design, for the timeline.
+//! Filmstrip of the timeline: thumbnails of the film at regular t, including every design.
 //!
-//! Drawn beside the window whenever another film, or one that looks otherwise, is on the stage, and
-//! after it has been measured: the verdict is waited for, the pictures are not.
+//! Drawn in the background whenever the film or its colours change, but only after it has been
+//! measured: users wait for the check of the film, not for thumbnails.
 
 use std::sync::Arc;
 
@@ -17,20 +17,20 @@ use crate::export::{
 use crate::geometry::DVec2;
 use crate::transition::{Sequence, Transition, TransitionStyle};
 
-/// How many pictures there are of a film of two designs: at both ends and at every tenth between
-/// them.
-const OF_A_PAIR: usize = 11;
+/// Number of thumbnails for a film of two designs: both ends and every tenth between them
+/// (heuristic).
+const THUMBNAILS_OF_PAIR: usize = 11;
 
-/// How many there are of so many legs: about as many, one at each design among them.
+/// Number of thumbnails for a film of several segments: about as many, and one at each design.
 #[must_use]
-pub fn pictures(legs: usize) -> usize {
-    legs * ((OF_A_PAIR - 1) / legs.max(1)).max(1) + 1
+pub fn pictures(segments: usize) -> usize {
+    segments * ((THUMBNAILS_OF_PAIR - 1) / segments.max(1)).max(1) + 1
 }
 
-/// Width and height of each in pixels: twice what is shown at scale factor 1.
+/// Width and height of a thumbnail in pixels: twice its size on screen at scale factor 1.
 pub const PICTURE_PX: (u32, u32) = (144, 80);
 
-/// The pictures of the film on the stage.
+/// Thumbnails of the film on the stage.
 #[derive(Resource, Debug, Default)]
 pub struct Filmstrip {
     of: Option<(Sequence, TransitionStyle)>,
@@ -39,20 +39,20 @@ pub struct Filmstrip {
 }
 
 impl Filmstrip {
-    /// All pictures side by side, straight alpha on a transparent ground; those of the same
-    /// designs' film before until the new ones are there.
+    /// All thumbnails side by side, with straight alpha on a transparent background. Those of the
+    /// previous film of the same designs are shown until the new ones are ready.
     #[must_use]
     pub fn pictures(&self) -> Option<&Arc<RgbaImage>> {
         self.pictures.as_ref()
     }
 
-    /// They are being drawn.
+    /// Whether thumbnails are being drawn.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.job.is_some()
     }
 
-    /// The pictures there are show other designs.
+    /// Whether the current thumbnails show different designs.
     fn shows_others(&self, wanted: Option<&(Sequence, TransitionStyle)>) -> bool {
         let (Some((old, _)), Some((new, _)), Some(_)) = (&self.of, wanted, &self.pictures) else {
             return false;
@@ -60,6 +60,7 @@ impl Filmstrip {
         !names(old).eq(names(new))
     }
 
+    /// Whether the thumbnails, or the job drawing them, show the wanted film in the wanted colours.
     fn is_of(&self, wanted: Option<&(Sequence, TransitionStyle)>) -> bool {
         match (&self.of, wanted) {
             (Some((old, before)), Some((new, style))) => old.is(new) && before == style,
@@ -69,20 +70,20 @@ impl Filmstrip {
     }
 }
 
-/// What the designs of a film are called, leg by leg: by that they are told from others, as
-/// another fit makes others of the same.
+/// Names of the designs of a film, segment by segment. They identify the designs, because another
+/// placement creates new design objects.
 fn names(sequence: &Sequence) -> impl Iterator<Item = &str> {
     let designs = sequence.legs().iter().flat_map(Transition::designs);
     designs.map(|design| design.name.as_str())
 }
 
-/// Keeps the pictures of what is on the stage.
+/// Keeps the thumbnails in step with the film on the stage.
 pub fn follow(
     session: Res<Session>,
-    measured: Res<StageMeasures>,
+    measures: Res<StageMeasures>,
     mut filmstrip: ResMut<Filmstrip>,
 ) {
-    // Marked as changed by hand: it is looked at in each frame, and seldom new.
+    // Change detection is set by hand: this system runs each frame but seldom changes anything.
     let strip = filmstrip.bypass_change_detection();
     if let Some(Ok(pictures)) = BackgroundJob::take(&mut strip.job) {
         strip.pictures = Some(Arc::new(pictures));
@@ -95,14 +96,14 @@ pub fn follow(
         filmstrip.set_changed();
         return;
     }
-    if strip.is_of(wanted.as_ref()) || session.work().is_some() || measured.is_busy() {
+    if strip.is_of(wanted.as_ref()) || session.work().is_some() || measures.is_busy() {
         return;
     }
     strip.of = wanted;
     if strip.of.is_none() {
         strip.pictures = None;
     }
-    // A job on the film before goes with it.
+    // Replacing the job cancels the one for the previous film.
     strip.job = strip.of.clone().map(|(sequence, style)| {
         BackgroundJob::start("the filmstrip", move |_| {
             let times = even_times(0.0, sequence.end(), pictures(sequence.legs().len()));
@@ -111,11 +112,11 @@ pub fn follow(
     });
 }
 
-/// Pictures of a film side by side, at each of some t, each of so many pixels; straight alpha on a
-/// transparent ground.
+/// Draws a film at the given times, side by side, each in a cell of the given size in pixels;
+/// straight alpha on a transparent background.
 ///
 /// # Errors
-/// The row is larger than a picture can be.
+/// The row is larger than an image may be.
 pub fn draw_strip(
     sequence: &Sequence,
     style: &TransitionStyle,
@@ -123,7 +124,7 @@ pub fn draw_strip(
     (width, height): (u32, u32),
 ) -> Result<RgbaImage, PixelSizeError> {
     let size = PixelSize::new(width.saturating_mul(times.len() as u32), height)?;
-    // One frame around all of them, so that what grows is seen to grow.
+    // One common frame for all cells, so that growth is visible.
     let bounds = framing(sequence, times);
     let cell = DVec2::new(f64::from(width), f64::from(height));
     let mut drawing = Drawing::new(size, None);

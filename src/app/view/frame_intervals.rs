@@ -1,14 +1,15 @@
-//! The time of a whole frame, beside those of its stages.
+//! Measures the time from one frame to the next, shown next to the times of the stages within a
+//! frame.
 
 use bevy::prelude::{Real, Res, ResMut, Resource, Time};
 
 use crate::stage::StageTimes;
 
-/// From one frame to the next.
+/// Durations from one frame to the next.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct FrameIntervals(pub StageTimes);
 
-/// Notes how long the last frame took.
+/// Records the duration of the last frame.
 pub fn record(time: Res<Time<Real>>, mut whole: ResMut<FrameIntervals>) {
     whole.0.record(time.delta());
 }

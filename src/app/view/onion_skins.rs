@@ -1,4 +1,4 @@
-//! Onion skins: thin outlines of the film at its stops and tenths, all at once.
+//! Onion skins: thin outlines of the film at its stops, or at regular t, all shown at once.
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
@@ -8,24 +8,24 @@ use crate::app::session::state::Session;
 use crate::geometry::DVec2;
 use crate::transition::{Sequence, VectorFigure};
 
-/// How many skins there are between two ends where there are no stops.
-const BETWEEN: usize = 4;
+/// Number of skins between the two ends of a film without stops (heuristic).
+const SKINS_BETWEEN: usize = 4;
 
-/// The most skins: more cover each other.
-const MOST: usize = 12;
+/// Maximum number of skins (heuristic: more would cover each other).
+const MAX_SKINS: usize = 12;
 
-/// The film at one t.
+/// Outline of the film at one t.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnionSkin {
-    /// Where.
+    /// Its t.
     pub t: f64,
-    /// Its outlines, closed.
+    /// Closed outlines.
     pub rings: Vec<Vec<DVec2>>,
-    /// Its bars.
+    /// Bars of a truss.
     pub bars: Vec<[DVec2; 2]>,
 }
 
-/// All skins of the film on the stage, while they are shown.
+/// Onion skins of the film on the stage, while they are shown.
 #[derive(Resource, Debug, Default)]
 pub struct OnionSkins {
     of: Option<(Sequence, Vec<f64>)>,
@@ -33,28 +33,28 @@ pub struct OnionSkins {
 }
 
 impl OnionSkins {
-    /// The skins, by ascending t.
+    /// The skins, sorted by t.
     #[must_use]
     pub fn skins(&self) -> &[OnionSkin] {
         &self.skins
     }
 }
 
-/// The t of the skins: the stops and the ends; where there are none but the ends, some between.
+/// The t of all skins: the stops and both ends; without stops, regular t between the ends.
 fn times(session: &Session) -> Vec<f64> {
     let places = landmarks(session.timing(), session.stops());
     match places.as_slice() {
-        [from, to] => (0..=BETWEEN + 1)
-            .map(|k| from + (to - from) * k as f64 / (BETWEEN + 1) as f64)
+        [from, to] => (0..=SKINS_BETWEEN + 1)
+            .map(|k| from + (to - from) * k as f64 / (SKINS_BETWEEN + 1) as f64)
             .collect(),
-        all if all.len() > MOST => (0..MOST)
-            .map(|k| all[k * (all.len() - 1) / (MOST - 1)])
+        all if all.len() > MAX_SKINS => (0..MAX_SKINS)
+            .map(|k| all[k * (all.len() - 1) / (MAX_SKINS - 1)])
             .collect(),
         all => all.to_vec(),
     }
 }
 
-/// Keeps the skins of what is on the stage.
+/// Redraws the skins when the film or the preference changes.
 pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: ResMut<OnionSkins>) {
     if !session.is_changed() && !preferences.is_changed() {
         return;
@@ -75,6 +75,7 @@ pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: R
     onion.of = wanted;
 }
 
+/// Outlines of the film at the given times.
 fn skins(sequence: &Sequence, times: &[f64]) -> Vec<OnionSkin> {
     let mut frame = sequence.frame(0.0);
     let skin = |&t: &f64| {

@@ -1,11 +1,11 @@
-//! Takes in what the person at the screen chooses.
+//! System that applies the intents which change the user's preferences.
 
 use bevy::prelude::{MessageReader, ResMut};
 
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
 
-/// Acts on the intents that concern [`Preferences`].
+/// Applies the intents that change [`Preferences`].
 pub fn apply(mut intents: MessageReader<Intent>, mut preferences: ResMut<Preferences>) {
     for intent in intents.read() {
         match intent {

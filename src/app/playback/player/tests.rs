@@ -1,4 +1,4 @@
-//! Time in the window, act by act.
+//! Tests of [`Playback`], action by action.
 
 use super::*;
 use crate::transition::NamedEasing;
@@ -55,7 +55,7 @@ fn ping_pong_turns_round_at_both_ends() {
 }
 
 #[test]
-fn slides_reach_stops_beyond_the_pass_and_wait_there() {
+fn stops_outside_the_film_are_reached_and_waited_at() {
     let timing = timing(PlayMode::Loop);
     let stops = [stop(1.5), stop(0.5)];
     let mut playback = Playback::default();
@@ -70,7 +70,7 @@ fn slides_reach_stops_beyond_the_pass_and_wait_there() {
 }
 
 #[test]
-fn a_slide_asked_for_on_the_way_goes_one_further() {
+fn pressing_next_on_the_way_goes_one_stop_further() {
     let timing = timing(PlayMode::Once);
     let stops = [stop(0.25), stop(0.5)];
     let mut playback = Playback::default();
@@ -82,7 +82,7 @@ fn a_slide_asked_for_on_the_way_goes_one_further() {
 }
 
 #[test]
-fn reversing_on_the_way_to_a_stop_leads_back() {
+fn reversing_on_the_way_to_a_stop_returns() {
     for easing in NamedEasing::ALL {
         let timing = Timing {
             easing: easing.into(),
@@ -101,7 +101,7 @@ fn reversing_on_the_way_to_a_stop_leads_back() {
 }
 
 #[test]
-fn what_is_no_number_changes_nothing() {
+fn non_finite_values_are_ignored() {
     let timing = timing(PlayMode::Once);
     let mut playback = Playback::default();
     let before = playback.clone();
@@ -113,7 +113,7 @@ fn what_is_no_number_changes_nothing() {
 }
 
 #[test]
-fn speed_goes_through_its_steps_and_stays_within_them() {
+fn speed_steps_through_the_list_and_stays_within_it() {
     let mut playback = Playback::default();
     for _ in 0..20 {
         playback.change_speed(true);
@@ -126,7 +126,7 @@ fn speed_goes_through_its_steps_and_stays_within_them() {
 }
 
 #[test]
-fn a_film_changes_where_nobody_sees_it() {
+fn a_film_may_change_only_at_rest_or_near_a_design() {
     let whole = timing(PlayMode::Loop);
     let mut playback = Playback::default();
     playback.toggle(&whole, &[]);

@@ -1,4 +1,5 @@
-//! How t runs: the usual ways by name, and a curve whose two handles are dragged.
+//! Easing editor: named easings in a list, and below it a cubic Bézier curve with two draggable
+//! handles.
 
 use bevy_egui::egui::containers::menu::{MenuConfig, SubMenuButton};
 use bevy_egui::egui::{
@@ -8,53 +9,56 @@ use bevy_egui::egui::{
 
 use crate::app::ui::kit::theme::{GRID, RADIUS, ThemePalette};
 use crate::app::ui::kit::widgets::{secondary_text, tooltip_left};
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 use crate::transition::{EasingBezier, EasingFunction, NamedEasing};
 
 /// Width and height of the curve, in points.
 const CANVAS: (f32, f32) = (208.0, 136.0);
 
-/// How near the hand must be to a handle to take it.
+/// Distance within which the pointer grabs a handle, in points (tolerance: a handle is 12 points
+/// wide).
 const REACH: f32 = 14.0;
 
-/// A list of the usual ways, with the curve below.
+/// Drop-down list of the named easings, with the curve editor below.
 pub fn menu(ui: &mut Ui, salt: &str, value: &mut EasingFunction, width: f32) -> Response {
     let list = ComboBox::from_id_salt(salt)
         .width(width)
         .height(400.0)
         .selected_text(name(*value))
-        // A handle is dragged in it.
+        // Dragging a handle must not close the list.
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let shown = list.show_ui(ui, |ui| {
         let mut chosen = Some(*value);
-        ways(ui, &mut chosen, None);
+        easing_list(ui, &mut chosen, None);
         *value = chosen.unwrap_or_default();
     });
     shown.response
 }
 
-/// The same as a part of another menu; none stands for what is `usual`.
-pub fn submenu(ui: &mut Ui, value: &mut Option<EasingFunction>, usual: &str) -> Response {
-    let now = match value {
+/// The same editor as a submenu; `None` is the inherited easing, shown as `inherited`.
+pub fn submenu(ui: &mut Ui, value: &mut Option<EasingFunction>, inherited: &str) -> Response {
+    let current = match value {
         Some(ease) => name(*ease),
-        None => usual,
+        None => inherited,
     };
-    let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let button = SubMenuButton::new(format!("Runs on: {now}")).config(stays);
-    button.ui(ui, |ui| ways(ui, value, Some(usual))).0
+    let stays_open = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let button = SubMenuButton::new(format!("Easing: {current}")).config(stays_open);
+    button
+        .ui(ui, |ui| easing_list(ui, value, Some(inherited)))
+        .0
 }
 
 fn name(ease: EasingFunction) -> &'static str {
     match ease {
         EasingFunction::Named(easing) => easing.name().title,
-        EasingFunction::Drawn(_) => "Curve",
+        EasingFunction::Drawn(_) => "Custom",
     }
 }
 
-fn ways(ui: &mut Ui, value: &mut Option<EasingFunction>, usual: Option<&str>) {
+fn easing_list(ui: &mut Ui, value: &mut Option<EasingFunction>, inherited: Option<&str>) {
     ui.set_width(CANVAS.0);
-    if let Some(usual) = usual {
-        ui.selectable_value(value, None, usual);
+    if let Some(inherited) = inherited {
+        ui.selectable_value(value, None, inherited);
     }
     for easing in NamedEasing::ALL {
         let name = easing.name();
@@ -68,11 +72,11 @@ fn ways(ui: &mut Ui, value: &mut Option<EasingFunction>, usual: Option<&str>) {
     }
     ui.label(secondary_text(
         ui,
-        "Drag a dot: steep is fast, flat is slow.",
+        "Drag a handle. Steep is fast, flat is slow.",
     ));
 }
 
-/// The curve, from the lower left to the upper right; that which the hand makes of it.
+/// Draws the curve from lower left to upper right; returns the new curve if a handle was moved.
 fn canvas(ui: &mut Ui, curve: EasingBezier) -> Option<EasingBezier> {
     let (outer, response) = ui.allocate_exact_size(vec2(CANVAS.0, CANVAS.1), Sense::drag());
     let rect = outer.shrink(GRID);
@@ -81,35 +85,35 @@ fn canvas(ui: &mut Ui, curve: EasingBezier) -> Option<EasingBezier> {
     ui.painter()
         .rect(outer, RADIUS, palette.raised, line, StrokeKind::Inside);
     let [x1, y1, x2, y2] = curve.handles();
-    let dots = [place(rect, x1, y1), place(rect, x2, y2)];
+    let dots = [canvas_pos(rect, x1, y1), canvas_pos(rect, x2, y2)];
     let ends = [rect.left_bottom(), rect.right_top()];
     for (dot, end) in dots.iter().zip(ends) {
         ui.painter().line_segment([*dot, end], (1.0, palette.weak));
     }
     let points = (0..=48).map(|k| {
         let x = f64::from(k) / 48.0;
-        place(rect, x, EasingFunction::Drawn(curve).apply(x))
+        canvas_pos(rect, x, EasingFunction::Drawn(curve).apply(x))
     });
     let ink = Stroke::new(2.0, palette.text);
     ui.painter().add(Shape::line(points.collect(), ink));
     let pointer = response.interact_pointer_pos();
     let id = response.id;
-    // Which of the two was taken stays for as long as it is held.
+    // The handle grabbed when the drag began stays grabbed until the drag ends.
     if response.drag_started() {
-        let near = |at: Pos2| (0..2).find(|&k| dots[k].distance(at) < REACH);
-        ui.data_mut(|data| data.insert_temp(id, pointer.and_then(near)));
+        let handle_near = |at: Pos2| (0..2).find(|&k| dots[k].distance(at) < REACH);
+        ui.data_mut(|data| data.insert_temp(id, pointer.and_then(handle_near)));
     }
-    let held: Option<usize> = ui.data(|data| data.get_temp(id)).flatten();
-    let held = held.filter(|_| response.dragged());
+    let grabbed: Option<usize> = ui.data(|data| data.get_temp(id)).flatten();
+    let grabbed = grabbed.filter(|_| response.dragged());
     for (k, dot) in dots.iter().enumerate() {
-        let ink = if held == Some(k) {
+        let ink = if grabbed == Some(k) {
             palette.accent
         } else {
             palette.text
         };
         ui.painter().circle(*dot, 5.0, palette.panel, (2.0, ink));
     }
-    let (k, at) = held.zip(pointer)?;
+    let (k, at) = grabbed.zip(pointer)?;
     let mut handles = curve.handles();
     handles[2 * k] = rounded((at.x - rect.left()) / rect.width());
     handles[2 * k + 1] = rounded((rect.bottom() - at.y) / rect.height());
@@ -118,14 +122,14 @@ fn canvas(ui: &mut Ui, curve: EasingBezier) -> Option<EasingBezier> {
         .filter(|drawn| *drawn != curve)
 }
 
-fn place(rect: Rect, x: f64, y: f64) -> Pos2 {
+fn canvas_pos(rect: Rect, x: f64, y: f64) -> Pos2 {
     pos2(
         rect.left() + x as f32 * rect.width(),
         rect.bottom() - y as f32 * rect.height(),
     )
 }
 
-/// To a hundredth, within the square.
+/// Clamps to [0, 1] and rounds to hundredths.
 fn rounded(share: f32) -> f64 {
     (f64::from(share.clamp(0.0, 1.0)) * 100.0).round() / 100.0
 }

@@ -1,28 +1,31 @@
-//! The window's icons: signs of the [Phosphor](https://phosphoricons.com) fonts, in lines or solid.
+//! Icons of the window: outlined or solid glyphs of the
+//! [Phosphor](https://phosphoricons.com) fonts.
 
 use bevy_egui::egui::epaint::TextShape;
 use bevy_egui::egui::{Align2, Color32, FontDefinitions, FontFamily, FontId, Painter, Rect};
 use egui_phosphor::{Variant, fill, regular};
 
-/// Width of every icon, in points: Phosphor's grid has 16 squares, so that its lines fall on
-/// pixels.
+/// Size of every icon, in points: Phosphor draws on a grid of 16 squares, so its lines fall on
+/// whole pixels.
 const SIZE: f32 = 16.0;
 
-const LINES: &str = "icons in lines";
+const LINES: &str = "outlined icons";
 const SOLID: &str = "solid icons";
 
-/// One icon.
+/// Glyph of an icon font, with an optional rotation and colour.
 #[derive(Clone, Copy, Debug)]
 pub struct Icon {
     family: &'static str,
+    /// Text of one character.
     sign: &'static str,
-    /// Clockwise, in radians.
+    /// Clockwise rotation, in radians.
     turn: f32,
+    /// Fixed colour; `None` takes the colour given to [`paint_icon`].
     ink: Option<Color32>,
 }
 
 impl Icon {
-    /// In a colour of its own, where one is given.
+    /// Returns the icon with a fixed colour, or without one.
     pub const fn inked(self, ink: Option<Color32>) -> Self {
         Self { ink, ..self }
     }
@@ -44,13 +47,13 @@ const fn solid(sign: &'static str) -> Icon {
     }
 }
 
-/// Phosphor has no sign for it: a triangle that is turned half round points the other way.
+/// The play triangle rotated by half a turn: Phosphor has no icon for playing backwards.
 pub const PLAY_BACKWARDS: Icon = Icon {
     turn: std::f32::consts::PI,
     ..PLAY
 };
 
-// What plays and what is set is solid, as on other players; all else is drawn in lines.
+// Transport and active states are solid, as in media players; everything else is outlined.
 pub const ADD_STOP: Icon = solid(fill::FLAG_PENNANT);
 pub const STAR: Icon = solid(fill::STAR);
 pub const PAUSE: Icon = solid(fill::PAUSE);
@@ -85,15 +88,15 @@ pub const UNDO: Icon = lines(regular::ARROW_U_UP_LEFT);
 pub const UP: Icon = lines(regular::ARROW_UP);
 pub const WARNING: Icon = lines(regular::WARNING);
 
-/// The fonts of the text, and a family for each font of signs.
+/// Returns egui's default text fonts and one font family per icon font.
 pub fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
-    // Both have their signs at the same code points, so neither can stand behind the text's fonts.
+    // Both icon fonts use the same code points, so they cannot be fallbacks of the text fonts.
     for (name, variant) in [(LINES, Variant::Regular), (SOLID, Variant::Fill)] {
         let data = variant.font_data().into();
         fonts.font_data.insert(name.to_owned(), data);
-        // The first font of a family says how high a line is: a sign's own square, whose middle is
-        // the sign's. The text's fonts follow, for egui's sign for what a font lacks.
+        // The first font of a family sets the line height, so the icon font comes first: its glyphs
+        // are then centred in their line. The text fonts follow for egui's replacement character.
         let mut family = vec![name.to_owned()];
         family.extend_from_slice(&fonts.families[&FontFamily::Proportional]);
         let key = FontFamily::Name(name.into());
@@ -102,8 +105,7 @@ pub fn fonts() -> FontDefinitions {
     fonts
 }
 
-/// Draws an icon into the middle of a rectangle, 16 points wide; in this colour, where it has none
-/// of its own.
+/// Paints an icon centred in `rect`; `colour` applies to icons without a colour of their own.
 pub fn paint_icon(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
     let colour = icon.ink.unwrap_or(colour);
     let font = FontId::new(SIZE, FontFamily::Name(icon.family.into()));

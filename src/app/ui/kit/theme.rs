@@ -1,8 +1,8 @@
-//! The look of the panels: one quiet palette, an 8-point grid, four sizes of type.
+//! Look of the panels: colour palettes, an 8-point grid and four text sizes.
 //!
-//! Blue stands for the source and orange for the target everywhere; the two differ in lightness
-//! as well as in hue, so they stay apart for colour-blind eyes and on a grey print. Amber says
-//! "beyond the designs", and no meaning is carried by colour alone.
+//! Blue always means the source and orange the target; the two differ in lightness as well as in
+//! hue, so colour-blind readers and grey prints can tell them apart. Amber marks warnings and
+//! extrapolation. No meaning is carried by colour alone.
 
 use bevy_egui::egui::{
     self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Vec2,
@@ -12,44 +12,44 @@ use bevy_egui::egui::{
 use crate::app::input::preferences::ThemeChoice;
 use crate::app::ui::kit::icons;
 
-/// One step of the grid, in points.
+/// Spacing unit of the layout, in points.
 pub const GRID: f32 = 8.0;
 
-/// Radius of the corners of controls.
+/// Corner radius of controls, in points.
 pub const RADIUS: CornerRadius = CornerRadius::same(4);
 
-/// Radius of the corners of cards and windows.
+/// Corner radius of cards and windows, in points.
 pub const CARD_RADIUS: CornerRadius = CornerRadius::same(8);
 
-/// Height of every control.
+/// Height of every control, in points.
 pub const CONTROL_HEIGHT: f32 = 24.0;
 
-/// The colours of one theme.
+/// Colours of the light or the dark theme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThemePalette {
-    /// Ground of the panels.
+    /// Background of panels.
     pub panel: Color32,
-    /// Ground of windows above the panels.
+    /// Background of windows above the panels.
     pub window: Color32,
-    /// Ground of controls and cards.
+    /// Background of controls and cards.
     pub raised: Color32,
-    /// The same under the pointer.
+    /// Background of a control under the pointer.
     pub hover: Color32,
-    /// Hairlines.
+    /// Hairlines and separators.
     pub line: Color32,
-    /// Text.
+    /// Primary text.
     pub text: Color32,
-    /// Text that explains.
+    /// Secondary text: labels and explanations.
     pub weak: Color32,
-    /// What is chosen.
+    /// Selected items.
     pub accent: Color32,
-    /// Ground of what is chosen.
+    /// Background of selected items.
     pub accent_ground: Color32,
-    /// Beyond the designs.
+    /// Warnings, and t outside [0, 1].
     pub amber: Color32,
-    /// Something went wrong.
+    /// Errors.
     pub problem: Color32,
-    /// All is well.
+    /// Success.
     pub good: Color32,
 }
 
@@ -84,37 +84,37 @@ const LIGHT: ThemePalette = ThemePalette {
 };
 
 impl ThemePalette {
-    /// The palette for a light or a dark ground.
+    /// Returns the palette for a light or a dark background.
     #[must_use]
     pub const fn on(is_light: bool) -> Self {
         if is_light { LIGHT } else { DARK }
     }
 
-    /// What cannot be had now.
+    /// Returns the text colour of disabled controls.
     #[must_use]
     pub fn faint(&self) -> Color32 {
         self.weak.lerp_to_gamma(self.panel, 0.45)
     }
 
-    /// The palette that a piece of the window is drawn with.
+    /// Returns the palette that `ui` is drawn with.
     #[must_use]
     pub fn of(ui: &egui::Ui) -> Self {
         if ui.visuals().dark_mode { DARK } else { LIGHT }
     }
 }
 
-/// Teaches egui both themes and the icons; to be called before its first pass, which is when fonts
-/// come into use.
+/// Installs both themes and the icon fonts; call before egui's first pass, because fonts take
+/// effect only at the start of a pass.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(icons::fonts());
     ctx.set_style_of(Theme::Dark, style(DARK, Visuals::dark()));
     ctx.set_style_of(Theme::Light, style(LIGHT, Visuals::light()));
-    // Egui's own zoom changes what a point is, and the stage's area is told in the window's
-    // points.
+    // Egui's own zoom would change the size of a point, and the stage's area is given in the
+    // window's points.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 
-/// Shows the panels in this theme.
+/// Switches egui to this theme.
 pub fn apply_theme(ctx: &egui::Context, theme: ThemeChoice) {
     ctx.set_theme(match theme {
         ThemeChoice::Dark => Theme::Dark,
@@ -122,7 +122,7 @@ pub fn apply_theme(ctx: &egui::Context, theme: ThemeChoice) {
     });
 }
 
-/// Draws with bright marks behind what is chosen, for what writes in their colour.
+/// Runs `draw` with a bright selection background, for widgets that draw selected text on it.
 pub fn with_bright_selection<R>(ctx: &egui::Context, draw: impl FnOnce(&egui::Context) -> R) -> R {
     let theme = ctx.theme();
     let palette = match theme {
@@ -147,13 +147,13 @@ fn style(palette: ThemePalette, base: Visuals) -> Style {
     style.text_styles = text_styles();
     spacing(&mut style.spacing);
     style.interaction.tooltip_delay = 0.4;
-    // Else the pointer turns into a text cursor over every label.
+    // By default the pointer turns into a text cursor over every label.
     style.interaction.selectable_labels = false;
     style.animation_time = 0.1;
     style
 }
 
-/// The font of captions, of what stands on buttons, and of words on the stage.
+/// Font of captions, button labels and text on the stage.
 pub const SMALL: FontId = FontId::proportional(12.5);
 
 fn text_styles() -> std::collections::BTreeMap<TextStyle, FontId> {
@@ -178,7 +178,7 @@ fn spacing(spacing: &mut egui::style::Spacing) {
     spacing.slider_rail_height = 4.0;
     spacing.tooltip_width = 320.0;
     spacing.scroll = ScrollStyle::thin();
-    // The fade is half-transparent and comes out wrong, as below.
+    // The fade is half-transparent, which renders wrongly (see `visuals`).
     spacing.scroll.fade.strength = 0.0;
 }
 
@@ -202,8 +202,8 @@ fn visuals(palette: ThemePalette, base: Visuals) -> Visuals {
     visuals.selection.stroke = Stroke::new(1.0, palette.accent);
     visuals.slider_trailing_fill = true;
     visuals.handle_shape = HandleShape::Circle;
-    // Half-transparent fills come out too dark on the light ground: egui's colours are
-    // premultiplied before the graphics card makes them linear. What is disabled is drawn flat.
+    // Half-transparent fills are too dark on the light theme, because egui's premultiplied colours
+    // are converted to linear light on the GPU; so disabled controls are drawn opaque.
     visuals.disabled_alpha = 1.0;
     visuals.widgets.noninteractive = widget(palette.panel, palette.line, palette.text);
     visuals.widgets.inactive = widget(palette.raised, Color32::TRANSPARENT, palette.text);
@@ -237,7 +237,7 @@ fn widget(fill: Color32, line: Color32, text: Color32) -> WidgetVisuals {
 mod tests {
     use super::*;
 
-    /// Relative luminance after WCAG 2.2.
+    /// Relative luminance (WCAG 2.2).
     fn luminance(colour: Color32) -> f64 {
         let linear = |v: u8| {
             let v = f64::from(v) / 255.0;
@@ -255,9 +255,9 @@ mod tests {
         a.max(b) / a.min(b)
     }
 
-    /// WCAG 2.2 asks for 4.5 between text and ground.
+    /// WCAG 2.2 requires a contrast of at least 4.5 between text and background.
     #[test]
-    fn every_text_can_be_read_on_every_ground_that_it_stands_on() {
+    fn text_is_readable_on_every_background() {
         for palette in [DARK, LIGHT] {
             for ground in [palette.panel, palette.window, palette.raised] {
                 for text in [

@@ -1,4 +1,4 @@
-//! The few controls that the panels are made of, each with its tooltip.
+//! Controls that the panels are made of, each with a tooltip.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -14,12 +14,12 @@ use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, RADIUS, SMALL, ThemePalette};
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 
-/// Width of the column of labels.
+/// Width of the label column in rows, in points.
 const LABEL_WIDTH: f32 = 88.0;
 
-/// A heading and what stands under it.
+/// Section with a heading and a separator line below its content.
 pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> R {
     ui.add_space(GRID);
     ui.label(secondary_text(ui, title).strong());
@@ -31,7 +31,7 @@ pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> 
     body
 }
 
-/// A label on the left and a control on the right; both tell what the control does.
+/// Row with a label on the left and a control on the right; both show the tooltip.
 pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) -> Response) {
     ui.horizontal(|ui| {
         ui.set_min_height(CONTROL_HEIGHT);
@@ -46,17 +46,18 @@ pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) ->
     });
 }
 
-/// A tip to the left of a panel that begins there: below, it would cover the next control.
+/// Shows a tooltip to the left of the panel whose left edge is `left`: below the control it would
+/// cover the next one.
 pub fn tooltip_left(response: &Response, left: f32, tip: &str) {
     let panel = Rect::from_x_y_ranges(left..=response.rect.right(), response.rect.y_range());
-    shown(response, tip, |mut tooltip| {
+    show_tooltip(response, tip, |mut tooltip| {
         tooltip.popup = tooltip.popup.anchor(panel).align(RectAlign::LEFT_START);
         tooltip.gap(GRID)
     });
 }
 
-/// A tip towards the middle of the window, where no control lies: below what
-/// is at the top, above what is at the bottom.
+/// Shows a tooltip on the side of the control that faces the middle of the window, where no other
+/// control lies: below in the upper half, above in the lower half.
 pub fn with_tooltip(response: Response, tip: &str) -> Response {
     let is_low = response.rect.center().y > response.ctx.content_rect().center().y;
     let align = if is_low {
@@ -64,24 +65,24 @@ pub fn with_tooltip(response: Response, tip: &str) -> Response {
     } else {
         RectAlign::BOTTOM_START
     };
-    shown(&response, tip, |mut tooltip| {
+    show_tooltip(&response, tip, |mut tooltip| {
         tooltip.popup = tooltip.popup.align(align);
         tooltip
     });
     response
 }
 
-/// A tip of a control, whether it can be used or not.
-fn shown(response: &Response, tip: &str, placed: impl Fn(Tooltip<'_>) -> Tooltip<'_>) {
+/// Shows the tooltip of an enabled or a disabled control.
+fn show_tooltip(response: &Response, tip: &str, place: impl Fn(Tooltip<'_>) -> Tooltip<'_>) {
     for tooltip in [
         Tooltip::for_enabled(response),
         Tooltip::for_disabled(response),
     ] {
-        placed(tooltip).show(|ui| ui.label(tip));
+        place(tooltip).show(|ui| ui.label(tip));
     }
 }
 
-/// A row with a slider and a number.
+/// Row with a number field and a slider.
 pub fn slider(
     ui: &mut Ui,
     label: &str,
@@ -97,8 +98,7 @@ pub fn slider(
             .clamp_existing_to_range(false)
             .max_decimals(3);
         let number = ui.add_sized([56.0, CONTROL_HEIGHT], number);
-        // A slider takes no width of its own accord; what is left of the row, however wide the
-        // panel is.
+        // A slider does not grow by itself; it gets the rest of the row.
         ui.spacing_mut().slider_width = (ui.available_width() - GRID).max(40.0);
         let slider = Slider::new(value, range)
             .logarithmic(logarithmic)
@@ -108,8 +108,7 @@ pub fn slider(
     });
 }
 
-/// A number that is dragged or typed: within its range, at so much a point of the way, with so many
-/// decimals.
+/// Number field: drag or type a value within `range`; `speed` is the change per point dragged.
 pub fn drag<N: Numeric>(
     value: &mut N,
     range: RangeInclusive<N>,
@@ -123,31 +122,30 @@ pub fn drag<N: Numeric>(
         .fixed_decimals(decimals)
 }
 
-/// A row with a number alone.
+/// Row with a number field.
 pub fn number(ui: &mut Ui, label: &str, tip: &str, value: DragValue<'_>) {
     row(ui, label, tip, |ui| {
         ui.add_sized([72.0, CONTROL_HEIGHT], value)
     });
 }
 
-/// A row with a switch.
+/// Row with a switch.
 pub fn toggle(ui: &mut Ui, label: &str, tip: &str, on: &mut bool) {
     row(ui, label, tip, |ui| switch(ui, label, on));
 }
 
-/// A row with a switch for whether the program finds a value itself; off, it starts from the usual
-/// one.
-pub fn automatic_toggle<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, usual: T) {
+/// Row with a switch between an automatic value (`None`) and a manual one, initially `manual`.
+pub fn automatic_toggle<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, manual: T) {
     let mut is_automatic = value.is_none();
     toggle(ui, label, tip, &mut is_automatic);
     if is_automatic {
         *value = None;
     } else {
-        value.get_or_insert(usual);
+        value.get_or_insert(manual);
     }
 }
 
-/// A switch.
+/// On/off switch.
 pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     let palette = ThemePalette::of(ui);
     let (rect, mut response) = ui.allocate_exact_size(vec2(32.0, CONTROL_HEIGHT), Sense::click());
@@ -157,14 +155,14 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     }
     let is_on = *on;
     response.widget_info(|| WidgetInfo::selected(WidgetType::Checkbox, true, is_on, label));
-    let along = ui.ctx().animate_bool_responsive(response.id, is_on);
+    let position = ui.ctx().animate_bool_responsive(response.id, is_on);
     let track = Rect::from_center_size(rect.center(), vec2(32.0, 16.0));
-    // The place of the knob says the same as the colour, for eyes that do not tell the two apart.
+    // The knob's position repeats the colour's meaning for colour-blind readers.
     let fill = if is_on { palette.accent } else { palette.hover };
     ui.painter()
         .rect(track, 8.0, fill, (1.0, palette.line), StrokeKind::Inside);
     let knob = egui::pos2(
-        egui::lerp(track.left() + 8.0..=track.right() - 8.0, along),
+        egui::lerp(track.left() + 8.0..=track.right() - 8.0, position),
         track.center().y,
     );
     ui.painter()
@@ -172,7 +170,7 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     response
 }
 
-/// A row of choices of which one holds; each tells what it does.
+/// Segmented control: a row of mutually exclusive choices `(value, label, tooltip)`.
 pub fn choices<T: PartialEq + Clone>(
     ui: &mut Ui,
     value: &mut T,
@@ -181,23 +179,27 @@ pub fn choices<T: PartialEq + Clone>(
     choices_where(ui, value, options, |_| true)
 }
 
-/// The same, of which only some can be chosen. Each tells what it does: the response is of none of
-/// them, or what a row tells would be told beside.
+/// Segmented control that enables only the choices for which `is_enabled` holds.
+///
+/// Each choice shows its own tooltip. The returned response belongs to none of them, so that the
+/// enclosing row does not show its own tooltip as well.
 pub fn choices_where<T: PartialEq + Clone>(
     ui: &mut Ui,
     value: &mut T,
     options: &[(T, &str, &str)],
-    can: impl Fn(&T) -> bool,
+    is_enabled: impl Fn(&T) -> bool,
 ) -> Response {
-    // That of the panel: beside the row it would cover the label.
+    // Tooltips go left of the whole panel: left of the row they would cover its label.
     let (left, width) = (ui.clip_rect().left(), ui.available_width());
     let gap = 2.0;
     let count = options.len().max(1) as f32;
     let each = vec2((width - gap * (count - 1.0)) / count, CONTROL_HEIGHT);
     ui.spacing_mut().item_spacing.x = gap;
     for (option, label, tip) in options {
-        let chosen = *value == *option;
-        let cell = ui.add_enabled_ui(can(option), |ui| choice(ui, chosen, label, each));
+        let is_selected = *value == *option;
+        let cell = ui.add_enabled_ui(is_enabled(option), |ui| {
+            choice(ui, is_selected, label, each)
+        });
         let response = cell.inner;
         tooltip_left(&response, left, tip);
         if response.clicked() {
@@ -207,7 +209,7 @@ pub fn choices_where<T: PartialEq + Clone>(
     ui.interact(Rect::NOTHING, ui.id().with("choices"), Sense::hover())
 }
 
-/// A row of which one choice holds.
+/// Row with a segmented control.
 pub fn choices_row<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
@@ -218,12 +220,14 @@ pub fn choices_row<T: PartialEq + Clone>(
     row(ui, label, tip, |ui| choices(ui, value, options));
 }
 
-/// One choice among several.
-pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
+/// One button of a segmented control.
+pub fn choice(ui: &mut Ui, is_selected: bool, label: &str, size: Vec2) -> Response {
     let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, chosen, label));
-    let (fill, text) = match (ui.is_enabled(), chosen, response.hovered()) {
+    response.widget_info(|| {
+        WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, label)
+    });
+    let (fill, text) = match (ui.is_enabled(), is_selected, response.hovered()) {
         (false, ..) => (palette.panel, palette.faint()),
         (true, true, _) => (palette.accent_ground, palette.text),
         (true, false, true) => (palette.hover, palette.text),
@@ -235,20 +239,20 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
     response
 }
 
-/// One choice as wide as this, which tells what it does; whether it was taken.
-pub fn choice_button(ui: &mut Ui, chosen: bool, label: &str, tip: &str, width: f32) -> bool {
-    let response = choice(ui, chosen, label, vec2(width, CONTROL_HEIGHT));
+/// Choice button of the given width with a tooltip; returns whether it was clicked.
+pub fn choice_button(ui: &mut Ui, is_selected: bool, label: &str, tip: &str, width: f32) -> bool {
+    let response = choice(ui, is_selected, label, vec2(width, CONTROL_HEIGHT));
     with_tooltip(response, tip).clicked()
 }
 
-/// A row of all values of an option.
+/// Row with a segmented control over all values of an option.
 pub fn choice_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     let row = |choice: &T| (*choice, choice.name().title, choice.name().sentence);
     let options: Vec<_> = T::CHOICES.iter().map(row).collect();
     choices_row(ui, label, tip, value, &options);
 }
 
-/// A drop-down list of all values of an option.
+/// Drop-down list of all values of an option.
 pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Response {
     ComboBox::from_id_salt(salt)
         .width(width)
@@ -262,7 +266,7 @@ pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Re
         .response
 }
 
-/// A row with such a list, and below it what the chosen value means.
+/// Row with a drop-down list of all values, and below it the description of the selected one.
 pub fn choice_list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     row(ui, label, tip, |ui| {
         menu(ui, label, value, ui.available_width())
@@ -270,11 +274,11 @@ pub fn choice_list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T
     hint(ui, value.name().sentence);
 }
 
-/// A button with an icon, of that size.
+/// Button that shows only an icon.
 pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
     let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    // A picture has no words: those who hear the window hear the tip.
+    // An icon has no text, so screen readers get the tooltip.
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), tip));
     if response.hovered() || response.is_pointer_button_down_on() {
         ui.painter().rect_filled(rect, RADIUS, palette.hover);
@@ -288,14 +292,20 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
     with_tooltip(response, tip)
 }
 
-/// A square button with an icon that asks for something.
-pub fn intent_button(ui: &mut Ui, icon: Icon, tip: &str, intent: Intent, acts: &mut Vec<Intent>) {
+/// Square icon button that sends an intent.
+pub fn intent_button(
+    ui: &mut Ui,
+    icon: Icon,
+    tip: &str,
+    intent: Intent,
+    intents: &mut Vec<Intent>,
+) {
     if icon_button(ui, icon, tip, vec2(32.0, 32.0)).clicked() {
-        acts.push(intent);
+        intents.push(intent);
     }
 }
 
-/// The ground of a panel at the window's edge, with this much room around what stands on it.
+/// Background of a panel at the window's edge, with inner margins in points.
 pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame {
     let room = Margin {
         left,
@@ -308,7 +318,7 @@ pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame 
         .inner_margin(room)
 }
 
-/// A card above the stage: rounded, with room of so many points around what stands on it.
+/// Rounded card above the stage, with an inner margin.
 pub fn card<R>(ui: &mut Ui, room: impl Into<Margin>, content: impl FnOnce(&mut Ui) -> R) -> R {
     egui::Frame::window(ui.style())
         .corner_radius(CARD_RADIUS)
@@ -317,14 +327,14 @@ pub fn card<R>(ui: &mut Ui, room: impl Into<Margin>, content: impl FnOnce(&mut U
         .inner
 }
 
-/// Words that stand back.
+/// Secondary text: small and in a weak colour.
 pub fn secondary_text(ui: &Ui, words: impl Into<String>) -> RichText {
     RichText::new(words)
         .small()
         .color(ThemePalette::of(ui).weak)
 }
 
-/// A layer above the panels and below what asks, held there at this corner or edge.
+/// Layer at a fixed position, above the panels and below dialogs.
 pub fn fixed_layer(name: &'static str, pivot: Align2, at: Pos2) -> Area {
     Area::new(name.into())
         .order(Order::Middle)
@@ -332,7 +342,7 @@ pub fn fixed_layer(name: &'static str, pivot: Align2, at: Pos2) -> Area {
         .fixed_pos(at)
 }
 
-/// Words in the middle of a card that is painted by hand.
+/// Text centred on a card that is painted without layout.
 pub fn text_card(
     painter: &Painter,
     card: Rect,
@@ -342,22 +352,22 @@ pub fn text_card(
 ) {
     painter.rect(card, RADIUS, fill, line, StrokeKind::Inside);
     let corner = card.center() - words.size() / 2.0;
-    // The words were laid out in their colour; this one is for words without any.
+    // The text carries its own colour; this one applies only to text without.
     painter.galley(corner, words, Color32::PLACEHOLDER);
 }
 
-/// A line of text that explains, wrapped.
+/// Wrapped line of explanatory text.
 pub fn hint(ui: &mut Ui, text: &str) {
     ui.add(egui::Label::new(secondary_text(ui, text)).wrap());
 }
 
-/// Lays its content out from the right.
+/// Lays out its content from right to left.
 pub fn from_right<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
     ui.with_layout(Layout::right_to_left(Align::Center), content)
         .inner
 }
 
-/// The button that is most likely meant.
+/// Default button of a dialog, with an accented background.
 pub fn primary_button(ui: &mut Ui, text: &str) -> Response {
     let palette = ThemePalette::of(ui);
     let text = RichText::new(text).color(palette.text);

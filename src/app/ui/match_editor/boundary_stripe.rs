@@ -1,37 +1,38 @@
-//! A boundary whose colour runs once round the circle of hues along its way.
+//! Boundary stripe of the match editor: along a ring the hue runs once around the colour circle.
 //!
-//! The colours have one lightness and one chroma in Oklch (Ottosson 2020), so that no part of the
-//! boundary stands out; lightness follows the ground.
+//! Lightness and chroma are constant in Oklch (Ottosson 2020), so that no part of the boundary
+//! stands out; both depend on whether the background is light.
 
 use bevy::color::{Oklcha, Srgba};
 use bevy_egui::egui::{Color32, Mesh, Painter, Pos2, Shape, Vec2, vec2};
 
-/// Width of the stripe in points.
+/// Width of the stripe, in points.
 const WIDTH: f32 = 3.5;
 
-/// Width of its soft edges.
+/// Width of the soft edge on either side of the stripe, in points (replaces anti-aliasing).
 const SOFT: f32 = 0.8;
 
-/// Points nearer than this to the one before are not drawn.
-const LEAST: f32 = 0.4;
+/// Points closer than this to the one before are skipped, in points (tolerance: closer ones have no
+/// stable direction).
+const MIN_SPACING: f32 = 0.4;
 
-/// The longest mitre, in half widths.
-const LONGEST_MITRE: f32 = 1.6;
+/// Maximum length of a mitre, in half widths (tolerance: sharp corners would grow spikes).
+const MAX_MITRE: f32 = 1.6;
 
-/// The colour at a place of a ring: rings start at different hues.
+/// Returns the colour at `place`, in [0, 1] along a ring; each ring starts at a different hue.
 pub fn colour(place: f64, ring: usize, is_light: bool) -> Color32 {
-    // 77 and 360 have no common divisor: no ring begins like another before there are 360.
+    // 77 and 360 are coprime, so the first 360 rings all start at different hues.
     let hue = (360.0 * place as f32 + 77.0 * ring as f32).rem_euclid(360.0);
-    // A chroma that sRGB has for every hue, 0.10, is too grey; what lies beyond is clamped below.
+    // A chroma of 0.10 fits into sRGB for every hue but looks grey; the rest is clamped below.
     let (lightness, chroma) = if is_light { (0.60, 0.15) } else { (0.74, 0.14) };
     let srgb = Srgba::from(Oklcha::lch(lightness, chroma, hue));
     let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
     Color32::from_rgb(byte(srgb.red), byte(srgb.green), byte(srgb.blue))
 }
 
-/// Draws a closed boundary with its colours.
+/// Draws a closed ring in its colours; `places` are the positions of `points` along it.
 pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, is_light: bool) {
-    let mut way: Vec<(Pos2, Color32)> = Vec::with_capacity(points.len() + 1);
+    let mut samples: Vec<(Pos2, Color32)> = Vec::with_capacity(points.len() + 1);
     let ends = points.first().map(|p| (*p, 1.0));
     for (p, place) in points
         .iter()
@@ -39,24 +40,27 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
         .zip(places.iter().copied())
         .chain(ends)
     {
-        // Between points that lie on each other there is no direction to be across.
-        if way.last().is_none_or(|(q, _)| q.distance(p) >= LEAST) {
-            way.push((p, colour(place, ring, is_light)));
+        // Coincident points have no direction.
+        if samples
+            .last()
+            .is_none_or(|(q, _)| q.distance(p) >= MIN_SPACING)
+        {
+            samples.push((p, colour(place, ring, is_light)));
         }
     }
-    // Three points and the first again: less encloses nothing.
-    if way.len() < 4 {
+    // Three points and the first again: fewer enclose no area.
+    if samples.len() < 4 {
         return;
     }
-    let n = way.len() - 1; // the last point is the first again
+    let n = samples.len() - 1; // the last point repeats the first
     let mut mesh = Mesh::default();
-    for (k, (p, colour)) in way.iter().enumerate() {
-        let before = way[(k + n - 1) % n].0;
-        let after = way[(k + 1) % n].0;
+    for (k, (p, colour)) in samples.iter().enumerate() {
+        let before = samples[(k + n - 1) % n].0;
+        let after = samples[(k + 1) % n].0;
         let across = mitre(*p - before, after - *p);
         let clear = Color32::TRANSPARENT;
         let half = WIDTH / 2.0;
-        // Egui smooths the edges of shapes and not those of meshes: the outer rows fade.
+        // egui anti-aliases shapes but not meshes, so the outer vertices fade out.
         mesh.colored_vertex(*p + across * (half + SOFT), clear);
         mesh.colored_vertex(*p + across * half, *colour);
         mesh.colored_vertex(*p - across * half, *colour);
@@ -72,7 +76,7 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
     painter.add(Shape::mesh(mesh));
 }
 
-/// Across a bend, as long as half the stripe is wide there; no longer than a sharp corner allows.
+/// Returns the mitre at a bend for a stripe of half width 1, at most [`MAX_MITRE`] long.
 fn mitre(incoming: Vec2, outgoing: Vec2) -> Vec2 {
     let (a, b) = (incoming.normalized(), outgoing.normalized());
     let across = |v: Vec2| vec2(v.y, -v.x);
@@ -81,8 +85,8 @@ fn mitre(incoming: Vec2, outgoing: Vec2) -> Vec2 {
     if length < 1e-3 {
         return across(a);
     }
-    // |sum| = 2 cos(half the turn), and the mitre is 1 / cos of it.
-    sum / length * (2.0 / length).min(LONGEST_MITRE)
+    // |sum| = 2 cos(turn / 2), and the mitre is 1 / cos(turn / 2) long.
+    sum / length * (2.0 / length).min(MAX_MITRE)
 }
 
 #[cfg(test)]
@@ -90,12 +94,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_straight_way_has_a_mitre_of_one() {
+    fn a_straight_line_has_a_mitre_of_one() {
         let across = mitre(vec2(2.0, 0.0), vec2(5.0, 0.0));
         assert!((across - vec2(0.0, -1.0)).length() < 1e-6);
         let corner = mitre(vec2(1.0, 0.0), vec2(0.0, 1.0));
         assert!((corner.length() - std::f32::consts::SQRT_2).abs() < 1e-5);
-        assert!(mitre(vec2(1.0, 0.0), vec2(-1.0, 0.01)).length() <= LONGEST_MITRE + 1e-5);
+        assert!(mitre(vec2(1.0, 0.0), vec2(-1.0, 0.01)).length() <= MAX_MITRE + 1e-5);
     }
 
     #[test]

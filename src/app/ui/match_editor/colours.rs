@@ -1,4 +1,4 @@
-//! The colours of the match editor.
+//! Colours of the match editor.
 
 use bevy_egui::egui::Color32;
 
@@ -7,33 +7,33 @@ use crate::app::ui::stage::area::{ink_on, is_light};
 use crate::app::ui::ui_state::UiState;
 use crate::colour::Rgb;
 
-/// The share of a design's colour in its fill: the boundary's colours must stand out from it.
+/// Share of a design's colour in its fill (heuristic: the boundary stripe must stand out from it).
 const FILL: f32 = 0.28;
 
-/// The colours of the editor.
+/// Colours of the match editor on the project's background.
 #[derive(Clone, Copy, Debug)]
 pub struct EditorColours {
-    /// Behind everything.
+    /// Background.
     pub ground: Color32,
-    /// What can be read on it.
+    /// Text and marks, readable on the background.
     pub ink: Color32,
-    /// Lines that stand back.
+    /// Secondary lines.
     pub faint: Color32,
-    /// What is chosen.
+    /// Selected items.
     pub accent: Color32,
-    /// Something went wrong.
+    /// Errors.
     pub problem: Color32,
-    /// The ground is light.
+    /// Whether the background is light.
     pub is_light: bool,
-    /// Fill of source and target.
+    /// Fills of source and target.
     pub fills: [Color32; 2],
 }
 
 impl EditorColours {
-    /// The inks on the ground of the open project. The ground is the project's and not the
-    /// panels', so the palette is the one that goes with it.
-    pub fn of(scene: &UiState) -> Self {
-        let style = scene.session.style();
+    /// Returns the colours for the open project. They follow the project's background, not the
+    /// theme of the panels.
+    pub fn of(state: &UiState) -> Self {
+        let style = state.session.style();
         let colour = |Rgb([r, g, b]): Rgb| Color32::from_rgb(r, g, b);
         let ground = colour(style.ground);
         let ink = ink_on(style.ground);

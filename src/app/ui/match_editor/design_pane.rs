@@ -1,4 +1,4 @@
-//! One half of the match editor: a design, filled, with its boundary and its parts.
+//! One design in the match editor: its fill, boundary rings, hatched unmatched parts and labels.
 
 use bevy_egui::egui::epaint::Vertex;
 use bevy_egui::egui::{Align2, Color32, Id, Mesh, Painter, Pos2, Rect, Shape, Vec2, pos2, vec2};
@@ -18,27 +18,26 @@ use crate::app::ui::ui_state::UiState;
 use crate::correspondence::RingKind;
 use crate::geometry::{Bounds, DVec2, Side};
 
-/// How near the pointer must come, in points: the disc of a pin and its rim.
+/// Distance within which the pointer picks a handle, in points (a pin's radius and rim).
 const REACH: f32 = 9.0;
 
-/// Longest side of a picture behind the points, in pixels.
+/// Longest side of an uploaded background image, in pixels (resource limit: GPU memory).
 const LONGEST_PX: u32 = 1024;
 
-/// Distance of the lines of a hatching, in points: wide enough for the fill to be seen between
-/// them.
+/// Distance between hatch lines, in points: wide enough for the fill to show between them.
 const HATCH: f32 = 8.0;
 
-/// How large a hole is, in points, that has room for a word about it.
+/// Size from which a hole is labelled, in points: the label would cover a smaller one.
 const HOLE_WORD: f32 = 32.0;
 
-/// Where one design lies in the window.
+/// Pane of one design, with the transform from the common frame of both designs to the window.
 #[derive(Clone, Debug)]
 pub struct DesignPane {
-    /// Which design.
+    /// Design that the pane shows.
     pub side: Side,
-    /// The half of the stage.
+    /// Rectangle of the pane.
     pub rect: Rect,
-    /// The part of it that the design is fitted into.
+    /// Part of the pane that the design is fitted into.
     room: Rect,
     centre: DVec2,
     px_per_unit: f64,
@@ -46,9 +45,9 @@ pub struct DesignPane {
 }
 
 impl DesignPane {
-    /// Fits a box into `room`, and moves and enlarges it as it is looked at.
+    /// Fits `bounds` into `room`, then applies the pane's zoom and pan.
     pub fn new(side: Side, rect: Rect, room: Rect, bounds: Bounds, view: PaneView) -> Self {
-        // A level line has no height, and nothing can be fitted into that.
+        // A horizontal line has no height; this avoids a division by zero.
         let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
         let fitted = (f64::from(room.width().max(1.0)) / size.x)
             .min(f64::from(room.height().max(1.0)) / size.y);
@@ -62,12 +61,12 @@ impl DesignPane {
         }
     }
 
-    /// The middle of what the design is fitted into, from the middle of the half.
+    /// Returns the offset from the pane's centre to the centre of the fitted area.
     pub fn room_offset(&self) -> Vec2 {
         self.room.center() - self.rect.center()
     }
 
-    /// The other half.
+    /// Returns the rectangle of the other design's pane.
     pub fn across(&self) -> Rect {
         let by = match self.side {
             Side::Source => self.rect.width(),
@@ -76,15 +75,15 @@ impl DesignPane {
         self.rect.translate(vec2(by, 0.0))
     }
 
-    /// Where a point of the frame is drawn.
+    /// Maps a point of the common frame to the window.
     pub fn px(&self, p: DVec2) -> Pos2 {
         let from_centre = (p - self.centre) * self.px_per_unit;
-        // y is up in the frame and down on the screen.
+        // y points up in the frame and down on the screen.
         let offset = vec2(from_centre.x as f32, -from_centre.y as f32);
         self.room.center() + self.pan + offset
     }
 
-    /// What the hand points to.
+    /// Maps a pointer position to the common frame.
     pub fn touch(&self, at: Pos2, is_free: bool) -> EditorPointer {
         let offset = at - self.room.center() - self.pan;
         let offset = DVec2::new(f64::from(offset.x), -f64::from(offset.y));
@@ -96,32 +95,32 @@ impl DesignPane {
         }
     }
 
-    /// Draws within this half only.
+    /// Returns a painter that is clipped to this pane.
     pub fn clip(&self, painter: &Painter) -> Painter {
         painter.with_clip_rect(self.rect.intersect(painter.clip_rect()))
     }
 
     /// Draws the design and its match.
-    pub fn draw(&self, stage: &Painter, scene: &UiState, inks: &EditorColours) {
+    pub fn draw(&self, stage: &Painter, state: &UiState, inks: &EditorColours) {
         let painter = self.clip(stage);
-        let sheet = &scene.sheet;
+        let sheet = &state.sheet;
         self.picture(&painter, sheet);
         if sheet.in_colours() {
-            // A picture is what is seen, and its outline only what was found in it.
-            return self.title(&painter, scene, inks);
+            // The outline traced from a picture would cover the picture.
+            return self.title(&painter, state, inks);
         }
-        self.fill(&painter, scene, inks);
+        self.fill(&painter, state, inks);
         for (k, piece) in sheet.pieces.iter().enumerate() {
-            if self.is_alone(piece) {
+            if self.is_unmatched(piece) {
                 self.hatch(&painter, sheet, k, inks.faint);
             }
         }
         self.boundaries(&painter, sheet, inks);
-        self.parts(&painter, scene, inks);
-        self.title(&painter, scene, inks);
+        self.parts(&painter, state, inks);
+        self.title(&painter, state, inks);
     }
 
-    /// The picture that the design came as, where pictures are what is seen.
+    /// Draws the imported picture, if the project blends pictures.
     fn picture(&self, painter: &Painter, sheet: &MatchSheet) {
         let sides = sheet.sides.as_ref().filter(|_| sheet.in_colours());
         let Some(picture) = sides.and_then(|sides| sides[self.side].picture.as_ref()) else {
@@ -147,7 +146,7 @@ impl DesignPane {
         painter.add(Shape::mesh(quad));
     }
 
-    fn is_alone(&self, piece: &SheetPiece) -> bool {
+    fn is_unmatched(&self, piece: &SheetPiece) -> bool {
         match piece.fate {
             PieceFate::Paired => false,
             PieceFate::Dies => self.side == Side::Source,
@@ -155,9 +154,9 @@ impl DesignPane {
         }
     }
 
-    fn fill(&self, painter: &Painter, scene: &UiState, inks: &EditorColours) {
-        let compatible = scene.session.transition().and_then(|t| t.compatible());
-        let Some(mesh) = compatible.filter(|_| !scene.sheet.rings.is_empty()) else {
+    fn fill(&self, painter: &Painter, state: &UiState, inks: &EditorColours) {
+        let compatible = state.session.transition().and_then(|t| t.compatible());
+        let Some(mesh) = compatible.filter(|_| !state.sheet.rings.is_empty()) else {
             return;
         };
         let points = match self.side {
@@ -174,13 +173,12 @@ impl DesignPane {
             filled.add_triangle(*a, *b, *c);
         }
         painter.add(Shape::mesh(filled));
-        if scene.editor.triangles {
+        if state.editor.triangles {
             let stroke = (0.75, inks.faint);
             for face in mesh.faces().iter() {
                 for k in 0..3 {
                     let (a, b) = (face[k], face[(k + 1) % 3]);
-                    // Two faces share an edge and run along it in opposite directions: once is
-                    // enough.
+                    // Neighbouring faces share an edge in opposite directions: draw it once.
                     if a < b {
                         painter.line_segment([points[a as usize], points[b as usize]], stroke);
                     }
@@ -198,20 +196,20 @@ impl DesignPane {
         }
         for (k, ring) in sheet.rings.iter().enumerate() {
             let piece = sheet.pieces.get(ring.piece);
-            let is_alone = piece.is_some_and(|piece| piece.fate != PieceFate::Paired);
+            let is_unmatched = piece.is_some_and(|piece| piece.fate != PieceFate::Paired);
             let points = self.line(&ring.sides[self.side]);
-            if ring.kind == RingKind::Matched && !is_alone {
+            if ring.kind == RingKind::Matched && !is_unmatched {
                 boundary_stripe::stripe(painter, &points, &ring.places, k, inks.is_light);
             } else {
                 unmatched(painter, points, inks);
-                if !is_alone {
+                if !is_unmatched {
                     self.hole_word(painter, ring, inks);
                 }
             }
         }
     }
 
-    /// The parts of the design, each an outline and its holes.
+    /// Returns the parts of the design, each an outline followed by its holes.
     fn parts_of<'a>(&self, sheet: &'a MatchSheet) -> &'a [Vec<Vec<DVec2>>] {
         let sides = sheet.sides.as_ref();
         sides.map_or(&[], |sides| &sides[self.side].parts)
@@ -221,7 +219,7 @@ impl DesignPane {
         points.iter().map(|p| self.px(*p)).collect()
     }
 
-    /// What becomes of a hole, where it is one.
+    /// Labels a hole that exists in only one design.
     fn hole_word(&self, painter: &Painter, ring: &SheetRing, inks: &EditorColours) {
         let word = match (ring.kind, self.side) {
             (RingKind::Closes, Side::Source) => "closes",
@@ -229,16 +227,16 @@ impl DesignPane {
             _ => return,
         };
         let bounds = Rect::from_points(&self.line(&ring.sides[self.side]));
-        // The word would hide what is smaller: its dashes tell as much, and it is there as
-        // soon as one zooms in.
+        // A smaller hole would be covered; its dashed boundary marks it, and the label appears on
+        // zooming in.
         if bounds.size().max_elem() > HOLE_WORD {
             label_card(painter, bounds.center(), word, inks, false);
         }
     }
 
-    /// Lines across a piece that has no partner.
+    /// Hatches a piece that has no partner.
     fn hatch(&self, painter: &Painter, sheet: &MatchSheet, piece: usize, colour: Color32) {
-        // Turned by an eighth, so that the lines run level.
+        // Rotated by 45 degrees, so that the hatch lines become horizontal.
         let turned = |p: &DVec2| {
             let p = self.px(*p);
             DVec2::new(f64::from(p.x + p.y), f64::from(p.y - p.x))
@@ -252,18 +250,18 @@ impl DesignPane {
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return;
         };
-        // Turning stretches by the root of two as well: x + y and y - x have no halves.
+        // (x + y, y − x) is a rotation scaled by √2.
         let step = f64::from(HATCH) * std::f64::consts::SQRT_2;
-        // Zoomed in a hundred times, most of the lines would lie outside.
+        // Zoomed in far, most lines lie outside the pane and are skipped.
         let visible = self.rect.expand(HATCH);
         let mut y = (bounds.min.y / step).ceil() * step;
-        let least = f64::from(visible.top() - visible.right());
-        y = y.max((least / step).floor() * step);
-        let most = bounds
+        let min_visible = f64::from(visible.top() - visible.right());
+        y = y.max((min_visible / step).floor() * step);
+        let max_y = bounds
             .max
             .y
             .min(f64::from(visible.bottom() - visible.left()));
-        while y <= most {
+        while y <= max_y {
             for [a, b] in spans(rings.iter().map(Vec::as_slice), y) {
                 let back = |x: f64| pos2(((x - y) / 2.0) as f32, ((x + y) / 2.0) as f32);
                 painter.line_segment([back(a), back(b)], (1.0, colour));
@@ -272,8 +270,8 @@ impl DesignPane {
         }
     }
 
-    fn parts(&self, painter: &Painter, scene: &UiState, inks: &EditorColours) {
-        let (sheet, editor) = (&scene.sheet, &scene.editor);
+    fn parts(&self, painter: &Painter, state: &UiState, inks: &EditorColours) {
+        let (sheet, editor) = (&state.sheet, &state.editor);
         let outline = |part: usize, width: f32| {
             for ring in self.parts_of(sheet).get(part).into_iter().flatten() {
                 painter.add(Shape::closed_line(self.line(ring), (width, inks.accent)));
@@ -285,24 +283,25 @@ impl DesignPane {
         if let Some((_, part, _)) = editor.first_part.filter(|(side, ..)| *side == self.side) {
             outline(part, 5.0);
         }
-        // One part needs no name.
+        // A single part needs no name.
         let is_plain = sheet.pieces.len() < 2 && editor.tool != EditorTool::Parts;
         if is_plain {
             return;
         }
         for (k, piece) in sheet.pieces.iter().enumerate() {
-            let word = match (piece.fate, self.is_alone(piece)) {
-                (PieceFate::Dies, true) => format!("{} dies", piece.name),
-                (PieceFate::Born, true) => format!("{} is born", piece.name),
+            let word = match (piece.fate, self.is_unmatched(piece)) {
+                (PieceFate::Dies, true) => format!("{} disappears", piece.name),
+                (PieceFate::Born, true) => format!("{} appears", piece.name),
                 _ => piece.name.clone(),
             };
-            let at = self.px(piece.at[self.side]) + self.beside(sheet, k);
+            let at = self.px(piece.at[self.side]) + self.name_offset(sheet, k);
             label_card(painter, at, &word, inks, piece.is_linked);
         }
     }
 
-    /// How far from its place a name stands: above what it would cover.
-    fn beside(&self, sheet: &MatchSheet, piece: usize) -> Vec2 {
+    /// Returns the offset of a part's name from its anchor: names of small parts move above them.
+    fn name_offset(&self, sheet: &MatchSheet, piece: usize) -> Vec2 {
+        /// Size from which a part has room for its name, in points.
         const ROOMY: f32 = 56.0;
         let rings = sheet.rings.iter().filter(|ring| ring.piece == piece);
         let points = rings.flat_map(|ring| self.line(&ring.sides[self.side]));
@@ -314,8 +313,8 @@ impl DesignPane {
         }
     }
 
-    fn title(&self, painter: &Painter, scene: &UiState, inks: &EditorColours) {
-        let name = scene
+    fn title(&self, painter: &Painter, state: &UiState, inks: &EditorColours) {
+        let name = state
             .session
             .transition()
             .map(|t| t.designs()[self.side].name.clone())
@@ -327,7 +326,7 @@ impl DesignPane {
     }
 }
 
-/// A boundary without a partner: broken, or a dot where it is a point.
+/// Draws a ring without a partner: dashed, or as a small circle if it has shrunk to a point.
 fn unmatched(painter: &Painter, mut points: Vec<Pos2>, inks: &EditorColours) {
     let Some(first) = points.first().copied() else {
         return;
@@ -341,11 +340,11 @@ fn unmatched(painter: &Painter, mut points: Vec<Pos2>, inks: &EditorColours) {
     painter.extend(Shape::dashed_line(&points, stroke, 5.0, 4.0));
 }
 
-/// A word on a card; framed where it was said by hand.
-pub fn label_card(painter: &Painter, at: Pos2, word: &str, inks: &EditorColours, is_said: bool) {
+/// Draws a label on a card, with an accented frame if the match was set by hand.
+pub fn label_card(painter: &Painter, at: Pos2, word: &str, inks: &EditorColours, is_manual: bool) {
     let galley = painter.layout_no_wrap(word.to_owned(), SMALL, inks.ink);
     let card = Align2::CENTER_CENTER.anchor_size(at, galley.size() + vec2(10.0, 4.0));
-    let line = if is_said {
+    let line = if is_manual {
         (2.0, inks.accent)
     } else {
         (1.0, inks.faint)

@@ -1,10 +1,10 @@
-//! The film beside the designs: the stage itself, in a pane of the editor.
+//! Film pane of the match editor: shows the stage itself next to the designs.
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{Align2, PointerButton, Rect, Sense, Ui, vec2};
 
-use crate::app::editing::panes::EditorPane;
 use crate::app::input::editor_action::EditorAction;
+use crate::app::input::editor_action::EditorPane;
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, SMALL};
 use crate::app::ui::match_editor::colours::EditorColours;
@@ -13,14 +13,14 @@ use crate::app::ui::stage::area::{self, zoom_factor};
 use crate::app::ui::stage::{checks, onion};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Draws what lies around and on the film, and takes the user's hand; returns the part of the
-/// column that the stage shows through.
+/// Draws the surroundings and overlays of the film and handles panning and zooming; returns the
+/// rectangle through which the stage shows.
 pub fn show(
     root: &Ui,
-    scene: &UiState,
+    state: &UiState,
     column: Rect,
     inks: &EditorColours,
-    acts: &mut Intents,
+    intents: &mut Intents,
 ) -> Rect {
     let room = Rect::from_min_max(
         column.min + vec2(0.0, BAR_HEIGHT + 4.0 * GRID),
@@ -34,28 +34,28 @@ pub fn show(
     }
     let at = column.left_top() + vec2(2.0 * GRID, BAR_HEIGHT + 2.0 * GRID);
     painter.text(at, Align2::LEFT_TOP, "Film", SMALL, inks.ink);
-    area::empty_hint(root, scene, room);
-    onion::show(root, scene, room);
-    checks::mark(root, scene, room);
-    hand(root, room, acts);
+    area::empty_hint(root, state, room);
+    onion::show(root, state, room);
+    checks::mark(root, state, room);
+    pan_and_zoom(root, room, intents);
     room
 }
 
-fn hand(root: &Ui, room: Rect, acts: &mut Intents) {
+fn pan_and_zoom(root: &Ui, room: Rect, intents: &mut Intents) {
     let response = root.interact(room, root.id().with("film"), Sense::click_and_drag());
     let delta = response.drag_delta();
     if response.dragged() && delta != vec2(0.0, 0.0) {
         let delta = Vec2::new(delta.x, delta.y);
-        acts.push(Intent::Editor(EditorAction::Pan(EditorPane::Film, delta)));
+        intents.push(Intent::Editor(EditorAction::Pan(EditorPane::Film, delta)));
     }
     if response.double_clicked_by(PointerButton::Primary) {
-        acts.push(Intent::FitView);
+        intents.push(Intent::FitView);
     }
     if let Some(pointer) = response.hover_pos()
         && let Some(factor) = zoom_factor(root)
     {
         let at = pointer - room.center();
-        acts.push(Intent::Editor(EditorAction::Zoom {
+        intents.push(Intent::Editor(EditorAction::Zoom {
             pane: EditorPane::Film,
             at: Vec2::new(at.x, at.y),
             factor,

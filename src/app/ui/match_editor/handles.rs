@@ -1,25 +1,29 @@
-//! Points, cuts and what links the two halves.
+//! Handles of the match editor: pins, automatic points, cuts and lines, the links between both
+//! panes, and the message about a failed match.
 
 use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, StrokeKind, vec2};
 
 use crate::app::editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
 use crate::app::editing::labels;
 use crate::app::editing::sheet::MatchSheet;
+use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{GRID, SMALL};
 use crate::app::ui::kit::widgets::text_card;
 use crate::app::ui::match_editor::colours::EditorColours;
 use crate::app::ui::match_editor::design_pane::DesignPane;
 use crate::app::ui::match_editor::toolbar::{ADVICE_HEIGHT, BAR_HEIGHT};
-use crate::app::ui::stage::checks::capitalised;
 use crate::app::ui::ui_state::UiState;
 use crate::geometry::{DVec2, Side};
 
+/// Radius of a pin, in points.
 const PIN_RADIUS: f32 = 8.5;
+
+/// Radius of an automatically matched point, in points.
 const FEATURE_RADIUS: f32 = 7.0;
 
-/// Draws all handles, and the links of those under the hand.
-pub fn draw(painter: &Painter, scene: &UiState, halves: &[DesignPane; 2], inks: &EditorColours) {
-    let (sheet, editor) = (&scene.sheet, &scene.editor);
+/// Draws all handles, and the link of the one under the pointer.
+pub fn draw(painter: &Painter, state: &UiState, halves: &[DesignPane; 2], inks: &EditorColours) {
+    let (sheet, editor) = (&state.sheet, &state.editor);
     for half in halves {
         let clipped = half.clip(painter);
         features(&clipped, sheet, editor, half, inks);
@@ -28,14 +32,15 @@ pub fn draw(painter: &Painter, scene: &UiState, halves: &[DesignPane; 2], inks: 
             lines(&clipped, sheet, editor, half, inks);
         }
     }
-    // Across both halves, so not clipped to one; and below the pins, which can be taken hold of.
+    // The link crosses both panes, so it is not clipped. Pins lie on top, because they can be
+    // grabbed.
     link(painter, sheet, editor, halves, inks);
     for half in halves {
         let clipped = half.clip(painter);
-        pins(&clipped, scene, half, inks);
+        pins(&clipped, state, half, inks);
     }
-    if let Some(problem) = scene.session.problem() {
-        problem_card(painter, scene, halves, &problem.to_string(), inks);
+    if let Some(problem) = state.session.problem() {
+        problem_card(painter, state, halves, &problem.to_string(), inks);
     }
 }
 
@@ -56,34 +61,35 @@ fn features(
         let at = half.px(pair[half.side]);
         painter.circle(at, FEATURE_RADIUS, inks.ground, (1.0, colour));
         let letter = sheet.letters.get(k).copied().unwrap_or(k);
-        sign(painter, at, labels::of_point(letter), colour);
+        disc_label(painter, at, labels::of_point(letter), colour);
     }
 }
 
-fn pins(painter: &Painter, scene: &UiState, half: &DesignPane, inks: &EditorColours) {
-    let (sheet, editor) = (&scene.sheet, &scene.editor);
+fn pins(painter: &Painter, state: &UiState, half: &DesignPane, inks: &EditorColours) {
+    let (sheet, editor) = (&state.sheet, &state.editor);
     for (k, pin) in sheet.pins.iter().enumerate() {
         let handle = EditorHandle::Pin(k);
         let is_selected = editor.selected == Some(handle);
-        let is_held = matches!(editor.grabbed, Some((_, EditorGrab::Pin(held))) if held == k);
-        let radius = if is_held || editor.hovered == Some(handle) {
+        let is_grabbed =
+            matches!(editor.grabbed, Some((_, EditorGrab::Pin(grabbed))) if grabbed == k);
+        let radius = if is_grabbed || editor.hovered == Some(handle) {
             PIN_RADIUS + 1.5
         } else {
             PIN_RADIUS
         };
         let at = half.px(pin[half.side]);
-        let is_wrong = sheet.faulty.contains(&k);
-        let fill = match (is_wrong, is_selected) {
+        let is_faulty = sheet.faulty.contains(&k);
+        let fill = match (is_faulty, is_selected) {
             (true, _) => inks.problem,
             (false, true) => inks.accent,
             (false, false) => inks.ink,
         };
         painter.circle(at, radius, fill, (1.5, inks.ground));
-        sign(painter, at, (k + 1).to_string(), inks.ground);
+        disc_label(painter, at, (k + 1).to_string(), inks.ground);
     }
 }
 
-/// Each line with a number at its middle; its first end is a disc, its second an open ring.
+/// Draws each line with its number at the middle; its first end is a disc, its second a ring.
 fn lines(
     painter: &Painter,
     sheet: &MatchSheet,
@@ -95,7 +101,7 @@ fn lines(
         let ends = line[half.side].map(|p| half.px(p));
         let is_selected = matches!(editor.selected, Some(EditorHandle::Line(of, _)) if of == k);
         let colour = if is_selected { inks.accent } else { inks.ink };
-        // A wider one in the colour of the ground, so that it can be seen on any fill.
+        // A wider line in the background colour below makes it visible on any fill.
         painter.line_segment(ends, (5.0, inks.ground));
         painter.line_segment(ends, (2.0, colour));
         for (end, at) in ends.into_iter().enumerate() {
@@ -106,15 +112,15 @@ fn lines(
         }
         let middle = ends[0].lerp(ends[1], 0.5);
         painter.circle(middle, FEATURE_RADIUS, inks.ground, (1.5, colour));
-        sign(painter, middle, (k + 1).to_string(), inks.ink);
+        disc_label(painter, middle, (k + 1).to_string(), inks.ink);
     }
 }
 
-fn sign(painter: &Painter, at: Pos2, sign: String, colour: Color32) {
-    // Three digits have to fit into the disc too.
-    let size = if sign.len() < 3 { 10.5 } else { 8.5 };
+fn disc_label(painter: &Painter, at: Pos2, text: String, colour: Color32) {
+    // Three digits must fit into the disc too.
+    let size = if text.len() < 3 { 10.5 } else { 8.5 };
     let font = FontId::proportional(size);
-    painter.text(at, Align2::CENTER_CENTER, sign, font, colour);
+    painter.text(at, Align2::CENTER_CENTER, text, font, colour);
 }
 
 fn cuts(
@@ -148,7 +154,7 @@ fn cuts(
     }
 }
 
-/// A line from one end to the other of what the hand is at, and the other end.
+/// Draws a dashed link between both places of the handle or boundary point under the pointer.
 fn link(
     painter: &Painter,
     sheet: &MatchSheet,
@@ -182,30 +188,31 @@ fn link(
     }
 }
 
-/// Says what is wrong, at the pin that the hand was at, or in the middle.
+/// Shows why the match failed: next to the pin that caused it, or in a corner.
 fn problem_card(
     painter: &Painter,
-    scene: &UiState,
+    state: &UiState,
     halves: &[DesignPane; 2],
     problem: &str,
     inks: &EditorColours,
 ) {
+    /// Maximum width of the text, in points.
     const WIDTH: f32 = 240.0;
-    let editor = &scene.editor;
-    // On the side of the hand, which is what caused it.
+    let editor = &state.editor;
+    // In the pane that is being edited, because the edit caused the problem.
     let side = editor.grabbed.map_or(Side::Source, |(side, _)| side);
     let half = &halves[side];
-    let faulty = scene.sheet.faulty.last().map(|k| EditorHandle::Pin(*k));
-    let held = editor
+    let faulty = state.sheet.faulty.last().map(|k| EditorHandle::Pin(*k));
+    let selected_faulty = editor
         .selected
-        .filter(|handle| matches!(handle, EditorHandle::Pin(k) if scene.sheet.faulty.contains(k)));
-    let at = held
+        .filter(|handle| matches!(handle, EditorHandle::Pin(k) if state.sheet.faulty.contains(k)));
+    let at = selected_faulty
         .or(faulty)
         .or(editor.selected)
-        .and_then(|handle| scene.sheet.place(handle, side))
+        .and_then(|handle| state.sheet.place(handle, side))
         .map(|p| half.px(p) + vec2(2.0 * GRID, GRID));
-    let stays = if scene.session.transition().is_some() {
-        " The transition stays as it was."
+    let stays = if state.session.transition().is_some() {
+        " The transition is unchanged."
     } else {
         ""
     };
@@ -218,11 +225,11 @@ fn problem_card(
         room.min + vec2(0.0, BAR_HEIGHT + GRID),
         room.max - vec2(0.0, ADVICE_HEIGHT),
     );
-    // Without a pin to blame, in a corner where it covers least.
+    // No pin is to blame: a corner, where the card covers least.
     let corner = at.unwrap_or_else(|| room.left_bottom() - vec2(0.0, size.y));
-    // A card larger than the room would make a range whose end lies before its start.
-    let most = (room.max - size).max(room.min);
-    let corner = corner.clamp(room.min, most);
+    // A card larger than the room would make `clamp` panic on an inverted range.
+    let max_corner = (room.max - size).max(room.min);
+    let corner = corner.clamp(room.min, max_corner);
     let card = Rect::from_min_size(corner, size);
     text_card(painter, card, galley, inks.ground, (1.5, inks.problem));
 }

@@ -1,12 +1,12 @@
-//! Both halves, the line of advice below them, and the hand on them.
+//! Both design panes of the match editor, the instructions below them, and pointer input.
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{
     self, Align2, Context, CornerRadius, Painter, PointerButton, Rect, Response, Sense, Ui, vec2,
 };
 
-use crate::app::editing::panes::EditorPane;
 use crate::app::editing::sheet::SheetSide;
+use crate::app::input::editor_action::EditorPane;
 use crate::app::input::editor_action::{EditorAction, EditorTool};
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, SMALL};
@@ -21,40 +21,41 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::design::Picture;
 use crate::geometry::Side;
 
-/// Draws both halves and the film beside them, and takes the user's hand. Returns the part that
-/// the stage takes.
-pub fn show(root: &mut Ui, scene: &UiState, whole: Rect, acts: &mut Intents) -> Rect {
-    let Some(sides) = &scene.sheet.sides else {
+/// Draws both designs and the film pane and handles pointer input; returns the rectangle of the
+/// stage.
+pub fn show(root: &mut Ui, state: &UiState, whole: Rect, intents: &mut Intents) -> Rect {
+    let Some(sides) = &state.sheet.sides else {
         return whole;
     };
-    let inks = EditorColours::of(scene);
-    let (stage, column) = columns(scene, whole);
-    let shown = column.map(|column| film_pane::show(root, scene, column, &inks, acts));
+    let inks = EditorColours::of(state);
+    let (stage, column) = columns(state, whole);
+    let shown = column.map(|column| film_pane::show(root, state, column, &inks, intents));
     let painter = root.painter().with_clip_rect(whole);
     painter.rect_filled(stage, CornerRadius::ZERO, inks.ground);
-    let halves = halves(scene, stage, sides);
+    let halves = halves(state, stage, sides);
     for half in &halves {
-        half.draw(&painter, scene, &inks);
+        half.draw(&painter, state, &inks);
     }
     let between = stage.top() + BAR_HEIGHT + GRID..=stage.bottom() - ADVICE_HEIGHT;
     let right = column.map(|column| column.left());
     for x in right.into_iter().chain([stage.center().x]) {
         painter.vline(x, between.clone(), (1.0, inks.faint));
     }
-    handles::draw(&painter, scene, &halves, &inks);
-    advice(&painter, scene, whole, &inks);
+    handles::draw(&painter, state, &halves, &inks);
+    instructions(&painter, state, whole, &inks);
     for half in &halves {
         let id = root.id().with(("half", half.side.index()));
         let response = root.interact(half.rect, id, Sense::click_and_drag());
-        hand(root, scene, half, &response, acts);
+        handle_pointer(root, state, half, &response, intents);
     }
-    // Behind the designs where it has no column: whoever leaves the editor finds it in its place.
+    // Without a film pane the stage stays behind the designs, so that closing the editor does not
+    // move it.
     shown.unwrap_or(whole)
 }
 
-/// What the designs take, and the film beside them: a third of whole points each.
-fn columns(scene: &UiState, whole: Rect) -> (Rect, Option<Rect>) {
-    if !scene.editor.shows_film() {
+/// Splits off the film pane: a third of the width, in whole points.
+fn columns(state: &UiState, whole: Rect) -> (Rect, Option<Rect>) {
+    if !state.editor.shows_film() {
         return (whole, None);
     }
     let third = (whole.width() / 3.0).floor();
@@ -62,12 +63,12 @@ fn columns(scene: &UiState, whole: Rect) -> (Rect, Option<Rect>) {
     (designs, Some(film))
 }
 
-/// Draws what lies above both halves.
-pub fn overlay(ctx: &Context, scene: &UiState, stage: Rect, acts: &mut Intents) {
-    toolbar::show(ctx, scene, stage, acts);
+/// Draws the toolbar above the panes.
+pub fn overlay(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
+    toolbar::show(ctx, state, stage, intents);
 }
 
-fn halves(scene: &UiState, stage: Rect, sides: &[SheetSide; 2]) -> [DesignPane; 2] {
+fn halves(state: &UiState, stage: Rect, sides: &[SheetSide; 2]) -> [DesignPane; 2] {
     let (left, right) = stage.split_left_right_at_fraction(0.5);
     let half = |side: Side, rect: Rect| {
         let room = Rect::from_min_max(
@@ -75,15 +76,21 @@ fn halves(scene: &UiState, stage: Rect, sides: &[SheetSide; 2]) -> [DesignPane; 
             rect.max - vec2(3.0 * GRID, ADVICE_HEIGHT + GRID),
         );
         let design = &sides[side];
-        let picture = design.picture.as_ref().filter(|_| scene.sheet.in_colours());
+        let picture = design.picture.as_ref().filter(|_| state.sheet.in_colours());
         let bounds = picture.map_or(design.bounds, Picture::bounds);
-        let view = scene.editor.panes.view(EditorPane::Design(side));
+        let view = state.editor.panes.view(EditorPane::Design(side));
         DesignPane::new(side, rect, room, bounds, view)
     };
     [half(Side::Source, left), half(Side::Target, right)]
 }
 
-fn hand(ui: &Ui, scene: &UiState, half: &DesignPane, response: &Response, acts: &mut Intents) {
+fn handle_pointer(
+    ui: &Ui,
+    state: &UiState,
+    half: &DesignPane,
+    response: &Response,
+    intents: &mut Intents,
+) {
     let (shift, moved, origin) = ui.input(|input| {
         let pointer = &input.pointer;
         (
@@ -92,12 +99,12 @@ fn hand(ui: &Ui, scene: &UiState, half: &DesignPane, response: &Response, acts: 
             pointer.press_origin(),
         )
     });
-    let mut act = |act: EditorAction| acts.push(Intent::Editor(act));
+    let mut act = |act: EditorAction| intents.push(Intent::Editor(act));
     let primary = PointerButton::Primary;
     if response.drag_started_by(primary)
         && let Some(origin) = origin
     {
-        // Where it went down: a drag is told of only when the hand has moved some points.
+        // The press position: egui reports a drag only after the pointer has moved some points.
         act(EditorAction::Press(half.touch(origin, shift)));
     }
     if let Some(pointer) = response.interact_pointer_pos() {
@@ -119,32 +126,32 @@ fn hand(ui: &Ui, scene: &UiState, half: &DesignPane, response: &Response, acts: 
         act(EditorAction::Release);
     }
     if let Some(pointer) = response.hover_pos() {
-        // Only when it moves: an intent in each frame would keep the window from resting.
+        // Only on movement: an intent in every frame would keep the window redrawing.
         if moved && !response.dragged() {
             act(EditorAction::Hover(Some(half.touch(pointer, shift))));
         }
         zoom(ui, half, pointer - half.rect.center(), &mut act);
-    } else if is_left(scene, half, response) {
+    } else if has_left(state, half, response) {
         act(EditorAction::Hover(None));
     }
 }
 
-/// The pointer has left this half, and what was under it there is still marked.
-fn is_left(scene: &UiState, half: &DesignPane, response: &Response) -> bool {
-    let editor = &scene.editor;
+/// Returns whether the pointer has left the panes while something is still highlighted.
+fn has_left(state: &UiState, half: &DesignPane, response: &Response) -> bool {
+    let editor = &state.editor;
     let is_marked = editor.hovered.is_some() || editor.trace.is_some() || editor.part.is_some();
-    // The other half says itself what is under the pointer there.
+    // The other pane reports by itself what is under the pointer.
     let is_elsewhere = response
         .ctx
         .input(|input| input.pointer.hover_pos())
         .is_none_or(|p| !half.rect.union(half.across()).contains(p));
-    // What is held stays marked wherever the hand goes.
+    // A handle that is being dragged stays highlighted wherever the pointer goes.
     is_marked && is_elsewhere && editor.grabbed.is_none()
 }
 
 fn zoom(ui: &Ui, half: &DesignPane, from_middle: egui::Vec2, act: &mut impl FnMut(EditorAction)) {
     if let Some(factor) = zoom_factor(ui) {
-        // The view is enlarged about the middle of the room, which the bar above moves down.
+        // The view zooms about the centre of the fitted area, which lies below the toolbar.
         let at = from_middle - half.room_offset();
         act(EditorAction::Zoom {
             pane: EditorPane::Design(half.side),
@@ -154,34 +161,34 @@ fn zoom(ui: &Ui, half: &DesignPane, from_middle: egui::Vec2, act: &mut impl FnMu
     }
 }
 
-/// One line on what can be done now.
-fn advice(painter: &Painter, scene: &UiState, stage: Rect, inks: &EditorColours) {
-    let editor = &scene.editor;
+/// Draws one line of instructions for the current tool, or why the last action was refused.
+fn instructions(painter: &Painter, state: &UiState, stage: Rect, inks: &EditorColours) {
+    let editor = &state.editor;
     let usual = match (editor.tool, editor.first_part) {
-        (EditorTool::Pins, _) if scene.sheet.is_free() => {
-            "Click anywhere to set a pin on both sides, drag it to where it belongs, right-click \
-             to delete it."
+        (EditorTool::Pins, _) if state.sheet.is_free() => {
+            "Click anywhere to add a pin on both sides, drag it into place, right-click to delete \
+             it."
         }
         (EditorTool::Lines, _) => {
-            "Draw a line along an edge; it appears on both sides. Drag its ends to where they \
-             belong, right-click an end to delete it."
+            "Draw a line along an edge; it appears on both sides. Drag its ends into place, \
+             right-click an end to delete it."
         }
-        (EditorTool::Pins, _) if scene.sheet.pieces.len() > 1 => {
-            "Click a boundary to pin it, drag a point to move it (Shift: no snapping), \
+        (EditorTool::Pins, _) if state.sheet.pieces.len() > 1 => {
+            "Click a boundary to add a pin, drag a point to move it (Shift: no snapping), \
              right-click a pin to delete it. Click inside a part to pair it."
         }
         (EditorTool::Pins, _) => {
-            "Click a boundary to pin it, drag a point to move it (Shift: no snapping), \
+            "Click a boundary to add a pin, drag a point to move it (Shift: no snapping), \
              right-click a pin to delete it."
         }
         (EditorTool::Parts, None) => {
-            "Click a part on one side, then its partner on the other. Right-click frees a part."
+            "Click a part, then its partner on the other side. Right-click a part to unpair it."
         }
         (EditorTool::Parts, Some((Side::Source, ..))) => {
-            "Now click its partner in the target, or beside all parts there: it vanishes."
+            "Now click the matching part in the target, or empty space to make this part disappear."
         }
         (EditorTool::Parts, Some((Side::Target, ..))) => {
-            "Now click its partner in the source, or beside all parts there: it appears."
+            "Now click the matching part in the source, or empty space to make this part appear."
         }
     };
     let refusal = editor.refusal.map(|words| (words, inks.problem));

@@ -1,4 +1,4 @@
-//! The dialog that asks for files.
+//! File dialog: opens, inserts, replaces and saves files.
 
 use std::path::Path;
 
@@ -13,10 +13,10 @@ use crate::app::ui::overlays::file_side_panel;
 use crate::app::ui::overlays::file_side_panel::TypedPath;
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// It fits into the smallest window.
+/// Size of the dialog, in points: it fits into the smallest window.
 const SIZE: Vec2 = vec2(760.0, 440.0);
 
-/// The dialog that is drawn, and what for.
+/// The open file dialog, if any.
 #[derive(Resource, Default)]
 pub struct FileDialogState(Option<OpenFileDialog>);
 
@@ -27,75 +27,82 @@ struct OpenFileDialog {
 }
 
 /// Draws the dialog while files are asked for.
-pub fn show(ctx: &Context, scene: &UiState, files: &mut FileDialogState, acts: &mut Intents) {
-    let Some(asks) = scene.dialog.asks() else {
+pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents: &mut Intents) {
+    let Some(asks) = state.dialog.asks() else {
         files.0 = None;
         return;
     };
     files.0.take_if(|shown| shown.asks != *asks);
     let shown = files.0.get_or_insert_with(|| OpenFileDialog {
         asks: asks.clone(),
-        dialog: dialog(asks, scene),
+        dialog: dialog(asks, state),
         typed: TypedPath::default(),
     });
-    // At once: the dialog itself lets go of its text field first.
+    // Handled here, because the dialog itself would first take the focus off its text field.
     if ctx.input(|input| input.key_pressed(Key::Escape)) {
-        acts.push(Intent::Choose(Vec::new()));
+        intents.push(Intent::Choose(Vec::new()));
         return;
     }
-    // It writes what is chosen in the colour of the mark behind it.
+    // The dialog writes selected names in the colour of the selection's background.
     theme::with_bright_selection(ctx, |ctx| match asks {
         DialogPurpose::Save(_) => {
             shown.dialog.update(ctx);
         }
-        _ => reading(ctx, scene, shown, acts),
+        _ => draw_with_side_panel(ctx, state, shown, intents),
     });
     match shown.dialog.state() {
         DialogState::Open => {}
-        DialogState::Picked(path) => acts.push(Intent::Choose(vec![path.clone()])),
-        DialogState::PickedMultiple(paths) => acts.push(Intent::Choose(paths.clone())),
-        DialogState::Cancelled | DialogState::Closed => acts.push(Intent::Choose(Vec::new())),
+        DialogState::Picked(path) => intents.push(Intent::Choose(vec![path.clone()])),
+        DialogState::PickedMultiple(paths) => intents.push(Intent::Choose(paths.clone())),
+        DialogState::Cancelled | DialogState::Closed => intents.push(Intent::Choose(Vec::new())),
     }
 }
 
-/// With what is beside the list of files that can be read.
-fn reading(ctx: &Context, scene: &UiState, shown: &mut OpenFileDialog, acts: &mut Intents) {
+/// Draws a dialog that opens files, with the side panel next to the list.
+fn draw_with_side_panel(
+    ctx: &Context,
+    state: &UiState,
+    shown: &mut OpenFileDialog,
+    intents: &mut Intents,
+) {
     let filters = shown.asks.filters();
-    let extensions = filters.first().map_or(&[][..], |(_, ends)| ends);
+    let extensions = filters
+        .first()
+        .map_or(&[][..], |(_, extensions)| extensions);
     let typed = &mut shown.typed;
     let mut panel = |ui: &mut Ui, dialog: &mut FileDialog| {
-        let marked = dialog.selected_entries().last();
-        let entry = marked.or(dialog.selected_entry());
+        let last_selected = dialog.selected_entries().last();
+        let entry = last_selected.or(dialog.selected_entry());
         let folder = match entry {
             Some(entry) if entry.is_dir() => Some(entry.as_path()),
             Some(entry) => entry.as_path().parent(),
-            None => scene.dialog.folder(),
+            None => state.dialog.folder(),
         };
         let folder = folder.unwrap_or(Path::new("."));
         if let Some(path) = file_side_panel::field(ui, typed, folder, extensions) {
-            acts.push(Intent::Choose(vec![path]));
+            intents.push(Intent::Choose(vec![path]));
         }
         let file = entry.filter(|entry| entry.is_file() && !typed.has_offers());
-        file_side_panel::preview(ui, scene, file.map(DirectoryEntry::as_path), acts);
+        file_side_panel::preview(ui, state, file.map(DirectoryEntry::as_path), intents);
     };
     shown.dialog.update_with_right_panel_ui(ctx, &mut panel);
 }
 
-fn dialog(asks: &DialogPurpose, scene: &UiState) -> FileDialog {
+fn dialog(asks: &DialogPurpose, state: &UiState) -> FileDialog {
     let mut dialog = FileDialog::new()
         .title(asks.title())
         .opening_mode(OpeningMode::AlwaysInitialDir)
         .default_size(SIZE)
         .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
         .resizable(false)
-        // Its field is black on either theme; the typed path completes, which finds as well.
+        // The search field is black in both themes, and the completing path field replaces it.
         .show_search(false)
-        // A link is named as it was chosen.
+        // A symbolic link keeps the name under which it was chosen.
         .canonicalize_paths(false);
     dialog.set_right_panel_width(file_side_panel::WIDTH);
-    let recent = scene.recent.folders();
-    // Where files were chosen last, or opened.
-    if let Some(folder) = scene.dialog.folder().or(recent.first().copied()) {
+    let recent = state.recent.folders();
+    // Start in the folder used last in this dialog, or else in the most recent project's folder.
+    if let Some(folder) = state.dialog.folder().or(recent.first().copied()) {
         dialog = dialog.initial_directory(folder.to_owned());
     }
     if !recent.is_empty() {

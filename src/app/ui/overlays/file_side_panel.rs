@@ -1,4 +1,4 @@
-//! Beside the list of files: a path that is typed, and what the chosen file holds.
+//! Side panel of the file dialog: a path field with completion, and a preview of the selected file.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,10 +14,10 @@ use crate::app::ui::kit::theme::{GRID, RADIUS, ThemePalette};
 use crate::app::ui::kit::widgets::secondary_text;
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Width of the panel.
+/// Width of the side panel, in points.
 pub const WIDTH: f32 = 192.0;
 
-/// What was typed, and how it may go on: looked up when it changes and not in each frame.
+/// Typed path and its completions, which are looked up when the text changes, not in every frame.
 #[derive(Debug, Default)]
 pub struct TypedPath {
     text: String,
@@ -26,25 +26,25 @@ pub struct TypedPath {
 }
 
 impl TypedPath {
-    /// Ways to go on are shown, which take the place of the picture.
+    /// Returns whether completions are listed; they take the place of the preview.
     pub fn has_offers(&self) -> bool {
         !self.offers.is_empty()
     }
 
     fn look_up(&mut self, folder: &Path, extensions: &[&str]) {
-        let now = (self.text.clone(), folder.to_owned());
-        if self.of.as_ref() != Some(&now) {
+        let key = (self.text.clone(), folder.to_owned());
+        if self.of.as_ref() != Some(&key) {
             self.offers = if self.text.is_empty() {
                 Vec::new()
             } else {
                 completions(&self.text, folder, extensions)
             };
-            self.of = Some(now);
+            self.of = Some(key);
         }
     }
 }
 
-/// Draws the field; returns the file that was asked for by it.
+/// Draws the path field and its completions; returns the file that was confirmed with Enter.
 pub fn field(
     ui: &mut Ui,
     typed: &mut TypedPath,
@@ -54,9 +54,9 @@ pub fn field(
     typed.look_up(folder, extensions);
     let id = ui.id().with("typed");
     let has_focus = ui.memory(|memory| memory.has_focus(id));
-    // Taken before the field sees it, which would give the focus away.
-    let is_taken = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
-    let mut chosen = is_taken.then(|| typed.offers.first().cloned()).flatten();
+    // Tab is consumed before the field handles it, which would move the focus away.
+    let completes = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
+    let mut chosen = completes.then(|| typed.offers.first().cloned()).flatten();
     let hint = "Type a path …";
     let edit = TextEdit::singleline(&mut typed.text)
         .id(id)
@@ -89,41 +89,41 @@ pub fn field(
     (is_entered && path.is_file()).then_some(path)
 }
 
-/// Behind what was completed, where typing goes on.
-fn set_cursor(ui: &Ui, id: Id, place: usize) {
+/// Puts the cursor behind the completed text, where typing goes on.
+fn set_cursor(ui: &Ui, id: Id, char_index: usize) {
     use bevy_egui::egui::text::{CCursor, CCursorRange};
     let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-    let end = CCursorRange::one(CCursor::new(place));
+    let end = CCursorRange::one(CCursor::new(char_index));
     state.cursor.set_char_range(Some(end));
     state.store(ui.ctx(), id);
 }
 
-/// Draws what a file holds.
-pub fn preview(ui: &mut Ui, scene: &UiState, file: Option<&Path>, acts: &mut Intents) {
+/// Draws the preview of the selected file.
+pub fn preview(ui: &mut Ui, state: &UiState, file: Option<&Path>, intents: &mut Intents) {
     let Some(file) = file else {
         return;
     };
     ui.add_space(GRID);
-    match scene.preview.of(file) {
-        Some(Ok(picture)) => shown(ui, scene, picture),
+    match state.preview.of(file) {
+        Some(Ok(picture)) => draw_picture(ui, state, picture),
         Some(Err(why)) => {
             ui.label(secondary_text(ui, why));
         }
         None => {
-            ui.label(secondary_text(ui, "Looking at it …"));
-            if !scene.preview.is_for(file) {
-                acts.push(Intent::LookAt(file.to_owned()));
+            ui.label(secondary_text(ui, "Loading preview …"));
+            if !state.preview.is_for(file) {
+                intents.push(Intent::LookAt(file.to_owned()));
             }
         }
     }
 }
 
-fn shown(ui: &mut Ui, scene: &UiState, picture: &Arc<RgbaImage>) {
+fn draw_picture(ui: &mut Ui, state: &UiState, picture: &Arc<RgbaImage>) {
     let longest = PREVIEW_PX.0.max(PREVIEW_PX.1);
     let texture = texture(ui.ctx(), Id::new("preview"), picture, longest);
     let side = ui.available_width();
     let (room, _) = ui.allocate_exact_size(vec2(side, side), bevy_egui::egui::Sense::hover());
-    let [r, g, b] = scene.session.style().ground.0;
+    let [r, g, b] = state.session.style().ground.0;
     let painter = ui.painter();
     painter.rect_filled(room, RADIUS, Color32::from_rgb(r, g, b));
     painter.rect_stroke(

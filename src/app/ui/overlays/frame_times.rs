@@ -1,4 +1,4 @@
-//! Where a frame's time goes.
+//! Frame times: how long each stage of a frame takes, as medians of the last frames.
 
 use bevy_egui::egui::{Panel, Ui};
 
@@ -7,27 +7,28 @@ use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::ui_state::UiState;
 use crate::transition::Transition;
 
+/// Height of the strip, in points.
 const HEIGHT: f32 = 32.0;
 
-/// Draws the times in a line above the stage.
-pub fn strip(root: &mut Ui, scene: &UiState) {
+/// Draws the strip above the stage.
+pub fn strip(root: &mut Ui, state: &UiState) {
     let frame = panel_frame(root, [16, 16, 4, 4]);
     Panel::top("times")
         .exact_size(HEIGHT)
         .resizable(false)
         .frame(frame)
-        .show(root, |ui| ui.horizontal_centered(|ui| line(ui, scene)));
+        .show(root, |ui| ui.horizontal_centered(|ui| line(ui, state)));
 }
 
-fn line(ui: &mut Ui, scene: &UiState) {
-    ui.label(secondary_text(ui, "Median"))
-        .on_hover_text("Of the last frames");
-    let whole = ("Whole frame", &scene.whole.0);
-    let stages = match scene.map.is_shown {
-        true => vec![("Blend and picture", scene.map.times()), whole],
+fn line(ui: &mut Ui, state: &UiState) {
+    ui.label(secondary_text(ui, "Frame time"))
+        .on_hover_text("Median of the last frames");
+    let whole = ("Total", &state.whole.0);
+    let stages = match state.map.is_shown {
+        true => vec![("Blend and draw", state.map.times()), whole],
         false => vec![
-            ("Solve", &scene.times.solve),
-            ("Draw", &scene.times.draw),
+            ("Solve", &state.times.solve),
+            ("Draw", &state.times.draw),
             whole,
         ],
     };
@@ -39,35 +40,36 @@ fn line(ui: &mut Ui, scene: &UiState) {
         ui.monospace(text);
     }
     ui.add_space(GRID);
-    let (word, more) = whence(scene);
-    ui.label(secondary_text(ui, word)).on_hover_text(more);
+    let (label, details) = frame_source(state);
+    ui.label(secondary_text(ui, label)).on_hover_text(details);
 }
 
-/// Where frames come from, in a word and in more.
-fn whence(scene: &UiState) -> (String, String) {
+/// Returns where frames come from, as a short label and as a tooltip.
+fn frame_source(state: &UiState) -> (String, String) {
     let solved = || "Solved".to_owned();
-    match scene.session.transition().and_then(Transition::film) {
+    match state.session.transition().and_then(Transition::film) {
         Some(Ok(film)) => {
             let megabytes = film.bytes() as f64 / 1e6;
-            let (kind, by) = match scene.times.is_played {
-                true => ("GPU film", "the graphics card"),
-                false => ("Film", "memory"),
+            let (kind, by) = match state.times.is_played {
+                true => ("GPU recording", "the GPU"),
+                false => ("Recording", "memory"),
             };
-            let more = format!(
-                "Frames come from {by}: recorded by {} solves, to {:.0e} of the drawings' size",
+            let details = format!(
+                "Frames are played from {by}: recorded with {} solves, accurate to {:.0e} of the \
+                 designs' size",
                 film.solves(),
                 film.error()
             );
-            (format!("{kind} {megabytes:.1} MB"), more)
+            (format!("{kind} {megabytes:.1} MB"), details)
         }
         Some(Err(error)) => (solved(), error.to_string()),
-        None => match (scene.recording.progress(), scene.recording.refused()) {
+        None => match (state.recording.progress(), state.recording.refused()) {
             (Some((doing, share)), _) => (
                 format!("Solved, {doing} {:.0} %", 100.0 * share),
-                "The film is not recorded yet".to_owned(),
+                "Frames are solved until the transition has been recorded".to_owned(),
             ),
             (None, Some(error)) => (solved(), error.to_string()),
-            (None, None) => (solved(), "The film is not recorded yet".to_owned()),
+            (None, None) => (solved(), "The transition is not recorded yet".to_owned()),
         },
     }
 }

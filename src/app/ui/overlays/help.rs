@@ -1,35 +1,38 @@
-//! The list of keys, made from the key map that is in use.
+//! Keyboard shortcuts: the dialog that lists the key map in use.
 
 use bevy_egui::egui::{self, Align2, Context, Id, Modal, Ui, vec2};
 
 use crate::app::input::intent::Intent;
-use crate::app::key_map::KeyTableRow;
+use crate::app::input::key_map::KeyTableRow;
 use crate::app::ui::kit::theme::{GRID, SMALL, ThemePalette};
 use crate::app::ui::kit::widgets::{from_right, hint, secondary_text, text_card};
 use crate::app::ui::ui_state::{Intents, UiState};
 
+/// Width of the column of key caps, in points.
 const KEYS_WIDTH: f32 = 136.0;
+
+/// Width of each of the two columns of shortcuts, in points.
 const COLUMN_WIDTH: f32 = 440.0;
 
-/// Height of a line: all of them fit into the smallest window.
+/// Height of a row, in points: the whole list fits into the smallest window.
 const ROW_HEIGHT: f32 = 20.0;
 
-/// Draws the list above everything else.
-pub fn show(ctx: &Context, scene: &UiState, acts: &mut Intents) {
+/// Draws the dialog above everything else.
+pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
     let response = Modal::new(Id::new("help")).show(ctx, |ui| {
         ui.set_width(2.0 * COLUMN_WIDTH + 2.0 * GRID);
         ui.horizontal(|ui| {
-            ui.heading("Keys");
+            ui.heading("Keyboard shortcuts");
             from_right(ui, |ui| {
                 if ui.button("Close").clicked() {
-                    acts.push(Intent::ToggleHelp);
+                    intents.push(Intent::ToggleHelp);
                 }
             });
         });
         ui.add_space(GRID);
-        let groups = groups(scene.keys.rows());
-        // Two columns: one would be higher than the smallest window.
-        let (left, right) = groups.split_at(middle(&groups));
+        let groups = groups(state.keys.rows());
+        // Two columns, because one would be taller than the smallest window.
+        let (left, right) = groups.split_at(column_split(&groups));
         ui.horizontal_top(|ui| {
             for column in [left, right] {
                 ui.vertical(|ui| {
@@ -42,12 +45,12 @@ pub fn show(ctx: &Context, scene: &UiState, acts: &mut Intents) {
         });
         hint(
             ui,
-            "Drag the stage to move it, scroll to zoom, double-click to show everything. \
+            "Drag the stage to pan, scroll to zoom, double-click to fit to view. \
              Drop files anywhere to open them.",
         );
     });
     if response.backdrop_response.clicked() {
-        acts.push(Intent::ToggleHelp);
+        intents.push(Intent::ToggleHelp);
     }
 }
 
@@ -55,13 +58,13 @@ fn groups(rows: &[KeyTableRow]) -> Vec<&[KeyTableRow]> {
     rows.chunk_by(|a, b| a.group == b.group).collect()
 }
 
-/// How many groups go into the first of two columns, so that the higher is as low as can be.
-fn middle(groups: &[&[KeyTableRow]]) -> usize {
-    // A heading and the gap behind a group are as high as two rows.
+/// Returns how many groups go into the first of two columns, so that the taller one is minimal.
+fn column_split(groups: &[&[KeyTableRow]]) -> usize {
+    // A heading and the gap below a group are together as tall as two rows.
     let height =
         |groups: &[&[KeyTableRow]]| groups.iter().map(|rows| rows.len() + 2).sum::<usize>();
-    let higher = |&k: &usize| height(&groups[..k]).max(height(&groups[k..]));
-    (0..=groups.len()).min_by_key(higher).unwrap_or(0)
+    let taller = |&k: &usize| height(&groups[..k]).max(height(&groups[k..]));
+    (0..=groups.len()).min_by_key(taller).unwrap_or(0)
 }
 
 fn group(ui: &mut Ui, rows: &[KeyTableRow]) {

@@ -1,4 +1,4 @@
-//! Messages at the lower edge of the stage; problems stay until they are closed.
+//! Notices at the lower edge of the stage; errors stay until they are closed.
 
 use std::path::Path;
 
@@ -12,35 +12,36 @@ use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{card, fixed_layer, icon_button};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// The most that are shown at once; older ones wait until a newer one is closed.
-const MOST: usize = 4;
+/// Maximum number of notices shown at once; older ones reappear as newer ones are closed
+/// (resource limit: room on the stage).
+const MAX_SHOWN: usize = 4;
 
-/// Draws the messages.
-pub fn show(ctx: &Context, scene: &UiState, stage: Rect, acts: &mut Intents) {
-    let list = scene.notices.list();
+/// Draws the notices.
+pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
+    let list = state.notices.list();
     if list.is_empty() {
         return;
     }
     let width = (stage.width() - 4.0 * GRID).clamp(160.0, 480.0);
     let at = stage.center_bottom() - vec2(0.0, 2.0 * GRID);
-    // Above the verdict and the work: a problem is read first.
+    // In front of the checks and the progress: errors are read first.
     let area = fixed_layer("notices", Align2::CENTER_BOTTOM, at).order(Order::Foreground);
     area.show(ctx, |ui| {
-        for notice in &list[list.len().saturating_sub(MOST)..] {
-            let too_much = is_too_much(scene, notice);
-            message(ui, notice, too_much, width, acts);
+        for notice in &list[list.len().saturating_sub(MAX_SHOWN)..] {
+            let too_much = is_too_much(state, notice);
+            message(ui, notice, too_much, width, intents);
         }
     });
 }
 
-/// The problem is but that it takes long.
-fn is_too_much(scene: &UiState, notice: &Notice) -> bool {
-    let problem = scene.session.problem();
+/// Returns whether the notice reports a transition that was not built because it would take long.
+fn is_too_much(state: &UiState, notice: &Notice) -> bool {
+    let problem = state.session.problem();
     notice.kind == NoticeKind::Problem(NoticeTopic::Transition)
         && problem.is_some_and(TransitionProblem::is_too_much)
 }
 
-fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut Intents) {
+fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, intents: &mut Intents) {
     let palette = ThemePalette::of(ui);
     let (icon, colour) = match notice.kind {
         NoticeKind::Problem(_) => (icons::WARNING, palette.problem),
@@ -56,10 +57,10 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut 
             ui.allocate_ui(vec2(text_width, 0.0), |ui| {
                 ui.set_width(text_width);
                 ui.spacing_mut().item_spacing.y = 0.0;
-                // A line in the middle of the icons' square; more lines go on below it.
+                // Centres the first line on the icon; further lines follow below.
                 let line = ui.text_style_height(&egui::TextStyle::Body);
                 ui.add_space((24.0 - line) / 2.0);
-                // So that an error can be copied into a report.
+                // Selectable, so that an error can be copied into a bug report.
                 ui.add(Label::new(&notice.text).wrap().selectable(true));
                 if let Some(file) = &notice.file {
                     ui.add_space(GRID);
@@ -67,25 +68,21 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut 
                 }
                 if too_much {
                     ui.add_space(GRID);
-                    let tip = "Builds it however long it takes; it can be cancelled.";
-                    if ui
-                        .button("Build it all the same")
-                        .on_hover_text(tip)
-                        .clicked()
-                    {
-                        acts.push(Intent::Insist);
+                    let tip = "Builds it no matter how long it takes. You can cancel at any time.";
+                    if ui.button("Build anyway").on_hover_text(tip).clicked() {
+                        intents.push(Intent::Insist);
                     }
                 }
             });
             let close = icon_button(ui, icons::CLOSE, "Close", vec2(24.0, 24.0));
             if close.clicked() {
-                acts.push(Intent::Dismiss(notice.id));
+                intents.push(Intent::Dismiss(notice.id));
             }
         });
     });
 }
 
-/// Ways to a file that was written.
+/// Draws buttons that lead to an exported file.
 fn go_to(ui: &mut Ui, file: &Path) {
     ui.horizontal(|ui| {
         let folder = if file.is_dir() {
@@ -93,14 +90,14 @@ fn go_to(ui: &mut Ui, file: &Path) {
         } else {
             file.parent()
         };
-        let tip = "Opens the folder that it lies in.";
+        let tip = "Opens the folder that contains the file.";
         if ui.button("Show folder").on_hover_text(tip).clicked()
             && let Some(folder) = folder
         {
-            // Where the system has nothing to show folders with, the path still says where it is.
+            // Without a file manager the notice still shows the path.
             open::that_detached(folder).ok();
         }
-        let tip = "Puts the path where Ctrl V takes it from.";
+        let tip = "Copies the path to the clipboard.";
         if ui.button("Copy path").on_hover_text(tip).clicked() {
             ui.copy_text(file.display().to_string());
         }

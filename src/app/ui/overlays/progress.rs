@@ -1,4 +1,4 @@
-//! What is being worked on, how far it is, and a way to stop it.
+//! Progress of background jobs, each with a button to cancel it.
 
 use std::sync::Arc;
 
@@ -11,18 +11,18 @@ use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{card, fixed_layer};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// The longer side of the frame that a film has come to, in points.
+/// Longer side of the frame shown while a film is exported, in points.
 const PICTURE: f32 = 120.0;
 
-/// Draws a pill at the top of the stage for each piece of work.
-pub fn show(ctx: &Context, scene: &UiState, stage: Rect, acts: &mut Intents) {
-    let build = scene.session.told_work();
+/// Draws a card at the top of the stage for each running job.
+pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
+    let build = state.session.told_work();
     let build = build.map(|work| (work, Intent::CancelWork));
-    let film = scene.recorder.work();
-    let film = film.map(|work| (work, Intent::CancelRecording));
-    let choice = scene.choosing.told();
-    let choice = choice.map(|share| (("trying methods", share), Intent::CancelChoice));
-    let all: Vec<_> = build.into_iter().chain(choice).chain(film).collect();
+    let export = state.recorder.work();
+    let export = export.map(|work| (work, Intent::CancelRecording));
+    let choice = state.choosing.told();
+    let choice = choice.map(|share| (("Trying methods", share), Intent::CancelChoice));
+    let all: Vec<_> = build.into_iter().chain(choice).chain(export).collect();
     if all.is_empty() {
         return;
     }
@@ -30,10 +30,10 @@ pub fn show(ctx: &Context, scene: &UiState, stage: Rect, acts: &mut Intents) {
     fixed_layer("work", Align2::CENTER_TOP, at).show(ctx, |ui| {
         for ((stage, fraction), cancel) in all {
             let picture = match cancel {
-                Intent::CancelRecording => scene.recorder.preview(),
+                Intent::CancelRecording => state.recorder.preview(),
                 _ => None,
             };
-            pill(ui, (stage, fraction), picture, cancel, acts);
+            pill(ui, (stage, fraction), picture, cancel, intents);
         }
     });
 }
@@ -43,7 +43,7 @@ fn pill(
     (stage, fraction): (&str, f64),
     picture: Option<Arc<RgbaImage>>,
     cancel: Intent,
-    acts: &mut Intents,
+    intents: &mut Intents,
 ) {
     card(ui, Margin::symmetric(16, 8), |ui| {
         ui.horizontal(|ui| {
@@ -58,9 +58,9 @@ fn pill(
                 .desired_height(6.0)
                 .fill(ThemePalette::of(ui).accent);
             ui.add(bar);
-            let tip = "Stops this work; what is on the stage stays (Esc).";
+            let tip = "Cancels this job; the stage keeps what it shows (Esc).";
             if ui.button("Cancel").on_hover_text(tip).clicked() {
-                acts.push(cancel);
+                intents.push(cancel);
             }
         });
     });

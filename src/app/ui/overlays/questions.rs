@@ -1,4 +1,4 @@
-//! The questions that the program asks: about what would be lost, and what a dropped file is for.
+//! Modal questions: unsaved changes, recovered work, and what to do with a dropped file.
 
 use std::path::Path;
 use std::time::Duration;
@@ -11,69 +11,69 @@ use crate::app::ui::kit::widgets::primary_button;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::unsaved_question::UnsavedKind;
 
-/// Draws the question that is open, if any.
-pub fn show(ctx: &Context, scene: &UiState, acts: &mut Intents) {
-    if let (Some(words), Some(lost)) = (scene.question.text(), scene.question.lost()) {
-        ask_first(ctx, lost, words, acts);
-    } else if let Some((title, age)) = scene.autosave.lost() {
-        ask_lost(ctx, title, age, acts);
-    } else if let Some(path) = scene.drop.undecided() {
-        ask_drop(ctx, scene, path, acts);
+/// Draws the pending question, if any.
+pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
+    if let (Some(words), Some(lost)) = (state.question.text(), state.question.lost()) {
+        ask_before_closing(ctx, lost, words, intents);
+    } else if let Some((title, age)) = state.autosave.lost() {
+        ask_recover(ctx, title, age, intents);
+    } else if let Some(path) = state.drop.undecided() {
+        ask_drop(ctx, state, path, intents);
     }
 }
 
-/// The heading, and how to keep or give up what would be lost.
+/// Heading, label that keeps the work, and label that discards it.
 fn words(lost: UnsavedKind) -> [&'static str; 3] {
     match lost {
-        UnsavedKind::Changes => ["Unsaved changes", "Save", "Do not save"],
-        UnsavedKind::Film => ["A film is being written", "Wait for it", "Stop it"],
+        UnsavedKind::Changes => ["Unsaved changes", "Save", "Don't save"],
+        UnsavedKind::Film => ["Export in progress", "Wait", "Stop export"],
     }
 }
 
-fn ask_first(ctx: &Context, lost: UnsavedKind, question: &str, acts: &mut Intents) {
-    let [heading, keep, give_up] = words(lost);
-    Modal::new(Id::new("what would be lost")).show(ctx, |ui| {
+fn ask_before_closing(ctx: &Context, lost: UnsavedKind, question: &str, intents: &mut Intents) {
+    let [heading, keep, discard] = words(lost);
+    Modal::new(Id::new("unsaved changes")).show(ctx, |ui| {
         ui.set_width(400.0);
         ui.heading(heading);
         ui.add(Label::new(question).wrap());
         answers(ui, |ui| {
             if primary_button(ui, keep).clicked() {
-                acts.push(Intent::Answer(UnsavedAnswer::Save));
+                intents.push(Intent::Answer(UnsavedAnswer::Save));
             }
             let mut answer = |ui: &mut Ui, text: &str, answer: UnsavedAnswer| {
                 if ui.button(text).clicked() {
-                    acts.push(Intent::Answer(answer));
+                    intents.push(Intent::Answer(answer));
                 }
             };
-            answer(ui, give_up, UnsavedAnswer::Discard);
+            answer(ui, discard, UnsavedAnswer::Discard);
             answer(ui, "Cancel", UnsavedAnswer::Stay);
         });
     });
 }
 
-/// What was not saved when the program ended.
-fn ask_lost(ctx: &Context, title: &str, age: Option<Duration>, acts: &mut Intents) {
-    Modal::new(Id::new("what was lost")).show(ctx, |ui| {
+/// Offers to recover unsaved work after the program ended unexpectedly.
+fn ask_recover(ctx: &Context, title: &str, age: Option<Duration>, intents: &mut Intents) {
+    Modal::new(Id::new("recover")).show(ctx, |ui| {
         ui.set_width(400.0);
-        ui.heading("Not saved last time");
+        ui.heading("Recover unsaved work?");
         let when = age.map_or_else(String::new, |age| format!(", {}", ago(age)));
         let words = format!(
-            "Morphospace ended while “{title}” had changes that were not saved{when}. They were \
-             kept."
+            "Morphospace closed before changes to “{title}” were saved{when}. They can be \
+             recovered."
         );
         ui.add(Label::new(words).wrap());
         answers(ui, |ui| {
-            if primary_button(ui, "Restore").clicked() {
-                acts.push(Intent::Rescue(RecoveryAnswer::Restore));
+            if primary_button(ui, "Recover").clicked() {
+                intents.push(Intent::Rescue(RecoveryAnswer::Restore));
             }
             let mut answer = |ui: &mut Ui, text: &str, tip: &str, answer: RecoveryAnswer| {
                 if ui.button(text).on_hover_text(tip).clicked() {
-                    acts.push(Intent::Rescue(answer));
+                    intents.push(Intent::Rescue(answer));
                 }
             };
-            let tip = "Throws the changes away.";
+            let tip = "Deletes the unsaved changes.";
             answer(ui, "Discard", tip, RecoveryAnswer::Discard);
-            let tip = "Asks again at the next start (Esc).";
+            let tip = "Asks again the next time Morphospace starts (Esc).";
             answer(ui, "Later", tip, RecoveryAnswer::Later);
         });
     });
@@ -92,35 +92,35 @@ fn ago(age: Duration) -> String {
     }
 }
 
-fn ask_drop(ctx: &Context, scene: &UiState, path: &Path, acts: &mut Intents) {
+fn ask_drop(ctx: &Context, state: &UiState, path: &Path, intents: &mut Intents) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let Some(whole) = scene.session.whole() else {
+    let Some(whole) = state.session.whole() else {
         return;
     };
-    // Of the two that are looked at.
-    let [source, target] = whole.leg_designs(scene.session.leg());
+    // The two designs of the current segment.
+    let [source, target] = whole.leg_designs(state.session.leg());
     Modal::new(Id::new("drop")).show(ctx, |ui| {
         ui.set_width(440.0);
-        ui.heading("One design");
+        ui.heading("Add or replace a design");
         let words = format!(
-            "What is {name} for? It can come after the others, as a further design of the film, or \
-             take the place of one. Drop two files or more to open a new project."
+            "Where should {name} go? Add it as the last design of the film, or replace the target \
+             or the source. To open a new project instead, drop two or more files."
         );
         ui.add(Label::new(words).wrap());
         answers(ui, |ui| {
-            if primary_button(ui, "Add at the end").clicked() {
+            if primary_button(ui, "Add at end").clicked() {
                 let end = whole.designs.len();
-                acts.push(Intent::InsertDesigns(end, vec![path.to_owned()]));
+                intents.push(Intent::InsertDesigns(end, vec![path.to_owned()]));
             }
             let mut replace = |ui: &mut Ui, words: &str, index: usize| {
                 if ui.button(words).clicked() {
-                    acts.push(Intent::ReplaceDesign(index, path.to_owned()));
+                    intents.push(Intent::ReplaceDesign(index, path.to_owned()));
                 }
             };
-            replace(ui, "Use as target", target);
-            replace(ui, "Use as source", source);
+            replace(ui, "Replace target", target);
+            replace(ui, "Replace source", source);
             if ui.button("Cancel").clicked() {
-                acts.push(Intent::Back);
+                intents.push(Intent::Back);
             }
         });
     });

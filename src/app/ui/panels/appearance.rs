@@ -1,4 +1,4 @@
-//! What is drawn, and in which colours.
+//! Appearance section: visible layers, colours, and the drawing of bars.
 
 use bevy_egui::egui::{Ui, vec2};
 
@@ -15,63 +15,62 @@ use crate::stage::StageVisibility;
 use crate::transition::{PaintLayerOptions, PaintRule};
 use crate::warp::WarpKind;
 
-/// Draws the options.
-pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intents) {
+/// Draws the section.
+pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
     section(ui, "Appearance", |ui| {
-        layers(ui, scene, draft, acts);
-        if scene.session.has_paints() {
-            let tip = "Whether drawings keep their own colours.";
+        layers(ui, state, draft, intents);
+        if state.session.has_paints() {
+            let tip = "Keeps the designs' own colours, or fills everything with one colour.";
             choice_row(ui, "Colours", tip, &mut draft.options.paint);
             if draft.options.paint == PaintRule::Own && draft.content != Some(ContentKind::Colours)
             {
-                coats(ui, &mut draft.options.coats);
+                paint_layers(ui, &mut draft.options.coats);
             }
         }
-        let tip = "Colour of the shape at t = 0.";
+        let tip = "Fill colour at t = 0.";
         colour(ui, "Source", tip, &mut draft.style.source);
-        let tip = "Colour of the shape at t = 1.";
+        let tip = "Fill colour at t = 1.";
         colour(ui, "Target", tip, &mut draft.style.target);
-        let tip = "Colour behind the shape, on screen and in pictures.";
-        colour(ui, "Ground", tip, &mut draft.style.ground);
-        if scene.session.has_bars() {
+        let tip = "Colour behind the shape, on the stage and in exports.";
+        colour(ui, "Background", tip, &mut draft.style.ground);
+        if state.session.has_bars() {
             bars(ui, draft);
         }
     });
 }
 
-/// How painted parts come and go.
-fn coats(ui: &mut Ui, coats: &mut PaintLayerOptions) {
-    let tip = "What only one drawing has fades in or out, besides growing or shrinking.";
-    toggle(ui, "Fade parts", tip, &mut coats.fade);
-    let tip =
-        "The t at which parts change places that lie over each other otherwise in the target.";
+/// Draws the options of painted parts: fading, and when their stacking order changes.
+fn paint_layers(ui: &mut Ui, layers: &mut PaintLayerOptions) {
+    let tip = "Fades parts that exist in only one design, in addition to scaling them.";
+    toggle(ui, "Fade parts", tip, &mut layers.fade);
+    let tip = "Moment t at which overlapping parts take the stacking order of the target.";
     slider(
         ui,
-        "Swap order at",
+        "Reorder at",
         tip,
-        &mut coats.reorder_at,
+        &mut layers.reorder_at,
         0.0..=1.0,
         false,
     );
 }
 
-const EQUAL: &str = "Lines of equal blended distance.";
+const EQUAL: &str = "Lines of equal distance in the blended field.";
 
-/// One layer: whether it is on, its name, what it shows, and whether there is any.
+/// Toggle of one layer: whether it is visible, its name and tooltip, and whether it applies.
 type LayerToggle<'a> = (&'a mut bool, &'static str, &'static str, bool);
 
-fn table<'a>(
-    scene: &UiState,
+fn layer_toggles<'a>(
+    state: &UiState,
     project: &Project,
     (show, onion): (&'a mut StageVisibility, &'a mut bool),
 ) -> [LayerToggle<'a>; 8] {
     let is_field = project.content == Some(ContentKind::Field);
-    // A field is of the area that the bars cover, and knows of no bars.
-    let has_bars = scene.session.has_bars() && !is_field;
-    // Boundary paths move outlines and nothing between them.
+    // A distance field describes the area that the bars cover, not the bars themselves.
+    let has_bars = state.session.has_bars() && !is_field;
+    // Boundary paths move only outlines, so there is no grid to deform.
     let has_grid = project.warp != Some(WarpKind::Paths);
     [
-        (&mut show.fill, "Fill", "The shape itself.", true),
+        (&mut show.fill, "Fill", "The filled shape.", true),
         (
             &mut show.ghosts,
             "Ghosts",
@@ -80,8 +79,8 @@ fn table<'a>(
         ),
         (
             onion,
-            "Onion",
-            "Onion skins: thin outlines of the film at its stops (O).",
+            "Onion skin",
+            "Thin outlines of the film at its stops (O).",
             true,
         ),
         (
@@ -93,39 +92,39 @@ fn table<'a>(
         (
             &mut show.wireframe,
             "Wireframe",
-            "The edges of the triangles that carry the motion.",
+            "Edges of the triangles that carry the motion.",
             !is_field,
         ),
         (&mut show.iso_lines, "Contours", EQUAL, is_field),
         (
             &mut show.signed_colours,
-            "Signed",
-            "The blended field in two hues: inside and outside.",
+            "Signed field",
+            "The blended field in two hues, for inside and outside.",
             is_field,
         ),
         (
             &mut show.grid,
             "Grid",
-            "A square grid of the source, where the warp carries it (W).",
+            "Square grid on the source, deformed by the warp (W).",
             has_grid,
         ),
     ]
 }
 
-/// Nothing of the project is shown.
-pub fn is_blank(scene: &UiState) -> bool {
-    let (mut show, mut onion) = (scene.preferences.show, false);
-    let project = scene.session.project();
+/// Returns whether all layers that apply to the project are hidden.
+pub fn is_blank(state: &UiState) -> bool {
+    let (mut show, mut onion) = (state.preferences.show, false);
+    let project = state.session.project();
     project.is_some_and(|project| {
-        let layers = table(scene, project, (&mut show, &mut onion));
+        let layers = layer_toggles(state, project, (&mut show, &mut onion));
         !layers.into_iter().any(|(on, .., applies)| *on && applies)
     })
 }
 
-fn layers(ui: &mut Ui, scene: &UiState, draft: &Project, acts: &mut Intents) {
-    let mut preferences = *scene.preferences;
+fn layers(ui: &mut Ui, state: &UiState, draft: &Project, intents: &mut Intents) {
+    let mut preferences = *state.preferences;
     let Preferences { show, onion, .. } = &mut preferences;
-    let layers = table(scene, draft, (show, onion));
+    let layers = layer_toggles(state, draft, (show, onion));
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
         ui.columns(3, |columns| {
@@ -134,15 +133,15 @@ fn layers(ui: &mut Ui, scene: &UiState, draft: &Project, acts: &mut Intents) {
             }
         });
     });
-    if preferences != *scene.preferences {
-        acts.push(Intent::Prefer(preferences));
+    if preferences != *state.preferences {
+        intents.push(Intent::Prefer(preferences));
     }
 }
 
 fn layer(ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool) {
     ui.add_enabled_ui(applies, |ui| {
         let size = vec2(ui.available_width(), 24.0);
-        // What does not apply is grey and off, and is on again where it applies again.
+        // A layer that does not apply is greyed out, but its state is remembered.
         let response = choice(ui, *on && applies, name, size);
         if response.clicked() {
             *on = !*on;
@@ -157,8 +156,9 @@ fn colour(ui: &mut Ui, label: &str, tip: &str, value: &mut Rgb) {
 
 fn bars(ui: &mut Ui, draft: &mut Project) {
     let width = drag(&mut draft.options.bar_width, 0.001..=0.2, 0.0002, 4);
-    let tip = "Thickness of the bars, as a part of the design's size; also of the shape that its field is made from.";
+    let tip = "Thickness of the bars, as a fraction of the design's size. Also used for their \
+               distance field.";
     number(ui, "Bar width", tip, width);
-    let tip = "Draws a disc where bars meet.";
+    let tip = "Draws a disc at each joint.";
     toggle(ui, "Joints", tip, &mut draft.style.joints);
 }

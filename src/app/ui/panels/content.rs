@@ -1,4 +1,4 @@
-//! The options of what is seen.
+//! Sections with the options of what is shown: the cross-fade of pictures, and distance fields.
 
 use bevy_egui::egui::Ui;
 
@@ -7,53 +7,74 @@ use crate::content::{BlendSpace, ColourMix, FieldBlend};
 use crate::field::Metric;
 use crate::transition::FieldOptions;
 
-/// The shortest span in which colours change.
-const SHORTEST: f64 = 0.01;
+/// Shortest range of the cross-fade, in t (tolerance: a range of zero length would be a jump).
+const MIN_RANGE: f64 = 0.01;
 
-/// How one picture fades into the other, apart from how they move.
+/// Draws the options of the cross-fade between two pictures.
 pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
     section(ui, "Colours", |ui| {
-        let tip = "How fast one picture gives way to the other.";
+        let tip = "How fast one picture fades into the other.";
         choice_list(ui, "Curve", tip, &mut mix.curve);
-        // The bounds keep the two apart: a span of no length would be a jump.
-        let from = drag(&mut mix.from, 0.0..=mix.to - SHORTEST, 0.005, 2);
-        number(ui, "From t", "Until here only the source is seen.", from);
-        let to = drag(&mut mix.to, mix.from + SHORTEST..=1.0, 0.005, 2);
-        number(ui, "To t", "From here on only the target is seen.", to);
+        // The limits keep both ends apart.
+        let from = drag(&mut mix.from, 0.0..=mix.to - MIN_RANGE, 0.005, 2);
+        number(
+            ui,
+            "From t",
+            "Before this moment only the source is visible.",
+            from,
+        );
+        let to = drag(&mut mix.to, mix.from + MIN_RANGE..=1.0, 0.005, 2);
+        number(
+            ui,
+            "To t",
+            "After this moment only the target is visible.",
+            to,
+        );
     });
 }
 
-/// How distance fields are made and blended.
+/// Draws the options of distance fields and of their blending.
 pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
-        mixing(ui, &mut field.blend);
-        let tip = "What distance means; it shows in the corners.";
+        blending(ui, &mut field.blend);
+        let tip = "How distance is measured. The difference shows at corners.";
         choice_list(ui, "Distance", tip, &mut field.metric);
-        // Other metrics are made from cells and know no place within one.
+        // Other metrics are computed per cell and have no position within one.
         let is_euclidean = field.metric == Metric::Euclidean;
-        let tip = "Where the edge of a shape lies within a cell; metrics other than the Euclidean have \
-             it between cells.";
+        let tip = "Position of the outline within a cell. Metrics other than Euclidean place it \
+                   between cells.";
         ui.add_enabled_ui(is_euclidean, |ui| {
             choice_row(ui, "Outline", tip, &mut field.boundary)
         });
         let cells = drag(&mut field.cells, 32..=4096, 4.0, 0);
-        let tip = "Cells along the longer side. More: finer detail, and ε and threshold mean smaller distances.";
+        let tip = "Number of cells along the longer side. More cells give finer detail; softness \
+                   and threshold then mean smaller distances.";
         number(ui, "Cells", tip, cells);
-        let tip = "Room around the designs, as a part of the longer side. Needed where the shape grows outwards.";
+        let tip = "Space around the designs, as a fraction of the longer side. Needed where the \
+                   shape grows outwards.";
         slider(ui, "Margin", tip, &mut field.margin, 0.0..=1.0, false);
     });
 }
 
-/// How the two fields become one.
-fn mixing(ui: &mut Ui, blend: &mut FieldBlend) {
-    let tip = "The scale on which distances are mixed.";
-    choice_row(ui, "Space", tip, &mut blend.space);
+/// Draws the options of blending two distance fields.
+fn blending(ui: &mut Ui, blend: &mut FieldBlend) {
+    let tip = "Scale on which distances are blended.";
+    choice_row(ui, "Scale", tip, &mut blend.space);
     ui.add_enabled_ui(blend.space == BlendSpace::Log, |ui| {
-        let tip = "How sharply the logarithm prefers what is near, in cells. Small: the two outlines \
-             stay visible as a web; large: like real space. Only for logarithmic space.";
-        slider(ui, "Softness ε", tip, &mut blend.epsilon, 0.01..=100.0, true);
+        let tip = "How gently the logarithm favours points near the outlines, in cells. Small: \
+                   both outlines stay visible as a web. Large: like a linear scale. Only for the \
+                   logarithmic scale.";
+        slider(
+            ui,
+            "Softness ε",
+            tip,
+            &mut blend.epsilon,
+            0.01..=100.0,
+            true,
+        );
     });
-    let tip = "The distance that is drawn as the outline, in cells. Above 0 the shape grows thinner, below 0 thicker.";
+    let tip = "Distance that is drawn as the outline, in cells. Positive values make the shape \
+               thinner, negative values thicker.";
     let threshold = &mut blend.threshold;
     slider(ui, "Threshold", tip, threshold, -40.0..=40.0, false);
 }

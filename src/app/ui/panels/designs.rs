@@ -1,4 +1,4 @@
-//! The designs: their order, how they are read, and how they lie in one frame.
+//! Designs section: order of the designs, their placement in the common frame, and import options.
 
 use std::ops::RangeInclusive;
 
@@ -8,43 +8,43 @@ use bevy_egui::egui::{
 
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons;
+use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{
     automatic_toggle, choice_row, drag, from_right, icon_button, number, row, secondary_text,
     section, slider, toggle,
 };
-use crate::app::ui::stage::checks::capitalised;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 use crate::design::{Format, ImportNote};
 use crate::project::{DesignEntry, MovedDesigns, Project};
 
-/// The grey level that is started from when it is set by hand.
+/// Initial threshold when it is set by hand: the middle of the 256 grey levels.
 const MIDDLE_GREY: u8 = 128;
 
-/// The scales that the slider runs over, which is some hundred points long: over more, and a hand
-/// cannot set one.
+/// Range of the scale slider (tolerance: on a slider about 100 points long, a wider range could not
+/// be set precisely).
 const SCALES: RangeInclusive<f64> = 0.25..=4.0;
 
-/// Draws all designs, and of the two that are looked at everything.
-pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intents) {
-    let Some(whole) = scene.session.whole() else {
+/// Draws the list of all designs, and all settings of those in the current segment.
+pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
+    let Some(whole) = state.session.whole() else {
         return;
     };
-    // A path goes between all.
+    // A path over the map blends all designs.
     let numbers = match whole.follows_path() {
         true => (0..whole.designs.len()).collect(),
-        false => whole.leg_designs(scene.session.leg()).to_vec(),
+        false => whole.leg_designs(state.session.leg()).to_vec(),
     };
     let last = numbers.len().saturating_sub(1).max(1) as f64;
     section(ui, "Designs", |ui| {
         if whole.is_sequence() {
-            order(ui, scene, whole, acts);
+            order(ui, state, whole, intents);
         }
-        add(ui, whole, acts);
-        let tip = "How unlike designs are laid over each other before anything else.";
-        choice_row(ui, "Frame", tip, &mut draft.fit);
-        let style = scene.session.style_here();
+        add(ui, whole, intents);
+        let tip = "How the designs are aligned before they are matched.";
+        choice_row(ui, "Align", tip, &mut draft.fit);
+        let style = state.session.style_here();
         let seen = draft.designs.iter_mut().zip(&numbers).enumerate();
         for (index, (entry, &number)) in seen {
             let colour = style.fill_at(index as f64 / last);
@@ -53,14 +53,14 @@ pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intent
                 (false, 0) => "Source".to_owned(),
                 (false, _) => "Target".to_owned(),
             };
-            design(ui, (index, number), (&role, colour), entry, acts);
-            if let Some(design) = scene.session.all_designs().get(number) {
+            design(ui, (index, number), (&role, colour), entry, intents);
+            if let Some(design) = state.session.all_designs().get(number) {
                 notes(ui, index, &design.notes);
             }
         }
         if !whole.is_sequence() && swap(ui) {
             draft.designs.swap(0, 1);
-            // What was said by hand is of points of the designs, and changes sides with them.
+            // Settings made by hand refer to points of the designs, so they change sides too.
             draft.options.matching = draft.options.matching.swapped();
             let parts = draft.options.parts.iter_mut();
             parts.for_each(|part| *part = part.swapped());
@@ -70,16 +70,16 @@ pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intent
     });
 }
 
-/// The list of all designs, in which they change places.
-fn order(ui: &mut Ui, scene: &UiState, whole: &Project, acts: &mut Intents) {
-    let here = whole.leg_designs(scene.session.leg());
+/// Draws the list of all designs, with buttons to reorder them.
+fn order(ui: &mut Ui, state: &UiState, whole: &Project, intents: &mut Intents) {
+    let here = whole.leg_designs(state.session.leg());
     for (k, entry) in whole.designs.iter().enumerate() {
         ui.horizontal(|ui| {
             let words = RichText::new(format!("{}", k + 1)).color(ThemePalette::of(ui).weak);
             ui.add_sized([16.0, CONTROL_HEIGHT], Label::new(words));
             from_right(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
-                moves(ui, whole, k, acts);
+                list_buttons(ui, whole, k, intents);
                 let name = RichText::new(entry.shown_name());
                 let name = match here.contains(&k) {
                     true => name.strong(),
@@ -91,60 +91,60 @@ fn order(ui: &mut Ui, scene: &UiState, whole: &Project, acts: &mut Intents) {
                 let room = vec2(ui.available_width(), CONTROL_HEIGHT);
                 let label = ui.allocate_ui_with_layout(room, left, |ui| ui.add(label));
                 if label.inner.on_hover_text(tip).clicked() {
-                    acts.push(Intent::Seek(k as f64));
+                    intents.push(Intent::Seek(k as f64));
                 }
             });
         });
     }
     let mut closed = whole.closed;
-    let tip = "The last design leads back to the first: a film that can run for ever.";
-    toggle(ui, "Lead back", tip, &mut closed);
+    let tip = "Continues from the last design to the first, so that the film can repeat forever.";
+    toggle(ui, "Close the loop", tip, &mut closed);
     if closed != whole.closed {
-        acts.push(Intent::LeadBack(closed));
+        intents.push(Intent::LeadBack(closed));
     }
 }
 
-/// The buttons that move a design among the others, from right to left.
-fn moves(ui: &mut Ui, whole: &Project, k: usize, acts: &mut Intents) {
+/// Draws the buttons of one design in the list, from right to left.
+fn list_buttons(ui: &mut Ui, whole: &Project, k: usize, intents: &mut Intents) {
     let last = whole.designs.len() - 1;
     let mut button = |icon, tip: &str, order: Option<Vec<MovedDesigns>>| {
         ui.add_enabled_ui(order.is_some(), |ui| {
             if icon_button(ui, icon, tip, vec2(24.0, 24.0)).clicked() {
-                acts.extend(order.map(Intent::Arrange));
+                intents.extend(order.map(Intent::Arrange));
             }
         });
     };
-    let out = (last > 1).then(|| whole.without(k));
-    button(icons::CLOSE, "Take it out", out);
-    let twice = whole.with_repeated(k);
-    button(icons::COPY, "Once more behind it", Some(twice));
+    let removed = (last > 1).then(|| whole.without(k));
+    button(icons::CLOSE, "Remove", removed);
+    let duplicated = whole.with_repeated(k);
+    button(icons::COPY, "Duplicate", Some(duplicated));
     let later = (k < last).then(|| whole.with_moved(k, k + 2)).flatten();
-    button(icons::DOWN, "Later", later);
+    button(icons::DOWN, "Move down", later);
     let earlier = k.checked_sub(1).and_then(|to| whole.with_moved(k, to));
-    button(icons::UP, "Earlier", earlier);
+    button(icons::UP, "Move up", earlier);
 }
 
-fn add(ui: &mut Ui, whole: &Project, acts: &mut Intents) {
+fn add(ui: &mut Ui, whole: &Project, intents: &mut Intents) {
     let button = ui.button("Add designs …");
-    let tip = "Further designs behind the last one: the film goes through all of them.";
+    let tip = "Adds designs after the last one. The film goes through all of them.";
     if button.on_hover_text(tip).clicked() {
-        acts.push(Intent::AskInsert(whole.designs.len()));
+        intents.push(Intent::AskInsert(whole.designs.len()));
     }
     ui.add_space(4.0);
 }
 
 fn swap(ui: &mut Ui) -> bool {
-    let tip = "Exchanges source and target: the film runs the other way.";
+    let tip = "Swap source and target: the film runs backwards.";
     icon_button(ui, icons::SWAP, tip, vec2(32.0, CONTROL_HEIGHT)).clicked()
 }
 
-/// One of those that are looked at, and its number among all.
+/// Draws one design of the current segment; `number` is its index among all designs.
 fn design(
     ui: &mut Ui,
     (index, number): (usize, usize),
     (role, colour): (&str, Rgb),
     entry: &mut DesignEntry,
-    acts: &mut Intents,
+    intents: &mut Intents,
 ) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
@@ -153,9 +153,9 @@ fn design(
         ui.painter().circle_filled(dot.center(), 5.0, fill);
         ui.label(secondary_text(ui, role));
         from_right(ui, |ui| {
-            let tip = "Another file in its place";
+            let tip = "Replace file";
             if icon_button(ui, icons::OPEN, tip, vec2(24.0, 24.0)).clicked() {
-                acts.push(Intent::AskReplace(number));
+                intents.push(Intent::AskReplace(number));
             }
             let path = entry.path.display().to_string();
             ui.add(Label::new(entry.shown_name()).truncate())
@@ -166,18 +166,18 @@ fn design(
     ui.push_id(id, |ui| {
         CollapsingHeader::new("Placement").show_unindented(ui, |ui| placement(ui, entry));
         if is_picture(entry) {
-            CollapsingHeader::new("Reading the picture")
-                .show_unindented(ui, |ui| reading(ui, entry));
+            CollapsingHeader::new("Image tracing")
+                .show_unindented(ui, |ui| import_options(ui, entry));
         }
     });
 }
 
-/// What was repaired or left out when the design was read.
+/// Lists what was repaired or ignored when the design was imported.
 fn notes(ui: &mut Ui, index: usize, notes: &[ImportNote]) {
     let title = match notes {
         [] => return,
-        [_] => "1 note on how it was read".to_owned(),
-        notes => format!("{} notes on how it was read", notes.len()),
+        [_] => "1 import note".to_owned(),
+        notes => format!("{} import notes", notes.len()),
     };
     let title = RichText::new(title).color(ThemePalette::of(ui).amber);
     let id = ui.id().with(("notes", index));
@@ -195,7 +195,7 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
     row(
         ui,
         "Offset",
-        "Moves this design right and up, in its own units.",
+        "Moves this design right (x) and up (y), in its own units.",
         |ui| {
             let field = |ui: &mut Ui, value: &mut f64, prefix: &str| {
                 let drag = DragValue::new(value)
@@ -207,17 +207,17 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
             field(ui, &mut place.offset.x, "x ") | field(ui, &mut place.offset.y, "y ")
         },
     );
-    let tip = "Enlarges this design about its own middle.";
+    let tip = "Scales this design about its centre.";
     slider(ui, "Scale", tip, &mut place.scale, SCALES, true);
     let mut degrees = place.rotation.to_degrees();
-    let tip = "Turns this design counter-clockwise, in degrees.";
+    let tip = "Rotates this design counter-clockwise, in degrees.";
     slider(ui, "Rotation", tip, &mut degrees, -180.0..=180.0, false);
-    // To degrees and back is not the same number: being drawn would change the project.
+    // Degrees and back is inexact: drawing the slider alone must not change the project.
     if (degrees - place.rotation.to_degrees()).abs() > 1e-9 {
         place.rotation = degrees.to_radians();
     }
-    let tip = "Exchanges left and right of this design.";
-    toggle(ui, "Mirror", tip, &mut place.mirror);
+    let tip = "Flips this design horizontally.";
+    toggle(ui, "Flip", tip, &mut place.mirror);
 }
 
 fn is_picture(entry: &DesignEntry) -> bool {
@@ -226,24 +226,32 @@ fn is_picture(entry: &DesignEntry) -> bool {
         .any(|format| format.ends(&entry.path))
 }
 
-fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
+fn import_options(ui: &mut Ui, entry: &mut DesignEntry) {
     let import = &mut entry.import;
-    let tip = "Each flat colour of the picture is a part of its own, and keeps its colour.";
+    let tip = "Turns each flat colour of the picture into a part of its own, in that colour.";
     toggle(ui, "By colour", tip, &mut import.colours);
-    let tip = "Finds the grey level that parts shape from ground by itself.";
-    automatic_toggle(ui, "Automatic", tip, &mut import.threshold, MIDDLE_GREY);
+    let tip = "Finds the grey level that separates shape from background automatically.";
+    automatic_toggle(
+        ui,
+        "Auto threshold",
+        tip,
+        &mut import.threshold,
+        MIDDLE_GREY,
+    );
     if let Some(threshold) = &mut import.threshold {
         let level = drag(threshold, 1..=255, 0.5, 0);
-        let tip = "Where shape ends and ground begins, 1 to 255: higher lets more in.";
-        number(ui, "Grey level", tip, level);
+        let tip = "Grey level that separates shape from background, 1 to 255. Higher values add \
+                   more to the shape.";
+        number(ui, "Threshold", tip, level);
     }
-    let tip = "Takes the ground for the shape.";
+    let tip = "Swaps shape and background.";
     toggle(ui, "Invert", tip, &mut import.invert);
-    let specks = DragValue::new(&mut import.specks_px).speed(0.2);
-    let tip = "Spots and holes of fewer pixels than this are left out.";
-    number(ui, "Specks", tip, specks);
+    let min_area = DragValue::new(&mut import.specks_px).speed(0.2);
+    let tip = "Ignores spots and holes with fewer pixels than this.";
+    number(ui, "Ignore spots", tip, min_area);
     let tolerance = drag(&mut import.tolerance, 0.0..=0.1, 0.0001, 4);
-    let tip = "How far the outline may run from the exact edge, as a part of the longer side: larger has fewer corners.";
+    let tip = "Maximum distance between the traced outline and the exact edge, as a fraction of \
+               the longer side. Larger values give fewer corners.";
     number(ui, "Tolerance", tip, tolerance);
     ui.add_space(GRID);
 }

@@ -1,4 +1,4 @@
-//! Pictures and films: what they are made for, how they lie, and what comes of it.
+//! Export settings: preset, size, range and file type of films, and size of images.
 
 use bevy_egui::egui::{Button, ComboBox, Frame, Key, Margin, Panel, Response, TextEdit, Ui, vec2};
 
@@ -15,9 +15,9 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
 use crate::export::{FilmKind, LayoutPreset, has_ffmpeg};
 use crate::io::sanitize::SanitizedLine;
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 
-/// The sides that are offered by name, in pixels along the shorter one.
+/// Standard sizes, in pixels along the shorter side: value, label and tooltip.
 const SIDES: [(u32, &str, &str); 4] = [
     (480, "480", "480 pixels along the shorter side"),
     (720, "720", "720 pixels along the shorter side: HD"),
@@ -25,94 +25,97 @@ const SIDES: [(u32, &str, &str); 4] = [
     (2160, "4K", "2160 pixels along the shorter side: 4K"),
 ];
 
-/// The fastest film that a GIF can be, in frames a second.
+/// Maximum frame rate of a GIF, in frames per second: its delays are whole hundredths of a second,
+/// and players slow down delays below two of them.
 const GIF_FPS: u32 = 50;
 
-/// Draws the options, in the place of the transition's.
-pub fn show(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let mut draft = *scene.preferences;
+/// Draws the settings, in the place of the transition's.
+pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let mut draft = *state.preferences;
     ui.horizontal(|ui| {
-        ui.label(secondary_text(ui, "Pictures and films"));
+        ui.label(secondary_text(ui, "Export settings"));
         from_right(ui, |ui| {
-            let tip = "Back to the options (Esc)";
+            let tip = "Close (Esc)";
             let close = icon_button(ui, icons::CLOSE, tip, vec2(24.0, 24.0));
             if close.clicked() {
                 draft.film_options = false;
             }
         });
     });
-    section(ui, "Film", |ui| film(ui, scene, &mut draft, acts));
-    section(ui, "Picture of the stage", |ui| {
-        picture(ui, &mut draft, acts);
+    section(ui, "Film", |ui| film(ui, state, &mut draft, intents));
+    section(ui, "Image", |ui| {
+        picture(ui, &mut draft, intents);
     });
-    if draft != *scene.preferences {
-        acts.push(Intent::Prefer(draft));
+    if draft != *state.preferences {
+        intents.push(Intent::Prefer(draft));
     }
 }
 
-/// What comes of it, and what begins it: in sight wherever the options are scrolled to.
-pub fn foot(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
+/// Draws the expected size and the export button, fixed below the scrolling settings.
+pub fn foot(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = Frame::NONE.inner_margin(Margin::symmetric(0, 8));
-    Panel::bottom("write the film").frame(frame).show(ui, |ui| {
+    Panel::bottom("export").frame(frame).show(ui, |ui| {
         ui.set_width(ui.available_width());
-        told(ui, scene);
+        summary(ui, state);
         ui.add_space(GRID);
-        let is_free = scene.recorder.work().is_none() && scene.film.0.is_some();
+        let is_free = state.recorder.work().is_none() && state.film.0.is_some();
         ui.add_enabled_ui(is_free, |ui| {
-            if primary_button(ui, "Write the film").clicked() {
-                acts.push(Intent::Record);
+            if primary_button(ui, "Export").clicked() {
+                intents.push(Intent::Record);
             }
         });
     });
 }
 
-fn film(ui: &mut Ui, scene: &UiState, draft: &mut Preferences, acts: &mut Intents) {
+fn film(ui: &mut Ui, state: &UiState, draft: &mut Preferences, intents: &mut Intents) {
     purpose(ui, draft);
-    kept(ui, scene, acts);
+    my_presets(ui, state, intents);
     let layout = &mut draft.film.layout;
-    let tip = "The shape of the film's pictures; the stage shows it.";
-    choice_row(ui, "Shape", tip, &mut layout.aspect);
-    let tip = "Pixels along the shorter side: one of these, or your own number.";
+    let tip = "Aspect ratio of the film. The stage shows the frame.";
+    choice_row(ui, "Aspect ratio", tip, &mut layout.aspect);
+    let tip = "Pixels along the shorter side. Choose a size, or type one.";
     row(ui, "Size", tip, |ui| {
-        let own = drag(&mut layout.lines, 16..=4320, 4.0, 0);
-        let own = ui.add_sized([48.0, CONTROL_HEIGHT], own);
-        own | choices(ui, &mut layout.lines, &SIDES)
+        let custom = drag(&mut layout.lines, 16..=4320, 4.0, 0);
+        let custom = ui.add_sized([48.0, CONTROL_HEIGHT], custom);
+        custom | choices(ui, &mut layout.lines, &SIDES)
     });
-    let tip = "What is free all around, as a part of the shorter side.";
+    let tip = "Empty space all around, as a fraction of the shorter side.";
     slider(ui, "Margin", tip, &mut layout.margin, 0.0..=0.3, false);
-    let tip = "The names of the stops below, each while the film is near it; of the designs, where there are no named stops.";
+    let tip = "Shows the name of a stop below the film while the film is near it. Without named \
+               stops, shows the names of the designs.";
     toggle(ui, "Captions", tip, &mut layout.has_captions);
-    span(ui, scene, &mut draft.film);
-    let tip = "How the film goes on at its end.";
-    choice_row(ui, "Then", tip, &mut draft.film.ending);
-    file(ui, scene, draft);
-    advice(ui, scene, draft);
+    range(ui, state, &mut draft.film);
+    let tip = "What happens at the end of the film.";
+    choice_row(ui, "At the end", tip, &mut draft.film.ending);
+    file(ui, state, draft);
+    advice(ui, state, draft);
 }
 
-/// What is seen on the stage.
-fn content(scene: &UiState) -> Option<ContentKind> {
-    scene.session.project().and_then(|project| project.content)
+/// Returns the kind of content on the stage.
+fn content(state: &UiState) -> Option<ContentKind> {
+    state.session.project().and_then(|project| project.content)
 }
 
+/// File type with a limited frame rate and number of colours.
 const GIF: FilmFileFormat = FilmFileFormat::Film(FilmKind::Gif);
 
-/// The kind of file, and what goes with it.
-fn file(ui: &mut Ui, scene: &UiState, draft: &mut Preferences) {
-    let before = draft.format(content(scene));
+/// Draws the file types, and the settings that depend on the file type.
+fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
+    let before = draft.format(content(state));
     let mut format = before;
-    let can = |format: &FilmFileFormat| *format != FilmFileFormat::OPAQUE || has_ffmpeg();
-    // Side by side they would lie over each other.
-    let (moving, pixels): (Vec<_>, Vec<_>) = formats().into_iter().partition(|(format, ..)| {
+    let is_available = |format: &FilmFileFormat| *format != FilmFileFormat::OPAQUE || has_ffmpeg();
+    // Two rows: all types in one row would overlap.
+    let (vector, pixels): (Vec<_>, Vec<_>) = formats().into_iter().partition(|(format, ..)| {
         let outlines = [FilmKind::Svg, FilmKind::Html, FilmKind::Lottie];
         outlines.map(FilmFileFormat::Film).contains(format)
     });
-    let tip = "The kind of file that a recording writes.";
-    row(ui, "File", tip, |ui| {
-        choices_where(ui, &mut format, &pixels, can)
+    let tip = "File type of the film.";
+    row(ui, "File type", tip, |ui| {
+        choices_where(ui, &mut format, &pixels, is_available)
     });
-    let tip = "Files that move by themselves and keep the outlines sharp at any size.";
-    row(ui, "Outlines", tip, |ui| {
-        choices_where(ui, &mut format, &moving, can)
+    let tip = "Vector animations, which stay sharp at any size.";
+    row(ui, "Vector", tip, |ui| {
+        choices_where(ui, &mut format, &vector, is_available)
     });
     if format != before {
         draft.record_format = Some(format);
@@ -122,29 +125,33 @@ fn file(ui: &mut Ui, scene: &UiState, draft: &mut Preferences) {
         draft.film.fps = draft.film.fps.min(GIF_FPS);
     }
     let rates = [
-        (25, "25", "As films in Europe"),
-        (30, "30", "As films in America, and half of most screens"),
-        (50, "50", "Very smooth; the fastest that a GIF can be"),
-        (60, "60", "As fast as most screens; too fast for a GIF"),
+        (25, "25", "25 fps (PAL)"),
+        (30, "30", "30 fps (NTSC, half the rate of most screens)"),
+        (50, "50", "50 fps, very smooth; the maximum for GIF"),
+        (
+            60,
+            "60",
+            "60 fps, the rate of most screens; too fast for GIF",
+        ),
     ];
-    row(ui, "Rate", "Frames a second.", |ui| {
-        let can = |fps: &u32| !is_gif || *fps <= GIF_FPS;
-        choices_where(ui, &mut draft.film.fps, &rates, can)
+    row(ui, "Frame rate", "Frames per second.", |ui| {
+        let is_available = |fps: &u32| !is_gif || *fps <= GIF_FPS;
+        choices_where(ui, &mut draft.film.fps, &rates, is_available)
     });
     let is_opaque = format == FilmFileFormat::OPAQUE;
     let mut is_transparent = draft.film.is_transparent && !is_opaque;
-    row(ui, "Ground", "What lies behind the shapes.", |ui| {
-        choices_where(ui, &mut is_transparent, &GROUNDS, |wish| {
+    row(ui, "Background", "Background of the film.", |ui| {
+        choices_where(ui, &mut is_transparent, &BACKGROUNDS, |wish| {
             !wish || !is_opaque
         })
     });
-    // An MP4 has none; what was wished is there again with another file.
+    // MP4 has no transparency; the setting is kept for other file types.
     if !is_opaque {
         draft.film.is_transparent = is_transparent;
     }
 }
 
-/// What it is made for sets most of what follows.
+/// Draws the presets for common uses, which set most of the settings below.
 fn purpose(ui: &mut Ui, draft: &mut Preferences) {
     let layout = &mut draft.film.layout;
     let before = LayoutPreset::ALL
@@ -152,12 +159,12 @@ fn purpose(ui: &mut Ui, draft: &mut Preferences) {
         .find(|p| p.layout() == *layout);
     let mut purpose = before;
     let purposes = LayoutPreset::ALL.map(|p| (Some(p), p.name().title, p.name().sentence));
-    let tip = "Sets shape, size, captions and file to what is usual there.";
-    choices_row(ui, "Made for", tip, &mut purpose, &purposes);
+    let tip = "Sets aspect ratio, size, captions and file type for a common use.";
+    choices_row(ui, "Preset", tip, &mut purpose, &purposes);
     if let Some(purpose) = purpose.filter(|_| purpose != before) {
         *layout = purpose.layout();
-        // What slides and posts take; and what a page shows without a player, which hangs on what
-        // is seen.
+        // Slides and posts accept MP4. For a web page, the type that plays without a player depends
+        // on the content.
         draft.record_format = match purpose {
             LayoutPreset::Page => None,
             _ if has_ffmpeg() => Some(FilmFileFormat::Film(FilmKind::Mp4)),
@@ -166,66 +173,66 @@ fn purpose(ui: &mut Ui, draft: &mut Preferences) {
     }
 }
 
-/// Looks of films that were kept, and a way to keep this one.
-fn kept(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let in_use = scene.presets.in_use(&scene.preferences, content(scene));
-    let tip = "Looks of films that you have kept, also for --preset on the command line.";
-    row(ui, "Kept", tip, |ui| {
-        let list = ComboBox::from_id_salt("kept looks")
+/// Draws the list of the user's own presets, with entries to save and delete one.
+fn my_presets(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let in_use = state.presets.in_use(&state.preferences, content(state));
+    let tip = "Your saved export settings, also for --preset on the command line.";
+    row(ui, "My presets", tip, |ui| {
+        let list = ComboBox::from_id_salt("my presets")
             .width(ui.available_width())
             .truncate()
             .selected_text(in_use.unwrap_or("–"));
         let shown = list.show_ui(ui, |ui| {
-            for name in scene.presets.names() {
+            for name in state.presets.names() {
                 let chosen = ui.selectable_label(in_use == Some(name), name);
                 if chosen.clicked() {
-                    acts.push(Intent::UsePreset(name.to_owned()));
+                    intents.push(Intent::UsePreset(name.to_owned()));
                 }
             }
             ui.separator();
             match in_use {
                 Some(name) => {
-                    if ui.button(format!("Forget “{name}”")).clicked() {
-                        acts.push(Intent::ForgetPreset(name.to_owned()));
+                    if ui.button(format!("Delete “{name}”")).clicked() {
+                        intents.push(Intent::ForgetPreset(name.to_owned()));
                         ui.close();
                     }
                 }
-                None => keep(ui, acts),
+                None => save_preset(ui, intents),
             }
         });
         shown.response
     });
 }
 
-/// A name for what is set now.
-fn keep(ui: &mut Ui, acts: &mut Intents) {
-    let id = ui.id().with("name of a look");
+/// Draws a field and a button that save the current settings under a name.
+fn save_preset(ui: &mut Ui, intents: &mut Intents) {
+    let id = ui.id().with("preset name");
     let mut name: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
     let field = TextEdit::singleline(&mut name)
         .hint_text("Name")
         .desired_width(120.0);
     let field = ui.add(field);
     let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    let can = !name.trim().is_empty();
-    let button = ui.add_enabled(can, Button::new("Keep this look"));
-    if can && (button.clicked() || is_entered) {
-        acts.push(Intent::KeepPreset(name.trim().to_owned()));
+    let can_save = !name.trim().is_empty();
+    let button = ui.add_enabled(can_save, Button::new("Save preset"));
+    if can_save && (button.clicked() || is_entered) {
+        intents.push(Intent::KeepPreset(name.trim().to_owned()));
         name.clear();
         ui.close();
     }
     ui.data_mut(|data| data.insert_temp(id, name));
 }
 
-/// From where to where.
-fn span(ui: &mut Ui, scene: &UiState, look: &mut FilmExportOptions) {
-    let tip = "The stops at which the film begins and ends; set stops with M.";
-    row(ui, "From, to", tip, |ui| {
-        let mut places = look.places(scene.session.timing(), scene.session.stops());
+/// Draws the lists that choose where the film starts and ends.
+fn range(ui: &mut Ui, state: &UiState, look: &mut FilmExportOptions) {
+    let tip = "Stops at which the film starts and ends. Add stops with M.";
+    row(ui, "Range", tip, |ui| {
+        let mut places = look.places(state.session.timing(), state.session.stops());
         let before = places;
         let [from, to] = &mut places;
         let width = (ui.available_width() - GRID) / 2.0;
-        let first = place(ui, scene, "film from", from, ("Start", width));
-        let last = place(ui, scene, "film to", to, ("End", width));
+        let first = place(ui, state, "film from", from, ("Start", width));
+        let last = place(ui, state, "film to", to, ("End", width));
         if places != before {
             look.span = places;
         }
@@ -233,17 +240,17 @@ fn span(ui: &mut Ui, scene: &UiState, look: &mut FilmExportOptions) {
     });
 }
 
-/// A list of all places; none is the pass's own.
+/// Drop-down list of the film's ends and the stops; `None` is the film's own end, `default_name`.
 fn place(
     ui: &mut Ui,
-    scene: &UiState,
+    state: &UiState,
     salt: &str,
     at: &mut Option<f64>,
-    (own, width): (&str, f32),
+    (default_name, width): (&str, f32),
 ) -> Response {
-    let (timing, stops) = (scene.session.timing(), scene.session.stops());
+    let (timing, stops) = (state.session.timing(), state.session.stops());
     let name = |at: Option<f64>| match at {
-        None => own.to_owned(),
+        None => default_name.to_owned(),
         Some(t) => match stops.iter().find(|stop| stop.t == t) {
             Some(stop) if !stop.name.is_empty() => SanitizedLine(&stop.name).to_string(),
             _ => format!("t = {t:.3}"),
@@ -262,23 +269,24 @@ fn place(
     shown.response
 }
 
-/// What comes out large.
-fn advice(ui: &mut Ui, scene: &UiState, draft: &Preferences) {
-    let content = content(scene);
+/// Warns about file types that suit the content badly.
+fn advice(ui: &mut Ui, state: &UiState, draft: &Preferences) {
+    let content = content(state);
     if draft.format(content) == GIF && content == Some(ContentKind::Colours) {
         hint(
             ui,
-            "A GIF of photographs is large, and has 256 colours: MP4 is smaller and truer.",
+            "A GIF of photographs is large and has only 256 colours. MP4 is smaller and looks \
+             better.",
         );
     }
 }
 
-/// What would be written.
-fn told(ui: &mut Ui, scene: &UiState) {
-    let Some(framed) = &scene.film.0 else {
-        let words = match scene.session.transition() {
-            Some(_) => "Nothing to write: it would end where it begins.",
-            None => "Nothing to write yet.",
+/// Describes the file that would be exported.
+fn summary(ui: &mut Ui, state: &UiState) {
+    let Some(framed) = &state.film.0 else {
+        let words = match state.session.transition() {
+            Some(_) => "Nothing to export: the film would end where it starts.",
+            None => "Nothing to export yet.",
         };
         ui.label(secondary_text(ui, words));
         return;
@@ -288,20 +296,20 @@ fn told(ui: &mut Ui, scene: &UiState) {
     let (frames, secs) = (framed.frames, framed.secs);
     let words = format!("{width} × {height} pixels, {frames} frames, {secs:.1} s");
     ui.label(secondary_text(ui, words));
-    let cost = match scene.estimate.cost() {
+    let cost = match state.estimate.cost() {
         Some(cost) => format!(
-            "About {}, written in {}",
+            "About {}, takes about {}",
             size_of(cost.bytes),
             time_of(cost.secs)
         ),
-        None if scene.estimate.is_busy() => "Seeing how large it becomes …".to_owned(),
+        None if state.estimate.is_busy() => "Estimating size …".to_owned(),
         None => String::new(),
     };
     ui.label(secondary_text(ui, cost))
-        .on_hover_text("Some frames were written to see.");
+        .on_hover_text("Estimated from a few exported frames");
 }
 
-/// Two digits, as more are not known.
+/// Formats an estimated file size, without digits that the estimate cannot know.
 fn size_of(bytes: f64) -> String {
     let (number, unit) = if bytes >= 1e6 {
         (bytes / 1e6, "MB")
@@ -323,28 +331,39 @@ fn time_of(secs: f64) -> String {
     }
 }
 
-const GROUNDS: [(bool, &str, &str); 2] = [
-    (false, "Coloured", "The ground colour of the project"),
+/// Choices of a background: whether it is transparent, label and tooltip.
+const BACKGROUNDS: [(bool, &str, &str); 2] = [
+    (false, "Coloured", "Background colour of the project"),
     (
         true,
         "Transparent",
-        "Nothing, for placing on a page; MP4 cannot",
+        "No background, for placing on a page; not with MP4",
     ),
 ];
 
-fn picture(ui: &mut Ui, draft: &mut Preferences, acts: &mut Intents) {
-    let tip = "How many pixels a picture of the stage has.";
+fn picture(ui: &mut Ui, draft: &mut Preferences, intents: &mut Intents) {
+    let tip = "Size of the image, in pixels.";
     let scales = [
-        (ImageScale::One, "1×", "As many as on screen"),
-        (ImageScale::Two, "2×", "Twice as many along each side"),
-        (ImageScale::FourK, "4K", "3840 along the longer side"),
+        (ImageScale::One, "1×", "As on screen"),
+        (
+            ImageScale::Two,
+            "2×",
+            "Twice as many pixels along each side",
+        ),
+        (ImageScale::FourK, "4K", "3840 pixels along the longer side"),
     ];
     choices_row(ui, "Size", tip, &mut draft.capture_scale, &scales);
-    let tip = "What lies behind the shapes.";
-    choices_row(ui, "Ground", tip, &mut draft.capture_transparent, &GROUNDS);
+    let tip = "Background of the image.";
+    choices_row(
+        ui,
+        "Background",
+        tip,
+        &mut draft.capture_transparent,
+        &BACKGROUNDS,
+    );
     ui.add_space(GRID);
-    if ui.button("Take a picture of the stage").clicked() {
-        acts.push(Intent::Screenshot { with_panels: false });
+    if ui.button("Save image").clicked() {
+        intents.push(Intent::Screenshot { with_panels: false });
     }
 }
 
@@ -356,7 +375,7 @@ fn formats() -> Vec<(FilmFileFormat, &'static str, &'static str)> {
     let pngs = (
         FilmFileFormat::Pngs,
         "PNGs",
-        "A folder of numbered pictures",
+        "Folder of numbered PNG images",
     );
     FilmKind::ALL.map(film).into_iter().chain([pngs]).collect()
 }

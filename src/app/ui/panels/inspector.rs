@@ -1,7 +1,6 @@
-//! The panel on the right: everything that can be set about the transition.
+//! Inspector: the panel on the right with all settings of the transition.
 //!
-//! Its parts change a copy of the project; where the copy came out different it is sent as one
-//! intent.
+//! The sections edit a copy of the project. If the copy has changed, it is sent as one intent.
 
 use bevy_egui::egui::{Panel, ScrollArea, Ui};
 
@@ -15,51 +14,52 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
 use crate::warp::WarpKind;
 
+/// Width of the panel, in points.
 const WIDTH: f32 = 328.0;
 
-/// Draws the panel.
-pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
+/// Draws the inspector, or the export settings in its place.
+pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 8, 0, 0]);
     Panel::right("inspector")
         .exact_size(WIDTH)
         .resizable(false)
         .frame(frame)
         .show(root, |ui| {
-            if scene.preferences.film_options {
-                export::foot(ui, scene, acts);
+            if state.preferences.film_options {
+                export::foot(ui, state, intents);
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 ui.set_width(WIDTH - 40.0);
-                match scene.preferences.film_options {
-                    true => export::show(ui, scene, acts),
-                    false => sections(ui, scene, acts),
+                match state.preferences.film_options {
+                    true => export::show(ui, state, intents),
+                    false => sections(ui, state, intents),
                 }
                 ui.add_space(2.0 * GRID);
             });
         });
 }
 
-fn sections(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let Some(project) = scene.session.project() else {
+fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let Some(project) = state.session.project() else {
         return;
     };
-    if scene.map.is_shown {
-        map::show(ui, scene, acts);
+    if state.map.is_shown {
+        map::show(ui, state, intents);
     }
-    // Not of the copy: another method is an intent of its own, which keys send too.
-    method::show(ui, scene, project, acts);
+    // Not part of the copy: shortcuts change the method too, by an intent of its own.
+    method::show(ui, state, project, intents);
     let mut draft = project.clone();
-    if scene.session.can_match() && draft.warp != Some(WarpKind::None) {
-        matching::show(ui, scene, &mut draft, acts);
+    if state.session.can_match() && draft.warp != Some(WarpKind::None) {
+        matching::show(ui, state, &mut draft, intents);
     }
-    // Of many designs the local maps have one way.
+    // Blends of many designs interpolate rigid parts in a fixed way.
     let is_pair = !draft.follows_path();
     if draft.warp == Some(WarpKind::Arap) && is_pair {
-        rigid_motion::show(ui, scene, &mut draft.options.arap);
+        rigid_motion::show(ui, state, &mut draft.options.arap);
     }
     let is_solid = draft.content == Some(ContentKind::Solid);
     if draft.warp == Some(WarpKind::Arap) && is_solid && is_pair {
-        part_timing::show(ui, scene, &mut draft.options.parts);
+        part_timing::show(ui, state, &mut draft.options.parts);
     }
     let carries_fields =
         draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Field);
@@ -78,10 +78,10 @@ fn sections(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
         Some(ContentKind::Colours) => content::colours(ui, &mut draft.options.colours),
         Some(ContentKind::Solid) | None => {}
     }
-    designs::show(ui, scene, &mut draft, acts);
-    appearance::show(ui, scene, &mut draft, acts);
-    // One intent for all, so that one movement of the hand is one step of the history.
+    designs::show(ui, state, &mut draft, intents);
+    appearance::show(ui, state, &mut draft, intents);
+    // One intent for all sections, so that one change by the user is one undo step.
     if draft != *project {
-        acts.push(Intent::Edit(Box::new(draft)));
+        intents.push(Intent::Edit(Box::new(draft)));
     }
 }

@@ -1,4 +1,4 @@
-//! What can be set about the map while it is shown: the path over it, and the places that are kept.
+//! Map sections of the inspector: the path over the map, and the saved blends.
 
 use bevy_egui::egui::{Color32, Id, Label, Rect, RichText, Sense, TextEdit, Ui, pos2, vec2};
 
@@ -12,22 +12,24 @@ use crate::colour::Rgb;
 use crate::project::{MapSettings, SavedPlace};
 use crate::space::MapPath;
 
-/// Width of a number before a row.
+/// Width of a row's number, in points.
 const NUMBER: f32 = 16.0;
 
-/// Width of a star.
+/// Width of a star, in points.
 const STAR: f32 = 14.0;
 
-/// Draws both.
-pub fn show(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let Some(whole) = scene.session.whole() else {
+/// Draws both sections.
+pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let Some(whole) = state.session.whole() else {
         return;
     };
     let mut draft = whole.map.clone();
     section(ui, "Path", |ui| path(ui, &mut draft));
-    section(ui, "Kept", |ui| kept(ui, scene, &mut draft, acts));
+    section(ui, "Saved blends", |ui| {
+        saved_blends(ui, state, &mut draft, intents)
+    });
     if draft != whole.map {
-        acts.push(Intent::EditMap(Box::new(draft)));
+        intents.push(Intent::EditMap(Box::new(draft)));
     }
 }
 
@@ -35,17 +37,17 @@ fn path(ui: &mut Ui, draft: &mut MapSettings) {
     if draft.path.places.is_empty() {
         hint(
             ui,
-            "Press E and click on the map, or draw there: the film goes along the path, from stop \
-             to stop. Or press W, move the puck, and W again.",
+            "Press E, then click or draw on the map: the film follows the path from stop to stop. \
+             Or press W, move the marker, and press W again.",
         );
         return;
     }
-    let mut is_gone = false;
+    let mut is_removed = false;
     ui.horizontal(|ui| {
         from_right(ui, |ui| {
-            let tip = "Take the path away: the film goes from design to design again";
-            is_gone = icon_button(ui, icons::CLOSE, tip, vec2(24.0, 24.0)).clicked();
-            let name = TextEdit::singleline(&mut draft.path.name).hint_text("Name of the path");
+            let tip = "Remove path; the film goes from design to design again";
+            is_removed = icon_button(ui, icons::CLOSE, tip, vec2(24.0, 24.0)).clicked();
+            let name = TextEdit::singleline(&mut draft.path.name).hint_text("Path name");
             ui.add_sized([ui.available_width(), CONTROL_HEIGHT], name);
         });
     });
@@ -60,72 +62,72 @@ fn path(ui: &mut Ui, draft: &mut MapSettings) {
             ui.add_sized([ui.available_width(), CONTROL_HEIGHT], name);
         });
     }
-    if is_gone {
+    if is_removed {
         draft.path = MapPath::default();
     }
 }
 
-fn kept(ui: &mut Ui, scene: &UiState, draft: &mut MapSettings, acts: &mut Intents) {
+fn saved_blends(ui: &mut Ui, state: &UiState, draft: &mut MapSettings, intents: &mut Intents) {
     if draft.kept.is_empty() {
-        hint(ui, "Press K to keep the blend under the puck.");
+        hint(ui, "Press K to save the blend under the marker.");
         return;
     }
-    let mut gone = None;
+    let mut removed = None;
     for (k, place) in draft.kept.iter_mut().enumerate() {
         ui.push_id(("kept", k), |ui| {
             ui.horizontal(|ui| {
-                picture(ui, scene, k, place, acts);
+                picture(ui, state, k, place, intents);
                 ui.vertical(|ui| {
                     if entry(ui, place) {
-                        gone = Some(k);
+                        removed = Some(k);
                     }
                 });
             });
             ui.add_space(0.5 * GRID);
         });
     }
-    if let Some(k) = gone {
+    if let Some(k) = removed {
         draft.kept.remove(k);
     }
     ui.horizontal(|ui| {
-        let tip = "The best first, and of equal ones the first that was kept";
-        if ui.button("Sort by stars").on_hover_text(tip).clicked() {
+        let tip = "Best first; equal ratings stay in the order in which they were saved";
+        if ui.button("Sort by rating").on_hover_text(tip).clicked() {
             draft
                 .kept
                 .sort_by_key(|place| std::cmp::Reverse(place.stars));
         }
-        let tip = "Each as SVG and DXF, all as a sheet, their measures as a table";
+        let tip = "Exports each blend as SVG and DXF, an overview sheet and a table of measures";
         if ui.button("Export").on_hover_text(tip).clicked() {
-            acts.push(Intent::ExportKept);
+            intents.push(Intent::ExportKept);
         }
     });
 }
 
-/// How it looks; a click goes there.
-fn picture(ui: &mut Ui, scene: &UiState, k: usize, place: &SavedPlace, acts: &mut Intents) {
+/// Draws the thumbnail of a blend; a click moves the marker there.
+fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedPlace, intents: &mut Intents) {
     let side = 2.0 * CONTROL_HEIGHT + ui.spacing().item_spacing.y;
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
-    let Rgb([r, g, b]) = scene.session.style().ground;
+    let Rgb([r, g, b]) = state.session.style().ground;
     let ground = Color32::from_rgb(r, g, b);
     ui.painter().rect_filled(rect, RADIUS, ground);
-    let small = scene.map.made().and_then(|made| made.kept(place.at));
-    if let Some(small) = small {
-        let texture = texture(ui.ctx(), Id::new(("kept", k)), small, u32::MAX);
+    let thumbnail = state.map.made().and_then(|made| made.kept(place.at));
+    if let Some(thumbnail) = thumbnail {
+        let texture = texture(ui.ctx(), Id::new(("kept", k)), thumbnail, u32::MAX);
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let painter = ui.painter();
         painter.image(texture.id(), rect.shrink(2.0), whole, Color32::WHITE);
     }
     if response.on_hover_text("Go there").clicked() {
-        acts.push(Intent::Puck(place.at));
+        intents.push(Intent::Puck(place.at));
     }
 }
 
-/// Its name, its stars and its note; whether it is kept no more.
+/// Draws name, rating and note of a blend; returns whether it is to be removed.
 fn entry(ui: &mut Ui, place: &mut SavedPlace) -> bool {
-    let mut is_gone = false;
+    let mut is_removed = false;
     ui.horizontal(|ui| {
         from_right(ui, |ui| {
-            is_gone = icon_button(ui, icons::CLOSE, "Keep it no more", vec2(24.0, 24.0)).clicked();
+            is_removed = icon_button(ui, icons::CLOSE, "Remove", vec2(24.0, 24.0)).clicked();
             let name = TextEdit::singleline(&mut place.name).hint_text("Name");
             ui.add_sized([ui.available_width(), CONTROL_HEIGHT], name);
         });
@@ -135,10 +137,10 @@ fn entry(ui: &mut Ui, place: &mut SavedPlace) -> bool {
         let note = TextEdit::singleline(&mut place.note).hint_text("Note");
         ui.add_sized([ui.available_width(), CONTROL_HEIGHT], note);
     });
-    is_gone
+    is_removed
 }
 
-/// A click on a star gives as many; on the last one that is given none.
+/// Draws the rating: a click on a star sets it, a click on the last filled star clears it.
 fn stars(ui: &mut Ui, place: &mut SavedPlace) {
     ui.spacing_mut().item_spacing.x = 0.0;
     let given = place.stars;
@@ -150,7 +152,10 @@ fn stars(ui: &mut Ui, place: &mut SavedPlace) {
         };
         let (rect, response) = ui.allocate_exact_size(vec2(STAR, CONTROL_HEIGHT), Sense::click());
         icons::paint_icon(ui.painter(), icon, rect, ink);
-        if response.on_hover_text(format!("{star} of 5")).clicked() {
+        if response
+            .on_hover_text(format!("{star} of 5 stars"))
+            .clicked()
+        {
             place.stars = if star == given { 0 } else { star };
         }
     }

@@ -1,4 +1,4 @@
-//! How outlines are matched and triangulated: the rules, and the way to the match editor.
+//! Match section: rules for matching outlines, mesh density, and the way to the match editor.
 
 use bevy_egui::egui::Ui;
 
@@ -13,12 +13,12 @@ use crate::correspondence::MatchSettings;
 use crate::project::Project;
 use crate::warp::WarpKind;
 
-/// The edge length, as a share of the design, that density starts from when it is set by hand.
-const USUAL_EDGE: f64 = 0.05;
+/// Initial edge length when it is set by hand, as a fraction of the design's size.
+const DEFAULT_EDGE: f64 = 0.05;
 
-/// Draws the options.
-pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intents) {
-    // Rigid parts are made of triangles, those that carry a field too.
+/// Draws the section.
+pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
+    // Rigid parts are moved by a mesh, also when they carry a field.
     let has_mesh =
         draft.warp == Some(WarpKind::Arap) && draft.content != Some(ContentKind::Colours);
     section(ui, "Match", |ui| {
@@ -26,68 +26,64 @@ pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intent
             rules(ui, &mut draft.options.matching);
         }
         if draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Solid) {
-            let tip = "How much is tried for the film: the first match, or the best of several.";
-            choice_row(ui, "Film", tip, &mut draft.options.quality);
-            let tip = "What is done where the film would fold, or its outlines would meet. Only \
-                       the best film is guarded: the first one is there at once.";
-            choice_row(ui, "Guard", tip, &mut draft.options.guard);
+            let tip = "How many matches are tried: only the first, or several.";
+            choice_row(ui, "Quality", tip, &mut draft.options.quality);
+            let tip = "Adjusts the motion where the film would fold or its outlines would meet. \
+                       Applies to the best film only; the draft is shown at once.";
+            choice_row(ui, "Avoid collisions", tip, &mut draft.options.guard);
         }
         if has_mesh {
             density(ui, &mut draft.options.triangulation.edge_length);
         }
         ui.add_space(4.0);
-        hint(ui, &said(&draft.options.matching));
+        hint(ui, &summary(&draft.options.matching));
         ui.horizontal(|ui| {
-            let (name, tip) = if scene.editor.is_open {
-                ("Back to the stage", "The match is kept (E or Esc).")
+            let (name, tip) = if state.editor.is_open {
+                ("Return to stage", "Keeps the match (E or Esc).")
             } else {
                 (
-                    "Edit the match",
-                    "Shows source and target side by side: which point is which, and what to \
-                     change about it (E).",
+                    "Edit match",
+                    "Shows source and target side by side, to pair their points, lines and parts \
+                     (E).",
                 )
             };
             if ui.button(name).on_hover_text(tip).clicked() {
-                acts.push(Intent::Editor(EditorAction::Toggle));
+                intents.push(Intent::Editor(EditorAction::Toggle));
             }
-            let tip = "Deletes all pins, pairs and cuts that were set by hand; can be undone.";
-            if has_places(&draft.options.matching)
+            let tip = "Deletes all pins, lines, pairs and cuts set by hand. Can be undone.";
+            if has_manual_entries(&draft.options.matching)
                 && ui.button("Clear").on_hover_text(tip).clicked()
             {
-                acts.push(Intent::Editor(EditorAction::Clear));
+                intents.push(Intent::Editor(EditorAction::Clear));
             }
         });
     });
 }
 
 fn rules(ui: &mut Ui, matching: &mut MatchSettings) {
-    let tip = "Whether a shape may be matched with one that is turned.";
-    let turning = [
-        (false, "Free", "A shape is found again however it is turned"),
-        (
-            true,
-            "Keep up",
-            "What points up stays what points up, as with letters",
-        ),
+    let tip = "Whether a shape may match a rotated one.";
+    let rotations = [
+        (false, "Free", "Shapes match in any rotation"),
+        (true, "Keep upright", "Up stays up, as it must for letters"),
     ];
-    choices_row(ui, "Turning", tip, &mut matching.keep_up, &turning);
-    let tip = "What becomes of a hole that the other design does not have.";
+    choices_row(ui, "Rotation", tip, &mut matching.keep_up, &rotations);
+    let tip = "How to treat a hole that exists in only one design.";
     choice_row(ui, "Holes", tip, &mut matching.holes);
-    let tip = "What becomes of a part that the other design does not have.";
+    let tip = "How to treat a part that exists in only one design.";
     choice_row(ui, "Parts", tip, &mut matching.parts);
 }
 
 fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {
-    let tip = "Triangles as coarse as good angles allow. Off: a largest edge length of your own.";
-    automatic_toggle(ui, "Auto mesh", tip, edge_length, USUAL_EDGE);
+    let tip = "Makes triangles as coarse as good angles allow. Off: set the edge length yourself.";
+    automatic_toggle(ui, "Auto mesh", tip, edge_length, DEFAULT_EDGE);
     if let Some(length) = edge_length {
-        let tip = "The longest edge wanted inside, as a share of the design's size: smaller makes more \
-             triangles, softer bends and slower frames.";
+        let tip = "Maximum edge length inside, as a fraction of the design's size. Smaller values \
+                   give more triangles, softer bends and slower frames.";
         slider(ui, "Edge length", tip, length, 0.01..=0.25, true);
     }
 }
 
-fn has_places(matching: &MatchSettings) -> bool {
+fn has_manual_entries(matching: &MatchSettings) -> bool {
     let MatchSettings {
         pins,
         lines,
@@ -99,9 +95,9 @@ fn has_places(matching: &MatchSettings) -> bool {
     !(pins.is_empty() && lines.is_empty() && links.is_empty() && lone.is_empty() && cuts.is_empty())
 }
 
-fn said(matching: &MatchSettings) -> String {
-    if !has_places(matching) {
-        return "Nothing was set by hand yet. Outlines match themselves; pictures need pins or \
+fn summary(matching: &MatchSettings) -> String {
+    if !has_manual_entries(matching) {
+        return "Nothing set by hand yet. Outlines match automatically; pictures need pins or \
                 lines."
             .to_owned();
     }
@@ -114,7 +110,7 @@ fn said(matching: &MatchSettings) -> String {
         count(matching.pins.len(), "pin", "pins"),
         count(matching.lines.len(), "line", "lines"),
         count(matching.links.len(), "pair of parts", "pairs of parts"),
-        count(matching.lone.len(), "part alone", "parts alone"),
+        count(matching.lone.len(), "unmatched part", "unmatched parts"),
         count(matching.cuts.len(), "cut", "cuts"),
     ];
     let all: Vec<String> = all.into_iter().flatten().collect();

@@ -1,4 +1,6 @@
-//! The table of cells: what moves, and what is seen. Cells that cannot be had are grey and say why.
+//! Method section: a table of methods with one row per warp and one column per content.
+//!
+//! Unavailable cells are greyed out, and their tooltips say why.
 
 use bevy_egui::egui::{
     Align2, Button, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2,
@@ -10,15 +12,18 @@ use crate::app::ui::kit::widgets::{hint, section, tooltip_left};
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
 use crate::project::Project;
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 use crate::transition::TransitionMethod;
 use crate::warp::WarpKind;
 
+/// Width of the row heads, in points.
 const ROW_LABEL_WIDTH: f32 = 52.0;
+
+/// Height of a cell, in points.
 const CELL_HEIGHT: f32 = 28.0;
 
-/// Draws the table and what the chosen cell does.
-pub fn show(ui: &mut Ui, scene: &UiState, project: &Project, acts: &mut Intents) {
+/// Draws the table and the description of the chosen cell.
+pub fn show(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents) {
     section(ui, "Method", |ui| {
         let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / ContentKind::ALL.len() as f32;
         heads(ui, width);
@@ -27,31 +32,31 @@ pub fn show(ui: &mut Ui, scene: &UiState, project: &Project, acts: &mut Intents)
             ui.horizontal(|ui| {
                 row_head(ui, warp);
                 for content in ContentKind::ALL {
-                    cell(ui, scene, project, (warp, content), width - 4.0, acts);
+                    cell(ui, state, project, (warp, content), width - 4.0, intents);
                 }
             });
         }
         ui.add_space(4.0);
         if let (Some(warp), Some(content)) = (project.warp, project.content) {
             hint(ui, description(warp, content));
-            choose(ui, scene, content, acts);
+            choose(ui, state, content, intents);
         }
     });
 }
 
-/// A way to have the method chosen, where there are several.
-fn choose(ui: &mut Ui, scene: &UiState, content: ContentKind, acts: &mut Intents) {
-    // Pictures stay pictures: there is one method that suits them.
+/// Draws the button that chooses the method by trying several.
+fn choose(ui: &mut Ui, state: &UiState, content: ContentKind, intents: &mut Intents) {
+    // Pictures have only one suitable method.
     if content == ContentKind::Colours {
         return;
     }
     ui.add_space(4.0);
-    let is_idle = scene.choosing.told().is_none() && scene.session.transition().is_some();
-    let button = ui.add_enabled(is_idle, Button::new("Take the best"));
-    let tip = "Tries rigid parts, the fields that they carry and the plain blend, and takes the \
-               film with the least trouble.";
+    let is_idle = state.choosing.told().is_none() && state.session.transition().is_some();
+    let button = ui.add_enabled(is_idle, Button::new("Choose the best method"));
+    let tip = "Tries rigid parts, distance fields carried by them and the plain field blend, and \
+               chooses the film with the fewest defects.";
     if button.clicked() {
-        acts.push(Intent::ChooseMethod);
+        intents.push(Intent::ChooseMethod);
     }
     tooltip_left(&button, ui.min_rect().left(), tip);
 }
@@ -80,11 +85,12 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
     response.on_hover_text(name.sentence);
 }
 
-/// What stands on the button of a cell.
+/// Returns the label of a cell.
 pub fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
     TransitionMethod::new(warp, content).map_or("–", |cell| cell.words().button)
 }
 
+/// Returns the description of a cell.
 pub fn description(warp: WarpKind, content: ContentKind) -> &'static str {
     TransitionMethod::new(warp, content).map_or("Nothing moves and nothing blends.", |cell| {
         cell.words().sentence
@@ -93,15 +99,15 @@ pub fn description(warp: WarpKind, content: ContentKind) -> &'static str {
 
 fn cell(
     ui: &mut Ui,
-    scene: &UiState,
+    state: &UiState,
     project: &Project,
     (warp, content): (WarpKind, ContentKind),
     width: f32,
-    acts: &mut Intents,
+    intents: &mut Intents,
 ) {
-    let available = scene.session.available(warp, content);
+    let available = state.session.available(warp, content);
     let is_chosen = (project.warp, project.content) == (Some(warp), Some(content));
-    // Not a disabled one: it has to tell why it cannot be had.
+    // Not disabled: an unavailable cell must still show its tooltip.
     let sense = if available.is_ok() {
         Sense::click()
     } else {
@@ -114,7 +120,7 @@ fn cell(
     });
     paint_cell(ui, rect, name, &response, is_chosen, available.is_ok());
     if response.clicked() && !is_chosen {
-        acts.push(Intent::UseCell(warp, content));
+        intents.push(Intent::UseCell(warp, content));
     }
     let tip = match available {
         Ok(()) => description(warp, content).to_owned(),

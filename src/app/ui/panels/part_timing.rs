@@ -1,4 +1,4 @@
-//! When each part makes its way: a row for each, with a span of the film and how it runs.
+//! Part timing section: a row per part with its time window and easing.
 
 use bevy_egui::egui::{Align2, Color32, FontId, Painter, Rect, ScrollArea, Sense, Shape, Ui, vec2};
 
@@ -11,54 +11,57 @@ use crate::app::ui::kit::time_bar;
 use crate::app::ui::kit::widgets::{hint, section, tooltip_left};
 use crate::app::ui::ui_state::UiState;
 use crate::geometry::{Bounds, DVec2, Side};
-use crate::settings::choice::Choice;
-use crate::time::easing::EasingFunction;
+use crate::settings::Choice;
+use crate::time::EasingFunction;
 use crate::transition::PartTime;
 use crate::warp::PartClock;
 
-/// Height of the rows that are seen at once.
-const MOST: f32 = 8.0 * (CONTROL_HEIGHT + 4.0);
+/// Height of the visible rows, in points: eight rows.
+const LIST_HEIGHT: f32 = 8.0 * (CONTROL_HEIGHT + 4.0);
 
-/// Width of the part in small, and of the list of ways.
+/// Width of a part's thumbnail, in points.
 const PICTURE: f32 = 30.0;
+
+/// Width of the list of easings, in points.
 const EASING: f32 = 84.0;
 
-/// The most rings that are all drawn in small.
-const MOST_RINGS: usize = 60;
+/// Maximum number of rings for thumbnails that also show the other parts (tolerance: with more, a
+/// thumbnail would be solid ink).
+const MAX_RINGS: usize = 60;
 
-/// Draws the rows, where there are parts enough to tell apart.
-pub fn show(ui: &mut Ui, scene: &UiState, times: &mut Vec<PartTime>) {
-    let sheet = &scene.sheet;
+/// Draws the section, if there is more than one part.
+pub fn show(ui: &mut Ui, state: &UiState, times: &mut Vec<PartTime>) {
+    let sheet = &state.sheet;
     if sheet.pieces.len() < 2 {
         return;
     }
-    section(ui, "Parts in time", |ui| {
+    section(ui, "Part timing", |ui| {
         stagger(ui, sheet, times);
         ui.add_space(4.0);
-        let said = part_times::time_of_pieces(sheet, times);
+        let entries = part_times::time_of_pieces(sheet, times);
         ScrollArea::vertical()
-            .id_salt("parts in time")
-            .max_height(MOST)
-            .min_scrolled_height(MOST)
+            .id_salt("part timing")
+            .max_height(LIST_HEIGHT)
+            .min_scrolled_height(LIST_HEIGHT)
             .show_rows(ui, CONTROL_HEIGHT, sheet.pieces.len(), |ui, rows| {
                 for piece in rows {
-                    let before = said[piece].map_or(PartClock::WHOLE, |k| times[k].clock());
+                    let before = entries[piece].map_or(PartClock::WHOLE, |k| times[k].clock());
                     if let Some(clock) = row(ui, sheet, before, piece) {
                         part_times::set(sheet, times, piece, clock);
-                        break; // the rows below would be told by numbers of before
+                        break; // `entries` no longer matches `times`
                     }
                 }
             });
         hint(
             ui,
-            "Drag an end of a bar: the part sets out later, or is there sooner.",
+            "Drag an end of a bar: the part starts later or ends earlier.",
         );
     });
 }
 
 fn stagger(ui: &mut Ui, sheet: &MatchSheet, times: &mut Vec<PartTime>) {
     ui.horizontal(|ui| {
-        let button = ui.menu_button("One after the other", |ui| {
+        let button = ui.menu_button("Stagger", |ui| {
             for order in StaggerOrder::ALL {
                 let name = order.name();
                 let item = ui.button(name.title);
@@ -68,16 +71,16 @@ fn stagger(ui: &mut Ui, sheet: &MatchSheet, times: &mut Vec<PartTime>) {
                 }
             }
         });
-        let tip = "Lets the parts set out in an order; each row can be changed then.";
+        let tip = "Starts the parts one after another. Each row can be adjusted afterwards.";
         tooltip_left(&button.response, button.response.rect.left(), tip);
-        let tip = "All parts set out and arrive together again.";
+        let tip = "Starts and ends all parts together again.";
         if !times.is_empty() && ui.button("All at once").on_hover_text(tip).clicked() {
             times.clear();
         }
     });
 }
 
-/// The row of a piece, and its clock where the hand gives it another.
+/// Draws the row of a part; returns its clock if it was changed.
 fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Option<PartClock> {
     let mut clock = before;
     ui.horizontal(|ui| {
@@ -87,19 +90,19 @@ fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Opti
         time_bar::bar(ui, piece, wide, &mut clock);
         easing_editor::menu(
             ui,
-            &format!("way of part {piece}"),
+            &format!("easing of part {piece}"),
             &mut clock.easing,
             EASING,
         );
     });
     if before == PartClock::WHOLE && (clock.from, clock.to) != (0.0, 1.0) {
-        // It rests at both ends of its way, as the whole does.
+        // A new window eases in and out at its own ends, as the whole film does.
         clock.easing = EasingFunction::default();
     }
     (clock != before).then_some(clock)
 }
 
-/// The part in small, in the design that has it, and its letter.
+/// Draws the part's letter and its thumbnail, in a design that contains the part.
 fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let part = &sheet.pieces[piece];
     let (rect, response) =
@@ -107,8 +110,8 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let palette = ThemePalette::of(ui);
     let (side, words) = match part.fate {
         PieceFate::Paired => (Side::Source, "is in both designs"),
-        PieceFate::Dies => (Side::Source, "is in the source alone, and vanishes"),
-        PieceFate::Born => (Side::Target, "is in the target alone, and appears"),
+        PieceFate::Dies => (Side::Source, "is only in the source and disappears"),
+        PieceFate::Born => (Side::Target, "is only in the target and appears"),
     };
     tooltip_left(
         &response,
@@ -127,8 +130,8 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let Some(sides) = &sheet.sides else { return };
     let frame = Rect::from_min_max(rect.left_top() + vec2(18.0, 1.0), rect.right_bottom());
     let view = PartThumbnail::of(sides[side].bounds, frame.shrink(1.0));
-    // Of very many a picture of this size shows nothing but ink.
-    let shows_others = sheet.rings.len() <= MOST_RINGS;
+    // With very many rings, only the part itself is drawn.
+    let shows_others = sheet.rings.len() <= MAX_RINGS;
     let rings = sheet.rings.iter();
     for ring in rings.filter(|ring| shows_others || ring.piece == piece) {
         let is_own = ring.piece == piece;
@@ -141,7 +144,7 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     }
 }
 
-/// How a design is seen in small.
+/// Transform that fits a design into a thumbnail.
 struct PartThumbnail {
     bounds: Bounds,
     to: Rect,
@@ -157,7 +160,7 @@ impl PartThumbnail {
 
     fn draw(&self, painter: &Painter, ring: &[DVec2], (width, ink): (f32, Color32)) {
         let middle = 0.5 * (self.bounds.min + self.bounds.max);
-        // So many points are as fine as a picture of thirty points is.
+        // 48 points per ring are enough for a thumbnail 30 points wide.
         let step = ring.len().div_ceil(48).max(1);
         let points = ring.iter().step_by(step).map(|p| {
             let from_middle = (*p - middle).as_vec2() * self.scale;

@@ -1,4 +1,4 @@
-//! How parts move: the options of the rigidity-preserving interpolation.
+//! Rigid motion section: options of the as-rigid-as-possible interpolation.
 
 use std::ops::RangeInclusive;
 
@@ -9,65 +9,62 @@ use crate::app::ui::kit::widgets::{choice_list, choices, drag, number, row, sect
 use crate::app::ui::ui_state::UiState;
 use crate::warp::{ArapOptions, ArapPath, FaceWeights};
 
-/// The most parts that get a number of their own; more would fill the window.
-const MOST_PARTS: usize = 8;
+/// Maximum number of parts with a row of their own (resource limit: room in the panel).
+const MAX_PARTS: usize = 8;
 
-/// The most times that faces are split in the window: each makes four of one.
-const MOST_SUBDIVISIONS: u32 = 4;
+/// Maximum number of subdivisions in the window (resource limit: each one quadruples the faces).
+const MAX_SUBDIVISIONS: u32 = 4;
 
-/// Whole turns that the window offers: no film can be followed that turns more.
+/// Extra turns that the window offers (tolerance: faster rotation cannot be followed by eye).
 const TURNS: RangeInclusive<i32> = -9..=9;
 
-/// Draws the options.
-pub fn show(ui: &mut Ui, scene: &UiState, arap: &mut ArapOptions) {
-    section(ui, "Motion of parts", |ui| {
-        let tip = "How each triangle goes from its first form to its last (the homotopy).";
-        choice_list(ui, "Triangles", tip, &mut arap.homotopy);
+/// Draws the section.
+pub fn show(ui: &mut Ui, state: &UiState, arap: &mut ArapOptions) {
+    section(ui, "Rigid motion", |ui| {
+        let tip = "How each triangle is interpolated from source to target (homotopy).";
+        choice_list(ui, "Interpolation", tip, &mut arap.homotopy);
         weights(ui, &mut arap.weights);
-        let tip = "On: the film from target to source is the same backwards. Off: only the source's \
-             triangles count, as in the paper.";
+        let tip = "On: swapping source and target gives the same film backwards. Off: only the \
+                   source's triangles count, as in the paper.";
         toggle(ui, "Symmetric", tip, &mut arap.symmetric);
         path(ui, &mut arap.path);
-        extra_turns(ui, &mut arap.extra_turns, scene.session.parts());
-        let subdivisions = drag(&mut arap.subdivisions, 0..=MOST_SUBDIVISIONS, 0.02, 0);
-        let tip = "Splits each triangle into four, so many times: parts bend more softly, frames take longer.";
+        extra_turns(ui, &mut arap.extra_turns, state.session.parts());
+        let subdivisions = drag(&mut arap.subdivisions, 0..=MAX_SUBDIVISIONS, 0.02, 0);
+        let tip = "Splits each triangle into four, this many times. Parts bend more softly, frames \
+                   take longer.";
         number(ui, "Subdivide", tip, subdivisions);
     });
 }
 
 fn weights(ui: &mut Ui, weights: &mut FaceWeights) {
-    let tip = "How much each triangle has to say. Stiffer where the weight is larger.";
+    let tip = "Weight of each triangle. Heavier triangles stay more rigid.";
     row(ui, "Weights", tip, |ui| {
         let mut options = vec![
             (
                 FaceWeights::Area,
                 "Area",
-                "By area: fine triangles do not stiffen the shape",
+                "By area: small triangles do not stiffen the shape",
             ),
             (
                 FaceWeights::Uniform,
                 "Uniform",
-                "All alike, as in the paper: finely divided parts are stiffer",
+                "All equal, as in the paper: finely divided parts are stiffer",
             ),
         ];
-        // Numbers of one's own cannot be written here, but must not be lost by a click either.
+        // Weights from a file cannot be edited here, but a click must not lose them either.
         if matches!(weights, FaceWeights::PerFace(_)) {
-            options.push((
-                weights.clone(),
-                "Own",
-                "The numbers that stand in the project file",
-            ));
+            options.push((weights.clone(), "Custom", "The weights in the project file"));
         }
         choices(ui, weights, &options)
     });
 }
 
 fn path(ui: &mut Ui, path: &mut ArapPath) {
-    let tip = "How the whole gets from its first place to its last: which of its points goes straight, \
-               or about which point it turns.";
+    let tip = "How the shape as a whole moves: one of its points goes straight, or the shape \
+               rotates about a fixed point.";
     row(ui, "Path", tip, |ui| {
         let (anchor, width) = match *path {
-            // Room beside the three for the number of the vertex.
+            // Leaves room for the vertex number next to the three choices.
             ArapPath::Anchor(vertex) => (vertex, 128.0),
             ArapPath::Centroid | ArapPath::Pole => (0, ui.available_width()),
         };
@@ -76,15 +73,18 @@ fn path(ui: &mut Ui, path: &mut ArapPath) {
             (
                 ArapPath::Centroid,
                 "Centre",
-                "The centre of mass goes straight",
+                "The centre of mass moves straight",
             ),
             (
                 ArapPath::Pole,
                 "Arc",
-                "The whole turns about its pole, the one point that stays where it is: it swings \
-                 instead of sliding",
+                "The shape rotates about its pole, the one point that stays in place",
             ),
-            (anchor, "Vertex", "One vertex goes straight, by its number"),
+            (
+                anchor,
+                "Vertex",
+                "The vertex with this number moves straight",
+            ),
         ];
         let chosen = ui.scope(|ui| {
             ui.set_max_width(width);
@@ -98,11 +98,12 @@ fn path(ui: &mut Ui, path: &mut ArapPath) {
 }
 
 fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
-    let tip = "Whole turns that are added on the way: the ends stay, the film goes round. Negative: clockwise.";
-    let each = turns.len() > 1;
+    let tip = "Full turns added to the motion; source and target stay the same. Negative: \
+               clockwise.";
+    let is_per_part = turns.len() > 1;
     let first = turns.first().copied().unwrap_or(0);
-    if each {
-        for (part, turn) in turns.iter_mut().enumerate().take(MOST_PARTS) {
+    if is_per_part {
+        for (part, turn) in turns.iter_mut().enumerate().take(MAX_PARTS) {
             let label = format!("Turns, part {}", part + 1);
             number(ui, &label, tip, drag(turn, TURNS, 0.02, 0));
         }
@@ -113,13 +114,17 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
             *turns = if all == 0 { Vec::new() } else { vec![all] };
         }
     }
-    if parts > 1 && parts <= MOST_PARTS {
-        let mut apart = each;
-        let tip = "A number of turns of its own for each part that hangs on others by points only.";
-        toggle(ui, "Each part", tip, &mut apart);
-        if apart != each {
+    if parts > 1 && parts <= MAX_PARTS {
+        let mut per_part = is_per_part;
+        let tip = "Sets the turns of each part separately, for parts connected only at points.";
+        toggle(ui, "Per part", tip, &mut per_part);
+        if per_part != is_per_part {
             let all = turns.first().copied().unwrap_or(0);
-            *turns = if apart { vec![all; parts] } else { vec![all] };
+            *turns = if per_part {
+                vec![all; parts]
+            } else {
+                vec![all]
+            };
         }
     }
 }

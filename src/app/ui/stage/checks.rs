@@ -1,32 +1,34 @@
-//! The verdict on the transition: a line or two below the stage, and where it points to.
+//! Checks of the transition: a strip below the stage with findings and fixes, and marks on the
+//! stage where the findings are.
 
 use bevy_egui::egui::{self, Label, Panel, Rect, RichText, Sense, Ui, vec2};
 
 use crate::app::analysis::film_measures::{FilmMeasures, is_one_click};
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons;
+use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::stage::area::is_light;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::{Finding, Verdict};
 
-/// Height of one line.
+/// Height of one line, in points.
 const ROW_HEIGHT: f32 = 24.0;
 
-/// How near t must be for the place of a finding to be marked: wider than the step of the measures,
-/// a 64th, so that playing past it lights it up.
+/// Distance in t within which a finding is marked on the stage (tolerance: more than the measuring
+/// step of 1/64, so that playback shows the mark).
 const NEAR_T: f64 = 0.02;
 
-/// Draws the lines below the stage: above it they would cover what they speak of.
-pub fn strip(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    if scene.session.transition().is_none() {
+/// Draws the strip below the stage: above it, it would cover what it describes.
+pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
+    if state.session.transition().is_none() {
         return;
     }
-    let measures = scene.measured.measures();
+    let measures = state.measured.measures();
     let lines = measures.map_or(1, |measures| {
         let verdict = &measures.verdict;
-        // Where nothing was found one line says so; else one says what helps.
+        // Without findings one line says so; otherwise one more line offers fixes.
         verdict.findings.len() + 1 + verdict.notes.len()
     });
     let frame = panel_frame(root, [8, 8, 4, 4]);
@@ -35,48 +37,47 @@ pub fn strip(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
         .resizable(false)
         .frame(frame)
         .show(root, |ui| match measures {
-            Some(measures) => show(ui, scene, measures, acts),
-            None => waiting(ui, scene, acts),
+            Some(measures) => show(ui, state, measures, intents),
+            None => waiting(ui, state, intents),
         });
 }
 
-/// There are no measures: they are being taken, or were broken off.
-fn waiting(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
+/// Draws the strip while there are no results: the checks are running or were stopped.
+fn waiting(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.horizontal(|ui| {
-        ui.label(secondary_text(ui, unmeasured_reason(scene)));
-        let tip = "Look at the whole film for folds, crossings and distortion.";
-        if scene.measured.is_broken_off() && ui.small_button("Measure").on_hover_text(tip).clicked()
-        {
-            acts.push(Intent::Measure);
+        ui.label(secondary_text(ui, unmeasured_reason(state)));
+        let tip = "Check the whole film for folds, crossings and distortion.";
+        if state.measured.is_broken_off() && ui.small_button("Check").on_hover_text(tip).clicked() {
+            intents.push(Intent::Measure);
         }
     });
 }
 
-/// Why there are no measures.
-pub fn unmeasured_reason(scene: &UiState) -> String {
-    match scene.measured.told() {
-        _ if scene.session.transition().is_none() => "Nothing to measure yet.".to_owned(),
-        _ if scene.measured.is_broken_off() => "Not measured: it was stopped.".to_owned(),
-        Some(share) => format!("Measuring, {:.0} % … Esc stops it.", 100.0 * share),
-        None => "Measuring …".to_owned(),
+/// Returns why there are no results.
+pub fn unmeasured_reason(state: &UiState) -> String {
+    match state.measured.told() {
+        _ if state.session.transition().is_none() => "Nothing to check yet.".to_owned(),
+        _ if state.measured.is_broken_off() => "The check was stopped.".to_owned(),
+        Some(share) => format!("Checking, {:.0} % … Press Esc to stop.", 100.0 * share),
+        None => "Checking …".to_owned(),
     }
 }
 
-/// One line, or one for each kind of trouble, and one for each note.
-fn show(ui: &mut Ui, scene: &UiState, measures: &FilmMeasures, acts: &mut Intents) {
+/// Draws one line per finding (or one that all is clear), the fixes, and one line per note.
+fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Intents) {
     let verdict = &measures.verdict;
     ui.spacing_mut().item_spacing.y = 0.0;
     if verdict.is_clear() {
-        row(ui, true, |ui| clear(ui, scene, verdict, acts));
+        row(ui, true, |ui| clear(ui, state, verdict, intents));
     }
     for (index, finding) in verdict.findings.iter().enumerate() {
         row(ui, false, |ui| {
-            headline(ui, scene, finding, acts);
-            advice(ui, index, finding, acts);
+            headline(ui, state, finding, intents);
+            fix_button(ui, index, finding, intents);
         });
     }
     if !verdict.is_clear() {
-        help(ui, scene, acts);
+        offers(ui, state, intents);
     }
     for note in &verdict.notes {
         row(ui, false, |ui| {
@@ -87,33 +88,33 @@ fn show(ui: &mut Ui, scene: &UiState, measures: &FilmMeasures, acts: &mut Intent
     }
 }
 
-/// Nothing is seen: at the moments that were looked at, or as it is proved at any.
-fn clear(ui: &mut Ui, scene: &UiState, verdict: &Verdict, acts: &mut Intents) {
-    let looked = format!(
-        "Looked at {} moments from the source to the target.",
-        verdict.steps
-    );
+/// Draws the clear result: for the sampled moments or, if it could be proved, for every moment.
+fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents) {
+    let sampled = format!("Checked {} moments from source to target.", verdict.steps);
     let seen = capitalised(verdict.clear);
-    let Some(proved) = scene.recording.proved() else {
-        ui.label(RichText::new(seen).small()).on_hover_text(looked);
+    let Some(proved) = state.recording.proved() else {
+        ui.label(RichText::new(seen).small()).on_hover_text(sampled);
         return;
     };
-    let tip = format!("{looked}\nBetween them: {proved}.");
+    let tip = format!("{sampled}\nBetween them: {proved}.");
     let Some(first) = proved.first_t() else {
-        let but = match (proved.is_whole(), proved.left_out > 0) {
+        let exception = match (proved.is_whole(), proved.left_out > 0) {
             (true, _) => "",
-            (false, true) => ", but for what comes and goes",
-            (false, false) => ", but for cuts as they open",
+            (false, true) => ", except appearing and disappearing parts",
+            (false, false) => ", except cuts while they open",
         };
-        let text = RichText::new(format!("{seen}: proved for every t{but}")).small();
+        let text = RichText::new(format!("{seen}: checked at every moment{exception}")).small();
         ui.label(text).on_hover_text(tip);
         return;
     };
     ui.label(RichText::new(seen).small()).on_hover_text(&tip);
-    let text = format!("at {} moments; not proved at t = {first:.4}", verdict.steps);
+    let text = format!(
+        "checked at {} moments; uncertain at t = {first:.4}",
+        verdict.steps
+    );
     let label = Label::new(secondary_text(ui, text)).sense(Sense::click());
     if ui.add(label).on_hover_text(tip).clicked() {
-        acts.push(Intent::Seek(scene.session.beyond(first)));
+        intents.push(Intent::Seek(state.session.beyond(first)));
     }
 }
 
@@ -133,8 +134,8 @@ fn row(ui: &mut Ui, is_clear: bool, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// What is seen; a click goes there.
-fn headline(ui: &mut Ui, scene: &UiState, finding: &Finding, acts: &mut Intents) {
+/// Draws the headline of a finding; a click goes to its moment.
+fn headline(ui: &mut Ui, state: &UiState, finding: &Finding, intents: &mut Intents) {
     let text = RichText::new(capitalised(&finding.headline()))
         .small()
         .color(ThemePalette::of(ui).amber);
@@ -143,53 +144,50 @@ fn headline(ui: &mut Ui, scene: &UiState, finding: &Finding, acts: &mut Intents)
         ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
     }
     if response.clicked() {
-        acts.push(Intent::Seek(scene.session.beyond(finding.t)));
+        intents.push(Intent::Seek(state.session.beyond(finding.t)));
     }
-    let here = scene.session.within(scene.playback.t());
+    let here = state.session.within(state.playback.t());
     let go = if (here - finding.t).abs() <= NEAR_T {
         "The place is marked on the stage."
     } else {
         "Click to go there."
     };
-    let tip = format!(
-        "Why: {}.\nWhat helps: {}.\n{go}",
-        finding.cause, finding.remedy
-    );
+    let tip = format!("Cause: {}.\nFix: {}.\n{go}", finding.cause, finding.remedy);
     response.on_hover_text(tip);
 }
 
-/// What was tried and helps: a button for each.
-fn help(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let helping = &scene.helping;
+/// Draws a button for each tested fix that helps.
+fn offers(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let helping = &state.helping;
     ui.horizontal(|ui| {
         ui.set_min_height(ROW_HEIGHT);
         ui.spacing_mut().item_spacing.x = 6.0;
         ui.add_space(22.0);
         let now = helping.now().map(|now| now.to_string()).unwrap_or_default();
         let words = match (helping.offers(), helping.is_busy(), helping.is_done()) {
-            ([], true, _) => "Trying what would help: mirrored, turned, other methods …",
-            ([], _, true) => "Nothing that was tried helps: mirrored, turned, other methods.",
+            ([], true, _) => "Looking for fixes: flipping, rotating, other methods …",
+            ([], _, true) => "No fix found: tried flipping, rotating and other methods.",
             ([], ..) => "",
-            // Short: the offers stand behind it.
-            _ => "Helps:",
+            // Short, because the offers follow it.
+            _ => "Try:",
         };
         ui.label(secondary_text(ui, words));
         for (index, offer) in helping.offers().iter().enumerate() {
             let left = match offer.rating {
-                rating if rating.is_flawless() => "none left".to_owned(),
+                rating if rating.is_flawless() => "no defects".to_owned(),
                 rating => rating.to_string(),
             };
-            let text = format!("{}: {left}", offer.what.words());
-            let tip = format!("Tried: {} instead of {now}. Can be undone.", offer.rating);
+            let text = format!("{} ({left})", offer.what.words());
+            let tip = format!("Tested: {} instead of {now}. Can be undone.", offer.rating);
             if ui.small_button(text).on_hover_text(tip).clicked() {
-                acts.push(Intent::TakeOffer(index));
+                intents.push(Intent::TakeOffer(index));
             }
         }
     });
 }
 
-/// A button for what helps, where a click can do it.
-fn advice(ui: &mut Ui, index: usize, finding: &Finding, acts: &mut Intents) {
+/// Draws a button that applies a finding's fix, if one click can do that.
+fn fix_button(ui: &mut Ui, index: usize, finding: &Finding, intents: &mut Intents) {
     if !is_one_click(&finding.remedy) {
         return;
     }
@@ -198,31 +196,22 @@ fn advice(ui: &mut Ui, index: usize, finding: &Finding, acts: &mut Intents) {
         capitalised(&finding.remedy.to_string())
     );
     if ui.small_button("Fix").on_hover_text(tip).clicked() {
-        acts.push(Intent::TakeAdvice(index));
+        intents.push(Intent::TakeAdvice(index));
     }
 }
 
-/// A sentence from words that stand within one.
-pub fn capitalised(text: &str) -> String {
-    let mut chars = text.chars();
-    chars
-        .next()
-        .map(|first| first.to_uppercase().chain(chars).collect())
-        .unwrap_or_default()
-}
-
-/// Marks the place of each finding on the stage while t is there.
-pub fn mark(ui: &Ui, scene: &UiState, stage: Rect) {
-    let Some(measures) = scene.measured.measures() else {
+/// Marks the place of each finding on the stage while t is near the finding's moment.
+pub fn mark(ui: &Ui, state: &UiState, stage: Rect) {
+    let Some(measures) = state.measured.measures() else {
         return;
     };
-    let colour = ThemePalette::on(is_light(scene.session.style().ground)).amber;
+    let colour = ThemePalette::on(is_light(state.session.style().ground)).amber;
     let painter = ui.painter().with_clip_rect(stage);
     for finding in &measures.verdict.findings {
-        if (scene.session.within(scene.playback.t()) - finding.t).abs() > NEAR_T {
+        if (state.session.within(state.playback.t()) - finding.t).abs() > NEAR_T {
             continue;
         }
-        let px = scene.view.px_from_world(finding.place);
+        let px = state.view.px_from_world(finding.place);
         let at = stage.min + vec2(px.x, px.y);
         painter.circle_stroke(at, 16.0, (2.0, colour));
         for (dx, dy) in [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0)] {

@@ -1,46 +1,46 @@
-//! Two methods side by side: the stage on the left, a second method on the right.
+//! Comparison: the stage on the left, a second method on the right.
 
 use bevy_egui::egui::{Align2, ComboBox, FontId, Label, Panel, Rect, RichText, Ui, vec2};
 
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::ComparisonMethod;
+use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::panels::method;
 use crate::app::ui::stage::area::{self, ink_on};
 use crate::app::ui::stage::checks;
-use crate::app::ui::stage::checks::capitalised;
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Room for the name of a method.
+/// Width of a method's name, in points.
 const NAME_WIDTH: f32 = 168.0;
 
-/// Draws what lies above both; returns the part that the stage takes.
-pub fn show(root: &mut Ui, scene: &UiState, stage: Rect, acts: &mut Intents) -> Rect {
-    // Whole points, so that neither half begins within a pixel.
+/// Handles both halves and draws their overlays; returns the rectangle of the stage.
+pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) -> Rect {
+    // Whole points, so that both halves begin on a pixel boundary.
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
     let right = left.translate(vec2(half.x, 0.0));
-    area::show(root, left, "stage", acts);
-    area::show(root, right, "twin", acts);
-    if scene.preferences.panels {
-        told(root, scene, [left, right]);
+    area::show(root, left, "stage", intents);
+    area::show(root, right, "twin", intents);
+    if state.preferences.panels {
+        overlays(root, state, [left, right]);
     }
     left
 }
 
-/// What is to be said of each half.
-fn told(root: &mut Ui, scene: &UiState, [left, right]: [Rect; 2]) {
-    area::empty_hint(root, scene, left);
-    checks::mark(root, scene, left);
-    let ink = ink_on(scene.session.style().ground);
+/// Draws hints and marks over both halves, and the line between them.
+fn overlays(root: &mut Ui, state: &UiState, [left, right]: [Rect; 2]) {
+    area::empty_hint(root, state, left);
+    checks::mark(root, state, left);
+    let ink = ink_on(state.session.style().ground);
     let line = (1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), right.y_range(), line);
-    missing(root, scene, right);
+    missing(root, state, right);
 }
 
-/// Draws the names of both above them.
-pub fn strip(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
+/// Draws the names of both methods in a strip above the stage.
+pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [8, 8, 4, 4]);
     Panel::top("methods")
         .exact_size(CONTROL_HEIGHT + GRID)
@@ -48,23 +48,23 @@ pub fn strip(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
         .frame(frame)
         .show(root, |ui| {
             ui.columns(2, |halves| {
-                halves[0].vertical_centered(|ui| first_name(ui, scene));
-                halves[1].vertical_centered(|ui| second_name(ui, scene, acts));
+                halves[0].vertical_centered(|ui| first_name(ui, state));
+                halves[1].vertical_centered(|ui| second_name(ui, state, intents));
             });
         });
 }
 
-/// What the right half says while it is empty.
-fn missing(ui: &Ui, scene: &UiState, rect: Rect) {
-    let twin = &scene.twin;
+/// Shows why the right half is empty.
+fn missing(ui: &Ui, state: &UiState, rect: Rect) {
+    let twin = &state.twin;
     let words = match (twin.transition(), twin.problem()) {
         (Some(_), _) => return,
         (None, Some(problem)) => problem.to_string(),
         (None, None) if twin.is_busy() => "Building …".to_owned(),
-        // Before its work begins; the next frame tells more.
+        // Its job has not started; the next frame knows more.
         (None, None) => return,
     };
-    let ink = ink_on(scene.session.style().ground);
+    let ink = ink_on(state.session.style().ground);
     let width = rect.width() - 4.0 * GRID;
     let font = FontId::proportional(14.0);
     let galley = ui.painter().layout(words, font, ink, width);
@@ -72,20 +72,20 @@ fn missing(ui: &Ui, scene: &UiState, rect: Rect) {
     ui.painter().galley(at.min, galley, ink);
 }
 
-fn first_name(ui: &mut Ui, scene: &UiState) {
-    let Some(transition) = scene.session.transition() else {
+fn first_name(ui: &mut Ui, state: &UiState) {
+    let Some(transition) = state.session.transition() else {
         return;
     };
     let name = Label::new(secondary_text(ui, capitalised(transition.cell().name())));
     ui.add_sized([NAME_WIDTH, CONTROL_HEIGHT], name)
-        .on_hover_text("The method of the project, as it is chosen on the right of the window.");
+        .on_hover_text("Method of the project, chosen in the panel on the right");
 }
 
-fn second_name(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let Some(project) = scene.session.project() else {
+fn second_name(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let Some(project) = state.session.project() else {
         return;
     };
-    let chosen = scene.twin.method_beside(project);
+    let chosen = state.twin.method_beside(project);
     ComboBox::from_id_salt("second method")
         .width(NAME_WIDTH)
         .selected_text(capitalised(chosen.name()))
@@ -93,7 +93,7 @@ fn second_name(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
         .show_ui(ui, |ui| {
             for method in ComparisonMethod::all() {
                 let cell = method.cell();
-                let available = scene.session.available(cell.warp(), cell.content());
+                let available = state.session.available(cell.warp(), cell.content());
                 let mut name = RichText::new(capitalised(method.name()));
                 if available.is_err() {
                     name = name.color(ThemePalette::of(ui).faint());
@@ -103,19 +103,19 @@ fn second_name(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
                     if let Err(reason) = &available {
                         response.on_disabled_hover_text(format!("Not available: {reason}"));
                     } else if response.on_hover_text(tip(method)).clicked() {
-                        acts.push(Intent::TwinMethod(method));
+                        intents.push(Intent::TwinMethod(method));
                     }
                 });
             }
         })
         .response
-        .on_hover_text("The method beside the one of the project.");
+        .on_hover_text("Method to compare with the project's method");
 }
 
 fn tip(method: ComparisonMethod) -> &'static str {
     match method {
         ComparisonMethod::Straight => {
-            "Each point goes straight to its place: what turns shrinks on the way."
+            "Each point moves straight to its target. Rotating parts shrink on the way."
         }
         ComparisonMethod::Cell(cell) => method::description(cell.warp(), cell.content()),
     }

@@ -1,4 +1,4 @@
-//! The frame of a film over the stage, while its options are open.
+//! Frame of the exported film over the stage, shown while the export settings are open.
 
 use bevy_egui::egui::{Color32, Rect, Stroke, StrokeKind, Ui, vec2};
 
@@ -6,31 +6,31 @@ use crate::app::ui::kit::theme::ThemePalette;
 use crate::app::ui::stage::area::is_light;
 use crate::app::ui::ui_state::UiState;
 
-/// How dark what the film leaves out becomes.
+/// Opacity of the shade outside the frame, out of 255 (heuristic).
 const SHADE: u8 = 40;
 
-/// Draws the frame, and shades what lies around it.
-pub fn frame(ui: &Ui, scene: &UiState, stage: Rect) {
-    let Some(framed) = &scene.film.0 else {
+/// Draws the frame and shades everything outside it.
+pub fn frame(ui: &Ui, state: &UiState, stage: Rect) {
+    let Some(framed) = &state.film.0 else {
         return;
     };
     let bounds = framed.bounds();
     let at = |p| {
-        let px = scene.view.px_from_world(p);
+        let px = state.view.px_from_world(p);
         stage.min + vec2(px.x, px.y)
     };
     let inside = Rect::from_two_pos(at(bounds.min), at(bounds.max));
     let painter = ui.painter().with_clip_rect(stage);
     let shade = Color32::from_black_alpha(SHADE);
     let (above, below) = stage.split_top_bottom_at_y(inside.top());
-    let (beside, under) = below.split_top_bottom_at_y(inside.bottom());
-    let (left, rest) = beside.split_left_right_at_x(inside.left());
+    let (row, under) = below.split_top_bottom_at_y(inside.bottom());
+    let (left, rest) = row.split_left_right_at_x(inside.left());
     let (_, right) = rest.split_left_right_at_x(inside.right());
     for around in [above, under, left, right] {
         if around.is_positive() {
             painter.rect_filled(around, 0.0, shade);
         }
     }
-    let ink = ThemePalette::on(is_light(scene.session.style().ground)).accent;
+    let ink = ThemePalette::on(is_light(state.session.style().ground)).accent;
     painter.rect_stroke(inside, 0.0, Stroke::new(1.0, ink), StrokeKind::Inside);
 }

@@ -1,5 +1,5 @@
-//! The map of all designs: on the left where they are and what lies between them, on the right
-//! the blend under the puck.
+//! Map of all designs: on the left the map with its marker and path, on the right the blend under
+//! the marker.
 
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -20,61 +20,63 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
 
-/// Radius of the puck, and how thick the ring of shares around it is.
-const PUCK: f32 = 11.0;
+/// Radius of the marker, in points.
+const MARKER: f32 = 11.0;
+
+/// Thickness of the ring of weights around the marker, in points.
 const RING: f32 = 4.0;
 
-/// A design is taken hold of within this many points.
-const HOLD: f32 = 40.0;
+/// Distance within which a design is grabbed, in points.
+const GRAB_DISTANCE: f32 = 40.0;
 
-/// The longest side of the pictures in pixels.
+/// Longest side of an uploaded picture, in pixels (resource limit: GPU memory).
 const LONGEST_PX: u32 = 2048;
 
-/// What the hand is at.
+/// Drag in progress on the map.
 #[derive(Clone, Default)]
 struct MapDrag {
-    /// The design that is being moved.
+    /// Design being moved.
     design: Option<usize>,
-    /// What is being drawn.
+    /// Points of the path being drawn, in map coordinates.
     line: Vec<DVec2>,
 }
 
-/// Draws the map and the blend; returns the part that the blend takes.
-pub fn show(root: &mut Ui, scene: &UiState, stage: Rect, acts: &mut Intents) -> Rect {
+/// Draws the map and the blend; returns the rectangle of the blend.
+pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) -> Rect {
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
     let mut right = left.translate(vec2(half.x, 0.0));
-    let back = scene.session.style().ground;
+    let back = state.session.style().ground;
     let [r, g, b] = back.0;
     root.painter()
         .rect_filled(stage, 0.0, Color32::from_rgb(r, g, b));
     let ink = ink_on(back);
-    let Some(made) = scene.map.made() else {
-        missing(root, scene, stage, ink);
+    let Some(made) = state.map.made() else {
+        missing(root, state, stage, ink);
         return right;
     };
     let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), right.y_range(), line);
-    // Below the blend stands what it is made of.
+    // Below the blend is the legend of the designs' weights.
     let height = WeightLegend::height(root, made, right.width());
     let below = right.split_top_bottom_at_y(right.bottom() - height).1;
     right.max.y = below.top();
     let side = left.width().min(left.height());
     let square = Rect::from_center_size(left.center(), vec2(side, side));
-    hand(root, scene, made, square, acts);
-    draw(root, scene, made, (left, square), ink);
+    handle_drag(root, state, made, square, intents);
+    draw(root, state, made, (left, square), ink);
     if let Some(picture) = made.blend() {
         image(root, "the blend", picture, right, Color32::WHITE);
     }
-    shares(root, scene, made, below, ink);
+    draw_legend(root, state, made, below, ink);
     right
 }
 
-fn missing(ui: &Ui, scene: &UiState, rect: Rect, ink: Color32) {
-    let words = match scene.map.problem() {
+fn missing(ui: &Ui, state: &UiState, rect: Rect, ink: Color32) {
+    let words = match state.map.problem() {
         Some(problem) => problem.to_string(),
-        None if scene.session.whole().is_none() => {
-            "Open a project of several designs, or drop several files here.".to_owned()
+        None if state.session.whole().is_none() => {
+            "Open a project with several designs, or drop several files here.".to_owned()
         }
         None => "Laying out the map …".to_owned(),
     };
@@ -86,26 +88,33 @@ fn missing(ui: &Ui, scene: &UiState, rect: Rect, ink: Color32) {
     ui.painter().galley(at.min, galley, ink);
 }
 
-/// Where a place of the map is in its square.
+/// Converts map coordinates to the window; the map fills `square`.
 fn on_screen(square: Rect, place: DVec2) -> Pos2 {
     let share = (place / REACH).as_vec2() * 0.5;
     let offset = vec2(share.x, -share.y) * square.width();
     square.center() + offset
 }
 
+/// Converts a position in the window to map coordinates.
 fn on_map(square: Rect, at: Pos2) -> DVec2 {
     let offset = (at - square.center()) / square.width() * 2.0;
     DVec2::new(f64::from(offset.x), f64::from(-offset.y)) * REACH
 }
 
-/// Dragging moves the puck, or draws the path, or with Shift moves the design under the pointer.
-fn hand(root: &Ui, scene: &UiState, made: &MapPictures, square: Rect, acts: &mut Intents) {
+/// Handles dragging: moves the marker, draws the path or, with Shift, moves a design.
+fn handle_drag(
+    root: &Ui,
+    state: &UiState,
+    made: &MapPictures,
+    square: Rect,
+    intents: &mut Intents,
+) {
     let id = root.id().with("map");
     let response = root.interact(square, id, Sense::click_and_drag());
     let mut held: MapDrag = root.data(|data| data.get_temp(id)).unwrap_or_default();
     let Some(at) = response.interact_pointer_pos() else {
         if !held.line.is_empty() {
-            acts.push(Intent::ExtendPath(std::mem::take(&mut held.line)));
+            intents.push(Intent::ExtendPath(std::mem::take(&mut held.line)));
         }
         root.data_mut(|data| data.insert_temp(id, MapDrag::default()));
         return;
@@ -115,15 +124,15 @@ fn hand(root: &Ui, scene: &UiState, made: &MapPictures, square: Rect, acts: &mut
         let sites = made.map().sites().iter().enumerate();
         let far = |site: DVec2| on_screen(square, site).distance(at);
         let nearest = sites.min_by(|a, b| far(*a.1).total_cmp(&far(*b.1)));
-        let near = nearest.filter(|(_, site)| far(**site) < HOLD);
+        let near = nearest.filter(|(_, site)| far(**site) < GRAB_DISTANCE);
         held.design = near.map(|(design, _)| design);
     }
     match held.design {
-        Some(design) => acts.push(Intent::MoveSite(design, place)),
-        // Where the button went down is the first of them.
-        None if scene.map.draws_path && held.line.last() != Some(&place) => held.line.push(place),
-        None if scene.map.draws_path => {}
-        None if place != scene.map.puck() => acts.push(Intent::Puck(place)),
+        Some(design) => intents.push(Intent::MoveSite(design, place)),
+        // The press position becomes the first point.
+        None if state.map.draws_path && held.line.last() != Some(&place) => held.line.push(place),
+        None if state.map.draws_path => {}
+        None if place != state.map.puck() => intents.push(Intent::Puck(place)),
         None => {}
     }
     root.data_mut(|data| data.insert_temp(id, held));
@@ -131,7 +140,7 @@ fn hand(root: &Ui, scene: &UiState, made: &MapPictures, square: Rect, acts: &mut
 
 fn draw(
     root: &Ui,
-    scene: &UiState,
+    state: &UiState,
     made: &MapPictures,
     (left, square): (Rect, Rect),
     ink: Color32,
@@ -157,18 +166,18 @@ fn draw(
         let at = at.min(left.max - vec2(0.0, 18.0));
         painter.text(at, Align2::CENTER_TOP, &design.name, font.clone(), ink);
     }
-    way(root, scene, (left, square), ink);
-    puck(root, scene, made, (left, square), ink);
+    draw_path(root, state, (left, square), ink);
+    draw_marker(root, state, made, (left, square), ink);
 }
 
-/// The path with its stops, what is being drawn, and the places that are kept.
-fn way(root: &Ui, scene: &UiState, (left, square): (Rect, Rect), ink: Color32) {
-    /// Points of the curve from stop to stop.
+/// Draws the path with its stops, the line being drawn, and the saved blends.
+fn draw_path(root: &Ui, state: &UiState, (left, square): (Rect, Rect), ink: Color32) {
+    /// Number of points that the curve is drawn with, per segment.
     const POINTS: usize = 48;
     let painter = root.painter_at(left);
     let stroke = Stroke::new(2.0, ink);
     let on = |place: DVec2| on_screen(square, place);
-    if let Some(curve) = scene.map.curve() {
+    if let Some(curve) = state.map.curve() {
         let count = POINTS * curve.leg_count();
         let points = (0..=count).map(|k| on(curve.at(k as f64 / POINTS as f64)));
         painter.add(Shape::line(points.collect(), stroke));
@@ -178,7 +187,7 @@ fn way(root: &Ui, scene: &UiState, (left, square): (Rect, Rect), ink: Color32) {
         let points = held.line.iter().map(|place| on(*place));
         painter.add(Shape::line(points.collect(), stroke));
     }
-    let Some(whole) = scene.session.whole() else {
+    let Some(whole) = state.session.whole() else {
         return;
     };
     for kept in &whole.map.kept {
@@ -197,7 +206,7 @@ fn way(root: &Ui, scene: &UiState, (left, square): (Rect, Rect), ink: Color32) {
     }
 }
 
-/// What is read on an ink: the other end of light and dark.
+/// Returns a fill on which `ink` is readable.
 fn contrast(ink: Color32) -> Color32 {
     match ink.r() > 127 {
         true => Color32::from_gray(24),
@@ -205,51 +214,51 @@ fn contrast(ink: Color32) -> Color32 {
     }
 }
 
-/// The puck with a ring of the designs' shares.
-fn puck(
+/// Draws the marker, with a ring that shows the weights of the designs.
+fn draw_marker(
     root: &Ui,
-    scene: &UiState,
+    state: &UiState,
     made: &MapPictures,
     (left, square): (Rect, Rect),
     ink: Color32,
 ) {
     let painter = root.painter_at(left);
-    let at = on_screen(square, scene.map.puck());
-    painter.circle(at, PUCK, Color32::WHITE, Stroke::new(1.5, ink));
+    let at = on_screen(square, state.map.puck());
+    painter.circle(at, MARKER, Color32::WHITE, Stroke::new(1.5, ink));
     let mut from = -FRAC_PI_2;
     for (design, &weight) in made.weights().iter().enumerate() {
-        let way = weight.clamp(0.0, 1.0) as f32 * TAU;
-        if way > 0.0 {
-            let steps = (way * 12.0).ceil().max(1.0) as usize;
+        let sweep = weight.clamp(0.0, 1.0) as f32 * TAU;
+        if sweep > 0.0 {
+            let steps = (sweep * 12.0).ceil().max(1.0) as usize;
             let points = (0..=steps).map(|k| {
-                let angle = from + way * k as f32 / steps as f32;
-                at + vec2(angle.cos(), angle.sin()) * (PUCK + RING)
+                let angle = from + sweep * k as f32 / steps as f32;
+                at + vec2(angle.cos(), angle.sin()) * (MARKER + RING)
             });
-            let stroke = Stroke::new(RING, colour_of(scene, made, design));
+            let stroke = Stroke::new(RING, colour_of(state, made, design));
             painter.add(Shape::line(points.collect(), stroke));
         }
-        from += way;
+        from += sweep;
     }
     painter.circle_filled(at, 2.5, ink);
 }
 
-/// The colour of a design on the map.
-fn colour_of(scene: &UiState, made: &MapPictures, design: usize) -> Color32 {
+/// Returns the colour of a design on the map.
+fn colour_of(state: &UiState, made: &MapPictures, design: usize) -> Color32 {
     let mut weights = vec![0.0; made.weights().len()];
     weights[design] = 1.0;
-    let Rgb([r, g, b]) = scene.session.style().fill_at(made.space().tint(&weights));
+    let Rgb([r, g, b]) = state.session.style().fill_at(made.space().tint(&weights));
     Color32::from_rgb(r, g, b)
 }
 
-/// What the blend is made of, below it: in rows, the first uppermost.
-fn shares(root: &Ui, scene: &UiState, made: &MapPictures, rect: Rect, ink: Color32) {
-    let mut all = WeightLegend::new(rect.width());
+/// Draws the legend: the designs of the blend with their weights, from the top left.
+fn draw_legend(root: &Ui, state: &UiState, made: &MapPictures, rect: Rect, ink: Color32) {
+    let mut layout = WeightLegend::new(rect.width());
     for (design, words) in WeightLegend::words(made, made.weights()) {
         let galley = root
             .painter()
             .layout_no_wrap(words, WeightLegend::font(), ink);
-        let at = rect.min + all.place(galley.size().x);
-        let colour = colour_of(scene, made, design);
+        let at = rect.min + layout.place(galley.size().x);
+        let colour = colour_of(state, made, design);
         root.painter()
             .circle_filled(at + vec2(4.0, 7.0), 4.0, colour);
         root.painter()
@@ -257,15 +266,16 @@ fn shares(root: &Ui, scene: &UiState, made: &MapPictures, rect: Rect, ink: Color
     }
 }
 
-/// Where the words about shares stand: one behind the other, in as many rows as they need.
+/// Layout of the legend: labels from left to right, in as many rows as they need.
 struct WeightLegend {
     room: f32,
     next: Vec2,
 }
 
 impl WeightLegend {
+    /// Height of a row, in points.
     const ROW: f32 = 18.0;
-    /// What a dot and the gap behind it take.
+    /// Width of a dot with the gap after it, in points.
     const DOT: f32 = 13.0;
 
     fn new(width: f32) -> Self {
@@ -279,26 +289,27 @@ impl WeightLegend {
         FontId::proportional(12.0)
     }
 
-    /// Each design that has a share, by its number, and what is said of it.
+    /// Returns index and label of each design whose weight rounds to at least 1 %.
     fn words(made: &MapPictures, weights: &[f64]) -> Vec<(usize, String)> {
         let all = made.space().designs().iter().zip(weights).enumerate();
-        let seen = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
-        seen.map(|(k, (form, weight))| (k, format!("{} {:.0} %", form.name, weight * 100.0)))
+        let visible = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
+        visible
+            .map(|(k, (form, weight))| (k, format!("{} {:.0} %", form.name, weight * 100.0)))
             .collect()
     }
 
-    /// What they take where every design has its largest share: it stays while the puck moves.
+    /// Returns the height with all designs at 100 %, so that it stays while the marker moves.
     fn height(root: &Ui, made: &MapPictures, width: f32) -> f32 {
-        let mut all = Self::new(width);
+        let mut layout = Self::new(width);
         for (_, words) in Self::words(made, &vec![1.0; made.weights().len()]) {
             let ink = Color32::WHITE;
             let galley = root.painter().layout_no_wrap(words, Self::font(), ink);
-            all.place(galley.size().x);
+            layout.place(galley.size().x);
         }
-        all.next.y + Self::ROW + GRID
+        layout.next.y + Self::ROW + GRID
     }
 
-    /// Where words of such a width go.
+    /// Returns the position of the next label, which is `width` points wide.
     fn place(&mut self, width: f32) -> Vec2 {
         let width = Self::DOT + width;
         if self.next.x + width > self.room && self.next.x > 0.0 {

@@ -1,4 +1,4 @@
-//! The film at other t, in thin lines over the stage.
+//! Onion skins: the film at other moments, as thin lines over the stage.
 
 use bevy_egui::egui::{Color32, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
@@ -6,21 +6,21 @@ use crate::app::ui::ui_state::UiState;
 use crate::geometry::DVec2;
 use crate::transition::colour_fraction;
 
-/// How much of a skin is seen.
-const SEEN: f32 = 0.55;
+/// Opacity of an onion skin (heuristic).
+const OPACITY: f32 = 0.55;
 
-/// Draws the skins, each in the colour of its t.
-pub fn show(ui: &Ui, scene: &UiState, stage: Rect) {
+/// Draws the onion skins, each in the colour of its t.
+pub fn show(ui: &Ui, state: &UiState, stage: Rect) {
     let painter = ui.painter().with_clip_rect(stage);
-    let style = scene.session.style();
-    let way = scene.session.way();
+    let style = state.session.style();
+    let way = state.session.way();
     let at = |p: &DVec2| -> Pos2 {
-        let px = scene.view.px_from_world(*p);
+        let px = state.view.px_from_world(*p);
         stage.min + vec2(px.x, px.y)
     };
-    for skin in scene.onion.skins() {
+    for skin in state.onion.skins() {
         let [r, g, b] = style.fill_at(colour_fraction(skin.t, way)).0;
-        let ink = Color32::from_rgb(r, g, b).gamma_multiply(SEEN);
+        let ink = Color32::from_rgb(r, g, b).gamma_multiply(OPACITY);
         let stroke = Stroke::new(1.0, ink);
         for ring in &skin.rings {
             painter.add(Shape::closed_line(ring.iter().map(at).collect(), stroke));

@@ -1,4 +1,5 @@
-//! The designs of a sequence as they lie on the timeline: dragged, they change places.
+//! Thumbnails of the designs on the timeline: click to go there, drag to reorder, right-click for a
+//! menu.
 
 use bevy_egui::egui::{Rect, Response, Sense, Ui, pos2};
 
@@ -9,18 +10,18 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::io::sanitize::SanitizedLine;
 use crate::project::Project;
 
-/// What a hand does with the pictures of designs.
+/// Pointer interaction with the thumbnails of designs.
 pub struct ThumbnailDrag<'a> {
     whole: &'a Project,
     ruler: TimelineRuler,
-    /// Which one is dragged, and to where in the order.
+    /// Index of the dragged design, and the index before which it would be inserted.
     dragged: Option<(usize, usize)>,
 }
 
 impl<'a> ThumbnailDrag<'a> {
-    /// Of the open project; none where its designs have no order on the timeline.
-    pub fn of(scene: &'a UiState<'a>, ruler: TimelineRuler) -> Option<Self> {
-        let whole = scene.session.whole()?;
+    /// Interaction for the open project; `None` if its designs have no order on the timeline.
+    pub fn of(state: &'a UiState<'a>, ruler: TimelineRuler) -> Option<Self> {
+        let whole = state.session.whole()?;
         (whole.is_sequence() && !whole.follows_path()).then_some(Self {
             whole,
             ruler,
@@ -28,31 +29,31 @@ impl<'a> ThumbnailDrag<'a> {
         })
     }
 
-    /// Takes hold of the picture at that t. By how much it is to be drawn beside its place.
-    pub fn hold(&mut self, ui: &Ui, t: f64, rect: Rect, acts: &mut Intents) -> f32 {
+    /// Handles the pointer on the thumbnail at `t`; returns its offset in points while dragged.
+    pub fn hold(&mut self, ui: &Ui, t: f64, rect: Rect, intents: &mut Intents) -> f32 {
         let k = t.round();
-        // Between two designs is nothing to hold, and the one that is led back to is the first.
+        // Frames between designs cannot be dragged, nor the first design repeated by a closed loop.
         if (t - k).abs() > 1e-9 || k < 0.0 || k as usize >= self.whole.designs.len() {
             return 0.0;
         }
         let k = k as usize;
         let id = ui.id().with(("design", k));
         let response = ui.interact(rect, id, Sense::click_and_drag());
-        let offset = self.drag(ui, k, &response, acts);
+        let offset = self.drag(ui, k, &response, intents);
         if response.clicked() {
-            acts.push(Intent::Seek(t));
+            intents.push(Intent::Seek(t));
         }
         let name = self.whole.designs[k].shown_name();
         let tip = format!(
-            "{}. Drag it to another place, right-click to replace it, repeat it or take it out.",
+            "{}. Drag to reorder, right-click to replace, duplicate or remove.",
             SanitizedLine(&name)
         );
         let response = response.on_hover_text(tip);
-        response.context_menu(|ui| menu(ui, self.whole, k, acts));
+        response.context_menu(|ui| menu(ui, self.whole, k, intents));
         offset
     }
 
-    fn drag(&mut self, ui: &Ui, k: usize, response: &Response, acts: &mut Intents) -> f32 {
+    fn drag(&mut self, ui: &Ui, k: usize, response: &Response, intents: &mut Intents) -> f32 {
         let from = response.id.with("from");
         let Some(pointer) = response.interact_pointer_pos() else {
             return 0.0;
@@ -60,34 +61,34 @@ impl<'a> ThumbnailDrag<'a> {
         if response.drag_started() {
             ui.data_mut(|data| data.insert_temp(from, pointer.x));
         }
-        let place = self.place(pointer.x);
+        let drop_index = self.drop_index(pointer.x);
         if response.drag_stopped() {
-            acts.extend(self.whole.with_moved(k, place).map(Intent::Arrange));
+            intents.extend(self.whole.with_moved(k, drop_index).map(Intent::Arrange));
             return 0.0;
         }
         if !response.dragged() {
             return 0.0;
         }
-        self.dragged = Some((k, place));
+        self.dragged = Some((k, drop_index));
         let start = ui.data(|data| data.get_temp::<f32>(from));
         pointer.x - start.unwrap_or(pointer.x)
     }
 
-    /// Before which design, in the order that there is, something at that x would come.
-    fn place(&self, x: f32) -> usize {
+    /// Returns the index, in the current order, before which a thumbnail dropped at `x` would come.
+    fn drop_index(&self, x: f32) -> usize {
         let is_left = |k: &usize| self.ruler.x(*k as f64) < x;
         (0..self.whole.designs.len()).filter(is_left).count()
     }
 
-    /// Shows where the picture that is dragged would come to lie.
+    /// Marks where the dragged thumbnail would be inserted.
     pub fn mark(&self, ui: &Ui, top: f32, height: f32) {
-        let Some((k, place)) = self.dragged else {
+        let Some((k, drop_index)) = self.dragged else {
             return;
         };
-        if self.whole.with_moved(k, place).is_none() {
+        if self.whole.with_moved(k, drop_index).is_none() {
             return;
         }
-        let x = self.ruler.x(place as f64 - 0.5);
+        let x = self.ruler.x(drop_index as f64 - 0.5);
         let ink = ThemePalette::of(ui).accent;
         let line = [
             pos2(x, top - GRID / 2.0),
@@ -97,21 +98,21 @@ impl<'a> ThumbnailDrag<'a> {
     }
 }
 
-fn menu(ui: &mut Ui, whole: &Project, k: usize, acts: &mut Intents) {
+fn menu(ui: &mut Ui, whole: &Project, k: usize, intents: &mut Intents) {
     ui.set_width(180.0);
     let mut choices: Vec<(&str, Intent)> = vec![
         ("Replace …", Intent::AskReplace(k)),
         ("Insert before …", Intent::AskInsert(k)),
-        ("Insert behind …", Intent::AskInsert(k + 1)),
+        ("Insert after …", Intent::AskInsert(k + 1)),
     ];
-    let repeated = Intent::Arrange(whole.with_repeated(k));
-    choices.push(("Once more behind it", repeated));
+    let duplicated = Intent::Arrange(whole.with_repeated(k));
+    choices.push(("Duplicate", duplicated));
     if whole.designs.len() > 2 {
-        choices.push(("Take it out", Intent::Arrange(whole.without(k))));
+        choices.push(("Remove", Intent::Arrange(whole.without(k))));
     }
-    for (words, intent) in choices {
-        if ui.button(words).clicked() {
-            acts.push(intent);
+    for (label, intent) in choices {
+        if ui.button(label).clicked() {
+            intents.push(intent);
             ui.close();
         }
     }

@@ -1,4 +1,4 @@
-//! The strip at the bottom: transport and track.
+//! Timeline panel at the bottom: transport controls, and the track below them.
 
 use bevy_egui::egui::{Panel, Ui};
 
@@ -7,13 +7,14 @@ use crate::app::ui::kit::widgets::panel_frame;
 use crate::app::ui::timeline::{filmstrip, track, transport};
 use crate::app::ui::ui_state::{Intents, UiState};
 
+/// Height of the panel without the film strip, in points.
 const HEIGHT: f32 = 128.0;
 
-/// A window that leaves less than this to all that lies below the toolbar has no room for pictures.
+/// Height below the toolbar from which the film strip is shown, in points.
 const ROOMY: f32 = 600.0;
 
 /// Draws the timeline.
-pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
+pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 16, 8, 8]);
     let has_pictures = root.available_height() >= ROOMY;
     let pictures = if has_pictures { filmstrip::HEIGHT } else { 0.0 };
@@ -21,15 +22,15 @@ pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
         .exact_size(HEIGHT + pictures)
         .frame(frame)
         .show(root, |ui| {
-            let Some(project) = scene.session.project() else {
+            let Some(project) = state.session.project() else {
                 return;
             };
             let mut draft = project.clone();
-            transport::show(ui, scene, &mut draft.timing, acts);
-            track::show(ui, scene, &mut draft, has_pictures, acts);
-            // Times and stops are a change of the project like any other, and can be undone.
+            transport::show(ui, state, &mut draft.timing, intents);
+            track::show(ui, state, &mut draft, has_pictures, intents);
+            // Timing and stops belong to the project, so changing them can be undone.
             if draft != *project {
-                acts.push(Intent::Edit(Box::new(draft)));
+                intents.push(Intent::Edit(Box::new(draft)));
             }
         });
 }

@@ -1,4 +1,4 @@
-//! The measures against t, side by side, with a line where t is; a click goes to a t.
+//! Graphs of the measured quantities over t, side by side; clicking or dragging seeks.
 
 use bevy_egui::egui::{Color32, Label, Panel, PointerButton, ScrollArea, Ui, vec2};
 use egui_plot::{AxisHints, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
@@ -9,66 +9,74 @@ use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::stage::checks::unmeasured_reason;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::{FilmReport, Quantity};
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 
+/// Height of the panel, in points.
 const HEIGHT: f32 = 168.0;
 
-/// The least width of one plot.
-const LEAST_WIDTH: f32 = 208.0;
+/// Minimum width of one graph, in points.
+const MIN_WIDTH: f32 = 208.0;
 
 /// Draws the panel.
-pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
+pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 16, 8, 4]);
     Panel::bottom("plots")
         .exact_size(HEIGHT)
         .resizable(false)
         .frame(frame)
-        .show(root, |ui| match scene.measured.measures() {
-            Some(measures) => row(ui, scene, &measures.film, acts),
-            None => waiting(ui, scene),
+        .show(root, |ui| match state.measured.measures() {
+            Some(measures) => row(ui, state, &measures.film, intents),
+            None => waiting(ui, state),
         });
 }
 
-fn waiting(ui: &mut Ui, scene: &UiState) {
-    let words = unmeasured_reason(scene);
-    ui.centered_and_justified(|ui| ui.label(secondary_text(ui, words)));
+fn waiting(ui: &mut Ui, state: &UiState) {
+    let text = unmeasured_reason(state);
+    ui.centered_and_justified(|ui| ui.label(secondary_text(ui, text)));
 }
 
-fn row(ui: &mut Ui, scene: &UiState, film: &FilmReport, acts: &mut Intents) {
-    let shown: Vec<(Quantity, Vec<[f64; 2]>)> = Quantity::ALL
+fn row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Intents) {
+    let graphs: Vec<(Quantity, Vec<[f64; 2]>)> = Quantity::ALL
         .into_iter()
         .map(|quantity| (quantity, film.series(quantity)))
         .filter(|(_, series)| !series.is_empty())
         .collect();
     let gap = 2.0 * GRID;
-    // As many as fit whole; the others are scrolled to.
+    // As many whole graphs as fit; the others are reached by scrolling.
     let width = ui.available_width();
-    let fit = ((width + gap) / (LEAST_WIDTH + gap)).floor().max(1.0);
-    let count = fit.min(shown.len().max(1) as f32);
+    let fit = ((width + gap) / (MIN_WIDTH + gap)).floor().max(1.0);
+    let count = fit.min(graphs.len().max(1) as f32);
     let each = (width + gap) / count - gap;
     ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = gap;
-            for (quantity, series) in &shown {
+            for (quantity, series) in &graphs {
                 ui.allocate_ui(vec2(each, HEIGHT - 24.0), |ui| {
-                    ui.vertical(|ui| one(ui, scene, *quantity, series, acts));
+                    ui.vertical(|ui| one(ui, state, *quantity, series, intents));
                 });
             }
         });
     });
 }
 
-const NOWHERE: &str = "Without bound at every t: some triangle has no area or is turned over, \
-    and what shrinks to nothing is sheared and stretched without end.";
+/// Shown instead of a graph for a quantity without any finite value.
+const UNBOUNDED: &str = "Unbounded at every t: some triangle has no area or is flipped, so it is \
+    stretched and sheared without limit.";
 
-fn one(ui: &mut Ui, scene: &UiState, quantity: Quantity, series: &[[f64; 2]], acts: &mut Intents) {
+fn one(
+    ui: &mut Ui,
+    state: &UiState,
+    quantity: Quantity,
+    series: &[[f64; 2]],
+    intents: &mut Intents,
+) {
     let palette = ThemePalette::of(ui);
-    // Of the leg that is looked at, as the measures are.
-    let t = scene.session.within(scene.playback.t());
+    // Within the current segment, as are the measurements.
+    let t = state.session.within(state.playback.t());
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
     if !series.iter().any(|[_, value]| value.is_finite()) {
-        ui.add(Label::new(secondary_text(ui, NOWHERE)).wrap());
+        ui.add(Label::new(secondary_text(ui, UNBOUNDED)).wrap());
         return;
     }
     let plot = axes(quantity, palette.weak).height(ui.available_height().min(HEIGHT - 52.0));
@@ -97,19 +105,20 @@ fn one(ui: &mut Ui, scene: &UiState, quantity: Quantity, series: &[[f64; 2]], ac
     let is_held = response.response.is_pointer_button_down_on()
         || response.response.dragged_by(PointerButton::Primary);
     if let Some(pointer) = response.inner.filter(|_| is_held) {
-        // The axis shows a little more than was measured.
-        let t = scene.session.beyond(pointer.x.clamp(0.0, 1.0));
-        acts.push(Intent::Seek(t));
+        // The axis extends a little beyond the measured range.
+        let t = state.session.beyond(pointer.x.clamp(0.0, 1.0));
+        intents.push(Intent::Seek(t));
     }
-    response
-        .response
-        .on_hover_text(format!("{} Click to go to a t.", quantity.name().sentence));
+    response.response.on_hover_text(format!(
+        "{} Click to go to that moment.",
+        quantity.name().sentence
+    ));
 }
 
-/// The empty plot: it cannot be dragged or zoomed.
+/// Returns an empty plot with axes; it cannot be panned or zoomed.
 fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
     let plot = Plot::new(("plot", quantity.name().title))
-        // All plots show the same t from edge to edge, so that they can be compared.
+        // All graphs show the same range of t, so that they can be compared.
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)
@@ -121,19 +130,19 @@ fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
         .grid_color(colour)
         .include_x(0.0)
         .include_x(1.0)
-        // Room for half of the last label.
+        // Leaves room for half of the last label.
         .set_margin_fraction(vec2(0.04, 0.08))
         .label_formatter(|_| None)
         .y_grid_spacer(|input| marks(input.bounds))
         .custom_x_axes(vec![t_axis(colour)])
         .custom_y_axes(vec![value_axis(quantity, colour)]);
-    least(quantity)
+    always_shown(quantity)
         .into_iter()
         .map(|value| drawn(quantity, value))
         .fold(plot, Plot::include_y)
 }
 
-/// Ratios run over many powers of ten where something is born from a point.
+/// Returns whether a quantity is a ratio; they span many powers of ten when a part appears.
 fn is_ratio(quantity: Quantity) -> bool {
     matches!(
         quantity,
@@ -141,7 +150,7 @@ fn is_ratio(quantity: Quantity) -> bool {
     )
 }
 
-/// A value on its axis, which for ratios is logarithmic.
+/// Maps a value to its axis, which is logarithmic for ratios.
 fn drawn(quantity: Quantity, value: f64) -> f64 {
     if is_ratio(quantity) {
         value.log10()
@@ -156,33 +165,33 @@ fn t_axis(colour: Color32) -> AxisHints<'static> {
         .formatter(|mark, _| format!("{}", (mark.value * 100.0).round() / 100.0))
 }
 
-/// Three to six marks from the least to the greatest value, a round step apart: tenfold steps alone
-/// leave an axis up to 9,000 without any that there is room for.
-fn marks((least, greatest): (f64, f64)) -> Vec<GridMark> {
-    let rough = (greatest - least) / 5.0;
+/// Returns three to six marks at round steps. (egui's own steps are powers of ten, which leaves an
+/// axis up to 9,000 without any mark that fits.)
+fn marks((min, max): (f64, f64)) -> Vec<GridMark> {
+    let rough = (max - min) / 5.0;
     let ten = 10_f64.powf(rough.log10().floor());
     let round = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * ten);
-    let wide = |step: &f64| *step > 0.0 && *step >= rough;
-    let Some(step_size) = round.into_iter().find(wide) else {
-        return Vec::new(); // of an axis without a length
+    let is_wide = |step: &f64| *step > 0.0 && *step >= rough;
+    let Some(step_size) = round.into_iter().find(is_wide) else {
+        return Vec::new(); // the axis has no length
     };
-    let first = (least / step_size).ceil() as i64;
-    let last = (greatest / step_size).floor() as i64;
-    let at = |k: i64| GridMark {
+    let first = (min / step_size).ceil() as i64;
+    let last = (max / step_size).floor() as i64;
+    let mark = |k: i64| GridMark {
         value: k as f64 * step_size,
         step_size,
     };
-    (first..=last).map(at).collect()
+    (first..=last).map(mark).collect()
 }
 
 fn value_axis(quantity: Quantity, colour: Color32) -> AxisHints<'static> {
     AxisHints::new_y()
         .tick_label_color(colour)
-        // As wide as the longest number, so that plots do not jump as their numbers change.
+        // As wide as the longest number, so that graphs do not move when their numbers change.
         .min_thickness(36.0)
         .formatter(move |mark, _| {
             let value = mark.value;
-            short(if is_ratio(quantity) {
+            format_value(if is_ratio(quantity) {
                 10.0_f64.powf(value)
             } else {
                 value
@@ -198,7 +207,7 @@ fn level(y: f64, colour: Color32) -> HLine {
         .allow_hover(false)
 }
 
-/// The name, and the value where t is.
+/// Draws the quantity's name and its value at the current t.
 fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
     let nearest = series
         .iter()
@@ -206,12 +215,12 @@ fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
     ui.horizontal(|ui| {
         ui.label(secondary_text(ui, quantity.name().title));
         if let Some([_, value]) = nearest.filter(|_| (0.0..=1.0).contains(&t)) {
-            ui.small(short(*value));
+            ui.small(format_value(*value));
         }
     });
 }
 
-/// Stretches without a gap: what is infinite cannot be drawn.
+/// Splits a series at infinite values, which cannot be drawn.
 fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     series
         .split(|[_, value]| !value.is_finite())
@@ -220,8 +229,8 @@ fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
         .collect()
 }
 
-/// What the axis always shows: counts start at 0 and reach 1, distortions start at 1.
-fn least(quantity: Quantity) -> Vec<f64> {
+/// Returns the values that an axis always includes, such as 0 and 1 for counts.
+fn always_shown(quantity: Quantity) -> Vec<f64> {
     match quantity {
         Quantity::Area | Quantity::Perimeter | Quantity::Turning => vec![0.0],
         Quantity::WorstConformal | Quantity::WorstIsometric => vec![1.0, 2.0],
@@ -232,7 +241,7 @@ fn least(quantity: Quantity) -> Vec<f64> {
     }
 }
 
-fn short(value: f64) -> String {
+fn format_value(value: f64) -> String {
     match value.abs() {
         v if !v.is_finite() => "folded".to_owned(),
         v if v.fract() == 0.0 && v < 1e6 => format!("{value:.0}"),
@@ -249,7 +258,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_infinite_is_a_gap() {
+    fn infinite_values_are_gaps() {
         let series = [[0.0, 1.0], [0.25, f64::INFINITY], [0.5, 2.0], [0.75, 3.0]];
         assert_eq!(
             runs(&series),
@@ -259,20 +268,20 @@ mod tests {
 
     #[test]
     fn every_axis_has_marks_and_room_for_them() {
-        for greatest in (1..200).map(|k| 1.3_f64.powi(k - 100)) {
-            let marks = marks((0.0, greatest));
-            assert!((3..=6).contains(&marks.len()), "{greatest}: {marks:?}");
+        for max in (1..200).map(|k| 1.3_f64.powi(k - 100)) {
+            let marks = marks((0.0, max));
+            assert!((3..=6).contains(&marks.len()), "{max}: {marks:?}");
         }
         assert!(marks((2.0, 2.0)).is_empty() && marks((f64::NAN, 1.0)).is_empty());
     }
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!(short(3.0), "3");
-        assert_eq!(short(1.2345), "1.23");
-        assert_eq!(short(123.4), "123");
-        assert_eq!(short(49_788.4), "49788");
-        assert_eq!(short(0.000_12), "1.2e-4");
-        assert_eq!(short(f64::INFINITY), "folded");
+        assert_eq!(format_value(3.0), "3");
+        assert_eq!(format_value(1.2345), "1.23");
+        assert_eq!(format_value(123.4), "123");
+        assert_eq!(format_value(49_788.4), "49788");
+        assert_eq!(format_value(0.000_12), "1.2e-4");
+        assert_eq!(format_value(f64::INFINITY), "folded");
     }
 }

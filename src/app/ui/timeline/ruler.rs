@@ -1,4 +1,4 @@
-//! Where on the timeline a t lies.
+//! Mapping between t and horizontal positions on the timeline.
 
 use bevy_egui::egui::{Rect, vec2};
 
@@ -6,36 +6,36 @@ use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::ui_state::UiState;
 use crate::transition::TransitionStop;
 
-/// How far the track reaches beyond 0 and 1 when nothing asks for more.
+/// Range shown beyond either end by default, as a fraction of the film's range of t.
 const BEYOND: f64 = 0.25;
 
-/// From t to the screen and back.
+/// Linear mapping between t and the x coordinate in the window.
 #[derive(Clone, Copy)]
 pub struct TimelineRuler {
     left: f32,
     width: f32,
-    /// The height of its line on the screen.
+    /// y coordinate of the track's line.
     pub y: f32,
-    /// The first t that it shows.
+    /// First t shown.
     pub from: f64,
-    /// The last one.
+    /// Last t shown.
     pub to: f64,
-    /// The t of the last design.
+    /// t of the last design.
     pub end: f64,
 }
 
 impl TimelineRuler {
-    /// Over all that the track has to show.
-    pub fn new(rect: Rect, scene: &UiState, stops: &[TransitionStop]) -> Self {
-        let timing = scene.session.timing();
+    /// Mapping that shows the film, all stops and the current t.
+    pub fn new(rect: Rect, state: &UiState, stops: &[TransitionStop]) -> Self {
+        let timing = state.session.timing();
         let places = stops
             .iter()
             .map(|stop| stop.t)
             .chain([timing.from, timing.to]);
-        // Also t itself: typed or played far outside, it must be seen.
-        let places = places.chain([scene.playback.t()]);
-        // As much of the strip, whatever the number of legs.
-        let end = scene.session.leg_count() as f64;
+        // The current t may be typed or played far outside and must stay visible.
+        let places = places.chain([state.playback.t()]);
+        // Relative to the film, so the margin does not depend on the number of segments.
+        let end = state.session.leg_count() as f64;
         let (mut from, mut to) = (-BEYOND * end, (1.0 + BEYOND) * end);
         for t in places {
             from = from.min(t);
@@ -52,12 +52,12 @@ impl TimelineRuler {
         }
     }
 
-    /// Where a t is on the screen.
+    /// Returns the x coordinate of `t`.
     pub fn x(&self, t: f64) -> f32 {
         self.left + ((t - self.from) / (self.to - self.from)) as f32 * self.width
     }
 
-    /// Which t is at that place of the screen.
+    /// Returns the t at an x coordinate.
     pub fn t(&self, x: f32) -> f64 {
         self.from + f64::from((x - self.left) / self.width) * (self.to - self.from)
     }

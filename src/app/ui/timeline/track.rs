@@ -1,4 +1,5 @@
-//! The track: t from left to right, with its stops, and the land beyond 0 and 1.
+//! Track of the timeline: t from left to right, with stops, playhead and the extrapolated ranges
+//! beyond both ends.
 
 use bevy_egui::egui::text::{LayoutJob, TextWrapping};
 use bevy_egui::egui::{
@@ -16,50 +17,56 @@ use crate::io::sanitize::SanitizedLine;
 use crate::project::Project;
 use crate::transition::{TransitionStop, TransitionStyle, colour_fraction};
 
-/// Scrubbing snaps to ends and stops within so many points: near enough to be meant. Two tenths
-/// are some sixty apart in the smallest window.
+/// Distance within which scrubbing snaps to designs and stops, in points (tolerance: tenths are
+/// about 60 points apart in the smallest window).
 const SNAP: f32 = 5.0;
 
-/// What is offered first as the time of a way.
-const USUAL_SECS: f64 = 2.0;
+/// Initial value of a custom time to the next stop, in seconds.
+const DEFAULT_SECS: f64 = 2.0;
 
+/// Height of the coloured bar, in points.
 const BAR_HEIGHT: f32 = 6.0;
 
+/// Font of numbers and names on the track.
 const FONT: FontId = FontId::proportional(11.5);
 
-/// What the word beyond the ends takes.
-const BEYOND_WORDS: f32 = 76.0;
+/// Width of the word “extrapolation”, in points.
+const EXTRAPOLATION_WIDTH: f32 = 76.0;
 
-/// The room that a design's name needs to be begun.
-const LEAST_NAME: f32 = 48.0;
+/// Width from which a design's name is drawn, in points.
+const MIN_NAME_WIDTH: f32 = 48.0;
 
-/// Draws the track, with pictures of the film below it if there is room, and takes the user's
-/// hand.
+/// Draws the track, with the film strip below it if there is room, and handles the pointer.
 pub fn show(
     ui: &mut Ui,
-    scene: &UiState,
+    state: &UiState,
     draft: &mut Project,
     has_pictures: bool,
-    acts: &mut Intents,
+    intents: &mut Intents,
 ) {
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-    let ruler = TimelineRuler::new(rect, scene, &draft.stops);
-    let names = scene.session.names_on_the_way();
-    scrub(&response, ruler, &draft.stops, acts);
+    let ruler = TimelineRuler::new(rect, state, &draft.stops);
+    let names = state.session.names_on_the_way();
+    scrub(&response, ruler, &draft.stops, intents);
     beyond(ui, ruler);
-    bar(ui, ruler, &draft.style, scene.session.way());
-    let is_path = scene.session.whole().is_some_and(Project::follows_path);
+    bar(ui, ruler, &draft.style, state.session.way());
+    let is_path = state.session.whole().is_some_and(Project::follows_path);
     ticks(ui, ruler, &names, is_path);
     if has_pictures {
-        filmstrip::show(ui, scene, ruler, ruler.y + 30.0, acts);
+        filmstrip::show(ui, state, ruler, ruler.y + 30.0, intents);
     }
-    stops(ui, ruler, &mut draft.stops, acts);
-    playhead(ui, ruler, scene.playback.t());
+    stops(ui, ruler, &mut draft.stops, intents);
+    playhead(ui, ruler, state.playback.t());
 }
 
-fn scrub(response: &Response, ruler: TimelineRuler, stops: &[TransitionStop], acts: &mut Intents) {
-    // A press moves t at once, and not only when it has become a drag.
+fn scrub(
+    response: &Response,
+    ruler: TimelineRuler,
+    stops: &[TransitionStop],
+    intents: &mut Intents,
+) {
+    // A press moves t at once, before it counts as a drag.
     let is_held = response.dragged() || response.is_pointer_button_down_on();
     let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held) else {
         return;
@@ -70,19 +77,19 @@ fn scrub(response: &Response, ruler: TimelineRuler, stops: &[TransitionStop], ac
     let near = places
         .map(|t| (t, (ruler.x(t) - pointer.x).abs()))
         .filter(|(_, d)| *d < SNAP);
-    // On a screen a point is more than a thousandth of t: ends and stops are meant exactly.
+    // A point on screen is wider than a thousandth of t; snapping makes designs and stops exact.
     let snapped = near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(t, _)| t);
-    acts.push(Intent::Seek(
+    intents.push(Intent::Seek(
         snapped.unwrap_or_else(|| rounded(ruler.t(pointer.x))),
     ));
 }
 
-/// To a thousandth, the finest that is shown.
+/// Rounds to thousandths, the finest value shown.
 fn rounded(t: f64) -> f64 {
     (t * 1000.0).round() / 1000.0
 }
 
-fn word(ui: &Ui, at: Pos2, word: &str, colour: Color32) {
+fn draw_label(ui: &Ui, at: Pos2, word: &str, colour: Color32) {
     ui.painter()
         .text(at, Align2::CENTER_CENTER, word, FONT, colour);
 }
@@ -95,7 +102,7 @@ fn beyond(ui: &Ui, ruler: TimelineRuler) {
         ui.painter()
             .extend(Shape::dashed_line(&[a, b], stroke, 4.0, 4.0));
         let middle = a.lerp(b, 0.5) + vec2(0.0, 18.0);
-        word(ui, middle, "extrapolation", palette.amber);
+        draw_label(ui, middle, "extrapolation", palette.amber);
     }
 }
 
@@ -118,7 +125,7 @@ fn bar(ui: &Ui, ruler: TimelineRuler, style: &TransitionStyle, way: (usize, bool
     ui.painter().add(Shape::mesh(mesh));
 }
 
-/// A number at each tenth of a pair, and a name at each design of more.
+/// Draws a number at each tenth of a pair, or the name of each design of a longer film.
 fn ticks(ui: &Ui, ruler: TimelineRuler, names: &[String], is_path: bool) {
     if ruler.end > 1.0 || is_path {
         return designs(ui, ruler, names);
@@ -138,17 +145,17 @@ fn ticks(ui: &Ui, ruler: TimelineRuler, names: &[String], is_path: bool) {
         };
         let colour = if is_end { palette.text } else { palette.weak };
         let at = pos2(x, ruler.y + 20.0);
-        word(ui, at, &label, colour);
+        draw_label(ui, at, &label, colour);
     }
 }
 
-/// Its number and its name at each design, as far as there is room.
+/// Draws the number of each design and, as far as it fits, its name.
 fn designs(ui: &Ui, ruler: TimelineRuler, names: &[String]) {
     let palette = ThemePalette::of(ui);
     let between = ruler.x(1.0) - ruler.x(0.0) - 2.0 * GRID;
-    // Beside the words beyond, which are in the middle there.
+    // The outermost names must not cover the word “extrapolation”, centred beyond the ends.
     let outside = ruler.x(0.0) - ruler.x(ruler.from);
-    let at_ends = outside - BEYOND_WORDS - 2.0 * GRID;
+    let at_ends = outside - EXTRAPOLATION_WIDTH - 2.0 * GRID;
     for (k, name) in names.iter().enumerate() {
         let x = ruler.x(k as f64);
         let top = ruler.y + BAR_HEIGHT / 2.0 + 3.0;
@@ -159,12 +166,12 @@ fn designs(ui: &Ui, ruler: TimelineRuler, names: &[String]) {
         } else {
             between
         };
-        let words = match room >= LEAST_NAME {
+        let words = match room >= MIN_NAME_WIDTH {
             true => format!("{k} {}", SanitizedLine(name)),
             false => k.to_string(),
         };
         let mut job = LayoutJob::simple_singleline(words, FONT, palette.text);
-        job.wrap = TextWrapping::truncate_at_width(room.max(LEAST_NAME));
+        job.wrap = TextWrapping::truncate_at_width(room.max(MIN_NAME_WIDTH));
         let galley = ui.painter().layout_job(job);
         let corner = pos2(x, ruler.y + 20.0) - 0.5 * galley.size();
         ui.painter().galley(corner, galley, palette.text);
@@ -185,18 +192,23 @@ fn playhead(ui: &Ui, ruler: TimelineRuler, t: f64) {
         .circle(pos2(x, ruler.y), 6.0, palette.panel, (2.0, colour));
 }
 
-fn stops(ui: &mut Ui, ruler: TimelineRuler, stops: &mut Vec<TransitionStop>, acts: &mut Intents) {
-    // Taken out after the loop, which goes through the list that it would be taken out of.
+fn stops(
+    ui: &mut Ui,
+    ruler: TimelineRuler,
+    stops: &mut Vec<TransitionStop>,
+    intents: &mut Intents,
+) {
+    // Removed after the loop, which borrows the list.
     let mut deleted = None;
     let places: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
     for (index, stop) in stops.iter_mut().enumerate() {
         let at = pos2(ruler.x(stop.t), ruler.y - 14.0);
-        // By number and not by name, which may be written while its menu is open.
+        // Identified by index: the name may be edited while its menu is open.
         let id = ui.id().with(("stop", index));
         let name = label(stop, &places);
         let response = marker(ui, at, id, &name);
         if response.clicked() {
-            acts.push(Intent::Seek(stop.t));
+            intents.push(Intent::Seek(stop.t));
         }
         if let Some(pointer) = response
             .interact_pointer_pos()
@@ -205,8 +217,7 @@ fn stops(ui: &mut Ui, ruler: TimelineRuler, stops: &mut Vec<TransitionStop>, act
             stop.t = rounded(ruler.t(pointer.x));
         }
         let tip = format!(
-            "Stop {} at t = {:.3}. Click to go there, drag to move, right-click for its name, \
-             notes, or to delete it.",
+            "Stop {} at t = {:.3}. Click to go there, drag to move, right-click to edit or delete.",
             name, stop.t
         );
         let response = response.on_hover_text(tip);
@@ -221,7 +232,7 @@ fn stops(ui: &mut Ui, ruler: TimelineRuler, stops: &mut Vec<TransitionStop>, act
     }
 }
 
-/// Its name, or its number from left to right.
+/// Returns the stop's name or, if it has none, its number from left to right.
 fn label(stop: &TransitionStop, places: &[f64]) -> String {
     if !stop.name.is_empty() {
         return SanitizedLine(&stop.name).to_string();
@@ -248,11 +259,11 @@ fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
     let points = diamond.iter().map(|corner| at + *corner).collect();
     ui.painter()
         .add(Shape::convex_polygon(points, colour, Stroke::NONE));
-    word(ui, at - vec2(0.0, 12.0), name, colour);
+    draw_label(ui, at - vec2(0.0, 12.0), name, colour);
     response
 }
 
-/// Whether the stop is to be deleted.
+/// Draws the stop's menu; returns whether the stop is to be deleted.
 fn stop_menu(ui: &mut Ui, stop: &mut TransitionStop) -> bool {
     ui.set_width(240.0);
     ui.add(
@@ -260,40 +271,38 @@ fn stop_menu(ui: &mut Ui, stop: &mut TransitionStop) -> bool {
             .hint_text("Name, shown as a caption")
             .desired_width(f32::INFINITY),
     )
-    .on_hover_text("The name of the stop: captions in films and talks show it.");
+    .on_hover_text("Name of the stop, shown as a caption in films and talks");
     ui.add(
         egui::TextEdit::multiline(&mut stop.note)
-            .hint_text("Notes for the speaker")
+            .hint_text("Speaker notes")
             .desired_rows(3)
             .desired_width(f32::INFINITY),
     )
-    .on_hover_text("What to say here: only the speaker sees it, in a window of its own (N).");
+    .on_hover_text("Shown only to the speaker, in a separate window (N)");
     ui.horizontal(|ui| {
         ui.label("t");
         let number = DragValue::new(&mut stop.t).speed(0.002).max_decimals(6);
         ui.add(number)
-            .on_hover_text("Where the stop is; outside 0 to 1 it extrapolates.");
+            .on_hover_text("Position of the stop; beyond the designs the motion is extrapolated");
     });
-    easing_editor::submenu(ui, &mut stop.easing, "as the pass")
-        .on_hover_text("How t runs from this stop up to the next one.");
+    easing_editor::submenu(ui, &mut stop.easing, "same as film")
+        .on_hover_text("Easing from this stop to the next one");
     ui.horizontal(|ui| {
-        ui.label("Rest");
+        ui.label("Pause");
         let number = DragValue::new(&mut stop.hold_secs).range(0.0..=600.0);
         ui.add(number.speed(0.02).max_decimals(2).suffix(" s"))
-            .on_hover_text("How long a pass waits here.");
+            .on_hover_text("How long the film pauses at this stop");
     });
     ui.horizontal(|ui| {
-        let mut has_own = stop.duration_secs.is_some();
-        ui.checkbox(&mut has_own, "Own time to the next")
-            .on_hover_text(
-                "How long it takes from here up to the next stop, whatever the pass takes.",
-            );
+        let mut has_custom = stop.duration_secs.is_some();
+        ui.checkbox(&mut has_custom, "Custom time to next stop")
+            .on_hover_text("Time from this stop to the next one, whatever the film's duration is");
         match &mut stop.duration_secs {
-            Some(secs) if has_own => {
+            Some(secs) if has_custom => {
                 let number = DragValue::new(secs).range(0.1..=600.0);
                 ui.add(number.speed(0.02).max_decimals(2).suffix(" s"));
             }
-            secs => *secs = has_own.then_some(USUAL_SECS),
+            secs => *secs = has_custom.then_some(DEFAULT_SECS),
         }
     });
     let is_deleted = ui.button("Delete stop").clicked();

@@ -1,4 +1,4 @@
-//! Buttons and numbers of the timeline: play, where t is, and how a pass runs.
+//! Transport controls of the timeline: playback buttons, the current t, and the film's timing.
 
 use bevy_egui::egui::{self, DragValue, Response, RichText, Ui, vec2};
 
@@ -11,48 +11,49 @@ use crate::app::ui::kit::widgets::{
     choice_button, from_right, intent_button, secondary_text, with_tooltip,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 use crate::transition::{PlayMode, Timing};
 
+/// Height of the row, in points.
 const ROW_HEIGHT: f32 = 36.0;
 
-/// The longest pass and hold that the window offers, in seconds.
-const LONGEST_SECS: f64 = 600.0;
+/// Maximum duration and pause that can be set in the window, in seconds.
+const MAX_SECS: f64 = 600.0;
 
 /// Draws the row above the track.
-pub fn show(ui: &mut Ui, scene: &UiState, timing: &mut Timing, acts: &mut Intents) {
+pub fn show(ui: &mut Ui, state: &UiState, timing: &mut Timing, intents: &mut Intents) {
     ui.allocate_ui(vec2(ui.available_width(), ROW_HEIGHT), |ui| {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            buttons(ui, scene, acts);
+            buttons(ui, state, intents);
             ui.add_space(GRID);
-            place(ui, scene, acts);
-            from_right(ui, |ui| pass(ui, scene, timing, acts));
+            time_field(ui, state, intents);
+            from_right(ui, |ui| timing_controls(ui, state, timing, intents));
         });
     });
 }
 
-fn buttons(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let tip = "Start of the pass (Home)";
-    intent_button(ui, icons::TO_START, tip, Intent::SeekStart, acts);
-    let tip = "Play back to the stop before and wait (Page Up)";
+fn buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let tip = "Go to start (Home)";
+    intent_button(ui, icons::TO_START, tip, Intent::SeekStart, intents);
+    let tip = "Play backwards to the previous stop (Page Up)";
     let back = Intent::PlayToPreviousStop;
-    intent_button(ui, icons::PREVIOUS_STOP, tip, back, acts);
-    if play_button(ui, scene).clicked() {
-        acts.push(Intent::TogglePlay);
+    intent_button(ui, icons::PREVIOUS_STOP, tip, back, intents);
+    if play_button(ui, state).clicked() {
+        intents.push(Intent::TogglePlay);
     }
-    let tip = "Play to the next stop and wait (Page Down)";
-    intent_button(ui, icons::NEXT_STOP, tip, Intent::PlayToNextStop, acts);
-    let tip = "End of the pass (End)";
-    intent_button(ui, icons::TO_END, tip, Intent::SeekEnd, acts);
-    let tip = "Set a stop here (M)";
-    intent_button(ui, icons::ADD_STOP, tip, Intent::AddStop, acts);
+    let tip = "Play to the next stop (Page Down)";
+    intent_button(ui, icons::NEXT_STOP, tip, Intent::PlayToNextStop, intents);
+    let tip = "Go to end (End)";
+    intent_button(ui, icons::TO_END, tip, Intent::SeekEnd, intents);
+    let tip = "Add a stop here (M)";
+    intent_button(ui, icons::ADD_STOP, tip, Intent::AddStop, intents);
 }
 
-fn play_button(ui: &mut Ui, scene: &UiState) -> Response {
+fn play_button(ui: &mut Ui, state: &UiState) -> Response {
     let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(36.0, 36.0), egui::Sense::click());
-    let icon = match (scene.playback.is_playing(), scene.playback.is_backwards()) {
+    let icon = match (state.playback.is_playing(), state.playback.is_backwards()) {
         (true, _) => icons::PAUSE,
         (false, false) => icons::PLAY,
         (false, true) => icons::PLAY_BACKWARDS,
@@ -64,47 +65,47 @@ fn play_button(ui: &mut Ui, scene: &UiState) -> Response {
     };
     ui.painter().circle_filled(rect.center(), 17.0, fill);
     icons::paint_icon(ui.painter(), icon, rect, ink);
-    with_tooltip(response, "Play or pause (Space); play the other way (R)")
+    with_tooltip(response, "Play or pause (Space); reverse (R)")
 }
 
-fn place(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
+fn time_field(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let palette = ThemePalette::of(ui);
     ui.label(RichText::new("t").color(palette.weak));
-    let mut t = scene.playback.t();
+    let mut t = state.playback.t();
     let number = DragValue::new(&mut t)
         .speed(0.002)
         .fixed_decimals(3)
         .update_while_editing(false);
-    let tip = "Where the transition is: 0 is the source, 1 the target. Click to type, drag to \
-               move; values below 0 and above 1 extrapolate.";
+    let tip = "Current moment: 0 is the source, 1 the target. Click to type, drag to change. Below \
+               0 and above 1 the motion is extrapolated.";
     let response = with_tooltip(ui.add_sized([72.0, CONTROL_HEIGHT], number), tip);
     if response.changed() {
-        acts.push(Intent::Seek(t));
+        intents.push(Intent::Seek(t));
     }
-    // In words too: what is beyond is not told by colour alone.
-    let beyond = match scene.playback.t() {
-        t if t < 0.0 => "extrapolated before the source",
-        t if t > scene.session.leg_count() as f64 => "extrapolated beyond the target",
+    // In words as well, because colour alone must not carry this meaning.
+    let beyond = match state.playback.t() {
+        t if t < 0.0 => "before the source",
+        t if t > state.session.leg_count() as f64 => "beyond the target",
         _ => return,
     };
     ui.label(RichText::new(beyond).small().color(palette.amber));
 }
 
-/// From right to left.
-fn pass(ui: &mut Ui, scene: &UiState, timing: &mut Timing, acts: &mut Intents) {
+/// Draws speed, timing and play mode, from right to left.
+fn timing_controls(ui: &mut Ui, state: &UiState, timing: &mut Timing, intents: &mut Intents) {
     ui.spacing_mut().item_spacing.x = 4.0;
-    speed(ui, scene, acts);
+    speed(ui, state, intents);
     caption(ui, "Speed");
-    let tip = "Waits so long at either end of a pass.";
+    let tip = "Pause at each end of the film";
     seconds(ui, &mut timing.hold_secs, 0.0, tip);
-    caption(ui, "Hold");
-    let tip = "How long one pass takes, without the holds.";
+    caption(ui, "Pause");
+    let tip = "Duration of the film from start to end, without pauses";
     seconds(ui, &mut timing.duration_secs, 0.1, tip);
-    caption(ui, "Lasts");
+    caption(ui, "Duration");
     let easing = easing_editor::menu(ui, "easing", &mut timing.easing, 88.0);
     with_tooltip(
         easing,
-        "How t speeds up and slows down from stop to stop; a stop may say otherwise (right-click).",
+        "Easing between stops. Right-click a stop to give it an easing of its own.",
     );
     ui.add_space(GRID);
     for mode in PlayMode::ALL {
@@ -126,19 +127,19 @@ fn caption(ui: &mut Ui, text: &str) {
     ui.add_space(4.0);
 }
 
-fn seconds(ui: &mut Ui, value: &mut f64, least: f64, tip: &str) {
+fn seconds(ui: &mut Ui, value: &mut f64, min_secs: f64, tip: &str) {
     let number = DragValue::new(value)
         .speed(0.02)
-        .range(least..=LONGEST_SECS)
+        .range(min_secs..=MAX_SECS)
         .clamp_existing_to_range(false)
         .max_decimals(2)
         .suffix(" s")
         .update_while_editing(false);
-    with_tooltip(ui.add_sized([60.0, CONTROL_HEIGHT], number), tip);
+    with_tooltip(ui.add_sized([52.0, CONTROL_HEIGHT], number), tip);
 }
 
-fn speed(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
-    let current = scene.playback.speed();
+fn speed(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let current = state.playback.speed();
     let list = egui::ComboBox::from_id_salt("speed")
         .width(64.0)
         .selected_text(format!("{current}×"));
@@ -148,10 +149,10 @@ fn speed(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
                 .selectable_label(speed == current, format!("{speed}×"))
                 .clicked()
             {
-                acts.push(Intent::Speed(speed));
+                intents.push(Intent::Speed(speed));
             }
         }
     });
-    let tip = "Speed of playing only ([ and ]); Backspace is 1. Recordings keep the duration.";
+    let tip = "Playback speed ([ and ]; Backspace resets it). Exports keep the film's duration.";
     with_tooltip(shown.response, tip);
 }

@@ -1,74 +1,67 @@
-//! Which key means what.
+//! Key map: which key combination triggers which intent.
 //!
-//! The rows of [`keytable`](super::keytable) serve both the keys and the list of keys that the
-//! window shows: what the list calls a key is made from what recognises it. Letters and signs go
-//! by what the key prints, digits by where they are, so that the number row works on a French
-//! keyboard and `[` on a German one. While a text field has the focus no key means anything here.
+//! The rows of [`key_table`](super::key_table) drive both recognition and the list of keys shown in
+//! the window, so the two always agree. Letters and signs are matched by the character that the key
+//! prints and digits by physical position; so the number row works on a French keyboard and `[` on
+//! a German one.
 
 use std::fmt;
 
-use bevy::input::keyboard::{Key, KeyCode, KeyboardFocusLost, KeyboardInput};
-use bevy::prelude::{Local, MessageReader, MessageWriter, Res, Resource};
+use bevy::input::keyboard::{Key, KeyCode, KeyboardInput};
+use bevy::prelude::Resource;
 
-use crate::app::editing::editor::MatchEditor;
-use crate::app::files::drop::DroppedDesign;
 use crate::app::input::editor_action::EditorAction;
-use crate::app::input::gesture::KeyboardFocus;
 use crate::app::input::intent::Intent;
-use crate::app::map::map_view::MapView;
-use crate::app::persistence::autosave::Autosave;
-use crate::app::presentation::presenter::Presentation;
-use crate::app::unsaved_question::UnsavedQuestion;
 
 /// How a binding recognises its key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeyTrigger {
     /// A key with a name, such as an arrow.
     Named(Key),
-    /// A letter, by what the key prints, in lower case.
+    /// A letter by the character the key prints, in lower case.
     Letter(char),
-    /// A sign, by what the key prints, whatever else must be held to print it.
+    /// A sign by the character the key prints, whatever modifiers are needed to print it.
     Sign(char),
-    /// A digit, by where it is: number row or number pad.
+    /// A digit by physical position: number row or number pad.
     Digit(u8),
 }
 
-/// One key and what it means.
+/// A key combination and the intent it triggers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyBinding {
     /// The key.
     pub trigger: KeyTrigger,
-    /// What must be held besides it; matters for letters and named keys only.
+    /// Modifiers that must be held; checked for letters and named keys only.
     pub held: KeyModifiers,
-    /// What it means.
+    /// The intent it triggers.
     pub intent: Intent,
 }
 
-/// Keys that belong together: a line of the list of keys.
+/// One line of the list of keys: combinations that belong together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyTableRow {
-    /// The heading that it is listed under.
+    /// Heading of the group.
     pub group: &'static str,
-    /// What the keys do.
+    /// Description of the action.
     pub help: &'static str,
-    /// The keys.
+    /// The key combinations.
     pub bindings: Vec<KeyBinding>,
 }
 
-/// Keys that are held besides the one that was pressed.
+/// Modifier keys that are held down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct KeyModifiers {
-    /// Either shift key.
+    /// Either Shift key.
     pub shift: bool,
-    /// Either control key, or Command.
+    /// Either Control or Command key.
     pub control: bool,
-    /// The left alt key.
+    /// The left Alt key.
     pub alt: bool,
 }
 
 impl KeyModifiers {
-    /// Notes that a key went down or up; only modifiers matter.
-    fn note(&mut self, input: &KeyboardInput) {
+    /// Updates the modifiers from a key event; ignores other keys.
+    pub fn note(&mut self, input: &KeyboardInput) {
         let is_down = input.state.is_pressed();
         match input.key_code {
             KeyCode::ShiftLeft | KeyCode::ShiftRight => self.shift = is_down,
@@ -76,7 +69,8 @@ impl KeyModifiers {
             | KeyCode::ControlRight
             | KeyCode::SuperLeft
             | KeyCode::SuperRight => self.control = is_down,
-            // Not the right one: as AltGr it prints signs on many keyboards, and signs are bound.
+            // Not the right Alt key: as AltGr it prints signs on many keyboards, and signs are
+            // bound.
             KeyCode::AltLeft => self.alt = is_down,
             _ => {}
         }
@@ -88,20 +82,22 @@ impl KeyModifiers {
 pub struct KeyMap(Vec<KeyTableRow>);
 
 impl KeyMap {
-    /// A key map of these rows.
+    /// A key map with these rows.
     #[must_use]
     pub const fn new(rows: Vec<KeyTableRow>) -> Self {
         Self(rows)
     }
 
-    /// All rows, in the order of the list.
+    /// All rows, in the order of the list of keys.
     #[must_use]
     pub fn rows(&self) -> &[KeyTableRow] {
         &self.0
     }
 
-    /// What a pressed key means, if anything. Signs win over digits: where a digit's key prints
-    /// a sign that is bound, the sign is meant. While the match is being edited its own keys win.
+    /// Intent of a key event, if any.
+    ///
+    /// A sign wins over a digit: if a digit's key prints a bound sign, the sign counts. Bindings of
+    /// the match editor win while it is open.
     #[must_use]
     pub fn intent(
         &self,
@@ -129,8 +125,7 @@ impl KeyMap {
 }
 
 impl KeyTableRow {
-    /// What the list calls its keys: modifiers that all of them share are said once, and digits
-    /// from the first to the last.
+    /// Text for the keys of the row: shared modifiers are written once, digits as a range.
     #[must_use]
     pub fn keys(&self) -> String {
         let labels = |with: fn(&KeyBinding) -> String| -> Vec<String> {
@@ -152,7 +147,7 @@ impl KeyTableRow {
 }
 
 impl fmt::Display for KeyTrigger {
-    /// What is printed on the key.
+    /// Writes the label printed on the key.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = match self {
             Self::Letter(letter) => return write!(out, "{}", letter.to_ascii_uppercase()),
@@ -173,12 +168,13 @@ impl fmt::Display for KeyTrigger {
 }
 
 impl KeyBinding {
-    /// The key with what is held besides it, as `Ctrl Shift S`.
+    /// Full name of the combination, such as `Ctrl Shift S`.
     #[must_use]
     pub fn chord(&self) -> String {
         format!("{}{}", self.modifiers(), self.trigger)
     }
 
+    /// Prefix with the names of the modifiers.
     const fn modifiers(&self) -> &'static str {
         match (self.held.control, self.held.shift) {
             (true, true) => "Ctrl Shift ",
@@ -188,8 +184,8 @@ impl KeyBinding {
         }
     }
 
-    /// Holding the key repeats the act: what goes on by a step may, what is there once or turns
-    /// back and forth may not.
+    /// Whether holding the key repeats the action. Only stepwise actions repeat; one-off actions
+    /// and toggles do not.
     #[must_use]
     pub const fn repeats(&self) -> bool {
         matches!(
@@ -198,12 +194,13 @@ impl KeyBinding {
         )
     }
 
-    /// The key means this while the match editor is open, and nothing otherwise.
+    /// Whether the binding applies only while the match editor is open.
     #[must_use]
     pub const fn in_editor(&self) -> bool {
         matches!(self.intent, Intent::Editor(EditorAction::RemoveSelected))
     }
 
+    /// Whether a key event with these modifiers triggers the binding.
     fn matches(&self, input: &KeyboardInput, held: KeyModifiers) -> bool {
         let modifiers_match = held == self.held;
         match &self.trigger {
@@ -219,17 +216,20 @@ impl KeyBinding {
     }
 }
 
+/// Character printed by a key event; `None` for named keys.
 fn printed(input: &KeyboardInput) -> Option<char> {
     let Key::Character(text) = &input.logical_key else {
         return None;
     };
     let mut chars = text.chars();
-    // A composed text of several signs is none that a key is bound to.
+    // A composed text of several characters matches no binding.
     chars.next().filter(|_| chars.next().is_none())
 }
 
+/// Digit at a physical key position, on the number row or the number pad.
 fn digit_at(code: KeyCode) -> Option<u8> {
-    const ROW: [[KeyCode; 2]; 10] = [
+    /// Number-row and number-pad key of each digit.
+    const DIGIT_KEYS: [[KeyCode; 2]; 10] = [
         [KeyCode::Digit0, KeyCode::Numpad0],
         [KeyCode::Digit1, KeyCode::Numpad1],
         [KeyCode::Digit2, KeyCode::Numpad2],
@@ -242,40 +242,7 @@ fn digit_at(code: KeyCode) -> Option<u8> {
         [KeyCode::Digit9, KeyCode::Numpad9],
     ];
     (0u8..)
-        .zip(ROW)
+        .zip(DIGIT_KEYS)
         .find(|(_, codes)| codes.contains(&code))
         .map(|(digit, _)| digit)
-}
-
-/// Turns pressed keys into intents; does nothing while a text field has the focus.
-///
-/// Which modifiers are held is read from the same messages, in their order: in a slow frame Shift
-/// may be up again before the frame that is to act on Shift+S.
-pub fn read_keys(
-    mut inputs: MessageReader<KeyboardInput>,
-    mut focus_lost: MessageReader<KeyboardFocusLost>,
-    (map, on_map): (Res<KeyMap>, Res<MapView>),
-    (typing, editor, presenting): (Res<KeyboardFocus>, Res<MatchEditor>, Res<Presentation>),
-    (question, drop, autosave): (Res<UnsavedQuestion>, Res<DroppedDesign>, Res<Autosave>),
-    mut held: Local<KeyModifiers>,
-    mut intents: MessageWriter<Intent>,
-) {
-    if focus_lost.read().count() > 0 {
-        // A key that is let go in another window never tells of it here.
-        *held = KeyModifiers::default();
-    }
-    for input in inputs.read() {
-        // Also while a text is written: what is held when the field is left still counts.
-        held.note(input);
-        let meant = map.intent(input, *held, editor.is_open);
-        let is_asked = question.text().is_some() || drop.asks() || autosave.lost().is_some();
-        let may = |intent: &&Intent| match **intent {
-            Intent::Back => !typing.0,
-            _ if typing.0 || is_asked => false,
-            ref act => !presenting.is_on() || act.is_of_a_talk(),
-        };
-        if let Some(intent) = meant.filter(may) {
-            intents.write(on_map.instead(intent).unwrap_or_else(|| intent.clone()));
-        }
-    }
 }

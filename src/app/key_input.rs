@@ -1,0 +1,79 @@
+//! Reads the keyboard and turns key presses into intents, depending on what is open.
+
+use bevy::ecs::system::SystemParam;
+use bevy::input::keyboard::{KeyboardFocusLost, KeyboardInput};
+use bevy::prelude::{Local, MessageReader, MessageWriter, Res};
+
+use crate::app::editing::editor::MatchEditor;
+use crate::app::files::drop::DroppedDesign;
+use crate::app::input::gesture::KeyboardFocus;
+use crate::app::input::intent::Intent;
+use crate::app::input::key_map::{KeyMap, KeyModifiers};
+use crate::app::map::map_view::MapView;
+use crate::app::persistence::autosave::Autosave;
+use crate::app::presentation::presenter::Presentation;
+use crate::app::unsaved_question::UnsavedQuestion;
+
+/// Questions that the window may be asking the user.
+#[derive(SystemParam)]
+pub struct OpenQuestions<'w> {
+    unsaved: Res<'w, UnsavedQuestion>,
+    drop: Res<'w, DroppedDesign>,
+    autosave: Res<'w, Autosave>,
+}
+
+impl OpenQuestions<'_> {
+    /// Whether a question waits for an answer.
+    #[must_use]
+    pub fn any(&self) -> bool {
+        self.unsaved.text().is_some() || self.drop.asks() || self.autosave.lost().is_some()
+    }
+}
+
+/// Modes of the window that change the effect of a key.
+#[derive(SystemParam)]
+pub struct KeyContext<'w> {
+    focus: Res<'w, KeyboardFocus>,
+    editor: Res<'w, MatchEditor>,
+    presentation: Res<'w, Presentation>,
+    map_view: Res<'w, MapView>,
+    questions: OpenQuestions<'w>,
+}
+
+impl KeyContext<'_> {
+    /// Whether the intent of a key may be carried out now.
+    fn allows(&self, intent: &Intent) -> bool {
+        match intent {
+            Intent::Back => !self.focus.0,
+            _ if self.focus.0 || self.questions.any() => false,
+            other => !self.presentation.is_on() || other.is_of_a_talk(),
+        }
+    }
+}
+
+/// Turns key presses into intents; does nothing while a text field has the focus.
+///
+/// Modifiers are tracked from the same messages, in order: in a slow frame Shift may be released
+/// again before the frame that handles Shift+S.
+pub fn read_keys(
+    mut inputs: MessageReader<KeyboardInput>,
+    mut focus_lost: MessageReader<KeyboardFocusLost>,
+    map: Res<KeyMap>,
+    context: KeyContext,
+    mut held: Local<KeyModifiers>,
+    mut intents: MessageWriter<Intent>,
+) {
+    if focus_lost.read().count() > 0 {
+        // A key released in another window sends no message here.
+        *held = KeyModifiers::default();
+    }
+    for input in inputs.read() {
+        // Also while text is entered: modifiers held when the focus leaves the field still count.
+        held.note(input);
+        let key_intent = map.intent(input, *held, context.editor.is_open);
+        if let Some(intent) = key_intent.filter(|intent| context.allows(intent)) {
+            let on_map = context.map_view.instead(intent);
+            intents.write(on_map.unwrap_or_else(|| intent.clone()));
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! The part of the window that shows the stage, and whether the view stays fitted to it.
+
+use bevy::prelude::{Resource, Vec2};
+
+/// Part of the window that the panels leave to the stage, in logical pixels.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct StageArea {
+    /// Top left corner, y down.
+    pub corner: Vec2,
+    /// Width and height.
+    pub size: Vec2,
+}
+
+impl Default for StageArea {
+    fn default() -> Self {
+        Self {
+            corner: Vec2::ZERO,
+            size: Vec2::new(1280.0, 720.0),
+        }
+    }
+}
+
+/// Whether the view shows the whole transition and stays fitted when the area changes.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AutoFit(pub bool);
+
+impl Default for AutoFit {
+    fn default() -> Self {
+        Self(true)
+    }
+}
