@@ -1,24 +1,25 @@
-//! A warp recorded as polynomials in t.
+//! Recordings: warps stored as piecewise polynomials in t.
 //!
-//! Where vertices are is a smooth function of t for every warp, between the
-//! times at which something sets out or arrives. So a few placements give the
-//! whole film: from them any other is a short sum, however dear each was. What is
-//! kept is the deviation from the straight line between the ends of a reel, a stretch
-//! of time: a polynomial that is zero at both ends, which are met to the last bit.
+//! Vertex positions are smooth functions of t between the times at which a part starts, stops or
+//! changes pace. A few placements therefore determine the whole motion, and every other placement
+//! is a short sum, however expensive one placement of the warp is. Each time interval stores the
+//! deviation from the straight line between its two ends, as a polynomial that vanishes at both
+//! ends; the positions at the ends are exact.
 //!
-//! A [`Recording`] is a warp itself, so that contents, stage, export and measures know
-//! nothing of it. Outside [0, 1] it is the warp that it was recorded from.
+//! A [`Recording`] is itself a warp, so that contents, stage, export and measures treat it like any
+//! other. Outside [0, 1] it evaluates the warp that was recorded.
 //!
-//! Guaranteed: at t = 0 and t = 1 the places of the warp to the last bit; no jump
-//! between two reels; the same film on any number of threads. Not guaranteed: the
-//! stated [`error`](Film::error) is measured against fresh placements, not proved.
+//! Guaranteed: at t = 0 and t = 1 the warp's positions bit for bit; continuity between intervals;
+//! the same recording on any number of threads. Not guaranteed: the stated
+//! [`error`](Recording::error) is measured against fresh placements, not proved.
 //!
-//! - `options`: how closely; `moving`: which places of a placement a warp moves
-//! - `nodes`: the times at which a warp is looked at, and polynomials through them
-//! - `record`: from placements to reels, as many as it takes
-//! - `reel`: the polynomials between two times, and their sum
-//! - `single`: the same in single precision, for graphics cards
-//! - [`proof`]: what holds of a film at every t
+//! - `options`: tolerance and memory limit
+//! - `channels`: the positions of a placement that a warp moves
+//! - `nodes`: times at which a warp is evaluated, and the polynomials through them
+//! - `record`: from placements to as few intervals as the tolerance allows
+//! - `interval`: the polynomials of one time interval, and their evaluation
+//! - `single_precision`: the same in single precision, for graphics cards
+//! - [`proof`]: certificates that no face folds and no outlines meet at any t
 
 mod channels;
 mod interval;
@@ -45,11 +46,11 @@ use channels::MovingChannels;
 use interval::RecordingInterval;
 use std::sync::Arc;
 
-/// A warp that was recorded. Cloning is cheap.
+/// A warp stored as piecewise polynomials in t. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::compatible::CompatibleMesh;
-/// use morphospace::recording::{Film, FilmOptions};
+/// use morphospace::recording::{Recording, RecordingOptions};
 /// use morphospace::geometry::{DMat2, DVec2};
 /// use morphospace::work::progress::Silent;
 /// use morphospace::warp::{Arap, ArapOptions, Warp};
@@ -59,9 +60,9 @@ use std::sync::Arc;
 /// let target = source.iter().map(|&p| DMat2::from_angle(2.0) * p).collect();
 /// let mesh = CompatibleMesh::new(vec![[0, 1, 2]], source, target, vec![])?;
 /// let arap = Arap::build(&mesh, &ArapOptions::default(), &Silent)?;
-/// let film = Film::record(Arc::new(arap), &FilmOptions::default(), &Silent)?;
-/// assert!(film.solves() < 20);
-/// let mut placer = film.placer();
+/// let recording = Recording::record(Arc::new(arap), &RecordingOptions::default(), &Silent)?;
+/// assert!(recording.solves() < 20);
+/// let mut placer = recording.placer();
 /// placer.place(0.37);
 /// let at = &placer.placement().in_frame;
 /// assert!((at[0].distance(at[1]) - 1.0).abs() < 1e-8); // turned, not shrunk
@@ -70,22 +71,25 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Recording(Arc<RecordingData>);
 
+/// The shared data of a recording.
 #[derive(Debug)]
 struct RecordingData {
     warp: Arc<dyn Warp>,
     moving: MovingChannels,
-    /// In the order of t, from 0 to 1 without a gap.
+    /// Intervals in ascending order of t, covering [0, 1] without gaps.
     reels: Vec<RecordingInterval>,
+    /// Largest measured error, as a fraction of the diameter.
     error: f64,
+    /// Number of placements of the warp that were computed.
     solves: usize,
 }
 
 impl Recording {
-    /// Records a warp over [0, 1], as closely as the options ask.
+    /// Records a warp over [0, 1] to the tolerance of `options`.
     ///
     /// # Errors
-    /// [`RecordingError`] if the film would take too much memory, if the warp jumps or
-    /// is not smooth somewhere that it does not tell of, and on a cancel.
+    /// [`RecordingError`] if the recording would exceed its memory limit, if the warp jumps or is
+    /// not smooth at a time that [`Warp::breaks`] does not list, and if the work is cancelled.
     pub fn record(
         warp: Arc<dyn Warp>,
         options: &RecordingOptions,
@@ -101,26 +105,26 @@ impl Recording {
         })))
     }
 
-    /// How far a vertex was from a fresh placement at most, where the film was
-    /// tried, and what was rounded since; as a share of the diameter.
+    /// Returns the largest measured distance between a vertex of the recording and of the warp,
+    /// including rounding, as a fraction of the diameter.
     #[must_use]
     pub fn error(&self) -> f64 {
         self.0.error
     }
 
-    /// How many placements of the warp it took.
+    /// Returns the number of placements of the warp that recording took.
     #[must_use]
     pub fn solves(&self) -> usize {
         self.0.solves
     }
 
-    /// How many polynomials a vertex has, one after the other.
+    /// Returns the number of time intervals, each with its own polynomials.
     #[must_use]
     pub fn reel_count(&self) -> usize {
         self.0.reels.len()
     }
 
-    /// The memory that its coefficients take.
+    /// Returns the size of the coefficients in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.0.reels.iter().map(RecordingInterval::bytes).sum()
@@ -128,8 +132,8 @@ impl Recording {
 }
 
 impl Recording {
-    /// Moves a placement of the warp to `t`; does nothing and says so where that lies
-    /// outside [0, 1].
+    /// Moves a placement of the warp to `t` and returns true; outside [0, 1] leaves it unchanged
+    /// and returns false.
     pub(crate) fn place(&self, t: f64, placement: &mut Placement) -> bool {
         let is_within = (0.0..=1.0).contains(&t);
         if is_within {
@@ -140,28 +144,29 @@ impl Recording {
 }
 
 impl RecordingData {
-    /// Which reel shows a `t` within [0, 1].
+    /// Returns the index of the interval that contains `t`, for `t` in [0, 1].
     fn reel_at(&self, t: f64) -> usize {
-        let after = self.reels.partition_point(|reel| reel.to < t);
-        after.min(self.reels.len() - 1)
+        let index = self.reels.partition_point(|interval| interval.to < t);
+        index.min(self.reels.len() - 1)
     }
 
+    /// Evaluates every moving channel at `t`, for `t` in [0, 1].
     fn place(&self, t: f64, placement: &mut Placement) {
-        let reel = &self.reels[self.reel_at(t)];
-        let mut first = 0;
+        let interval = &self.reels[self.reel_at(t)];
+        let mut first_block = 0;
         for channel in self.moving.channels() {
-            let places = channel.of_mut(placement);
-            reel.place(t, first, places);
-            first += interval::block_count(places.len());
+            let positions = channel.of_mut(placement);
+            interval.place(t, first_block, positions);
+            first_block += interval::block_count(positions.len());
         }
     }
 }
 
 impl Warp for Recording {
     fn placer(&self) -> Placer {
-        let film = self.clone();
+        let recording = self.clone();
         let placer = self.0.warp.placer();
-        placer.after(move |t, placement| film.place(t, placement))
+        placer.after(move |t, placement| recording.place(t, placement))
     }
 
     fn missed(&self, t: f64) -> Option<MissedFeatures> {

@@ -1,40 +1,36 @@
-//! Transitions: a warp and a content, built from two designs, and the frames
-//! between them.
+//! Transitions: a warp and a content, built from two designs, and the frames between them.
 //!
-//! Everything that can fail fails in [`Transition::build`]; a [`Frame`] then
-//! moves to any t without allocating. A frame is unevaluated: a placement and
-//! how the contents mix at t. The stage evaluates it on the GPU, export and
-//! tests on the CPU through [`Frame::figure`], so that there is one way to a
-//! frame and the two can be held against each other.
+//! Everything that can fail fails in [`Transition::build`]; a [`Frame`] then moves to any t without
+//! allocating. A frame is unevaluated: a placement and the t at which contents are mixed. The stage
+//! evaluates it on the GPU, export and tests on the CPU through [`Frame::figure`], so that both
+//! share one definition of a frame and can be compared.
 //!
-//! - `options`, `spec`: what a transition is built from; `arrange`: how the
-//!   designs are laid into one frame
-//! - `build`: from a specification to a transition, by way of `solids`
-//!   (rigid parts, and in `lone` how those of one design are drawn, or `boundaries`
-//!   alone) and `plane` (warps of the plane, from the `features` that they go by);
-//!   `rigid`: a mesh that is not too large
-//! - `candidate`: a matched piece and what is seen of its film; `group`: the pieces
-//!   of some parts, matched in several ways; `choice`: of several the one with the
-//!   least trouble; `parted`: all pieces out of each other's way, by the `conflicts`
-//!   that they have; `settled`: with the places of `births`, and `holes` in them that
-//!   come and go, all in their times by one `timetable` of their `growth`, by where
-//!   their `walks` and `outline`s are at some `steps`; `unfolded`: films with fewer
-//!   folds; `guarded`: films that keep out of their own way at every t
-//! - `found`, `kept`: what was found, as a document keeps it
-//! - `part_time`: parts that make their way in their own time
-//! - `note`: what was done otherwise than asked; `mirrored`: what might have been
-//!   meant
-//! - `ready`, `frame`: the transition and its moments; `lazy`: placed when they are
-//!   read; `recorded`: those that are played from memory; `proved`: what holds of them at every t
-//! - `sequence`: several, one after the other; `blended`: between blends of many designs
-//! - `timing`, `style`: how it is played and painted
+//! - `options`, `spec`: the inputs of a transition; `common_frame`: placing designs in one frame
+//! - `build`: from a specification to a transition, through `solids` (rigid parts),
+//!   `boundary_paths`, or `plane` (warps of the plane, which follow `plane_features`)
+//! - `drawing_pair`: outlines and paint of both designs; `piece_coating`: paint layers of the
+//!   pieces; `distance_fields`: fields of whole designs and of their layers
+//! - `search`: candidate matches of each piece, rated by their motion
+//! - `separation`: unpairs pieces that would collide, as found by `collisions`
+//! - `rigid_solution`: the solved motion of rigid parts; `transients`: position and time window of
+//!   unmatched parts and holes
+//! - `stiffening`: removes folds; `collision_guard`: moves shapes aside that would collide;
+//!   `arap_build`: size limits of meshes
+//! - `cached_match`, `solution_cache`: solved matches stored in documents
+//! - `part_time`, `part_clocks`: time windows of parts
+//! - `note`: deviations from the request, and suggestions
+//! - `transition`, `any_warp`, `method`: the transition, its warp and its method
+//! - `frame`, `lazy_placement`: frames and their deferred placement; `recording`, `proof`:
+//!   recordings and checks at every t
+//! - `sequence`: several transitions in a row; `blend_path`: paths between blends of many designs
+//! - `style`: colours; `paint_layer_options`: fading and stacking order
 
 mod any_warp;
 mod arap_build;
 mod blend_path;
 mod boundary_paths;
 mod build;
-mod cached_match;
+pub(crate) mod cached_match;
 mod collision_guard;
 mod collisions;
 mod common_frame;
@@ -59,7 +55,7 @@ mod search;
 mod separation;
 mod sequence;
 mod solids;
-mod solution_cache;
+pub(crate) mod solution_cache;
 mod spec;
 mod stiffening;
 mod style;
@@ -69,9 +65,9 @@ mod transition;
 #[cfg(test)]
 mod tests;
 
-pub use crate::time::easing::{EasingBezier, EasingFunction, NamedEasing};
+pub use crate::time::{EasingBezier, EasingFunction, NamedEasing};
 
-pub use crate::time::timing::{PlayMode, Timing, TimingError, TransitionStop};
+pub use crate::time::{PlayMode, Timing, TimingError, TransitionStop};
 pub(crate) use blend_path::BlendEnds;
 pub(crate) use build::field_frame;
 pub use cached_match::CachedMatch;

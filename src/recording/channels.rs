@@ -1,17 +1,18 @@
-//! What of a placement a warp moves.
+//! Which channels of a placement a warp moves.
 
 use crate::geometry::DVec2;
 use crate::warp::Placement;
 
-/// Which places of a placement a warp moves; all others are the same at every t.
+/// The channels of a placement that a warp moves; the others are the same at every t.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct MovingChannels {
+    /// The positions in the common frame move.
     pub in_frame: bool,
     in_source: bool,
     in_target: bool,
 }
 
-/// One of the three places of each vertex.
+/// One of the three positions that a placement has for each vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PlacementChannel {
     Frame,
@@ -20,6 +21,7 @@ pub(super) enum PlacementChannel {
 }
 
 impl PlacementChannel {
+    /// Returns the positions of this channel.
     pub(super) fn of(self, placement: &Placement) -> &[DVec2] {
         match self {
             Self::Frame => &placement.in_frame,
@@ -28,6 +30,7 @@ impl PlacementChannel {
         }
     }
 
+    /// Returns the positions of this channel for writing.
     pub(super) fn of_mut(self, placement: &mut Placement) -> &mut [DVec2] {
         match self {
             Self::Frame => &mut placement.in_frame,
@@ -38,7 +41,7 @@ impl PlacementChannel {
 }
 
 impl MovingChannels {
-    /// With what differs between two placements.
+    /// Adds the channels that differ between two placements.
     pub(super) fn with_changes(self, first: &Placement, other: &Placement) -> Self {
         let differs = |channel: PlacementChannel| channel.of(other) != channel.of(first);
         Self {
@@ -48,6 +51,7 @@ impl MovingChannels {
         }
     }
 
+    /// Returns the moving channels in a fixed order.
     pub(super) fn channels(self) -> impl Iterator<Item = PlacementChannel> {
         let all = [
             (self.in_frame, PlacementChannel::Frame),

@@ -1,48 +1,51 @@
-//! The polynomials of all vertices between two times.
+//! The polynomials of all vertices in one time interval, and their evaluation.
 //!
-//! Vertices lie in blocks, in the order in which a frame reads them: where they are
-//! at both ends, then coefficient by coefficient. A coefficient that is small is
-//! kept in half as many bits, since it is rounded by less than what was left out:
-//! a frame of a large mesh is bound by memory. The sum is compiled for several widths of
-//! vectors, and one is chosen at run time.
+//! Vertices are stored in blocks, in the order in which a frame reads them: the positions at both
+//! ends, then coefficient by coefficient. Small coefficients are stored in single precision, since
+//! their rounding is smaller than the omitted terms: frames of large meshes are limited by memory
+//! bandwidth. The sum is compiled for several SIMD widths, one of which is chosen at run time.
 
 use super::nodes::{MAX_NODES, basis};
 use crate::geometry::DVec2;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-/// Vertices of a block.
+/// Number of vertices in a block: two 512-bit vectors of coordinates (heuristic).
 pub(super) const BLOCK: usize = 8;
 
-/// x and y of the vertices of a block.
+/// x and y of the vertices of a block, alternating.
 pub(super) type BlockRow = [f64; 2 * BLOCK];
+/// The same in single precision.
 type NarrowBlockRow = [f32; 2 * BLOCK];
 
-/// Blocks that one thread sums at a time. Fewer cost more to hand out than to sum.
-const SHARE: usize = 1 << 11;
+/// Number of blocks that one thread evaluates at a time (heuristic; distributing fewer costs more
+/// than evaluating them).
+const BLOCKS_PER_TASK: usize = 1 << 11;
 
-/// How many blocks so many vertices fill.
+/// Returns the number of blocks that `vertices` vertices fill.
 pub(super) fn block_count(vertices: usize) -> usize {
     vertices.div_ceil(BLOCK)
 }
 
-/// All vertices between two times.
+/// The polynomials of all vertices in one time interval.
 #[derive(Clone, Debug)]
 pub(super) struct RecordingInterval {
+    /// t at the beginning.
     pub from: f64,
+    /// t at the end.
     pub to: f64,
     arch: Arch,
-    /// How many coefficients are kept in full, and how many are not.
+    /// Number of coefficients in double and in single precision.
     counts: [usize; 2],
-    /// For each block both ends, then the coefficients.
+    /// For each block the positions at both ends, then the double-precision coefficients.
     full: Vec<BlockRow>,
-    /// For each block the other coefficients.
+    /// For each block the single-precision coefficients.
     narrow: Vec<NarrowBlockRow>,
 }
 
 impl RecordingInterval {
-    /// Of blocks that begin and end there, with their coefficients block by block:
-    /// the first so many are kept in full.
+    /// Builds an interval from the positions at both ends and the coefficients block by block, the
+    /// first `kept_in_full` of which stay in double precision.
     pub(super) fn new(
         [from, to]: [f64; 2],
         ends: [&[BlockRow]; 2],
@@ -52,7 +55,7 @@ impl RecordingInterval {
         let blocks = ends[0].len();
         let n = coefficients.len().checked_div(blocks).unwrap_or(0);
         let narrow = n - kept_in_full;
-        let mut reel = Self {
+        let mut interval = Self {
             from,
             to,
             arch: Arch::new(),
@@ -61,37 +64,40 @@ impl RecordingInterval {
             narrow: Vec::with_capacity(blocks * narrow),
         };
         for block in 0..blocks {
-            reel.full.extend([ends[0][block], ends[1][block]]);
+            interval.full.extend([ends[0][block], ends[1][block]]);
             let (large, small) = coefficients[block * n..][..n].split_at(kept_in_full);
-            reel.full.extend_from_slice(large);
-            reel.narrow
+            interval.full.extend_from_slice(large);
+            interval
+                .narrow
                 .extend(small.iter().map(|row| row.map(|c| c as f32)));
         }
-        reel
+        interval
     }
 
-    /// How many coefficients a vertex has.
+    /// Returns the number of coefficients of each vertex.
     pub(super) fn coefficient_count(&self) -> usize {
         self.counts[0] + self.counts[1]
     }
 
-    /// Where a vertex is at both ends, by its number in the blocks.
+    /// Returns the positions of a vertex at both ends, by its index in the blocks.
     pub(super) fn ends(&self, vertex: usize) -> [DVec2; 2] {
         let first = vertex / BLOCK * (2 + self.counts[0]);
         [0, 1].map(|end| point(&self.full[first + end], vertex))
     }
 
-    /// A coefficient of a vertex.
+    /// Returns coefficient `k` of a vertex, by its index in the blocks.
     pub(super) fn coefficient(&self, vertex: usize, k: usize) -> DVec2 {
         let ([full, narrow], block) = (self.counts, vertex / BLOCK);
         if k < full {
+            // Two rows of end positions come before the coefficients.
             return point(&self.full[block * (2 + full) + 2 + k], vertex);
         }
         let row = &self.narrow[block * narrow + k - full];
         point(&row.map(f64::from), vertex)
     }
 
-    /// The vertices of a block: where they are at both ends, then their coefficients.
+    /// Returns row `k` of a block: rows 0 and 1 are the positions at both ends, the others the
+    /// coefficients.
     #[cfg(feature = "bevy")]
     pub(super) fn row(&self, block: usize, k: usize) -> BlockRow {
         let [full, narrow] = self.counts;
@@ -101,37 +107,38 @@ impl RecordingInterval {
         }
     }
 
-    /// How far into it `t` is, from 0 to 1.
+    /// Returns the fraction of the interval that has passed at `t`, from 0 to 1.
     pub(super) fn share(&self, t: f64) -> f64 {
         (t - self.from) / (self.to - self.from)
     }
 
+    /// Returns the size of the coefficients and end positions in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&self.full[..]) + size_of_val(&self.narrow[..])
     }
 
-    /// Moves the vertices from a block on to where they are at `t`.
+    /// Writes the positions at `t` of the vertices from block `first` on.
     pub(super) fn place(&self, t: f64, first: usize, places: &mut [DVec2]) {
         let s = self.share(t);
-        let share = |k: usize, places: &mut [DVec2]| {
+        let evaluate_task = |k: usize, places: &mut [DVec2]| {
             self.arch.dispatch(IntervalSum {
-                reel: self,
-                first: first + k * SHARE,
+                interval: self,
+                first: first + k * BLOCKS_PER_TASK,
                 s,
                 places,
             });
         };
-        if places.len() <= SHARE * BLOCK {
-            return share(0, places);
+        if places.len() <= BLOCKS_PER_TASK * BLOCK {
+            return evaluate_task(0, places);
         }
-        let shares = places.par_chunks_mut(SHARE * BLOCK).enumerate();
-        shares.for_each(|(k, places)| share(k, places));
+        let tasks = places.par_chunks_mut(BLOCKS_PER_TASK * BLOCK).enumerate();
+        tasks.for_each(|(k, places)| evaluate_task(k, places));
     }
 }
 
-/// The sum of some vertices, to be compiled for several widths of vectors.
+/// The evaluation of some vertices, compiled for several SIMD widths.
 struct IntervalSum<'a> {
-    reel: &'a RecordingInterval,
+    interval: &'a RecordingInterval,
     first: usize,
     s: f64,
     places: &'a mut [DVec2],
@@ -143,27 +150,26 @@ impl WithSimd for IntervalSum<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self {
-            reel,
+            interval,
             first,
             s,
             places,
         } = self;
-        let [full, narrow] = reel.counts;
+        let [full, narrow] = interval.counts;
         let weights: [f64; MAX_NODES] = basis(full + narrow, s);
         let (large, small) = weights[..full + narrow].split_at(full);
         for (k, places) in places.chunks_mut(BLOCK).enumerate() {
             let block = first + k;
-            let rows = &reel.full[block * (2 + full)..][..2 + full];
+            let rows = &interval.full[block * (2 + full)..][..2 + full];
             let mut sum = [0.0; 2 * BLOCK];
             for (weight, row) in large.iter().zip(&rows[2..]) {
                 add(&mut sum, *weight, row);
             }
-            let rest = &reel.narrow[block * narrow..][..narrow];
-            for (weight, row) in small.iter().zip(rest) {
+            let narrow_rows = &interval.narrow[block * narrow..][..narrow];
+            for (weight, row) in small.iter().zip(narrow_rows) {
                 add(&mut sum, *weight, &row.map(f64::from));
             }
-            // What is exactly 0 at an end is added last, so that the end is met to
-            // the last bit.
+            // The sum is exactly 0 at both ends; added last, it leaves the end positions exact.
             let straight = |i: usize| rows[0][i] * (1.0 - s) + rows[1][i] * s;
             for (i, place) in places.iter_mut().enumerate() {
                 let [x, y] = [2 * i, 2 * i + 1].map(|i| straight(i) + sum[i]);
@@ -173,12 +179,13 @@ impl WithSimd for IntervalSum<'_> {
     }
 }
 
-/// What a row says of a vertex of its block.
+/// Returns the entry of a row that belongs to a vertex of its block.
 fn point(row: &BlockRow, vertex: usize) -> DVec2 {
-    let at = 2 * (vertex % BLOCK);
-    DVec2::new(row[at], row[at + 1])
+    let first_number = 2 * (vertex % BLOCK);
+    DVec2::new(row[first_number], row[first_number + 1])
 }
 
+/// Adds a weighted row to a sum.
 #[inline(always)]
 fn add(sum: &mut BlockRow, weight: f64, row: &BlockRow) {
     for (sum, c) in sum.iter_mut().zip(row) {

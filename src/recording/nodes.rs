@@ -1,54 +1,54 @@
-//! Where in an interval a function is looked at, and the polynomials through it.
+//! Interpolation nodes within a time interval, and the polynomials through them.
 //!
-//! Within an interval, s runs from 0 to 1. The functions are zero at both ends, so
-//! that these are nodes which cost nothing. The others come in an order in which
-//! each new one lies where the polynomial through those before says least: Leja's
-//! points, here in pairs s and 1 − s, so that a film that is run backwards is looked
-//! at at the same times. What is found at a new node is therefore a test of the
-//! polynomial so far, and nothing that was placed is ever thrown away.
+//! Within an interval, s runs from 0 to 1. The recorded functions are zero at both ends, which
+//! therefore serve as nodes for free. The other nodes are Leja points: each lies where the
+//! polynomial through the earlier nodes is least constrained. They come in pairs s and 1 − s, so
+//! that the reversed motion is evaluated at the same times. The values at new nodes test the
+//! polynomial through the earlier ones, and no placement is ever discarded.
 //!
-//! A function is written as b(s) Σ c_k T_k(2s − 1) with b(s) = 4s(1 − s) and T_k
-//! Chebyshev's polynomials: its coefficients shrink as fast as the function is
-//! smooth, and what is left out of the sum is never larger than they are.
+//! A function is written as b(s) Σ c_k T_k(2s − 1) with b(s) = 4s(1 − s) and the Chebyshev
+//! polynomials T_k. Its coefficients decrease as fast as the function is smooth, and the omitted
+//! terms are never larger than their coefficients.
 
 use crate::numerics::DenseLu;
 use std::sync::LazyLock;
 
-/// Nodes of an interval at most, without its ends.
+/// Maximum number of nodes within an interval, not counting its ends (resource limit; an interval
+/// that needs more is halved). Odd: the middle and pairs.
 pub(crate) const MAX_NODES: usize = 23;
 
-/// Places among which the next node is looked for, on one half of the interval.
-const GRID: usize = 1 << 14;
+/// Number of candidates for the next node in one half of the interval (resource limit).
+const NODE_CANDIDATES: usize = 1 << 14;
 
-/// The middle, then pairs.
+/// Leja nodes: the middle, then pairs s and 1 − s.
 static NODES: LazyLock<[f64; MAX_NODES]> = LazyLock::new(|| {
     let mut nodes = [0.5; MAX_NODES];
     for first in (1..MAX_NODES).step_by(2) {
-        let says = |s: f64| -> f64 {
+        // Logarithm of the distance product: the next Leja point maximises it.
+        let log_product = |s: f64| -> f64 {
             let product = |from: &[f64]| from.iter().map(|x| (s - x).abs().ln()).sum::<f64>();
             (s * (1.0 - s)).ln() + product(&nodes[..first])
         };
-        let places = (1..GRID).map(|k| 0.5 * k as f64 / GRID as f64);
-        let least = places.max_by(|a, b| says(*a).total_cmp(&says(*b)));
-        let next = least.unwrap_or(0.5);
+        let candidates = (1..NODE_CANDIDATES).map(|k| 0.5 * k as f64 / NODE_CANDIDATES as f64);
+        let farthest = candidates.max_by(|a, b| log_product(*a).total_cmp(&log_product(*b)));
+        let next = farthest.unwrap_or(0.5);
         nodes[first] = next;
         nodes[first + 1] = 1.0 - next;
     }
     nodes
 });
 
-/// The nodes in the order in which they are looked at.
+/// Returns the nodes in the order in which they are evaluated.
 pub(super) fn nodes() -> &'static [f64; MAX_NODES] {
     &NODES
 }
 
-/// b(s): one in the middle, zero at the ends.
+/// Bubble function b(s) of the basis: 1 in the middle, 0 at both ends.
 fn bubble(s: f64) -> f64 {
     4.0 * s * (1.0 - s)
 }
 
-/// For each of the first `n` nodes what the polynomial through them has of it at
-/// `s`.
+/// Returns the weights of the values at the first `n` nodes in the interpolating polynomial at `s`.
 pub(super) fn weights(n: usize, s: f64) -> [f64; MAX_NODES] {
     let nodes = nodes();
     let mut weights = [0.0; MAX_NODES];
@@ -60,20 +60,19 @@ pub(super) fn weights(n: usize, s: f64) -> [f64; MAX_NODES] {
     weights
 }
 
-/// b(s) T_k(2s − 1) for each k below `n`: exactly 0 at both ends.
+/// Returns the basis functions b(s) T_k(2s − 1) for k below `n`: exactly 0 at both ends.
 pub(super) fn basis(n: usize, s: f64) -> [f64; MAX_NODES] {
     let x = 2.0 * s - 1.0;
     let mut values = [0.0; MAX_NODES];
-    let [mut before, mut now] = [x, 1.0]; // T_{-1} = T_1
+    let [mut previous, mut current] = [x, 1.0]; // T_{-1} = T_1
     for value in values.iter_mut().take(n) {
-        *value = bubble(s) * now;
-        [before, now] = [now, 2.0 * x * now - before];
+        *value = bubble(s) * current;
+        [previous, current] = [current, 2.0 * x * current - previous];
     }
     values
 }
 
-/// The matrix that takes values at the first `n` nodes to coefficients, row by
-/// row.
+/// Returns the matrix from values at the first `n` nodes to coefficients, row by row.
 pub(super) fn coefficients_from_values(n: usize) -> Vec<Vec<f64>> {
     // Column k holds basis function k at all nodes.
     let at_nodes: Vec<[f64; MAX_NODES]> = nodes()[..n].iter().map(|&s| basis(n, s)).collect();
@@ -96,13 +95,13 @@ pub(super) fn coefficients_from_values(n: usize) -> Vec<Vec<f64>> {
 mod tests {
     use super::*;
 
-    /// A function that is zero at both ends, as a part that turns by 2 radians.
+    /// Deviation of a part that turns by 2 radians: zero at both ends.
     fn turning(s: f64) -> f64 {
         (2.0 * s).sin() - s * 2.0_f64.sin()
     }
 
     #[test]
-    fn nodes_are_pairs_and_each_once() {
+    fn nodes_are_distinct_and_come_in_pairs() {
         let nodes = nodes();
         for pair in nodes[1..].chunks(2) {
             assert!((pair[0] + pair[1] - 1.0).abs() < 1e-15);
@@ -114,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn both_forms_are_the_polynomial_through_the_nodes() {
+    fn both_forms_interpolate_the_values_at_the_nodes() {
         for n in [1, 5, 9, 15, MAX_NODES] {
             let values: Vec<f64> = nodes()[..n].iter().map(|&s| turning(s)).collect();
             let rows = coefficients_from_values(n);

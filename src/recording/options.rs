@@ -1,12 +1,13 @@
-//! How closely a warp is recorded, and in how much memory.
+//! The tolerance and the memory limit of a recording.
 
-/// How a film is recorded.
+/// Options of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecordingOptions {
-    /// How far a vertex may be from where the warp has it, as a share of the
-    /// diameter of all its places at the ends.
+    /// Largest distance between a vertex of the recording and of the warp, as a fraction of the
+    /// diameter of all positions at both ends.
     pub tolerance: f64,
-    /// How much memory the film may take, and what of it is recorded at a time, in bytes.
+    /// Largest size of the coefficients in bytes (resource limit); also limits the memory for the
+    /// interval that is being recorded.
     pub most_bytes: usize,
 }
 

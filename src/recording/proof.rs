@@ -1,21 +1,23 @@
-//! What holds of a film at every t.
+//! Certificates that hold at every t of a recording: no face folds, and no outlines meet.
 //!
-//! In a reel every vertex is a polynomial of s, and so is twice the area of a face,
-//! and the side of an edge on which a vertex lies. Where all Bernstein coefficients
-//! of one are positive, it is positive all along; where they are not, both halves are
-//! looked at, down to a thousand-millionth of the reel. If no face turns over and no
-//! outline meets itself or another, every frame is drawn as it should be.
+//! Within an interval of a recording every vertex is a polynomial of s, which runs from 0 to 1 over
+//! the interval. So are twice the area of a face and the side of an edge on which a vertex lies. A
+//! polynomial whose Bernstein coefficients are all positive is positive throughout; otherwise both
+//! halves are examined, down to a thousand-millionth of the interval. Without folds and meetings,
+//! every frame is drawn as it should be.
 //!
-//! What is proved is the film that is played: all bounds are widened by what it is
-//! rounded by. The film itself is as near to the warp as it states
-//! ([`Recording::error`]).
+//! The certificate covers the recording as it is played: all bounds include its rounding. The
+//! recording itself is as close to the warp as it states ([`Recording::error`]).
 //!
-//! Guaranteed: what is said to be proved is so. Not guaranteed: that all that is so
-//! can be proved; what cannot be decided is told as trouble, at the first t at which it
-//! could not. A vertex that touches an edge at an end of the film, as the sides of a
-//! cut do, is not looked at beside that edge for the first or last 1024th of the film,
-//! and counted. At the ends themselves the designs are what they are: of a face that is
-//! smaller than rounding they say on which side it is until it has grown.
+//! Guaranteed: whatever is reported as proved is true. Not guaranteed: that everything true can be
+//! proved; undecided cases are reported as failures, at the first t where the decision failed. A
+//! vertex that touches an edge at an end of the motion, like the sides of a cut, is not tested
+//! against that edge for the first or last 1024th, and is counted. At the ends themselves the
+//! designs decide the orientation, even of faces smaller than rounding.
+//!
+//! - `bernstein`: polynomials with bounded errors; `vertex_curve`: the curves of vertices
+//! - `folds`: the first face that may fold; `meetings`: the first outlines that may meet
+//! - `drawn_loop`: the boundary loops to examine
 
 mod bernstein;
 mod drawn_loop;
@@ -34,90 +36,93 @@ use crate::work::progress::{Cancelled, Progress, checkpoint};
 use serde::Serialize;
 use vertex_curve::IntervalCurves;
 
-/// What a film shows, or does not, at any t.
+/// The result of examining a recording at every t.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RecordingProof {
-    /// The first t at which a face is not proved to be positive.
+    /// The first time at which a face is not proved to be positively oriented.
     pub fold: Option<FaceFold>,
-    /// The first t at which outlines are not proved to be apart.
+    /// The first time at which outlines are not proved to be apart.
     pub meeting: Option<OutlineMeeting>,
-    /// Vertices that touch an edge at an end of the film, and were not looked at
-    /// beside that edge for the 1024th of the film that is there.
+    /// Number of vertices that touch an edge at an end of the motion and were not tested against
+    /// that edge for the 1024th next to that end.
     pub touching: usize,
 }
 
 impl RecordingProof {
-    /// No face turns over and no outline meets another, at any t.
+    /// Returns whether no face folds and no outlines meet at any t.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.fold.is_none() && self.meeting.is_none()
     }
 }
 
-/// A face that turns over, or may.
+/// A face that folds, or could not be proved not to.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FaceFold {
-    /// When it begins, to 1e-9 of a reel.
+    /// t at which the fold begins, accurate to 1e-9 of an interval.
     pub t: f64,
-    /// Which.
+    /// Index of the face.
     pub face: usize,
 }
 
-/// A vertex that meets an edge of an outline, or may.
+/// A vertex that meets an edge of an outline, or could not be proved not to.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OutlineMeeting {
-    /// When, to 1e-9 of a reel.
+    /// t of the meeting, accurate to 1e-9 of an interval.
     pub t: f64,
-    /// The vertex.
+    /// Index of the vertex.
     pub vertex: u32,
-    /// The ends of the edge.
+    /// Indices of the vertices of the edge.
     pub edge: [u32; 2],
-    /// Where the vertex is then.
+    /// Position of the vertex at that time.
     pub place: DVec2,
 }
 
 impl Recording {
-    /// Looks at all faces and at all drawn boundaries of the film, at every t in
-    /// [0, 1]. Takes some 20 µs a face, and a look at what is near each other.
+    /// Examines all faces and all given boundary loops of the recording at every t in [0, 1]. Takes
+    /// about 20 µs per face, plus a search for nearby edges.
     ///
     /// # Errors
-    /// [`Cancelled`] if nobody wants the result any more.
+    /// [`Cancelled`] if the work is cancelled.
     ///
     /// # Panics
-    /// Where a walk names a vertex that there is not.
+    /// If a loop contains the index of a vertex that does not exist.
     pub fn prove(
         &self,
-        walks: &[DrawnLoop],
+        loops: &[DrawnLoop],
         progress: &dyn Progress,
     ) -> Result<RecordingProof, Cancelled> {
         let mut proof = RecordingProof::default();
-        // Where nothing moves in the frame, all is as in the designs.
+        // If nothing moves in the frame, every frame equals the designs.
         if !self.0.moving.in_frame {
             return Ok(proof);
         }
         let faces = self.0.warp.placer().placement().faces.clone();
-        for reel in &self.0.reels {
-            checkpoint(progress, "proving", reel.from)?;
-            let ways = IntervalCurves::of(reel);
-            let time = |s: f64| reel.from + s * (reel.to - reel.from);
-            let at_ends = [reel.from == 0.0, reel.to == 1.0];
+        for interval in &self.0.reels {
+            checkpoint(progress, "proving", interval.from)?;
+            let curves = IntervalCurves::of(interval);
+            let time = |s: f64| interval.from + s * (interval.to - interval.from);
+            let at_ends = [interval.from == 0.0, interval.to == 1.0];
             if proof.fold.is_none() {
-                let fold = folds::first_fold(&ways, &faces, at_ends, progress)?;
+                let fold = folds::first_fold(&curves, &faces, at_ends, progress)?;
                 proof.fold = fold.map(|(s, face)| FaceFold { t: time(s), face });
             }
             if proof.meeting.is_none() {
-                let is_drawn =
-                    |walk: &&DrawnLoop| walk.drawn[0] < reel.to && walk.drawn[1] > reel.from;
-                let drawn: Vec<&DrawnLoop> = walks.iter().filter(is_drawn).collect();
-                let found = meetings::first_meeting(&ways, &drawn, at_ends, progress)?;
-                proof.touching += found.touching;
-                proof.meeting = found.first.map(|(s, vertex, edge, place)| OutlineMeeting {
-                    t: time(s),
-                    vertex,
-                    edge,
-                    place,
-                });
+                let is_visible = |boundary_loop: &&DrawnLoop| {
+                    boundary_loop.drawn[0] < interval.to && boundary_loop.drawn[1] > interval.from
+                };
+                let visible_loops: Vec<&DrawnLoop> = loops.iter().filter(is_visible).collect();
+                let meetings = meetings::first_meeting(&curves, &visible_loops, at_ends, progress)?;
+                proof.touching += meetings.touching;
+                proof.meeting = meetings
+                    .first
+                    .map(|(s, vertex, edge, place)| OutlineMeeting {
+                        t: time(s),
+                        vertex,
+                        edge,
+                        place,
+                    });
             }
         }
         Ok(proof)

@@ -1,9 +1,9 @@
-//! From placements of a warp to reels.
+//! Records a warp: from placements to intervals of polynomials.
 //!
-//! Between two times the warp is placed at one node after the other, until what is
-//! found at a pair of new nodes is what the polynomial through those before says
-//! there. Where it would take too many, both halves are recorded apart; the warp
-//! itself tells at which times something sets out or arrives.
+//! Within an interval the warp is evaluated at one pair of nodes after another, until the new
+//! values agree with the polynomial through the earlier ones. An interval that would need too many
+//! nodes is halved. The warp itself reports the times at which a part starts or stops
+//! ([`Warp::breaks`]); intervals never extend across them.
 
 use super::channels::MovingChannels;
 use super::interval::{BLOCK, BlockRow, RecordingInterval, block_count};
@@ -14,59 +14,67 @@ use crate::warp::{Placer, Warp};
 use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
 use rayon::prelude::*;
 
-/// Nodes after which it is foreseen whether the interval will do.
-const FORESEEN: usize = 9;
+/// Number of nodes after which convergence is extrapolated, to stop early in an interval that would
+/// need too many (heuristic).
+const FORECAST_NODES: usize = 9;
 
-/// What does not settle within an interval so short is not halved any more: it jumps.
-const SHORTEST: f64 = 1.0 / 1024.0;
+/// Intervals this short are not halved any more: the warp jumps there (tolerance: a thousandth of
+/// the transition).
+const SHORTEST_INTERVAL: f64 = 1.0 / 1024.0;
 
-/// Times that are nearer to each other are one.
-const SAME: f64 = 1e-12;
+/// Break times closer than this are merged (tolerance: rounding of equal times).
+const SAME_TIME: f64 = 1e-12;
 
-/// Where between two breaks it is looked at what moves: nothing is there by accident
-/// what it is at the ends.
-const WITHIN: f64 = 0.381_966;
+/// Position between two break times, as a fraction, at which moving channels are detected. The
+/// golden section: no symmetric motion returns to its ends there.
+const PROBE_FRACTION: f64 = 0.381_966;
 
-/// What of the tolerance the rounding of small coefficients may take, and what those
-/// that are left out may.
-const ROUNDED: f64 = 0.1;
-const LEFT_OUT: f64 = 0.1;
+/// Fraction of the tolerance that storing small coefficients in single precision may use
+/// (heuristic).
+const ROUNDING_SHARE: f64 = 0.1;
+/// Fraction of the tolerance that omitted coefficients may use (heuristic).
+const OMISSION_SHARE: f64 = 0.1;
 
-/// Why there is no film.
+/// Why a warp could not be recorded.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {
-    /// It would take more memory than it may.
-    #[error("the film would take {bytes} bytes, and may take {most}")]
+    /// The coefficients would exceed the memory limit.
+    #[error("the recording would take {bytes} bytes; the limit is {most}")]
     TooLarge {
-        /// What was needed when it was given up.
+        /// Size in bytes when recording stopped.
         bytes: usize,
-        /// What it may take.
+        /// Limit in bytes.
         most: usize,
     },
-    /// Near a t the warp jumps, or is solved too inexactly.
-    #[error("the motion does not settle near t = {t:.3}; frames are solved instead")]
+    /// The warp jumps near a time, or its placements are too inexact there.
+    #[error("the motion is not smooth near t = {t:.3}; each frame is solved instead")]
     Unsettled {
-        /// Where.
+        /// The time.
         t: f64,
     },
-    /// Nobody wants it any more.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// A film as it was recorded.
+/// The result of recording.
 pub(super) struct RecordedIntervals {
     pub moving: MovingChannels,
     pub reels: Vec<RecordingInterval>,
-    /// As a share of the diameter.
+    /// Largest measured error, as a fraction of the diameter.
     pub error: f64,
+    /// Number of placements of the warp that were computed.
     pub solves: usize,
 }
 
-/// Where what moves is, in blocks; channel after channel.
+/// Positions of all moving channels at one time, channel after channel, in blocks of vertices.
 type PositionBlocks = Vec<BlockRow>;
 
+/// Records a warp over [0, 1].
+///
+/// # Errors
+/// As [`Recording::record`](super::Recording::record).
 pub(super) fn record(
     warp: &dyn Warp,
     options: &RecordingOptions,
@@ -74,15 +82,15 @@ pub(super) fn record(
 ) -> Result<RecordedIntervals, RecordingError> {
     checkpoint(progress, "recording", 0.0)?;
     let mut breaks = warp.breaks();
-    breaks.retain(|t| (SAME..=1.0 - SAME).contains(t));
+    breaks.retain(|t| (SAME_TIME..=1.0 - SAME_TIME).contains(t));
     breaks.push(1.0);
     breaks.sort_by(f64::total_cmp);
-    breaks.dedup_by(|b, a| *b - *a < SAME);
+    breaks.dedup_by(|b, a| *b - *a < SAME_TIME);
     let mut recorder = WarpRecorder::new(warp, &breaks, options, progress);
     let mut from = (0.0, recorder.at(0.0));
     for t in breaks {
         let to = (t, recorder.at(t));
-        recorder.span(from, to.clone())?;
+        recorder.record_interval(from, to.clone())?;
         from = to;
     }
     Ok(RecordedIntervals {
@@ -93,20 +101,24 @@ pub(super) fn record(
     })
 }
 
+/// The state of a recording in progress.
 struct WarpRecorder<'a> {
-    /// Two, since nodes come in pairs.
+    /// Two, to evaluate a pair of nodes in parallel.
     placers: [Placer; 2],
     moving: MovingChannels,
     options: &'a RecordingOptions,
     progress: &'a dyn Progress,
+    /// Diameter of all moving positions at both ends; the scale of the tolerance.
     diameter: f64,
     reels: Vec<RecordingInterval>,
-    /// In units of the plane.
+    /// Largest error so far, in units of the plane.
     error: f64,
     solves: usize,
 }
 
 impl<'a> WarpRecorder<'a> {
+    /// Prepares recording: detects the moving channels and the scale of the tolerance. `breaks` are
+    /// the ends of the intervals between break times.
     fn new(
         warp: &dyn Warp,
         breaks: &[f64],
@@ -122,14 +134,14 @@ impl<'a> WarpRecorder<'a> {
         let mut moving = MovingChannels::default().with_changes(&ends[0], &ends[1]);
         let mut from = 0.0;
         for to in breaks {
-            moving = moving.with_changes(&ends[0], &at(from + WITHIN * (to - from)));
+            moving = moving.with_changes(&ends[0], &at(from + PROBE_FRACTION * (to - from)));
             from = *to;
         }
         let ends = moving.channels().flat_map(|channel| {
             let ends = ends.iter();
             ends.flat_map(move |placement| channel.of(placement).iter().copied())
         });
-        // Of what does not move any size will do.
+        // If nothing moves, any scale works.
         let diameter = Bounds::of(ends).map_or(1.0, |bounds| bounds.diameter());
         Self {
             placers: [placer, warp.placer()],
@@ -143,18 +155,20 @@ impl<'a> WarpRecorder<'a> {
         }
     }
 
+    /// Returns the tolerance in units of the plane.
     fn tolerance(&self) -> f64 {
         self.options.tolerance * self.diameter
     }
 
+    /// Returns the moving positions at `t`.
     fn at(&mut self, t: f64) -> PositionBlocks {
-        // The ends of a film are the designs, which nothing is solved for.
+        // The ends are the designs themselves; nothing is solved there.
         self.solves += usize::from(t > 0.0 && t < 1.0);
         places(&mut self.placers[0], self.moving, t)
     }
 
-    /// At a pair of times, at once.
-    fn at_both(&mut self, t: [f64; 2]) -> [PositionBlocks; 2] {
+    /// Returns the moving positions at two times, computed in parallel.
+    fn at_pair(&mut self, t: [f64; 2]) -> [PositionBlocks; 2] {
         self.solves += 2;
         let moving = self.moving;
         let [a, b] = &mut self.placers;
@@ -162,52 +176,60 @@ impl<'a> WarpRecorder<'a> {
         [a, b]
     }
 
-    /// Records what is between two times.
-    fn span(
+    /// Records the interval between two times, halving it where it needs too many nodes.
+    ///
+    /// # Errors
+    /// Where an interval is too short to halve, too large for memory, or the work is cancelled.
+    fn record_interval(
         &mut self,
         from: (f64, PositionBlocks),
         to: (f64, PositionBlocks),
     ) -> Result<(), RecordingError> {
         let time = |s: f64| from.0 + s * (to.0 - from.0);
         let ends = [&from.1, &to.1];
-        let middle = self.at(time(0.5));
-        let mut seen = vec![deviation(middle.clone(), ends, 0.5)];
-        let mut before = f64::INFINITY;
-        while seen.len() + 2 <= MAX_NODES {
-            let share = seen.len() as f64 / MAX_NODES as f64;
-            checkpoint(self.progress, "recording", time(share))?;
-            self.allow(ends[0].len() * (4 + seen.len()) * size_of::<BlockRow>())?;
-            let pair = [nodes()[seen.len()], nodes()[seen.len() + 1]];
-            let found = self.at_both(pair.map(time));
-            let known = seen.len();
+        let middle_positions = self.at(time(0.5));
+        let mut samples = vec![deviation(middle_positions.clone(), ends, 0.5)];
+        let mut previous_off = f64::INFINITY;
+        while samples.len() + 2 <= MAX_NODES {
+            let fraction = samples.len() as f64 / MAX_NODES as f64;
+            checkpoint(self.progress, "recording", time(fraction))?;
+            self.allow(ends[0].len() * (4 + samples.len()) * size_of::<BlockRow>())?;
+            let pair = [nodes()[samples.len()], nodes()[samples.len() + 1]];
+            let pair_positions = self.at_pair(pair.map(time));
+            let known = samples.len();
             let mut off: f64 = 0.0;
-            for (s, places) in pair.into_iter().zip(found) {
-                let found = deviation(places, ends, s);
-                // By those before the pair: both are fresh.
-                off = off.max(residual(&seen[..known], &found, s));
-                seen.push(found);
+            for (s, positions) in pair.into_iter().zip(pair_positions) {
+                let sample = deviation(positions, ends, s);
+                // Both nodes of the pair test the polynomial through the nodes before the pair.
+                off = off.max(residual(&samples[..known], &sample, s));
+                samples.push(sample);
             }
             if off <= self.tolerance() {
-                self.keep([from.0, to.0], ends, &seen, off)?;
+                self.store([from.0, to.0], ends, &samples, off)?;
                 return Ok(());
             }
-            if seen.len() >= FORESEEN && !will_do(seen.len(), off, before, self.tolerance()) {
+            if samples.len() >= FORECAST_NODES
+                && !will_converge(samples.len(), off, previous_off, self.tolerance())
+            {
                 break;
             }
-            before = off;
+            previous_off = off;
         }
-        drop(seen);
+        drop(samples);
         let at_middle = time(0.5);
-        if to.0 - from.0 <= SHORTEST {
+        if to.0 - from.0 <= SHORTEST_INTERVAL {
             return Err(RecordingError::Unsettled { t: at_middle });
         }
-        self.span(from, (at_middle, middle.clone()))?;
-        self.span((at_middle, middle), to)
+        self.record_interval(from, (at_middle, middle_positions.clone()))?;
+        self.record_interval((at_middle, middle_positions), to)
     }
 
-    /// Whether so many bytes more than the reels so far are allowed.
-    fn allow(&self, more: usize) -> Result<(), RecordingError> {
-        let bytes = more
+    /// Checks that `extra` bytes fit into the memory limit together with the intervals so far.
+    ///
+    /// # Errors
+    /// [`RecordingError::TooLarge`] if they do not.
+    fn allow(&self, extra: usize) -> Result<(), RecordingError> {
+        let bytes = extra
             + self
                 .reels
                 .iter()
@@ -220,32 +242,37 @@ impl<'a> WarpRecorder<'a> {
         Ok(())
     }
 
-    /// Keeps the polynomial through what was seen.
-    fn keep(
+    /// Stores the polynomial through the samples as an interval. Trailing coefficients that are
+    /// small enough are omitted, those before them rounded to single precision, the rest stored in
+    /// full.
+    ///
+    /// # Errors
+    /// If the interval exceeds the memory limit or the work is cancelled.
+    fn store(
         &mut self,
         times: [f64; 2],
         ends: [&PositionBlocks; 2],
-        seen: &[PositionBlocks],
+        samples: &[PositionBlocks],
         off: f64,
     ) -> Result<(), RecordingError> {
         still_wanted(self.progress)?;
-        let coefficients = coefficients(seen);
-        let n = seen.len();
+        let coefficients = coefficients(samples);
+        let n = samples.len();
         let largest = largest(&coefficients, n);
-        // From the last one on, as long as all that is left out is little enough.
-        let mut left_out = 0.0;
+        // Omit trailing coefficients as long as their sum stays small enough.
+        let mut omitted = 0.0;
         let mut kept = n;
-        while kept > 0 && left_out + largest[kept - 1] <= LEFT_OUT * self.tolerance() {
+        while kept > 0 && omitted + largest[kept - 1] <= OMISSION_SHARE * self.tolerance() {
             kept -= 1;
-            left_out += largest[kept];
+            omitted += largest[kept];
         }
         let half_a_bit = f64::from(f32::EPSILON) / 2.0;
-        let (mut rounded, mut in_full) = (0.0, kept);
+        let (mut rounding, mut in_full) = (0.0, kept);
         while in_full > 0
-            && rounded + half_a_bit * largest[in_full - 1] <= ROUNDED * self.tolerance()
+            && rounding + half_a_bit * largest[in_full - 1] <= ROUNDING_SHARE * self.tolerance()
         {
             in_full -= 1;
-            rounded += half_a_bit * largest[in_full];
+            rounding += half_a_bit * largest[in_full];
         }
         let blocks = ends[0].len();
         let row = size_of::<BlockRow>();
@@ -255,26 +282,27 @@ impl<'a> WarpRecorder<'a> {
             .flat_map(|of_block| &of_block[..kept])
             .copied()
             .collect();
-        let reel = RecordingInterval::new(times, ends.map(Vec::as_slice), &coefficients, in_full);
-        self.reels.push(reel);
-        self.error = self.error.max(off + left_out + rounded);
+        let interval =
+            RecordingInterval::new(times, ends.map(Vec::as_slice), &coefficients, in_full);
+        self.reels.push(interval);
+        self.error = self.error.max(off + omitted + rounding);
         Ok(())
     }
 }
 
-/// Whether an interval of which so many nodes are known settles before it has as many
-/// as it may, if what is off goes on shrinking at least as it did.
-fn will_do(known: usize, off: f64, before: f64, tolerance: f64) -> bool {
-    let shrinks = off / before;
-    if shrinks >= 1.0 {
+/// Returns whether an interval with `known` nodes will converge within the maximum number of nodes,
+/// if the residual goes on shrinking at least as fast as in the last step.
+fn will_converge(known: usize, off: f64, previous_off: f64, tolerance: f64) -> bool {
+    let shrink_factor = off / previous_off;
+    if shrink_factor >= 1.0 {
         return false;
     }
-    let pairs = (tolerance / off).ln() / shrinks.ln();
-    // It shrinks the faster the longer it goes on.
-    known as f64 + pairs <= MAX_NODES as f64
+    let pairs_needed = (tolerance / off).ln() / shrink_factor.ln();
+    // Convergence only accelerates, so the estimate is pessimistic.
+    known as f64 + pairs_needed <= MAX_NODES as f64
 }
 
-/// Where what moves is at a time.
+/// Evaluates a warp and packs its moving positions into blocks.
 fn places(placer: &mut Placer, moving: MovingChannels, t: f64) -> PositionBlocks {
     placer.place(t);
     let placement = placer.placement();
@@ -293,7 +321,7 @@ fn places(placer: &mut Placer, moving: MovingChannels, t: f64) -> PositionBlocks
     places
 }
 
-/// How far places are from the straight line between the ends.
+/// Returns the deviation of positions from the straight line between the ends.
 fn deviation(
     mut places: PositionBlocks,
     [begin, end]: [&PositionBlocks; 2],
@@ -308,42 +336,43 @@ fn deviation(
     places
 }
 
-/// How far the polynomial through what was seen is from what was found at `s`.
-fn residual(seen: &[PositionBlocks], found: &PositionBlocks, s: f64) -> f64 {
-    let weights = weights(seen.len(), s);
+/// Returns the largest distance between the polynomial through the samples and the deviation
+/// measured at `s`.
+fn residual(samples: &[PositionBlocks], measured: &PositionBlocks, s: f64) -> f64 {
+    let weights = weights(samples.len(), s);
     let off = |block: usize| {
-        let mut off = found[block];
-        for (weight, seen) in weights.iter().zip(seen) {
-            for (x, y) in off.iter_mut().zip(&seen[block]) {
+        let mut off = measured[block];
+        for (weight, sample) in weights.iter().zip(samples) {
+            for (x, y) in off.iter_mut().zip(&sample[block]) {
                 *x -= weight * y;
             }
         }
         farthest(&off)
     };
-    (0..found.len())
+    (0..measured.len())
         .into_par_iter()
         .map(off)
         .reduce(|| 0.0, f64::max)
 }
 
-/// The length of the longest vector of a row; without a bound where it is no number.
+/// Returns the length of the longest vector in a row; infinity if one is not a number.
 fn farthest(row: &BlockRow) -> f64 {
-    let most = row.chunks(2).map(|xy| xy[0] * xy[0] + xy[1] * xy[1]);
+    let squares = row.chunks(2).map(|xy| xy[0] * xy[0] + xy[1] * xy[1]);
     let finite = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
-    most.map(finite).fold(0.0, f64::max).sqrt()
+    squares.map(finite).fold(0.0, f64::max).sqrt()
 }
 
-/// The coefficients of the polynomials through what was seen, block by block.
-fn coefficients(seen: &[PositionBlocks]) -> Vec<BlockRow> {
-    let n = seen.len();
+/// Returns the coefficients of the polynomials through the samples, block by block.
+fn coefficients(samples: &[PositionBlocks]) -> Vec<BlockRow> {
+    let n = samples.len();
     let rows = coefficients_from_values(n);
-    let blocks = seen[0].len();
+    let blocks = samples[0].len();
     let mut coefficients = vec![[0.0; 2 * BLOCK]; n * blocks];
     let of_blocks = coefficients.par_chunks_mut(n).enumerate();
     of_blocks.for_each(|(block, of_block)| {
         for (sum, row) in of_block.iter_mut().zip(&rows) {
-            for (weight, seen) in row.iter().zip(seen) {
-                for (sum, x) in sum.iter_mut().zip(&seen[block]) {
+            for (weight, sample) in row.iter().zip(samples) {
+                for (sum, x) in sum.iter_mut().zip(&sample[block]) {
                     *sum += weight * x;
                 }
             }
@@ -352,14 +381,14 @@ fn coefficients(seen: &[PositionBlocks]) -> Vec<BlockRow> {
     coefficients
 }
 
-/// For each coefficient the longest vector of any vertex.
+/// Returns, for each coefficient, the length of its longest vector over all vertices.
 fn largest(coefficients: &[BlockRow], n: usize) -> Vec<f64> {
     let none = || vec![0.0_f64; n];
     let of_blocks = coefficients.par_chunks(n.max(1));
     of_blocks
         .fold(none, |mut largest, of_block| {
-            for (most, row) in largest.iter_mut().zip(of_block) {
-                *most = most.max(farthest(row));
+            for (longest, row) in largest.iter_mut().zip(of_block) {
+                *longest = longest.max(farthest(row));
             }
             largest
         })

@@ -1,58 +1,59 @@
-//! A film in single precision, laid out for who sums it elsewhere: a graphics card.
+//! Recording intervals in single precision, laid out for evaluation on a graphics card.
 //!
-//! A vertex is at `near end + share · way to the other end + Σ weight · coefficient`,
-//! all relative to an origin in the midst of them. Which end is the near one depends on
-//! t alone, so that both ends are met exactly, and what rests does not tremble.
+//! A vertex is at `near end + share · (other end − near end) + Σ weight · coefficient`, all
+//! relative to an origin among the vertices. Which end is the near one depends on t alone, so that
+//! both ends are exact and resting vertices do not jitter.
 //!
-//! Guaranteed: at both ends of a reel a vertex is where single precision has it. Not
-//! guaranteed: more than that in between; coefficients that it does not show are left
-//! out.
+//! Guaranteed: at both ends of an interval, positions are exact in single precision. Not
+//! guaranteed: anything better in between; coefficients below single precision are omitted.
 
 use super::interval::{BLOCK, RecordingInterval, block_count};
 use super::nodes::{MAX_NODES, basis};
 use super::{Recording, RecordingData};
 use crate::geometry::DVec2;
 
-/// Half a unit in the last place of a number near one.
-const HALF_A_BIT: f64 = f32::EPSILON as f64 / 2.0;
+/// Half a unit in the last place of a single-precision number near 1: the relative rounding error.
+const RELATIVE_ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
 
-/// A reel in single precision.
+/// One interval of a recording in single precision.
 #[derive(Clone, Debug)]
 pub(crate) struct SinglePrecisionInterval {
-    /// In a row: as many as there are, or a few more.
+    /// Number of vertices in a row, rounded up to whole blocks.
     pub vertices: usize,
+    /// Number of coefficient rows.
     pub coefficients: usize,
-    /// Row after row: where vertices are at both ends, then their coefficients.
+    /// Row after row: the positions at both ends, then the coefficients.
     pub numbers: Vec<[f32; 2]>,
 }
 
-/// How the numbers of a reel are summed at a t.
+/// The weights with which the rows of an interval are summed at one t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct IntervalWeights {
-    /// How far it is from the first end, and from the other: together 1.
+    /// Fractions of the interval before and after t; their sum is 1.
     pub shares: [f32; 2],
-    /// Of each coefficient.
+    /// Weight of each coefficient.
     pub coefficients: [f32; MAX_NODES],
 }
 
 impl Recording {
-    /// The reels in single precision, one after the other; none where vertices stay
-    /// where they are in the frame. So many vertices has a placement of the warp.
+    /// Returns the intervals in single precision, in order; none if no vertex moves in the frame.
+    /// `vertices` is the number of vertices in a placement of the warp.
     pub(crate) fn singles(
         &self,
         vertices: usize,
         origin: DVec2,
     ) -> impl Iterator<Item = SinglePrecisionInterval> + use<> {
-        let film = self.clone();
-        let count = if film.0.moving.in_frame {
-            film.0.reels.len()
+        let recording = self.clone();
+        let count = if recording.0.moving.in_frame {
+            recording.0.reels.len()
         } else {
             0
         };
-        (0..count).map(move |reel| film.0.single(reel, vertices, origin))
+        (0..count).map(move |interval| recording.0.single(interval, vertices, origin))
     }
 
-    /// Which reel shows `t`, and how it is summed there; none outside [0, 1].
+    /// Returns the index of the interval that contains `t`, and the weights for its rows; `None`
+    /// outside [0, 1].
     pub(crate) fn weights(&self, t: f64) -> Option<(usize, IntervalWeights)> {
         let is_within = (0.0..=1.0).contains(&t);
         is_within.then(|| {
@@ -63,17 +64,18 @@ impl Recording {
 }
 
 impl RecordingData {
-    fn single(&self, reel: usize, vertices: usize, origin: DVec2) -> SinglePrecisionInterval {
-        let reel = &self.reels[reel];
-        let coefficients = shown(reel, vertices, origin);
+    /// Converts one interval to single precision relative to `origin`.
+    fn single(&self, interval: usize, vertices: usize, origin: DVec2) -> SinglePrecisionInterval {
+        let interval = &self.reels[interval];
+        let coefficients = visible_coefficients(interval, vertices, origin);
         let blocks = block_count(vertices);
         let vertices = blocks * BLOCK;
         let mut numbers = Vec::with_capacity(vertices * (2 + coefficients));
         for k in 0..2 + coefficients {
-            // Where vertices are is told from the origin, and how they deviate is not.
+            // Positions are relative to the origin; coefficients are differences already.
             let from = if k < 2 { origin } else { DVec2::ZERO };
             numbers.extend((0..blocks).flat_map(|block| {
-                let row = reel.row(block, k);
+                let row = interval.row(block, k);
                 let vertex = |at: usize| DVec2::new(row[2 * at], row[2 * at + 1]) - from;
                 std::array::from_fn::<_, BLOCK, _>(|at| vertex(at).as_vec2().to_array())
             }));
@@ -86,18 +88,20 @@ impl RecordingData {
     }
 }
 
-fn weights(reel: &RecordingInterval, t: f64) -> IntervalWeights {
-    let s = reel.share(t);
+/// Returns the weights for the rows of an interval at `t`.
+fn weights(interval: &RecordingInterval, t: f64) -> IntervalWeights {
+    let s = interval.share(t);
     IntervalWeights {
         shares: [s as f32, (1.0 - s) as f32],
-        coefficients: basis(reel.coefficient_count(), s).map(|weight| weight as f32),
+        coefficients: basis(interval.coefficient_count(), s).map(|weight| weight as f32),
     }
 }
 
-/// How many coefficients are more together than what single precision rounds.
-fn shown(reel: &RecordingInterval, vertices: usize, origin: DVec2) -> usize {
+/// Returns the number of coefficients to keep: the omitted ones together stay below the rounding of
+/// positions to single precision.
+fn visible_coefficients(interval: &RecordingInterval, vertices: usize, origin: DVec2) -> usize {
     let longest = |k: usize, from: DVec2| {
-        let rows = (0..block_count(vertices)).flat_map(|block| reel.row(block, k));
+        let rows = (0..block_count(vertices)).flat_map(|block| interval.row(block, k));
         let numbers = rows
             .take(2 * vertices)
             .zip([from.x, from.y].into_iter().cycle());
@@ -105,12 +109,12 @@ fn shown(reel: &RecordingInterval, vertices: usize, origin: DVec2) -> usize {
             .map(|(x, from)| (x - from).abs())
             .fold(0.0, f64::max)
     };
-    let rounded = HALF_A_BIT * longest(0, origin).max(longest(1, origin));
-    let mut left_out = 0.0;
-    let mut kept = reel.coefficient_count();
+    let rounding = RELATIVE_ROUNDING * longest(0, origin).max(longest(1, origin));
+    let mut omitted = 0.0;
+    let mut kept = interval.coefficient_count();
     while kept > 0 {
-        left_out += longest(1 + kept, DVec2::ZERO);
-        if left_out > rounded {
+        omitted += longest(1 + kept, DVec2::ZERO);
+        if omitted > rounding {
             break;
         }
         kept -= 1;
@@ -126,11 +130,13 @@ mod tests {
     use crate::work::progress::Silent;
     use std::sync::Arc;
 
-    /// Two strips of points: one turns, by far more after a break; the other rests.
+    /// Two strips of points. One turns, much faster after a break; the other rests.
     #[derive(Debug)]
     struct TurningStrips(DVec2);
 
+    /// t at which the turning strip accelerates.
     const BREAK: f64 = 0.3;
+    /// Number of points in a strip.
     const POINTS: usize = 11;
 
     impl TurningStrips {
@@ -160,16 +166,16 @@ mod tests {
         }
     }
 
-    fn film(middle: DVec2) -> Recording {
-        let film = Recording::record(
+    fn recorded_strips(middle: DVec2) -> Recording {
+        let recording = Recording::record(
             Arc::new(TurningStrips(middle)),
             &RecordingOptions::default(),
             &Silent,
         );
-        film.expect("a film")
+        recording.expect("a recording")
     }
 
-    /// As the graphics card sums them.
+    /// Evaluates a vertex as the graphics card does.
     fn place(
         single: &SinglePrecisionInterval,
         weights: &IntervalWeights,
@@ -190,13 +196,14 @@ mod tests {
     }
 
     #[test]
-    fn the_sum_is_the_film_to_single_precision_however_far_from_zero() {
+    fn the_sum_matches_the_recording_to_single_precision_far_from_zero() {
         for middle in [DVec2::ZERO, DVec2::new(1e5, -3e4)] {
-            let (film, vertices) = (film(middle), 2 * POINTS);
-            let singles: Vec<SinglePrecisionInterval> = film.singles(vertices, middle).collect();
-            assert!(singles.len() == film.reel_count() && singles.len() > 1);
-            // In single precision there is less to be seen than the film knows.
-            let known = film
+            let (recording, vertices) = (recorded_strips(middle), 2 * POINTS);
+            let singles: Vec<SinglePrecisionInterval> =
+                recording.singles(vertices, middle).collect();
+            assert!(singles.len() == recording.reel_count() && singles.len() > 1);
+            // Some coefficients are below single precision.
+            let known = recording
                 .0
                 .reels
                 .iter()
@@ -206,14 +213,15 @@ mod tests {
                 .zip(known)
                 .filter(|(s, n)| s.coefficients < *n);
             assert!(fewer.count() > 0);
-            let mut placer = film.placer();
+            let mut placer = recording.placer();
             for k in 0..=100 {
                 let t = f64::from(k) / 100.0;
                 placer.place(t);
-                let (reel, weights) = film.weights(t).expect("within");
+                let (interval, weights) = recording.weights(t).expect("within");
                 let places = placer.placement().in_frame.iter().enumerate();
                 for (vertex, wanted) in places {
-                    let found = DVec2::from(place(&singles[reel], &weights, vertex).map(f64::from));
+                    let found =
+                        DVec2::from(place(&singles[interval], &weights, vertex).map(f64::from));
                     let off = found.distance(*wanted - middle);
                     assert!(off < 1e-6, "{off} at {t}");
                 }
@@ -222,13 +230,14 @@ mod tests {
     }
 
     #[test]
-    fn ends_are_met_and_what_rests_does_not_tremble() {
-        let (film, vertices) = (film(DVec2::ZERO), 2 * POINTS);
-        let singles: Vec<SinglePrecisionInterval> = film.singles(vertices, DVec2::ZERO).collect();
+    fn ends_are_exact_and_resting_points_do_not_jitter() {
+        let (recording, vertices) = (recorded_strips(DVec2::ZERO), 2 * POINTS);
+        let singles: Vec<SinglePrecisionInterval> =
+            recording.singles(vertices, DVec2::ZERO).collect();
         let single = |p: &DVec2| p.as_vec2().to_array();
         let all = |t: f64| -> Vec<[f32; 2]> {
-            let (reel, weights) = film.weights(t).expect("within");
-            let places = (0..vertices).map(|vertex| place(&singles[reel], &weights, vertex));
+            let (interval, weights) = recording.weights(t).expect("within");
+            let places = (0..vertices).map(|vertex| place(&singles[interval], &weights, vertex));
             places.collect()
         };
         for t in [0.0, BREAK, 1.0] {
@@ -246,10 +255,10 @@ mod tests {
     }
 
     #[test]
-    fn there_is_none_outside() {
-        let film = film(DVec2::ZERO);
+    fn weights_exist_only_within_the_interval() {
+        let recording = recorded_strips(DVec2::ZERO);
         for t in [-0.1, 1.1, f64::NAN] {
-            assert_eq!(film.weights(t), None);
+            assert_eq!(recording.weights(t), None);
         }
     }
 }

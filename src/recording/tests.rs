@@ -1,15 +1,15 @@
-//! Films are the warps that they were recorded from.
+//! Recordings reproduce the warps that they were recorded from.
 
 use super::*;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DVec2, Side};
-use crate::time::easing::NamedEasing;
+use crate::time::NamedEasing;
 use crate::warp::homotopy::Homotopy;
 use crate::warp::{Arap, ArapOptions, PartClock, StaggeredArap, TimeWindow};
 use crate::work::progress::Silent;
 
-/// A strip of `2 n` faces, bent by `turn` radians over its length; more than once
-/// around it becomes a spiral.
+/// A strip of `2 n` faces whose target is bent by `turn` radians over its length; beyond a full
+/// turn it becomes a spiral.
 fn strip(n: u32, turn: f64) -> CompatibleMesh {
     let points = (0..=n).flat_map(|i| [[i, 0], [i, 1]]);
     let source: Vec<DVec2> = points
@@ -35,79 +35,85 @@ fn arap(mesh: &CompatibleMesh, homotopy: Homotopy, lives: &[Option<TimeWindow>])
     Arap::of_outlines(mesh, &options, lives, &Silent).expect("a film")
 }
 
+/// Records a warp and returns both.
 fn recorded(warp: impl Warp + 'static) -> (Recording, Arc<dyn Warp>) {
     let warp: Arc<dyn Warp> = Arc::new(warp);
-    let film = Recording::record(Arc::clone(&warp), &RecordingOptions::default(), &Silent);
-    (film.expect("a film"), warp)
+    let recording = Recording::record(Arc::clone(&warp), &RecordingOptions::default(), &Silent);
+    (recording.expect("a film"), warp)
 }
 
-/// How far the film is from the warp at most, as a share of the diameter of the ends.
-fn off(film: &dyn Warp, warp: &dyn Warp) -> f64 {
-    let [mut film, mut warp] = [film.placer(), warp.placer()];
-    let ends = film
+/// Returns the largest distance between recording and warp, as a fraction of the diameter of the
+/// ends.
+fn off(recording: &dyn Warp, warp: &dyn Warp) -> f64 {
+    let [mut recording, mut warp] = [recording.placer(), warp.placer()];
+    let ends = recording
         .placement()
         .in_source
         .iter()
-        .chain(&film.placement().in_target);
+        .chain(&recording.placement().in_target);
     let diameter = crate::geometry::Bounds::of(ends.copied())
         .expect("points")
         .diameter();
-    let mut most: f64 = 0.0;
+    let mut farthest: f64 = 0.0;
     for k in 0..=200 {
         let t = f64::from(k) / 200.0;
-        film.place(t);
+        recording.place(t);
         warp.place(t);
-        let places = [&film, &warp].map(|placer| &placer.placement().in_frame);
+        let places = [&recording, &warp].map(|placer| &placer.placement().in_frame);
         for (p, q) in places[0].iter().zip(places[1]) {
-            most = most.max(p.distance(*q));
+            farthest = farthest.max(p.distance(*q));
         }
     }
-    most / diameter
+    farthest / diameter
 }
 
 #[test]
-fn a_film_is_its_warp_to_what_it_states() {
+fn a_recording_matches_its_warp_within_the_stated_error() {
     for (turn, solves) in [(0.1, 12), (2.0, 14), (6.0, 22), (19.0, 80)] {
-        // What is put back where it is sheared too much is not smooth, and is solved.
+        // Bounded distortion is not smooth in t, so it cannot be recorded.
         let smooth = |homotopy: &Homotopy| *homotopy != Homotopy::Bounded;
         for homotopy in Homotopy::ALL.into_iter().filter(smooth) {
-            let (film, warp) = recorded(arap(&strip(40, turn), homotopy, &[]));
-            let off = off(&film, warp.as_ref());
+            let (recording, warp) = recorded(arap(&strip(40, turn), homotopy, &[]));
+            let off = off(&recording, warp.as_ref());
             assert!(
-                off <= film.error() + 1e-14,
+                off <= recording.error() + 1e-14,
                 "{turn} {homotopy:?}: {off} {}",
-                film.error()
+                recording.error()
             );
-            assert!(film.error() <= 1.3e-9, "{}", film.error());
+            assert!(recording.error() <= 1.3e-9, "{}", recording.error());
             assert!(
-                film.solves() <= solves,
+                recording.solves() <= solves,
                 "{turn} {homotopy:?}: {}",
-                film.solves()
+                recording.solves()
             );
         }
     }
 }
 
 #[test]
-fn ends_are_met_to_the_last_bit_and_beyond_them_it_is_the_warp() {
+fn ends_are_exact_and_beyond_them_the_warp_is_evaluated() {
     let mesh = strip(30, 2.5);
-    let (film, warp) = recorded(arap(&mesh, Homotopy::Polar, &[]));
-    let [mut film, mut warp] = [film.placer(), warp.placer()];
+    let (recording, warp) = recorded(arap(&mesh, Homotopy::Polar, &[]));
+    let [mut recording, mut warp] = [recording.placer(), warp.placer()];
     for t in [0.7, 0.0, 1.0, -0.5, 1.25] {
-        film.place(t);
+        recording.place(t);
         warp.place(t);
         if !(t > 0.0 && t < 1.0) {
-            assert_eq!(film.placement().in_frame, warp.placement().in_frame, "{t}");
+            assert_eq!(
+                recording.placement().in_frame,
+                warp.placement().in_frame,
+                "{t}"
+            );
         }
     }
-    film.place(0.0);
-    assert_eq!(film.placement().in_frame, mesh.source());
-    film.place(1.0);
-    assert_eq!(film.placement().in_frame, mesh.target());
+    recording.place(0.0);
+    assert_eq!(recording.placement().in_frame, mesh.source());
+    recording.place(1.0);
+    assert_eq!(recording.placement().in_frame, mesh.target());
 }
 
 #[test]
-fn a_rigid_target_moves_rigidly_and_what_stands_still_stands_still() {
+fn a_rigid_target_moves_rigidly_and_an_equal_target_stands_still() {
     let mesh = strip(10, 1.0);
     let turned = mesh
         .source()
@@ -123,8 +129,8 @@ fn a_rigid_target_moves_rigidly_and_what_stands_still_stands_still() {
         .expect("a mesh")
     };
     let rigid = of(turned.collect());
-    let (film, _) = recorded(arap(&rigid, Homotopy::Polar, &[]));
-    let mut placer = film.placer();
+    let (recording, _) = recorded(arap(&rigid, Homotopy::Polar, &[]));
+    let mut placer = recording.placer();
     for t in [0.2, 0.5, 0.9] {
         placer.place(t);
         let at = &placer.placement().in_frame;
@@ -137,15 +143,15 @@ fn a_rigid_target_moves_rigidly_and_what_stands_still_stands_still() {
         }
     }
     let still = of(mesh.source().to_vec());
-    let (film, _) = recorded(arap(&still, Homotopy::Polar, &[]));
-    let mut placer = film.placer();
+    let (recording, _) = recorded(arap(&still, Homotopy::Polar, &[]));
+    let mut placer = recording.placer();
     placer.place(0.6);
     assert_eq!(placer.placement().in_frame, mesh.source());
-    assert_eq!(film.bytes(), 0);
+    assert_eq!(recording.bytes(), 0);
 }
 
 #[test]
-fn the_film_of_the_exchanged_designs_is_the_film_backwards() {
+fn exchanging_the_designs_reverses_the_recording() {
     let there = arap(&strip(30, 3.0), Homotopy::Polar, &[]);
     let back = there.swapped(&Silent).expect("a film");
     let [(there, _), (back, _)] = [there, back].map(recorded);
@@ -161,14 +167,14 @@ fn the_film_of_the_exchanged_designs_is_the_film_backwards() {
     }
 }
 
-/// Two strips, the second of which is a speck in the source.
-fn with_a_birth() -> (CompatibleMesh, [Option<TimeWindow>; 2]) {
+/// Two strips, the second of which is a seed shape in the source.
+fn with_an_appearing_part() -> (CompatibleMesh, [Option<TimeWindow>; 2]) {
     let [a, b] = [strip(6, 2.0), strip(4, 1.0)];
     let n = a.source().len() as u32;
     let faces = (a.faces().iter().copied()).chain(b.faces().iter().map(|f| f.map(|v| v + n)));
     let away = DVec2::new(40.0, 3.0);
-    let speck = b.target().iter().map(|p| *p * 1e-3 + away);
-    let source = a.source().iter().copied().chain(speck);
+    let seed = b.target().iter().map(|p| *p * 1e-3 + away);
+    let source = a.source().iter().copied().chain(seed);
     let target = a
         .target()
         .iter()
@@ -184,28 +190,28 @@ fn with_a_birth() -> (CompatibleMesh, [Option<TimeWindow>; 2]) {
 }
 
 #[test]
-fn what_sets_out_late_is_recorded_from_then_on() {
-    let (mesh, lives) = with_a_birth();
-    let (film, warp) = recorded(arap(&mesh, Homotopy::Polar, &lives));
-    assert_eq!(film.reel_count(), 3);
-    assert!(off(&film, warp.as_ref()) <= film.error() + 1e-14);
+fn a_part_that_starts_late_begins_a_new_interval() {
+    let (mesh, lives) = with_an_appearing_part();
+    let (recording, warp) = recorded(arap(&mesh, Homotopy::Polar, &lives));
+    assert_eq!(recording.reel_count(), 3);
+    assert!(off(&recording, warp.as_ref()) <= recording.error() + 1e-14);
     let clock = PartClock {
         from: 0.25,
         to: 0.75,
         easing: NamedEasing::Smooth.into(),
     };
     let arap = arap(&mesh, Homotopy::Polar, &lives);
-    let (film, warp) = recorded(StaggeredArap::new(arap, &[clock], &[Some(0), Some(0)]));
-    assert!(off(&film, warp.as_ref()) <= film.error() + 1e-14);
+    let (recording, warp) = recorded(StaggeredArap::new(arap, &[clock], &[Some(0), Some(0)]));
+    assert!(off(&recording, warp.as_ref()) <= recording.error() + 1e-14);
 }
 
 #[test]
-fn the_same_film_comes_of_any_number_of_threads() {
+fn a_recording_is_the_same_on_any_number_of_threads() {
     let of = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads").install(|| {
-            let (film, _) = recorded(arap(&strip(30_000, 2.0), Homotopy::Polar, &[]));
-            let mut placer = film.placer();
+            let (recording, _) = recorded(arap(&strip(30_000, 2.0), Homotopy::Polar, &[]));
+            let mut placer = recording.placer();
             placer.place(0.3);
             placer.placement().in_frame.clone()
         })
@@ -214,7 +220,7 @@ fn the_same_film_comes_of_any_number_of_threads() {
 }
 
 #[test]
-fn too_large_a_film_and_one_that_nobody_wants_are_refused() {
+fn too_large_and_cancelled_recordings_are_refused() {
     let warp: Arc<dyn Warp> = Arc::new(arap(&strip(100, 2.0), Homotopy::Polar, &[]));
     let options = RecordingOptions {
         most_bytes: 10_000,
@@ -237,7 +243,7 @@ fn too_large_a_film_and_one_that_nobody_wants_are_refused() {
     assert!(matches!(error, RecordingError::Cancelled(_)));
 }
 
-/// A point that is elsewhere from t = 0.3 on, and says nothing of it.
+/// A point that jumps at t = 0.3 without reporting a break.
 #[derive(Debug)]
 struct JumpingWarp;
 
@@ -252,7 +258,7 @@ impl Warp for JumpingWarp {
 }
 
 #[test]
-fn a_jump_is_said_and_not_smoothed_over() {
+fn a_jump_is_reported_and_not_smoothed_over() {
     let error = Recording::record(Arc::new(JumpingWarp), &RecordingOptions::default(), &Silent);
     let error = error.expect_err("a jump");
     assert!(
@@ -261,7 +267,7 @@ fn a_jump_is_said_and_not_smoothed_over() {
     );
 }
 
-/// A point that sets out at some times and is back at the end.
+/// A point that starts to move at two times and is back at the end.
 #[derive(Debug)]
 struct ReturningWarp([f64; 2]);
 
@@ -282,14 +288,14 @@ impl Warp for ReturningWarp {
 }
 
 #[test]
-fn what_moves_late_or_by_breaks_that_are_near_each_other_is_recorded() {
+fn late_motion_and_breaks_close_together_are_recorded() {
     for breaks in [[0.5, 0.5], [0.3, 0.3003], [0.5, 0.9995]] {
-        let (film, warp) = recorded(ReturningWarp(breaks));
+        let (recording, warp) = recorded(ReturningWarp(breaks));
         assert!(
-            off(&film, warp.as_ref()) <= film.error() + 1e-14,
+            off(&recording, warp.as_ref()) <= recording.error() + 1e-14,
             "{breaks:?}"
         );
-        let mut placer = film.placer();
+        let mut placer = recording.placer();
         placer.place(0.75);
         assert!(placer.placement().in_frame[0].x > 0.01, "{breaks:?}");
     }

@@ -1,4 +1,4 @@
-//! The warp that a transition holds, and how it was come by.
+//! The warp of a transition, and how it was determined.
 
 use super::note::TransitionNote;
 use super::solution_cache::KeyedSolution;
@@ -8,26 +8,27 @@ use crate::warp::{
 };
 use std::sync::Arc;
 
-/// The warp that a transition holds.
+/// The warp of a transition, of any kind.
 #[derive(Clone, Debug)]
 pub(super) enum AnyWarp {
     /// Nothing moves.
     Still(IdentityWarp),
-    /// Boundary points alone.
+    /// Only boundary points move.
     Paths(Arc<BoundaryPaths>),
-    /// Rigid parts: of solids, or of the whole frame.
+    /// Rigid parts of solids, or of the whole frame.
     Rigid(Arap),
-    /// Rigid parts of solids, some in their own time.
+    /// Rigid parts of solids, some with a timing of their own.
     Staggered(StaggeredArap),
-    /// Rigid parts of the frame behind the motion that they have in common.
+    /// Rigid parts of the frame, relative to a common rigid motion.
     Turned(RigidElasticWarp<Arap>),
-    /// Rigid parts of many designs.
+    /// Rigid parts between blends of many designs.
     Along(AlongBlend),
-    /// Lines, scattered points or lattices, on a grid of the plane.
+    /// Lines, scattered points or lattices, evaluated on a grid of the plane.
     Plane(Arc<dyn Warp>),
 }
 
 impl AnyWarp {
+    /// Returns the warp as a trait object.
     pub fn as_warp(&self) -> &dyn Warp {
         match self {
             Self::Still(still) => still,
@@ -40,7 +41,7 @@ impl AnyWarp {
         }
     }
 
-    /// The same warp, for a film to keep.
+    /// Returns the warp as shared data, for a recording to own.
     pub fn shared(&self) -> Arc<dyn Warp> {
         match self {
             Self::Still(still) => Arc::new(*still),
@@ -53,8 +54,8 @@ impl AnyWarp {
         }
     }
 
-    /// The rigid parts, all in the time of the whole; of those behind a common
-    /// motion as they are at rest.
+    /// Returns the interpolation of rigid parts, without part timings and relative to the common
+    /// motion, if there are any.
     pub fn arap(&self) -> Option<&Arap> {
         match self {
             Self::Rigid(arap) => Some(arap),
@@ -65,17 +66,17 @@ impl AnyWarp {
     }
 }
 
-/// A warp, and how it was come by.
+/// A warp, and how it was determined.
 #[derive(Clone, Debug)]
 pub(super) struct BuiltWarp {
     pub warp: AnyWarp,
-    /// How the outlines of solids were matched, where they were.
+    /// The match of the outlines, if outlines were matched.
     pub matched: Option<RegionMatch>,
-    /// What was found for outlines, where they were matched.
+    /// The solved motion of the match, for documents to cache.
     pub kept: Option<Arc<KeyedSolution>>,
-    /// The pins that were found for a warp of the plane, where nobody set any.
+    /// Automatic pins of a plane warp, if the user has set none.
     pub automatic: Vec<PointPair>,
-    /// What was done otherwise than asked.
+    /// Deviations from the request.
     pub notes: Vec<TransitionNote>,
 }
 

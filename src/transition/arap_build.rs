@@ -1,4 +1,5 @@
-//! Rigid parts of a mesh that is not too large, and what they are settled with.
+//! Builds interpolations of meshes that are not too large, and the options for building them before
+//! subdivision.
 
 use super::error::BuildError;
 use crate::compatible::CompatibleMesh;
@@ -6,8 +7,10 @@ use crate::warp::{Arap, ArapOptions, ArapPath, TimeWindow};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::Progress;
 
-/// The interpolation of a mesh of outlines that is not too large; `lives` as
-/// [`Arap::of_outlines`] takes them.
+/// Builds the interpolation of a mesh of outlines; `lives` as for [`Arap::of_outlines`].
+///
+/// # Errors
+/// If the mesh is too large, the equations cannot be solved, or the work is cancelled.
 pub(super) fn build_arap(
     mesh: &CompatibleMesh,
     options: &ArapOptions,
@@ -18,24 +21,27 @@ pub(super) fn build_arap(
     Ok(Arap::of_outlines(mesh, options, lives, progress)?)
 }
 
-/// Whether a mesh is not too large once it is subdivided.
+/// Checks that a mesh is not too large after subdivision.
+///
+/// # Errors
+/// [`BuildError::TooMuch`] if it is.
 pub(super) fn check_size(
     mesh: &CompatibleMesh,
     options: &ArapOptions,
     progress: &dyn Progress,
 ) -> Result<(), BuildError> {
-    let children = 4_usize.saturating_pow(options.subdivisions);
-    Ok(WorkloadKind::Faces.allow(mesh.faces().len().saturating_mul(children), progress)?)
+    let face_factor = 4_usize.saturating_pow(options.subdivisions);
+    Ok(WorkloadKind::Faces.allow(mesh.faces().len().saturating_mul(face_factor), progress)?)
 }
 
-/// What a film is settled with: of a mesh that is not subdivided. The finer one
-/// moves almost alike, and looking at it would take as many times as long. Its
-/// anchor may be a vertex that is not there yet; where the whole is moves nothing
-/// within it.
-pub(super) fn unsubdivided(asked: &ArapOptions) -> ArapOptions {
+/// Returns the options with which a match is searched and solved: without subdivision, since the
+/// finer mesh moves almost identically but takes several times as long; and with the default anchor
+/// path, since the requested anchor may be a vertex of the subdivided mesh, and the position of the
+/// whole does not affect motion within it.
+pub(super) fn unsubdivided(requested: &ArapOptions) -> ArapOptions {
     ArapOptions {
         subdivisions: 0,
         path: ArapPath::default(),
-        ..asked.clone()
+        ..requested.clone()
     }
 }

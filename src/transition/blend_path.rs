@@ -1,7 +1,7 @@
-//! The way from one blend of many designs to another, as a transition.
+//! The path from one blend of many designs to another, as a transition.
 //!
-//! What a space of designs is made of is built above; here it is played, measured and
-//! exported as two designs are.
+//! Blends themselves are computed in the `space` module; as a transition they are played, measured
+//! and exported like two designs.
 
 use super::any_warp::AnyWarp;
 use super::method::TransitionMethod;
@@ -12,17 +12,17 @@ use crate::geometry::Bounds;
 use crate::warp::{AlongBlend, IdentityWarp, WarpKind};
 use std::sync::Arc;
 
-/// Two blends, and the box that holds all that is seen from the one to the other.
+/// Two blends, and a box around everything visible between them.
 #[derive(Clone, Debug)]
 pub(crate) struct BlendEnds {
     pub designs: [Arc<Design>; 2],
     pub bounds: Bounds,
-    /// Width of the bars of trusses, in units of the designs.
+    /// Width of truss bars in units of the designs.
     pub bar_width: f64,
 }
 
 impl Transition {
-    /// Rigid parts on their way from one blend to the other.
+    /// Creates a transition of rigid parts from one blend to another.
     pub(crate) fn along_blend(ends: BlendEnds, warp: AlongBlend, solid: SolidContent) -> Self {
         Self::blended(
             ends,
@@ -32,7 +32,7 @@ impl Transition {
         )
     }
 
-    /// Distance fields at rest, on the way from one blend to the other.
+    /// Creates a transition of distance fields, mixed in place, from one blend to another.
     pub(crate) fn through_fields(ends: BlendEnds, fields: FieldContent) -> Self {
         let still = IdentityWarp::new(fields.first().grid().bounds());
         let cell = TransitionMethod::new(WarpKind::None, ContentKind::Field)
@@ -40,6 +40,7 @@ impl Transition {
         Self::blended(ends, cell, AnyWarp::Still(still), Content::Field(fields))
     }
 
+    /// Creates a transition without notes, match or cached data.
     fn blended(ends: BlendEnds, cell: TransitionMethod, warp: AnyWarp, content: Content) -> Self {
         let BlendEnds {
             designs,

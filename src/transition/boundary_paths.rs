@@ -1,9 +1,8 @@
-//! Two designs by their boundaries alone: matched, not triangulated.
+//! Transitions of boundaries without an interior: matched, but not triangulated.
 //!
-//! Two meshes whose boundary walks are the same, number by number, bring
-//! their match along; all other forms are matched as outlines. The match is
-//! the first that rigid parts would try: whether it folds inside is not asked,
-//! since there is no inside.
+//! Two meshes with identical boundary loops, index by index, bring their match along; all other
+//! forms are matched as outlines. The first match is used: folds of the interior do not matter,
+//! since there is no interior.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::drawing_pair::DrawingPair;
@@ -21,7 +20,10 @@ use crate::work::progress::{Progress, ProgressSpan, checkpoint};
 use std::iter::repeat_n;
 use std::sync::Arc;
 
-/// The paths, and what is seen of them.
+/// Builds the paths of the boundaries, and the visible content.
+///
+/// # Errors
+/// If outlines cannot be matched, the paths cannot be built, or the work is cancelled.
 pub(super) fn paths(
     spec: &TransitionSpec,
     bar_width: f64,
@@ -29,7 +31,7 @@ pub(super) fn paths(
 ) -> Result<(BuiltWarp, SolidContent), BuildError> {
     checkpoint(progress, "matching", 0.0)?;
     let (parts, matched) = match (&spec.source.form, &spec.target.form) {
-        (DesignForm::Mesh(source), DesignForm::Mesh(target)) => numbered(source, target),
+        (DesignForm::Mesh(source), DesignForm::Mesh(target)) => shared_loops(source, target),
         _ => None,
     }
     .map_or_else(
@@ -62,101 +64,105 @@ pub(super) fn paths(
     Ok((moved, solid))
 }
 
-/// The rings of each part, and the match that brings them together, of what
-/// drawings.
+/// The pairs of rings of each part, and, if they were matched, the drawings and their match.
 type MatchedBoundaries = (Vec<Vec<RingPair>>, Option<(DrawingPair, RegionMatch)>);
 
+/// Matches the outlines of two designs.
 fn matched(
     spec: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<MatchedBoundaries, BuildError> {
     let drawings = spec.drawings(bar_width, progress)?;
-    let (designs, asked) = (drawings.outlines.each_ref(), &spec.options.matching);
-    let prepared = MatchPlan::new(designs, &drawings.looks, asked, progress)?;
-    let matched = prepared.matched(&asked.options(), progress)?;
+    let (designs, requested) = (drawings.outlines.each_ref(), &spec.options.matching);
+    let prepared = MatchPlan::new(designs, &drawings.looks, requested, progress)?;
+    let matched = prepared.matched(&requested.options(), progress)?;
     let parts = matched.pieces.iter().map(rings).collect();
     Ok((parts, Some((drawings, matched))))
 }
 
-/// The rings of a piece. What a match keeps as a tiny ring, so that it can be
-/// triangulated, is a point here.
+/// Returns the pairs of rings of a piece. Seed shapes, which a match needs for triangulation,
+/// become points.
 fn rings(piece: &PieceMatch) -> Vec<RingPair> {
-    let Some(outer) = piece.rings.first() else {
+    let Some(outer_ring) = piece.rings.first() else {
         return Vec::new();
     };
     let pair = |ring: &RingMatch| {
         let [mut source, mut target] = [ring.source.clone(), ring.target.clone()];
         match ring.kind {
-            RingKind::Opens => source.fill(middle(&ring.source)),
-            RingKind::Closes => target.fill(middle(&ring.target)),
+            RingKind::Opens => source.fill(centroid_of_points(&ring.source)),
+            RingKind::Closes => target.fill(centroid_of_points(&ring.target)),
             RingKind::Matched => {}
         }
-        // A part that is born or dies is one point, its holes included.
+        // An unmatched part is a single point in the other design, holes included.
         if piece.source_part.is_none() {
-            source.fill(middle(&outer.source));
+            source.fill(centroid_of_points(&outer_ring.source));
         }
         if piece.target_part.is_none() {
-            target.fill(middle(&outer.target));
+            target.fill(centroid_of_points(&outer_ring.target));
         }
         RingPair { source, target }
     };
     piece.rings.iter().chain(&piece.lone).map(pair).collect()
 }
 
-fn middle(ring: &[DVec2]) -> DVec2 {
+/// Returns the mean of the points.
+fn centroid_of_points(ring: &[DVec2]) -> DVec2 {
     ring.iter().sum::<DVec2>() / ring.len().max(1) as f64
 }
 
-/// The boundary walks of two meshes as parts, where they are the same walks
-/// and run the same way round.
-fn numbered(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<RingPair>>> {
-    // Equal walks number by number: whoever made both meshes meant that match.
-    let walks = source.boundary_loops();
-    if walks != target.boundary_loops() {
+/// Returns the boundary loops of two meshes as parts, if the loops are identical and have the same
+/// orientation.
+fn shared_loops(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<RingPair>>> {
+    // Identical indices mean that the meshes were made to correspond.
+    let loops = source.boundary_loops();
+    if loops != target.boundary_loops() {
         return None;
     }
-    let of = |mesh: &TriangleMesh, walk: &[u32]| -> Vec<DVec2> {
+    let ring_of = |mesh: &TriangleMesh, boundary_loop: &[u32]| -> Vec<DVec2> {
         let positions = mesh.positions();
-        walk.iter().map(|&v| positions[v as usize]).collect()
+        boundary_loop
+            .iter()
+            .map(|&v| positions[v as usize])
+            .collect()
     };
-    let rings: Vec<RingPair> = walks
+    let rings: Vec<RingPair> = loops
         .iter()
-        .map(|walk| RingPair {
-            source: of(source, walk),
-            target: of(target, walk),
+        .map(|boundary_loop| RingPair {
+            source: ring_of(source, boundary_loop),
+            target: ring_of(target, boundary_loop),
         })
         .collect();
     let areas: Vec<[f64; 2]> = rings
         .iter()
         .map(|ring| [signed_area(&ring.source), signed_area(&ring.target)])
         .collect();
-    // A walk that is turned over in one mesh would pass through itself.
-    let has_one_sense = areas.iter().all(|[a, b]| a * b > 0.0);
-    has_one_sense.then(|| parts(rings, &areas))
+    // A loop that is mirrored in one mesh would pass through itself.
+    let has_same_orientation = areas.iter().all(|[a, b]| a * b > 0.0);
+    has_same_orientation.then(|| parts(rings, &areas))
 }
 
-/// Each hole with the smallest outer ring that it lies in in the source. A
-/// mesh may list its faces clockwise; then its outer rings are clockwise.
+/// Groups each hole with the smallest outer ring that contains it in the source. Outer rings may be
+/// clockwise, because a mesh may list its faces clockwise.
 fn parts(rings: Vec<RingPair>, areas: &[[f64; 2]]) -> Vec<Vec<RingPair>> {
-    // Outer rings enclose more than their holes, so that they settle the sign.
-    let sense: f64 = areas.iter().map(|[a, _]| a).sum();
+    // Outer rings enclose more area than their holes, so the sum has their sign.
+    let orientation: f64 = areas.iter().map(|[a, _]| a).sum();
     let (mut outer, mut holes) = (Vec::new(), Vec::new());
     for (ring, [area, _]) in rings.into_iter().zip(areas) {
-        if area * sense > 0.0 {
+        if area * orientation > 0.0 {
             outer.push((area.abs(), vec![ring]));
         } else {
             holes.push(ring);
         }
     }
     for hole in holes {
-        let lies_in =
+        let contains_hole =
             |part: &&mut (f64, Vec<RingPair>)| winding(&part.1[0].source, hole.source[0]) != 0;
-        let around = outer
+        let container = outer
             .iter_mut()
-            .filter(lies_in)
+            .filter(contains_hole)
             .min_by(|a, b| a.0.total_cmp(&b.0));
-        match around {
+        match container {
             Some((_, part)) => part.push(hole),
             None => outer.push((0.0, vec![hole])),
         }

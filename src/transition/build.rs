@@ -1,4 +1,4 @@
-//! From two designs to a transition: everything that can fail.
+//! Builds a transition from two designs. Everything that can fail fails here.
 
 use super::any_warp::BuiltWarp;
 use super::boundary_paths;
@@ -20,15 +20,15 @@ use crate::work::progress::{
 };
 use std::sync::Arc;
 
-/// What moves, what is seen, and the box around it.
+/// The warp, the visible content, and a box around all frames.
 type BuiltParts = (BuiltWarp, Content, Bounds);
 
 impl Transition {
-    /// Two designs by the method that suits them best, with default options,
+    /// Builds a transition of two designs with default options and the method that suits them best,
     /// however long it takes.
     ///
     /// # Errors
-    /// [`BuildError`] says what does not go together.
+    /// [`BuildError`] with the reason why the designs cannot be combined.
     pub fn between(source: Design, target: Design) -> Result<Self, BuildError> {
         let spec = TransitionSpec {
             patient: true,
@@ -37,33 +37,39 @@ impl Transition {
         Self::build(&spec, &Silent)
     }
 
-    /// Builds the cell of the table that the specification names: imports
-    /// nothing, decides everything.
+    /// Builds a transition as specified. Imports nothing and decides everything.
     ///
     /// # Errors
-    /// [`BuildError::Between`] names the designs and says what does not go
-    /// together, or that it would take very long and nobody is patient; of
-    /// work that was cancelled another says so.
+    /// [`BuildError::Between`] names the designs and says why they cannot be combined, or that the
+    /// work would take very long and the specification does not allow it. [`BuildError::Cancelled`]
+    /// if the work was cancelled.
     pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
-        built(spec, progress).map(Self::from)
+        build_named(spec, progress).map(Self::from)
     }
 }
 
-/// What [`Transition::build`] builds, or why it cannot, by the designs' names.
-fn built(spec: &TransitionSpec, progress: &dyn Progress) -> Result<TransitionData, BuildError> {
-    made(spec, progress).map_err(|error| match progress.is_cancelled() {
-        // A cancel is nobody's fault: it names no design.
+/// Builds the data of a transition; errors name the designs.
+fn build_named(
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<TransitionData, BuildError> {
+    build_data(spec, progress).map_err(|error| match progress.is_cancelled() {
+        // A cancellation does not concern a particular design.
         true => error,
         false => error.between(&spec.source, &spec.target),
     })
 }
 
-fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<TransitionData, BuildError> {
-    // Before any work: a window asks the same to grey a button out.
+/// Builds the data of a transition.
+fn build_data(
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<TransitionData, BuildError> {
+    // First, because it is cheap; the window disables buttons by the same check.
     TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
     let progress = &WholeProgress::new(progress).patient(spec.patient);
     if spec.cell.warp() == WarpKind::Arap {
-        // Four times as many at each round: at ten a single face is too much.
+        // Each subdivision quadruples the faces; ten of them are too many even for one face.
         let children = 4_usize.saturating_pow(spec.options.arap.subdivisions);
         WorkloadKind::Faces.allow(children, progress)?;
     }
@@ -83,7 +89,7 @@ fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<TransitionData
     moved
         .notes
         .extend((parts > 0).then_some(TransitionNote::Unflattened { parts }));
-    let made = TransitionData {
+    let data = TransitionData {
         cell: spec.cell,
         designs: [spec.source.clone(), spec.target.clone()],
         moved,
@@ -92,9 +98,10 @@ fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<TransitionData
         bar_width,
         film: RecordingSlot::default(),
     };
-    Ok(made.coated(&spec.options.coats).timed(&spec.options.parts))
+    Ok(data.coated(&spec.options.coats).timed(&spec.options.parts))
 }
 
+/// Builds the warp of solid designs, their content, and the box around all frames.
 fn solids(
     spec: &TransitionSpec,
     bar_width: f64,
@@ -104,21 +111,28 @@ fn solids(
         WarpKind::Paths => boundary_paths::paths(spec, bar_width, progress)?,
         _ => solids::rigid_parts(spec, bar_width, progress)?,
     };
-    let room = if solid.bars.is_empty() {
+    let bar_margin = if solid.bars.is_empty() {
         0.0
     } else {
         bar_width
     };
     let warp = moved.warp.as_warp();
-    let at_rest = warp.placer();
-    let ends = at_rest.placement();
-    let ends = Bounds::of(ends.in_source.iter().chain(&ends.in_target).copied())
-        .unwrap_or_else(|| unreachable!("a warp of solids has vertices"));
-    let seen = |placement: &Placement, _| Bounds::of(placement.in_frame.iter().copied());
-    let bounds = swept(ends, warp, seen, progress)?;
-    Ok((moved, Content::Solid(solid), bounds.padded(room)))
+    let placer = warp.placer();
+    let placement = placer.placement();
+    let ends = Bounds::of(
+        placement
+            .in_source
+            .iter()
+            .chain(&placement.in_target)
+            .copied(),
+    )
+    .unwrap_or_else(|| unreachable!("a warp of solids has vertices"));
+    let visible_box = |placement: &Placement, _| Bounds::of(placement.in_frame.iter().copied());
+    let bounds = swept(ends, warp, visible_box, progress)?;
+    Ok((moved, Content::Solid(solid), bounds.padded(bar_margin)))
 }
 
+/// Builds distance fields, the warp that carries them, and the box around all frames.
 fn fields(
     spec: &TransitionSpec,
     bar_width: f64,
@@ -130,7 +144,7 @@ fn fields(
     WorkloadKind::Cells.allow(grid.cells(), progress)?;
     let span = |from, to| ProgressSpan::new(progress, from, to);
     let whole = super::distance_fields::whole_fields(spec, grid, bar_width, &span(0.0, 0.4))?;
-    // Over the grid with its margin: a carried field is looked up there too.
+    // The margin of the grid is included, because carried fields are evaluated there too.
     let mut moved = plane::warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
     let placer = moved.warp.as_warp().placer();
     let (painted, note) = super::distance_fields::painted_fields(
@@ -144,20 +158,21 @@ fn fields(
     let is_carried = spec.cell.warp() != WarpKind::None;
     let fields = FieldContent::new(whole, painted, is_carried);
     if spec.options.field.is_switched() {
-        // First, as the fields were made before the warp.
+        // Notes are in the order of the work, and the fields were computed before the warp.
         moved.notes.insert(0, TransitionNote::BinaryBoundary);
     }
     let bounds = if is_carried {
-        let seen = |placement: &Placement, t| {
+        let visible_box = |placement: &Placement, t| {
             Bounds::of(fields.contour(placement, t).into_iter().flatten())
         };
-        swept(frame, moved.warp.as_warp(), seen, progress)?
+        swept(frame, moved.warp.as_warp(), visible_box, progress)?
     } else {
         frame
     };
     Ok((moved, Content::Field(fields), bounds))
 }
 
+/// Builds a pair of pictures, the warp that carries them, and the box around all frames.
 fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<BuiltParts, BuildError> {
     checkpoint(progress, "reading colours", 0.0)?;
     let picture = |design: &Design| {
@@ -167,20 +182,21 @@ fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<BuiltParts,
     let [source, target] = [picture(&spec.source)?, picture(&spec.target)?];
     let bounds = source.bounds().union(&target.bounds());
     let pair = PicturePair::new(&source, &target, spec.options.colours)?;
-    // The mesh reaches beyond what is shown, so that its edge is never seen.
+    // The mesh extends beyond the visible area, so that its border is never seen.
     let frame = bounds.padded(0.02 * bounds.diameter());
     let moved = plane::warp(spec, &frame, 0.0, progress)?;
     Ok((moved, Content::Colours(pair), bounds))
 }
 
-/// The box around `ends` and what is seen in a few frames: a part that swings
-/// may leave the ends' box.
+/// Returns the box around `ends` and a few frames: a part that swings may leave the box of the
+/// ends.
 fn swept(
     ends: Bounds,
     warp: &dyn Warp,
-    seen: impl Fn(&Placement, f64) -> Option<Bounds>,
+    visible_box: impl Fn(&Placement, f64) -> Option<Bounds>,
     progress: &dyn Progress,
 ) -> Result<Bounds, Cancelled> {
+    /// Number of intervals between the sampled frames (heuristic).
     const SAMPLES: u32 = 8;
     let mut placer = warp.placer();
     let mut bounds = ends;
@@ -188,15 +204,15 @@ fn swept(
         still_wanted(progress)?;
         let t = f64::from(i) / f64::from(SAMPLES);
         placer.place(t);
-        if let Some(now) = seen(placer.placement(), t) {
-            bounds = bounds.union(&now);
+        if let Some(frame_box) = visible_box(placer.placement(), t) {
+            bounds = bounds.union(&frame_box);
         }
     }
     Ok(bounds)
 }
 
-/// The rectangle of the fields without their margin: pictures and pages whole,
-/// meshes and trusses with the thickness of their bars.
+/// Returns the rectangle of the distance fields without their margin: whole pictures and pages,
+/// meshes, and trusses with the thickness of their bars.
 pub(crate) fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
     let of = |design: &Design| match design.form {
         DesignForm::Truss(_) => design.extent.padded(0.5 * bar_width),

@@ -1,38 +1,37 @@
-//! What was found for two designs, as text that a document keeps, and what it was
-//! found for.
+//! A cached match of two designs, as text in a document, and the key that identifies its inputs.
 
-use super::arap_build::unsubdivided;
-use super::drawing_pair::DrawingPair;
-use super::options::TransitionOptions;
 use crate::geometry::{DVec2, Regions};
+use crate::transition::arap_build::unsubdivided;
+use crate::transition::drawing_pair::DrawingPair;
+use crate::transition::options::TransitionOptions;
 use fnv::FnvHasher;
 use serde::{Deserialize, Serialize};
 use std::hash::Hasher;
 use std::sync::Arc;
 
-/// Outlines are the same where their coordinates are, to this share of the
-/// designs' diameter: importing on another machine may round a last digit
-/// otherwise.
-const SAME: f64 = 1e-7;
+/// Coordinates are equal up to this fraction of the designs' diameter (tolerance: importing on
+/// another machine may round the last digits differently).
+const COORDINATE_TOLERANCE: f64 = 1e-7;
 
-/// The match and the film that were found for two designs, as text for a
-/// document. Any text will do: what is not sound is not taken.
+/// The match and the solved motion of two designs, as text for a document. Any text is allowed;
+/// invalid text is ignored.
 ///
-/// All are equal: a document says what is asked for, and what was found for it
-/// makes it no other.
+/// All values compare equal: a document is defined by its request, and the cached result does not
+/// make it a different document.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CachedMatch {
-    /// What it was found for.
+    /// Hash of the outlines and options for which it was computed.
     #[serde(rename = "for")]
-    pub(super) of: String,
-    pub(super) film: SharedText,
+    pub(in crate::transition) of: String,
+    /// The match and motion, packed and encoded.
+    pub(in crate::transition) film: SharedText,
 }
 
-/// Text that is cheap to clone: each step of a history has a document.
+/// Shared text, cheap to clone, since each step of the undo history has a document.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
-pub(super) struct SharedText(pub(super) Arc<str>);
+pub(in crate::transition) struct SharedText(pub(in crate::transition) Arc<str>);
 
 impl From<String> for SharedText {
     fn from(text: String) -> Self {
@@ -53,50 +52,55 @@ impl PartialEq for CachedMatch {
 }
 
 impl CachedMatch {
-    /// Whether there is none.
+    /// Returns whether nothing is cached.
     #[must_use]
     pub fn is_none(&self) -> bool {
         self.film.0.is_empty()
     }
 
-    /// Whether it was found for what has this key.
-    pub(super) fn is_for(&self, key: &str) -> bool {
+    /// Returns whether it was computed for the inputs with this key.
+    pub(in crate::transition) fn is_for(&self, key: &str) -> bool {
         !self.is_none() && self.of == key
     }
 }
 
-/// Counted up when a film of the same match and mesh moves otherwise than before: what
-/// was kept is then found anew.
-const FILMS: u32 = 3;
+/// Version of the solver; increased when the motion for the same match and mesh changes, so that
+/// older cached results are computed again.
+const SOLVER_VERSION: u32 = 3;
 
-/// What a film is found for: its outlines and how they look, and the options that it hangs on.
-pub(super) fn cache_key(options: &TransitionOptions, drawings: &DrawingPair) -> String {
+/// Returns the key of a match: a hash of the outlines, their appearance, and all options that
+/// influence the result.
+pub(in crate::transition) fn cache_key(
+    options: &TransitionOptions,
+    drawings: &DrawingPair,
+) -> String {
     let outlines = &drawings.outlines;
     let mut hasher = FnvHasher::default();
-    let asked = (
+    let inputs = (
         &options.matching,
         options.quality,
         &options.triangulation,
         unsubdivided(&options.arap),
-        FILMS,
+        SOLVER_VERSION,
     );
-    // Options are numbers and words; what could not be written has one key.
-    hasher.write(&serde_json::to_vec(&asked).unwrap_or_default());
+    // Options are always serialisable; otherwise, all would share one key.
+    hasher.write(&serde_json::to_vec(&inputs).unwrap_or_default());
     hasher.write(options.guard.to_string().as_bytes());
     let bounds = outlines.each_ref().map(Regions::bounds);
     let bounds = bounds[0].union(&bounds[1]);
-    let step = SAME * bounds.diameter();
+    let step = COORDINATE_TOLERANCE * bounds.diameter();
     for ring in outlines.iter().flat_map(Regions::rings) {
         hasher.write_usize(ring.points().len());
         for &point in ring.points() {
-            // Drawings lie on grids: half a step would be on the edge of two.
+            // Offset by an irrational fraction, because coordinates often lie on a grid, whose
+            // points must not be at the boundary of two steps.
             let from_corner = (point - bounds.min) / step + DVec2::splat(0.381_966);
             hasher.write_i64(from_corner.x.floor() as i64);
             hasher.write_i64(from_corner.y.floor() as i64);
         }
     }
-    // Nothing of drawings in one colour, so that what was found before they had
-    // others is taken.
+    // Nothing is added for drawings in one colour, so that results cached before colours existed
+    // stay valid.
     for look in drawings.looks.0.iter().flatten() {
         hasher.write_usize(look.coat);
         let paint = look

@@ -1,10 +1,9 @@
-//! Which pieces of a film are in each other's way, and which of them to let
-//! go so that the others are not.
+//! Finds the pieces that collide on the way, and a small set of them whose removal resolves all
+//! collisions.
 //!
-//! Looked at at a few steps: what is crossed between two is missed. The
-//! pieces let go are a cover of the pairs in conflict, found by taking the one
-//! with the most conflicts for its area first (the greedy cover of Chvátal
-//! 1979): small, not the smallest.
+//! The motion is sampled at a few steps: collisions between two steps are missed. The set is a
+//! vertex cover of the colliding pairs, found greedily: the piece with the most collisions per area
+//! first (Chvátal 1979). It is small, but not always the smallest.
 
 use super::transients::boundary_loops::SharedPartLoops;
 use super::transients::holes::PieceHole;
@@ -15,40 +14,45 @@ use crate::warp::{Arap, Warp};
 use crate::work::progress::{Cancelled, Progress, still_wanted};
 use std::collections::BTreeSet;
 
-/// Steps of a film that is looked at.
+/// Number of even time steps at which collisions are detected (resource limit).
 const STEPS: u32 = 32;
 
-/// The pieces to let go; none where no two parts of both designs meet that are on
-/// one level.
+/// Returns the pieces to unpair; none if no matched pieces of the same layer collide.
+///
+/// # Errors
+/// [`Cancelled`] if the work is cancelled.
 pub(super) fn pieces_to_release(
     matched: &RegionMatch,
-    film: &Arap,
-    (holes, levels): (&[PieceHole], &PieceLayers),
+    motion: &Arap,
+    (holes, layers): (&[PieceHole], &PieceLayers),
     progress: &dyn Progress,
 ) -> Result<Vec<usize>, Cancelled> {
-    let mut conflicts = conflicts(film, holes, progress)?;
-    conflicts.retain(|pair| levels.of_piece(pair[0]) == levels.of_piece(pair[1]));
+    let mut conflicts = conflicts(motion, holes, progress)?;
+    conflicts.retain(|pair| layers.of_piece(pair[0]) == layers.of_piece(pair[1]));
     Ok(cover(conflicts, &piece_weights(matched)))
 }
 
-/// The pairs of pieces that cross at any step, those that are born or die
-/// left out: where these are is not settled yet.
+/// Returns the pairs of pieces that cross at some step. Unmatched pieces are excluded, because they
+/// are placed later.
+///
+/// # Errors
+/// [`Cancelled`] if the work is cancelled.
 fn conflicts(
-    film: &Arap,
+    motion: &Arap,
     holes: &[PieceHole],
     progress: &dyn Progress,
 ) -> Result<BTreeSet<[usize; 2]>, Cancelled> {
-    let walks = SharedPartLoops::of(film);
-    let mut placer = film.placer();
-    let mut found = BTreeSet::new();
+    let loops = SharedPartLoops::of(motion);
+    let mut placer = motion.placer();
+    let mut pairs = BTreeSet::new();
     for step in 1..STEPS {
         still_wanted(progress)?;
         let t = f64::from(step) / f64::from(STEPS);
         placer.place(t);
-        let places = &placer.placement().in_frame;
-        let (mut rings, mut pieces) = (walks.rings(places), walks.pieces().to_vec());
+        let positions = &placer.placement().in_frame;
+        let (mut rings, mut pieces) = (loops.rings(positions), loops.pieces().to_vec());
         for (piece, hole) in holes {
-            if let Some(ring) = hole.at(places, t) {
+            if let Some(ring) = hole.at(positions, t) {
                 rings.push(ring);
                 pieces.push(*piece);
             }
@@ -56,50 +60,53 @@ fn conflicts(
         for crossing in crossings(&rings) {
             let [a, b] = crossing.edges.map(|edge| pieces[edge.ring]);
             if a != b {
-                found.insert([a.min(b), a.max(b)]);
+                pairs.insert([a.min(b), a.max(b)]);
             }
         }
     }
-    Ok(found)
+    Ok(pairs)
 }
 
-/// What each piece is worth: the mean of both designs' shares of what the
-/// outer rings enclose. A badge is worth as much as what it goes around, which
-/// can grow in it while it cannot grow around that.
+/// Returns the weight of each piece: the mean of its shares of both designs, by the area that its
+/// outer ring encloses. A ring weighs as much as everything inside it: the inside can appear within
+/// the ring, but the ring cannot appear around the inside.
 pub(super) fn piece_weights(matched: &RegionMatch) -> Vec<f64> {
-    let shares = |side: Side| -> Vec<f64> {
-        let outer = |piece: &PieceMatch| {
+    let shares_in = |side: Side| -> Vec<f64> {
+        let enclosed_area = |piece: &PieceMatch| {
             let ring = piece.rings.first();
             ring.map_or(0.0, |r| signed_area([&r.source, &r.target][side]))
         };
-        let areas: Vec<f64> = matched.pieces.iter().map(outer).collect();
+        let areas: Vec<f64> = matched.pieces.iter().map(enclosed_area).collect();
         let total: f64 = areas.iter().sum();
         areas.into_iter().map(|area| area / total).collect()
     };
-    let [a, b] = Side::BOTH.map(shares);
+    let [a, b] = Side::BOTH.map(shares_in);
     a.iter().zip(&b).map(|(a, b)| 0.5 * (a + b)).collect()
 }
 
-/// Pieces without which no conflict is left, ascending.
-fn cover(mut conflicts: BTreeSet<[usize; 2]>, worths: &[f64]) -> Vec<usize> {
-    let mut gone = Vec::new();
+/// Returns pieces whose removal leaves no conflict, in ascending order.
+fn cover(mut conflicts: BTreeSet<[usize; 2]>, weights: &[f64]) -> Vec<usize> {
+    let mut removed = Vec::new();
     while !conflicts.is_empty() {
-        let worth = |k: usize| {
+        let conflicts_per_weight = |k: usize| {
             let count = conflicts.iter().filter(|pair| pair.contains(&k)).count();
-            count as f64 / worths[k]
+            count as f64 / weights[k]
         };
-        let members: BTreeSet<usize> = conflicts.iter().flatten().copied().collect();
-        let Some(worst) = members
-            .into_iter()
-            .reduce(|a, b| if worth(b) > worth(a) { b } else { a })
-        else {
+        let pieces: BTreeSet<usize> = conflicts.iter().flatten().copied().collect();
+        let Some(next_piece) = pieces.into_iter().reduce(|a, b| {
+            if conflicts_per_weight(b) > conflicts_per_weight(a) {
+                b
+            } else {
+                a
+            }
+        }) else {
             break;
         };
-        conflicts.retain(|pair| !pair.contains(&worst));
-        gone.push(worst);
+        conflicts.retain(|pair| !pair.contains(&next_piece));
+        removed.push(next_piece);
     }
-    gone.sort_unstable();
-    gone
+    removed.sort_unstable();
+    removed
 }
 
 #[cfg(test)]
@@ -107,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_small_one_that_meets_many_goes_before_the_large_ones() {
+    fn a_small_piece_with_many_conflicts_is_removed_before_large_ones() {
         let conflicts = BTreeSet::from([[0, 2], [1, 2], [0, 3]]);
         assert_eq!(cover(conflicts, &[0.4, 0.4, 0.1, 0.1]), [2, 3]);
         assert_eq!(cover(BTreeSet::new(), &[]), Vec::<usize>::new());

@@ -1,37 +1,35 @@
-//! How unlike designs are laid into one frame.
+//! Places designs in one common frame.
 
 use crate::design::{Design, DesignForm};
 use crate::geometry::{Bounds, DVec2, Similarity, SimilarityError, twice_signed_area};
-use crate::settings::choice::named;
+use crate::settings::named;
 use std::sync::Arc;
 
-/// How the other designs are fitted to the first, before each design's own
-/// placement.
+/// How the other designs are fitted to the first, before each design's own placement is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DesignFit {
-    /// Coordinates as they stand in the files; photographs, which have none,
-    /// middle on middle.
+    /// Coordinates as in the files; the centres of photographs, which have no coordinates, are
+    /// aligned.
     #[default]
     AsDrawn,
-    /// The middles of both boxes meet.
+    /// The centres of the bounding boxes are aligned.
     Centred,
-    /// As centred, and scaled to the first design's area; for a truss
-    /// to its size.
+    /// As [`Self::Centred`], and scaled to the first design's area; trusses to its diameter.
     SameArea,
 }
 
 named! { DesignFit {
-    AsDrawn: "as-drawn", "As drawn", "Where the files have them";
-    Centred: "centred", "Centred", "Centre on centre, sizes as drawn";
-    SameArea: "same-area", "Same area", "Centre on centre, scaled to one area";
+    AsDrawn: "as-drawn", "As drawn", "Uses the coordinates in the files";
+    Centred: "centred", "Centred", "Aligns the centres and keeps the sizes";
+    SameArea: "same-area", "Same area", "Aligns the centres and scales to equal area";
 } }
 
-/// A design laid into the frame of another: fitted to that one, then placed about its
-/// own middle. The design that others are fitted to is laid into its own.
+/// Places a design in the frame of the first one: fits it to that one, then applies its own
+/// placement about its own centre. The first design itself is placed in the same way.
 ///
 /// # Errors
-/// A placement that is not a similarity, or that leads out of range.
+/// If the placement is not a similarity, or leads out of the coordinate range.
 pub fn place_in_frame(
     design: &Arc<Design>,
     (first, fit): (&Design, DesignFit),
@@ -39,20 +37,21 @@ pub fn place_in_frame(
 ) -> Result<Arc<Design>, SimilarityError> {
     let by = frame_similarity(design, (first, fit), place)?;
     by.check_on(&extent(design))?;
-    Ok(laid(design, by))
+    Ok(transformed(design, by))
 }
 
-/// What lays a design into the frame of another: [`place_in_frame`] applies it.
+/// Returns the similarity that places a design in the frame of the first one; [`place_in_frame`]
+/// applies it.
 ///
 /// # Errors
-/// A placement that is not a similarity.
+/// If the placement is not a similarity.
 pub fn frame_similarity(
     design: &Design,
     (first, fit): (&Design, DesignFit),
     place: Similarity,
 ) -> Result<Similarity, SimilarityError> {
-    // By the form's box: pictures have margins that nobody means.
-    let to_middle = middle(first) - middle(design);
+    // Use the box of the form: the margins of pictures are meaningless.
+    let to_centre = form_centre(first) - form_centre(design);
     let fitted = match fit {
         DesignFit::AsDrawn => Similarity {
             offset: photographs([first, design])
@@ -60,43 +59,44 @@ pub fn frame_similarity(
             ..Similarity::IDENTITY
         },
         DesignFit::Centred => Similarity {
-            offset: to_middle,
+            offset: to_centre,
             ..Similarity::IDENTITY
         },
         DesignFit::SameArea => scaled_to(first, design)?,
     };
-    let centre = fitted.apply(middle(design));
+    let centre = fitted.apply(form_centre(design));
     let place = about(centre, place.checked()?);
     if fitted == Similarity::IDENTITY {
-        return Ok(place); // the first design keeps its last bit
+        return Ok(place); // no rounding for the first design
     }
     Ok(place.after(&fitted))
 }
 
-/// The boxes of two photographs. They are drawn nowhere: that their lower left
-/// corners lie on each other means nothing, and cuts them on the other sides.
+/// Returns the boxes of two designs if both are photographs. Photographs have no coordinates of
+/// their own; aligning their lower left corners would crop them on the other sides.
 fn photographs(designs: [&Design; 2]) -> Option<[Bounds; 2]> {
-    let [a, b] = designs.map(|design| {
+    let [first, second] = designs.map(|design| {
         let picture = design.picture.as_ref();
         picture.filter(|picture| picture.is_photograph())
     });
-    Some([a?.bounds(), b?.bounds()])
+    Some([first?.bounds(), second?.bounds()])
 }
 
+/// Returns the similarity that aligns the centres and scales `design` to the size of `first`.
 fn scaled_to(first: &Design, design: &Design) -> Result<Similarity, SimilarityError> {
-    let scale = (size(first) / size(design)).sqrt();
+    let scale = (form_area(first) / form_area(design)).sqrt();
     Similarity {
         scale,
-        offset: middle(first) - middle(design) * scale,
+        offset: form_centre(first) - form_centre(design) * scale,
         ..Similarity::IDENTITY
     }
     .checked()
 }
 
-/// The placement with `centre` in the role of the origin.
+/// Returns the placement with `centre` in the role of the origin.
 fn about(centre: DVec2, placement: Similarity) -> Similarity {
     if placement == Similarity::IDENTITY {
-        return placement; // designs as drawn keep their last bit
+        return placement; // no rounding for designs as drawn
     }
     Similarity {
         offset: placement.offset + centre - placement.linear() * centre,
@@ -104,7 +104,8 @@ fn about(centre: DVec2, placement: Similarity) -> Similarity {
     }
 }
 
-fn laid(design: &Arc<Design>, by: Similarity) -> Arc<Design> {
+/// Transforms a design; returns the same one for the identity.
+fn transformed(design: &Arc<Design>, by: Similarity) -> Arc<Design> {
     if by == Similarity::IDENTITY {
         Arc::clone(design)
     } else {
@@ -112,7 +113,7 @@ fn laid(design: &Arc<Design>, by: Similarity) -> Arc<Design> {
     }
 }
 
-/// The box around the form itself, not around its picture.
+/// Returns the box around the form itself, not around its picture.
 pub(super) fn extent(design: &Design) -> Bounds {
     match &design.form {
         DesignForm::Outline(regions) => regions.bounds(),
@@ -121,12 +122,13 @@ pub(super) fn extent(design: &Design) -> Bounds {
     }
 }
 
-fn middle(design: &Design) -> DVec2 {
+/// Returns the centre of the form's box.
+fn form_centre(design: &Design) -> DVec2 {
     extent(design).centre()
 }
 
-/// Area, or for a truss the square of its diameter.
-fn size(design: &Design) -> f64 {
+/// Returns the area; for a truss the square of its diameter.
+fn form_area(design: &Design) -> f64 {
     match &design.form {
         DesignForm::Outline(regions) => regions.area(),
         DesignForm::Mesh(mesh) => {

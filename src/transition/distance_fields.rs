@@ -1,4 +1,4 @@
-//! The distance fields of two designs, measured.
+//! The distance fields of two designs.
 
 use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
@@ -16,7 +16,10 @@ use crate::warp::Placement;
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::{Progress, ProgressSpan, checkpoint, still_wanted};
 
-/// The fields of all that the designs cover.
+/// Computes the distance fields of the whole designs.
+///
+/// # Errors
+/// If an outline or a field cannot be computed, or the work is cancelled.
 pub(super) fn whole_fields(
     spec: &TransitionSpec,
     grid: Grid,
@@ -26,7 +29,7 @@ pub(super) fn whole_fields(
     let measured = |side: Side, design, progress: &ProgressSpan| {
         let outline = outline(design, bar_width, progress)?;
         let field = distance_field(&outline, grid, &spec.options.field, progress);
-        field.map_err(|error| of_side(side, error))
+        field.map_err(|error| error_of_design(side, error))
     };
     let first = ProgressSpan::new(progress, 0.0, 0.5);
     let source = measured(Side::Source, &spec.source, &first)?;
@@ -37,11 +40,16 @@ pub(super) fn whole_fields(
     Ok(FieldPair::new(source, target, spec.options.field.blend)?)
 }
 
-/// What is painted in several colours, and what could not be as it was asked for.
+/// Distance fields of each paint, if the designs have several, and a note if they could not be
+/// computed as requested.
 type PaintedFieldsResult = (Option<PaintedFields>, Option<TransitionNote>);
 
-/// The fields of each paint, where the drawings have some and are shown in it. Parts are
-/// paired as rigid parts are; gradients go with the vertices of the frame.
+/// Computes the distance fields of each paint, if the drawings are shown in their own paint. Parts
+/// are paired as for rigid parts; gradients move with the vertices of the frame.
+///
+/// # Errors
+/// If outlines or fields cannot be computed, or the work is cancelled. Drawings with too many
+/// paints or parts are not an error, but a note.
 pub(super) fn painted_fields(
     spec: &TransitionSpec,
     grid: &Grid,
@@ -61,11 +69,11 @@ pub(super) fn painted_fields(
         Err(error) => return Err(error),
     };
     let outlines = drawings.outlines.each_ref();
-    // Fields need no match: what was said of one that cannot be is no reason to fail.
+    // Fields need no match, so an impossible requested pairing is no reason to fail.
     let pairs = paired_parts(outlines, &drawings.looks, &spec.options.matching)
         .or_else(|_| paired_parts(outlines, &drawings.looks, &MatchSettings::default()))?;
-    let levels = PieceLayers::of_parts(pairs.iter().copied(), &drawings.looks);
-    let count = levels.coats.len();
+    let layers = PieceLayers::of_parts(pairs.iter().copied(), &drawings.looks);
+    let count = layers.coats.len();
     if WorkloadKind::Cells
         .allow(count * grid.cells(), progress)
         .is_err()
@@ -74,20 +82,20 @@ pub(super) fn painted_fields(
     }
     let fields = (0..count).map(|level| {
         checkpoint(progress, "measuring distances", level as f64 / count as f64)?;
-        let of_level = pairs.iter().enumerate();
-        let of_level = of_level.filter(|(piece, _)| levels.of_piece(*piece) == level);
-        let of_level: Vec<_> = of_level.map(|(_, parts)| *parts).collect();
+        let pieces = pairs.iter().enumerate();
+        let in_layer = pieces.filter(|(piece, _)| layers.of_piece(*piece) == level);
+        let parts_of_layer: Vec<_> = in_layer.map(|(_, parts)| *parts).collect();
         let [source, target] = Side::BOTH.map(|side| {
-            let parts = parts_of(&drawings, &of_level, side);
-            parts.map(|parts| coat(side, &parts, *grid, &spec.options.field, progress))
+            let parts = parts_of(&drawings, &parts_of_layer, side);
+            parts.map(|parts| layer_field(side, &parts, *grid, &spec.options.field, progress))
         });
         Ok([source.transpose()?.flatten(), target.transpose()?.flatten()])
     });
     let fields = fields.collect::<Result<Vec<_>, BuildError>>()?;
-    let along: Vec<u32> = (0..frame.in_frame.len() as u32).collect();
+    let all_vertices: Vec<u32> = (0..frame.in_frame.len() as u32).collect();
     let places: [&[_]; 2] = [&frame.in_source, &frame.in_target];
     let coating = PaintLayerStack {
-        coats: coats(&drawings, &levels, |_| along.clone(), places),
+        coats: coats(&drawings, &layers, |_| all_vertices.clone(), places),
         of_walks: Vec::new(),
         of_holes: Vec::new(),
         lone_walks: Vec::new(),
@@ -98,7 +106,7 @@ pub(super) fn painted_fields(
     Ok((Some(painted), None))
 }
 
-/// The parts of one design among pieces that go from one part to one part.
+/// Returns the parts of one design that belong to these pairs of parts.
 fn parts_of(drawings: &DrawingPair, pieces: &[[Option<usize>; 2]], side: Side) -> Option<Regions> {
     let mut parts: Vec<usize> = pieces.iter().filter_map(|piece| piece[side]).collect();
     parts.sort_unstable();
@@ -106,8 +114,12 @@ fn parts_of(drawings: &DrawingPair, pieces: &[[Option<usize>; 2]], side: Side) -
     drawings.outlines[side].only(&parts)
 }
 
-/// The field of a coat; none where all of it is too thin for the cells.
-fn coat(
+/// Computes the distance field of a paint layer; `None` if all of it is thinner than the grid
+/// cells.
+///
+/// # Errors
+/// If the field cannot be computed otherwise, or the work is cancelled.
+fn layer_field(
     side: Side,
     parts: &Regions,
     grid: Grid,
@@ -117,10 +129,14 @@ fn coat(
     match distance_field(parts, grid, options, progress) {
         Ok(field) => Ok(Some(field)),
         Err(FieldError::Mask(_)) => Ok(None),
-        Err(error) => Err(of_side(side, error)),
+        Err(error) => Err(error_of_design(side, error)),
     }
 }
 
+/// Computes a distance field as the options request: exact, or from pixels.
+///
+/// # Errors
+/// [`FieldError`] if the grid is unsuitable or the work is cancelled.
 pub(crate) fn distance_field(
     regions: &Regions,
     grid: Grid,
@@ -134,7 +150,8 @@ pub(crate) fn distance_field(
     }
 }
 
-fn of_side(side: Side, error: FieldError) -> BuildError {
+/// Adds the design to an error.
+fn error_of_design(side: Side, error: FieldError) -> BuildError {
     match error {
         FieldError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),
         error => BuildError::Field { side, error },

@@ -1,21 +1,22 @@
-//! Designs as they are matched: all parts of all coats, and how they look.
+//! Two designs in the form in which they are matched: all parts of all paint layers, with their
+//! appearance.
 
 use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::correspondence::{PartLook, PartLooks};
 use crate::design::PaintLayer;
 use crate::geometry::Regions;
 
-/// Two designs as they are matched.
+/// Two designs in the form in which they are matched.
 pub(super) struct DrawingPair {
-    /// All parts, of all coats.
+    /// Outlines of all parts of all paint layers.
     pub outlines: [Regions; 2],
-    /// Empty where neither design is shown in its own paint.
+    /// Appearance of each part; empty if neither design is shown in its own paint.
     pub looks: PartLooks,
-    /// The inks of each coat, the lowest first; none of such designs.
+    /// Ink of each paint layer, the lowest first; empty for designs without paint.
     pub inks: [Vec<LayerInk>; 2],
 }
 
-/// Paint, gradient and line of a coat.
+/// Paint, gradient and stroke of a paint layer.
 #[derive(Clone, Default)]
 pub(super) struct LayerInk {
     pub paint: Option<Paint>,
@@ -24,7 +25,7 @@ pub(super) struct LayerInk {
 }
 
 impl DrawingPair {
-    /// Of coats of paint, the lowest first; `None` of a design without any.
+    /// Combines paint layers, the lowest first; `None` if one design has none.
     pub(super) fn of(coats: [Vec<PaintLayer>; 2]) -> Option<Self> {
         let [source, target] = &coats;
         let outlines = [stacked(source)?, stacked(target)?];
@@ -40,7 +41,7 @@ impl DrawingPair {
         })
     }
 
-    /// Of the outlines of designs that are shown in one colour.
+    /// Combines the outlines of designs that are shown in one colour.
     pub(super) fn plain(outlines: [Regions; 2]) -> Self {
         Self {
             outlines,
@@ -50,20 +51,22 @@ impl DrawingPair {
     }
 }
 
+/// Returns the outlines of all layers as one list of parts.
 fn stacked(coats: &[PaintLayer]) -> Option<Regions> {
     Regions::stacked(coats.iter().map(|coat| coat.regions.clone()))
 }
 
+/// Returns the appearance of each part of each layer.
 fn looks_of(coats: &[PaintLayer]) -> Vec<PartLook> {
-    let top = coats.len().saturating_sub(1).max(1) as f64;
+    let top_index = coats.len().saturating_sub(1).max(1) as f64;
     let coats = coats.iter().enumerate();
     let looks = coats.flat_map(|(k, coat)| {
         let look = PartLook {
             coat: k,
-            height: k as f64 / top,
+            height: k as f64 / top_index,
             paint: coat.paint,
             is_lined: coat.line.is_some(),
-            name: given_name(&coat.name),
+            name: author_name(&coat.name),
             is_text: coat.is_text,
         };
         std::iter::repeat_n(look, coat.regions.len())
@@ -71,17 +74,17 @@ fn looks_of(coats: &[PaintLayer]) -> Vec<PartLook> {
     looks.collect()
 }
 
-/// What drawing programs call things by themselves.
-const KINDS: [&str; 12] = [
+/// Names that drawing programs assign automatically; they say nothing about what is drawn.
+const AUTOMATIC_NAMES: [&str; 12] = [
     "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "shape", "vector", "layer",
     "group", "g",
 ];
 
-/// A name that somebody gave; nothing of one that a program counted, which says
-/// as little of another drawing's.
-fn given_name(name: &str) -> String {
+/// Returns the name if the author chose it. Automatic names, which contain numbers or the kind of
+/// shape, become empty: they have no meaning in another drawing.
+fn author_name(name: &str) -> String {
     let is_counted = name.contains(|c: char| c.is_ascii_digit());
-    let is_kind = KINDS.contains(&name.to_ascii_lowercase().as_str());
+    let is_kind = AUTOMATIC_NAMES.contains(&name.to_ascii_lowercase().as_str());
     let given = if is_counted || is_kind { "" } else { name };
     given.to_owned()
 }

@@ -1,4 +1,4 @@
-//! Why there is no transition.
+//! Why a transition could not be built.
 
 use super::method::UnsupportedMethod;
 use crate::compatible::{CompatibleError, FramePinsError, OutlineMeshError};
@@ -22,23 +22,23 @@ pub enum BuildError {
     /// The warp and the content do not go together.
     #[error(transparent)]
     NoSuchCell(#[from] UnsupportedMethod),
-    /// Which designs do not go together, and why.
+    /// Another error, with the names of the designs.
     #[error("{}", SanitizedLine(format_args!("{source_name} to {target_name}: {error}")))]
     Between {
         /// Name of the source.
         source_name: String,
         /// Name of the target.
         target_name: String,
-        /// What does not fit.
+        /// The error.
         error: Box<BuildError>,
     },
     /// The designs do not share a triangulation.
     #[error(transparent)]
     Compatible(#[from] CompatibleError),
-    /// The outlines were not matched.
+    /// The outlines could not be matched.
     #[error(transparent)]
     Match(#[from] RegionMatchError),
-    /// The matched outlines were not triangulated.
+    /// The matched outlines could not be triangulated.
     #[error(transparent)]
     Triangulation(#[from] OutlineMeshError),
     /// The rigidity-preserving interpolation failed.
@@ -47,51 +47,51 @@ pub enum BuildError {
     /// A design has no outline.
     #[error(transparent)]
     Outline(#[from] RegionsError),
-    /// The frame has no grid.
+    /// The frame could not be covered by a grid.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// A distance field could not be made.
+    /// A distance field could not be computed.
     #[error("the {side}: {error}")]
     Field {
-        /// Of which design.
+        /// The design.
         side: Side,
-        /// What went wrong.
+        /// The error.
         error: FieldError,
     },
     /// ε or the threshold is out of range.
     #[error(transparent)]
     Blend(#[from] FieldPairError),
-    /// The span in which colours change is none.
+    /// The interval in which colours change is empty.
     #[error(transparent)]
     Colours(#[from] ColourMixError),
     /// The frame could not be triangulated with its pins.
     #[error(transparent)]
     Frame(#[from] FramePinsError),
-    /// The warp by lines could not be made.
+    /// The line warp could not be built.
     #[error(transparent)]
     Lines(#[from] LinesError),
-    /// The warp by scattered points could not be made.
+    /// The scattered-point warp could not be built.
     #[error(transparent)]
     Scattered(#[from] ScatteredError),
-    /// The warp by lattices could not be made.
+    /// The lattice warp could not be built.
     #[error(transparent)]
     Lattice(#[from] LatticeError),
-    /// The boundary paths could not be made.
+    /// The boundary paths could not be built.
     #[error(transparent)]
     Paths(#[from] PathsError),
-    /// The width of bars is no positive number.
+    /// The bar width is not a fraction between 0 and 1.
     #[error("the bar width {0} is not between 0 and 1; give a fraction of the design's size")]
     BarWidth(f64),
-    /// It would take very long, or very much memory.
+    /// The work would take very long or very much memory.
     #[error(transparent)]
     TooMuch(#[from] WorkloadTooLarge),
-    /// Nobody wants the result.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
 impl BuildError {
-    /// The same with the names of the designs.
+    /// Adds the names of the designs.
     pub(super) fn between(self, source: &Design, target: &Design) -> Self {
         Self::Between {
             source_name: source.name.clone(),
@@ -100,7 +100,7 @@ impl BuildError {
         }
     }
 
-    /// What does not fit, whatever the designs are called.
+    /// Returns the underlying error, without the names of the designs.
     #[must_use]
     pub fn reason(&self) -> &Self {
         match self {

@@ -1,4 +1,4 @@
-//! One moment of a transition.
+//! A transition at one moment, and its appearance as polygons and bars.
 
 use super::lazy_placement::LazyPlacement;
 use super::options::TransitionOptions;
@@ -12,79 +12,79 @@ use image::RgbaImage;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A transition at one t, unevaluated: a placement and a place in the mix.
+/// A transition at one t, unevaluated: a placement, and the t at which contents are mixed.
 #[derive(Debug)]
 pub struct Frame {
     transition: Transition,
     places: LazyPlacement,
 }
 
-/// What a frame looks like, evaluated on the CPU.
+/// The appearance of a frame, evaluated on the CPU.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VectorFigure {
-    /// Closed polygons, to be filled together by the non-zero rule; or coat by
-    /// coat where there are coats.
+    /// Closed polygons. All are filled together by the non-zero rule; if there are paint layers,
+    /// those of each layer are.
     pub rings: Vec<Vec<DVec2>>,
-    /// What is painted in colours of its own, the lowest first: all rings, or
-    /// none.
+    /// Paint layers, the lowest first; they contain all rings. Empty if the figure has no colours
+    /// of its own.
     pub coats: Vec<FigureLayer>,
-    /// Bars, from end to end.
+    /// Bars, from one end to the other.
     pub bars: Vec<[DVec2; 2]>,
-    /// For each bar its paints in source and target, or empty.
+    /// Paints of each bar in source and target; or empty.
     pub bar_paints: Vec<[Option<Paint>; 2]>,
-    /// Width of the bars, in units of the designs.
+    /// Width of the bars in units of the designs.
     pub bar_width: f64,
 }
 
-/// Rings of a figure that are painted alike.
+/// A paint layer of a figure: rings that are painted alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureLayer {
-    /// Their indices.
+    /// Indices of the rings.
     pub rings: Range<usize>,
-    /// Their paint in source and target; see [`Style::paint_at`].
+    /// Paints in source and target; see [`TransitionStyle::paint_at`].
     ///
-    /// [`Style::paint_at`]: super::Style::paint_at
+    /// [`TransitionStyle::paint_at`]: super::TransitionStyle::paint_at
     pub paints: [Option<Paint>; 2],
-    /// Those that their paints are the means of, where they are here; see
-    /// [`Style::gradient_at`].
+    /// Gradients in source and target, if any; the paints are their mean colours. See
+    /// [`TransitionStyle::gradient_at`].
     ///
-    /// [`Style::gradient_at`]: super::Style::gradient_at
+    /// [`TransitionStyle::gradient_at`]: super::TransitionStyle::gradient_at
     pub gradients: [Option<Gradient>; 2],
-    /// The line along them in source and target; see [`StrokeStyle::between`].
+    /// Stroke along the rings in source and target; see [`StrokeStyle::between`].
     pub lines: [Option<StrokeStyle>; 2],
-    /// The time that they show, by which all that is mixed: that of the frame,
-    /// unless parts have times of their own.
+    /// t at which paints, gradients and lines are mixed: that of the frame, unless parts have
+    /// timings of their own.
     pub t: f64,
 }
 
 impl Transition {
-    /// A frame at `t`, with memory of its own. Outside [0, 1] it
-    /// extrapolates; a `t` that is not finite counts as 0.
+    /// Creates a frame at `t`, with its own memory. Outside [0, 1] it extrapolates; a `t` that is
+    /// not finite counts as 0.
     #[must_use]
     pub fn frame(&self, t: f64) -> Frame {
         let mut frame = Frame {
-            places: LazyPlacement::new(self.player(), 0.0),
+            places: LazyPlacement::new(self.playing_placer(), 0.0),
             transition: self.clone(),
         };
         frame.seek(t);
         frame
     }
 
-    /// Plays the film, where there is one, and else the warp.
-    fn player(&self) -> Placer {
-        let film = Arc::clone(self.slot());
-        let play = move |t: f64, placement: &mut Placement| match film.get() {
-            Some(Ok(film)) => film.place(t, placement),
+    /// Returns a placer that evaluates the recording if there is one, otherwise the warp.
+    fn playing_placer(&self) -> Placer {
+        let recording = Arc::clone(self.slot());
+        let play = move |t: f64, placement: &mut Placement| match recording.get() {
+            Some(Ok(recording)) => recording.place(t, placement),
             _ => false,
         };
         self.warp().placer().after(play)
     }
 
-    /// Source and target as they were given, for ghosts behind the frames.
+    /// Returns source and target as given, to be drawn behind the frames.
     #[must_use]
     pub fn outlines(&self) -> [VectorFigure; 2] {
         let designs = self.designs().each_ref();
-        designs.map(|design| ghost(design, self.bar_width()))
+        designs.map(|design| design_figure(design, self.bar_width()))
     }
 }
 
@@ -92,41 +92,39 @@ impl Frame {
     /// Moves to `t` without allocating. A `t` that is not finite counts as 0.
     pub fn seek(&mut self, t: f64) {
         self.turn(t);
-        self.places.placement(|| self.transition.player());
+        self.places.placement(|| self.transition.playing_placer());
     }
 
-    /// The same, but that vertices are placed when somebody reads them, if anybody
-    /// does.
+    /// Moves to `t`; vertices are only placed when their positions are read.
     pub(crate) fn turn(&mut self, t: f64) {
         self.places.turn(if t.is_finite() { t } else { 0.0 });
     }
 
-    /// The blend parameter.
+    /// Returns the blend parameter t.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.places.t()
     }
 
-    /// Whether t lies outside [0, 1].
+    /// Returns whether t lies outside [0, 1].
     #[must_use]
     pub fn is_extrapolated(&self) -> bool {
         !(0.0..=1.0).contains(&self.t())
     }
 
-    /// Where the vertices are.
+    /// Returns the positions of the vertices.
     #[must_use]
     pub fn placement(&self) -> &Placement {
-        self.places.placement(|| self.transition.player())
+        self.places.placement(|| self.transition.playing_placer())
     }
 
-    /// What this is a frame of.
+    /// Returns the transition.
     #[must_use]
     pub fn transition(&self) -> &Transition {
         &self.transition
     }
 
-    /// The frame as polygons and bars; of pictures the rectangle that they
-    /// fill.
+    /// Evaluates the frame as polygons and bars; for pictures, the rectangle that they fill.
     #[must_use]
     pub fn figure(&self) -> VectorFigure {
         match self.transition.content() {
@@ -144,7 +142,7 @@ impl Frame {
         }
     }
 
-    /// With the rings of this frame, coat by coat.
+    /// Adds the rings of this frame, paint layer by paint layer.
     fn coated(&self, mut figure: VectorFigure) -> VectorFigure {
         let content = self.transition.content();
         for inked in content.coated_at(self.placement(), self.t()) {
@@ -163,8 +161,7 @@ impl Frame {
         figure
     }
 
-    /// The frame as pixels, where pictures are what is seen: sRGB with
-    /// straight alpha.
+    /// Renders the frame as sRGB pixels with straight alpha; `None` unless the content is pictures.
     #[must_use]
     pub fn picture(&self, raster: &PictureRaster) -> Option<RgbaImage> {
         match self.transition.content() {
@@ -175,12 +172,12 @@ impl Frame {
 }
 
 impl VectorFigure {
-    /// A design on its own, in its own paint where it has some, and else in that
-    /// of the style at `t`.
+    /// Returns the appearance of a design in its own paint; without paint, in that of the style at
+    /// `t`.
     #[must_use]
     pub fn of(design: &Design, t: f64) -> Self {
         if design.coats.is_empty() {
-            return ghost(
+            return design_figure(
                 design,
                 TransitionOptions::default().bar_width * design.extent.diameter(),
             );
@@ -202,18 +199,23 @@ impl VectorFigure {
     }
 }
 
-/// A design on its own.
-fn ghost(design: &Design, bar_width: f64) -> VectorFigure {
-    let rings = |walks: Vec<&[DVec2]>| walks.into_iter().map(<[DVec2]>::to_vec).collect();
+/// Returns the appearance of a design without paint layers.
+fn design_figure(design: &Design, bar_width: f64) -> VectorFigure {
+    let rings = |loops: Vec<&[DVec2]>| loops.into_iter().map(<[DVec2]>::to_vec).collect();
     match &design.form {
         DesignForm::Outline(regions) => VectorFigure {
             rings: rings(regions.rings().map(|ring| ring.points()).collect()),
             ..VectorFigure::default()
         },
         DesignForm::Mesh(mesh) => {
-            let at = |walk: Vec<u32>| walk.iter().map(|&v| mesh.positions()[v as usize]).collect();
+            let positions = |boundary_loop: Vec<u32>| {
+                boundary_loop
+                    .iter()
+                    .map(|&v| mesh.positions()[v as usize])
+                    .collect()
+            };
             VectorFigure {
-                rings: mesh.boundary_loops().into_iter().map(at).collect(),
+                rings: mesh.boundary_loops().into_iter().map(positions).collect(),
                 ..VectorFigure::default()
             }
         }

@@ -1,26 +1,26 @@
-//! A placement that is brought up to its t when somebody reads it.
+//! A placement that is only computed when it is read.
 //!
-//! What a graphics card plays is seldom read by the processor, and placing a million
-//! vertices that nobody reads costs as much as placing those that somebody does.
+//! Frames played by the graphics card are seldom read by the CPU, and placing a million vertices is
+//! as expensive whether they are read or not.
 //!
-//! Guarantees: whoever reads it gets the placement at the last t, from any number of
+//! Guaranteed: every reader gets the placement at the last t that was set, from any number of
 //! threads; nothing is allocated, whether it is read or not.
 
 use crate::warp::{Placement, Placer};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// A placer and the t that it is wanted at.
+/// A placer and the t at which its placement is wanted.
 #[derive(Debug)]
 pub(super) struct LazyPlacement {
     t: f64,
-    /// Where the placer is while it is at t.
+    /// The placer while its placement is up to date.
     placed: OnceLock<Placer>,
-    /// Where it is while it is elsewhere.
+    /// The placer while its placement is out of date.
     waiting: Mutex<Option<Placer>>,
 }
 
 impl LazyPlacement {
-    /// Not placed yet.
+    /// Wraps a placer without placing its vertices.
     pub(super) fn new(placer: Placer, t: f64) -> Self {
         Self {
             t,
@@ -29,11 +29,12 @@ impl LazyPlacement {
         }
     }
 
+    /// Returns the t of the placement.
     pub(super) fn t(&self) -> f64 {
         self.t
     }
 
-    /// Wants it at `t`.
+    /// Sets t, which invalidates the placement.
     pub(super) fn turn(&mut self, t: f64) {
         self.t = t;
         if let Some(placer) = self.placed.take() {
@@ -42,14 +43,14 @@ impl LazyPlacement {
         }
     }
 
-    /// The placement at t. Should a warp panic while it places, which none does, the
-    /// placer is lost with it: then it is made `anew`.
-    pub(super) fn placement(&self, anew: impl FnOnce() -> Placer) -> &Placement {
+    /// Returns the placement at t. `make_placer` is only called if an earlier evaluation panicked
+    /// and its placer was lost.
+    pub(super) fn placement(&self, make_placer: impl FnOnce() -> Placer) -> &Placement {
         let placer = self.placed.get_or_init(|| {
             let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
             let placer = waiting.take();
             drop(waiting);
-            let mut placer = placer.unwrap_or_else(anew);
+            let mut placer = placer.unwrap_or_else(make_placer);
             placer.place(self.t);
             placer
         });
@@ -64,7 +65,7 @@ mod tests {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// One vertex that is at (t, 0), and how often it was placed.
+    /// A vertex at (t, 0), with a count of how often it was placed.
     fn counted() -> (LazyPlacement, Arc<AtomicUsize>) {
         let count = Arc::new(AtomicUsize::new(0));
         let counter = Arc::clone(&count);
@@ -82,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn it_is_placed_once_for_each_t_that_is_read_and_for_no_other() {
+    fn vertices_are_placed_once_for_each_t_that_is_read() {
         let (mut lazy, count) = counted();
         assert_eq!([x(&lazy), x(&lazy)], [0.25; 2]);
         for t in [0.5, 0.75, 1.0] {
@@ -95,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_reads_at_the_same_time_sees_the_same() {
+    fn concurrent_readers_see_the_same_placement() {
         let (mut lazy, count) = counted();
         lazy.turn(0.5);
         std::thread::scope(|scope| {

@@ -1,16 +1,16 @@
-//! The table of cells: which warp goes with which content.
+//! The table of methods: which warp goes with which content.
 
 use crate::content::ContentKind;
 use crate::warp::{CellLabels, CellSupport, WarpKind};
 
-/// A cell of the table that exists.
+/// A method: a combination of warp and content that exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TransitionMethod {
     warp: WarpKind,
     content: ContentKind,
 }
 
-/// A warp and a content that do not go together, with the reason.
+/// A combination of warp and content that does not exist, with the reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{reason}")]
 pub struct UnsupportedMethod {
@@ -18,31 +18,31 @@ pub struct UnsupportedMethod {
 }
 
 impl TransitionMethod {
-    /// Solid parts that move as rigidly as they can.
+    /// Solid parts that move as rigidly as possible.
     pub const RIGID_PARTS: Self = Self {
         warp: WarpKind::Arap,
         content: ContentKind::Solid,
     };
 
-    /// Distance fields that blend where they are.
+    /// Distance fields that blend in place.
     pub const FIELD_BLEND: Self = Self {
         warp: WarpKind::None,
         content: ContentKind::Field,
     };
 
-    /// Pictures that cross-dissolve where they are.
+    /// Pictures that cross-dissolve in place.
     pub const CROSS_DISSOLVE: Self = Self {
         warp: WarpKind::None,
         content: ContentKind::Colours,
     };
 
-    /// What can be had where this cell cannot: nothing moves, so that nothing
-    /// need be matched. Solids are blended as fields.
+    /// Returns the method to use where this one cannot be built: nothing moves, so nothing must be
+    /// matched. Solids are blended as distance fields.
     ///
     /// ```
-    /// use morphospace::transition::Cell;
-    /// assert_eq!(Cell::RIGID_PARTS.plain(), Cell::FIELD_BLEND);
-    /// assert_eq!(Cell::CROSS_DISSOLVE.plain(), Cell::CROSS_DISSOLVE);
+    /// use morphospace::transition::TransitionMethod;
+    /// assert_eq!(TransitionMethod::RIGID_PARTS.plain(), TransitionMethod::FIELD_BLEND);
+    /// assert_eq!(TransitionMethod::CROSS_DISSOLVE.plain(), TransitionMethod::CROSS_DISSOLVE);
     /// ```
     #[must_use]
     pub const fn plain(self) -> Self {
@@ -52,7 +52,8 @@ impl TransitionMethod {
         }
     }
 
-    /// The cells, those that ask least of the designs last in each column.
+    /// Returns all methods by content; within each content, those with the fewest requirements on
+    /// the designs come last.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
         let cells = |content| {
             WarpKind::BY_DEMAND
@@ -62,59 +63,60 @@ impl TransitionMethod {
         ContentKind::ALL.into_iter().flat_map(cells)
     }
 
-    /// The cell of a warp and a content.
+    /// Returns the method with a warp and a content.
     ///
     /// # Errors
-    /// [`UnsupportedMethod`] with the reason why they do not go together.
+    /// [`UnsupportedMethod`] with the reason if they do not go together.
     ///
     /// ```
-    /// use morphospace::{content::ContentKind, transition::Cell, warp::WarpKind};
-    /// assert!(Cell::new(WarpKind::Arap, ContentKind::Solid).is_ok());
-    /// assert!(Cell::new(WarpKind::None, ContentKind::Solid).is_err());
+    /// use morphospace::{content::ContentKind, transition::TransitionMethod, warp::WarpKind};
+    /// assert!(TransitionMethod::new(WarpKind::Arap, ContentKind::Solid).is_ok());
+    /// assert!(TransitionMethod::new(WarpKind::None, ContentKind::Solid).is_err());
     /// ```
     pub const fn new(warp: WarpKind, content: ContentKind) -> Result<Self, UnsupportedMethod> {
-        match column(warp, content) {
+        match labels_of(warp, content) {
             Ok(_) => Ok(Self { warp, content }),
             Err(reason) => Err(UnsupportedMethod { reason }),
         }
     }
 
-    /// What is said of it.
+    /// Returns the labels of the method.
     #[must_use]
     pub const fn words(self) -> CellLabels {
-        match column(self.warp, self.content) {
+        match labels_of(self.warp, self.content) {
             Ok(words) => words,
             Err(_) => unreachable!(), // no constructor makes such a cell
         }
     }
 
-    /// What it is called, in a few words.
+    /// Returns the name of the method: a few words.
     ///
     /// ```
-    /// use morphospace::transition::Cell;
-    /// assert_eq!(Cell::RIGID_PARTS.name(), "rigid parts");
-    /// assert_eq!(Cell::all().last().map(Cell::name), Some("cross-dissolve"));
+    /// use morphospace::transition::TransitionMethod;
+    /// assert_eq!(TransitionMethod::RIGID_PARTS.name(), "rigid parts");
+    /// let last = TransitionMethod::all().last();
+    /// assert_eq!(last.map(TransitionMethod::name), Some("cross-dissolve"));
     /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         self.words().name
     }
 
-    /// The row.
+    /// Returns the warp: the row of the table.
     #[must_use]
     pub const fn warp(self) -> WarpKind {
         self.warp
     }
 
-    /// The column.
+    /// Returns the content: the column of the table.
     #[must_use]
     pub const fn content(self) -> ContentKind {
         self.content
     }
 }
 
-/// What is said of a warp with a content.
-const fn column(warp: WarpKind, content: ContentKind) -> CellSupport {
+/// Returns the labels of a combination, or why it does not exist.
+const fn labels_of(warp: WarpKind, content: ContentKind) -> CellSupport {
     let words = warp.words();
     match content {
         ContentKind::Solid => words.solid,
@@ -128,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_list_is_what_the_constructor_accepts() {
+    fn the_list_contains_every_method_that_the_constructor_accepts() {
         let mut found = Vec::new();
         for warp in WarpKind::ALL {
             for content in ContentKind::ALL {

@@ -1,4 +1,4 @@
-//! What was done otherwise than asked while a transition was built.
+//! Notes: deviations from the requested options while a transition was built, and suggestions.
 
 #[cfg(doc)]
 use crate::compatible::CompatibleMesh;
@@ -7,55 +7,53 @@ use crate::correspondence::{MatchNote, RegionMatch, RegionMatchError};
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// Something that could not be done as it was asked for, and what was done
-/// instead, or what might be better. The transition plays all the same. Serialised as its words.
+/// A deviation from the request with its reason, or a suggestion. The transition plays
+/// nevertheless. Serialised as its message.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TransitionNote {
-    /// The outlines were matched otherwise than asked.
+    /// The match of the outlines deviates from the request.
     Match(MatchNote),
-    /// Pins that were found were thinned out until the frame did not fold.
+    /// Automatic pins were thinned out until the frame did not fold.
     FewerPins {
-        /// How many are left.
+        /// Number of pins that are used.
         left: usize,
-        /// How many were found.
+        /// Number of pins that were found.
         of: usize,
     },
-    /// The outlines could not be edges of the frame's mesh; pins along them
-    /// carry it.
+    /// The outlines could not become edges of the mesh of the frame; pins along them move it
+    /// instead.
     NotByOutlines(FrameOutlinesError),
-    /// Pins on the outlines do not match them; the pins alone carry the frame.
+    /// The outlines on which the pins lie could not be matched; the pins alone move the frame.
     NotMatched(RegionMatchError),
     /// The designs would match far better if one of them were mirrored.
     Mirrored {
-        /// The mean distortion as they are, as [`CompatibleMesh::distortion`].
+        /// Mean distortion as drawn; see [`CompatibleMesh::distortion`].
         as_drawn: f64,
-        /// That of a first film of them.
+        /// Mean distortion of a first match with one design mirrored.
         mirrored: f64,
     },
-    /// Fields of distances that are not Euclidean have their boundary between
-    /// cells, although it was to be exact.
+    /// An exact boundary was requested, but the metric is not Euclidean: the boundary lies between
+    /// grid cells.
     BinaryBoundary,
-    /// Drawings have more paints or parts than there can be fields.
+    /// The drawings have more paints or parts than distance fields can be computed for.
     OneColour,
-    /// Parts were to have times of their own, which only rigid parts have.
+    /// Part timings were requested, which only rigid parts have.
     OneTime,
-    /// The equations of rigid parts could only be solved with a little added
-    /// to their diagonal.
+    /// The equations of rigid parts could only be solved after adding a little to their diagonal.
     Stiffened {
-        /// How much, as a share of the diagonal.
+        /// The amount added, as a fraction of the diagonal.
         share: f64,
     },
-    /// Parts could not be flattened as bounded distortion asks; each of their faces
-    /// goes its own way.
+    /// Some parts could not satisfy bounded distortion; each of their faces moves on its own path.
     Unflattened {
-        /// How many.
+        /// Number of such parts.
         parts: usize,
     },
 }
 
 impl TransitionNote {
-    /// What a match could not do as it was asked for.
+    /// Returns the notes of a match.
     pub(super) fn of_match(matched: &RegionMatch) -> impl Iterator<Item = Self> {
         matched.notes().copied().map(Self::Match)
     }
@@ -67,39 +65,39 @@ impl fmt::Display for TransitionNote {
             Self::Match(note) => note.fmt(f),
             Self::FewerPins { left, of } => write!(
                 f,
-                "{left} of the {of} pins that were found are used: with more of them the plane would fold"
+                "only {left} of the {of} automatic pins are used: with more, the plane would fold"
             ),
             Self::NotByOutlines(error) => write!(
                 f,
-                "pins along the outlines carry the plane, not the outlines themselves: {error}"
+                "the plane follows pins along the outlines instead of the outlines themselves: {error}"
             ),
             Self::NotMatched(error) => write!(
                 f,
-                "the pins alone carry the plane, not the outlines that they lie on: {error}"
+                "the plane follows the pins alone, not the outlines on which they lie: {error}"
             ),
             Self::Mirrored { as_drawn, mirrored } => write!(
                 f,
-                "mirrored, one design would match the other far better (conformal distortion {mirrored:.1} instead of {as_drawn:.1}): mirror a drawing if that is meant"
+                "the designs would match far better if one were mirrored (conformal distortion {mirrored:.1} instead of {as_drawn:.1}): flip one horizontally if that is intended"
             ),
             Self::BinaryBoundary => write!(
                 f,
-                "the boundary runs between cells: only Euclidean distances have it exactly"
+                "the boundary runs between cells: only the Euclidean metric can place it exactly"
             ),
             Self::OneColour => write!(
                 f,
-                "the drawings are shown in one colour: they have more paints or parts than fields can be mixed; choose fewer cells, or rigid parts"
+                "the drawings are shown in one colour: they have too many colours or parts for distance fields; use fewer cells, or rigid parts"
             ),
             Self::OneTime => write!(
                 f,
-                "all parts move in the same time: only rigid parts may have times of their own"
+                "all parts move at the same time: only rigid parts can have part timings"
             ),
             Self::Unflattened { parts } => write!(
                 f,
-                "{parts} of the parts cannot be kept from being sheared more on the way than at the ends: their triangles change too unlike each other; choose polar, or another match"
+                "{parts} of the parts are sheared more in between than at the ends: their triangles change too differently; choose polar interpolation, or another match"
             ),
             Self::Stiffened { share } => write!(
                 f,
-                "faces of very different sizes: {share:.0e} of the diagonal was added to the equations to solve them"
+                "faces differ very much in size: {share:.0e} of the diagonal was added to the equations to solve them"
             ),
         }
     }
@@ -116,24 +114,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_note_says_what_was_done_instead() {
+    fn a_note_reports_what_was_done_instead() {
         let cut = RegionMatchError::Cut(1);
-        for (note, words) in [
+        for (note, expected) in [
             (
                 TransitionNote::FewerPins { left: 12, of: 24 },
-                "12 of the 24 pins",
+                "12 of the 24 automatic pins",
             ),
             (
                 TransitionNote::NotByOutlines(FrameOutlinesError::Nesting),
-                "lie within each other in different ways",
+                "nested differently in the two designs",
             ),
-            (
-                TransitionNote::NotMatched(cut),
-                "cut 2 does not run straight",
-            ),
+            (TransitionNote::NotMatched(cut), "cut 2 leaves its part"),
             (
                 TransitionNote::Match(MatchNote::PinLeftOut(0)),
-                "pin 1 is left out",
+                "pin 1 is ignored",
             ),
             (TransitionNote::BinaryBoundary, "between cells"),
             (
@@ -149,10 +144,13 @@ mod tests {
             ),
             (TransitionNote::Unflattened { parts: 2 }, "2 of the parts"),
         ] {
-            let said = note.to_string();
-            assert!(said.contains(words) && !said.contains('\n'), "{said}");
+            let message = note.to_string();
+            assert!(
+                message.contains(expected) && !message.contains('\n'),
+                "{message}"
+            );
             let json = serde_json::to_value(&note).expect("words");
-            assert_eq!(json, said);
+            assert_eq!(json, message);
         }
     }
 }

@@ -1,5 +1,5 @@
-//! The options of all methods, each once: a document holds them as they stand
-//! in its file, a specification as a transition is built from them.
+//! The options of all methods. A document stores them as they stand in its file; a
+//! [`TransitionSpec`](super::TransitionSpec) uses them in the coordinates of the common frame.
 
 use super::paint_layer_options::PaintLayerOptions;
 use super::part_time::PartTime;
@@ -7,18 +7,18 @@ use crate::compatible::PolygonOptions;
 use crate::content::{ColourMix, FieldBlend};
 use crate::correspondence::MatchSettings;
 use crate::field::Metric;
-use crate::settings::choice::named;
+use crate::settings::named;
 use crate::warp::{
     ArapOptions, FeatureTravel, LatticeOptions, LineOptions, PathOptions, ScatteredOptions,
 };
 use serde::{Deserialize, Serialize};
 
-/// The options of all methods. What is not given has its default; defaults
-/// are left out where most documents have no use for them.
+/// The options of all methods. Missing options take their defaults; most options are written to a
+/// file only if they differ from their defaults.
 ///
 /// ```
-/// use morphospace::transition::Options;
-/// let mut options = Options::default();
+/// use morphospace::transition::TransitionOptions;
+/// let mut options = TransitionOptions::default();
 /// options.field.cells = 256;
 /// assert_eq!(options.bar_width, 0.012);
 /// ```
@@ -26,29 +26,28 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct TransitionOptions {
-    /// How the features of warps of the plane travel.
+    /// How pins and lines of plane warps travel.
     #[serde(skip_serializing_if = "is_default")]
     pub travel: FeatureTravel,
-    /// Width of the bars of a truss, as a fraction of the larger design's
-    /// diameter.
+    /// Width of truss bars, as a fraction of the larger design's diameter.
     pub bar_width: f64,
-    /// How outlines are matched: in a document in the coordinates of each
-    /// design, in a specification in those of the common frame.
+    /// How outlines are matched. Positions are in each design's own coordinates in a document, and
+    /// in those of the common frame in a specification.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
     pub matching: MatchSettings,
-    /// Parts that make their way in their own time, as rigid parts.
+    /// Parts that move in a time window of their own (rigid parts only).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartTime>,
-    /// Whether drawings are shown in their own colours.
+    /// Whether drawings keep their own colours.
     #[serde(skip_serializing_if = "is_default")]
     pub paint: PaintRule,
-    /// How painted parts come and go.
+    /// How painted parts fade and change their stacking order.
     #[serde(skip_serializing_if = "is_default")]
     pub coats: PaintLayerOptions,
-    /// How much is tried for a film of outlines.
+    /// How much work is spent on finding a good match.
     #[serde(skip_serializing_if = "is_default")]
     pub quality: BuildQuality,
-    /// Whether that film keeps out of its own way.
+    /// Whether shapes are moved aside where they would collide.
     #[serde(skip_serializing_if = "is_default")]
     pub guard: CollisionAvoidance,
     /// How matched outlines are triangulated.
@@ -56,21 +55,21 @@ pub struct TransitionOptions {
     pub triangulation: PolygonOptions,
     /// Options of rigid parts.
     pub arap: ArapOptions,
-    /// Options of the boundary paths.
+    /// Options of boundary paths.
     #[serde(skip_serializing_if = "is_default")]
     pub paths: PathOptions,
     /// Options of distance fields.
     pub field: FieldOptions,
-    /// How two pictures mix.
+    /// How two pictures are mixed.
     #[serde(skip_serializing_if = "is_default")]
     pub colours: ColourMix,
-    /// Options of the warp by lines.
+    /// Options of the line warp.
     #[serde(skip_serializing_if = "is_default")]
     pub lines: LineOptions,
-    /// Options of the warp by scattered points.
+    /// Options of the scattered-point warp.
     #[serde(skip_serializing_if = "is_default")]
     pub scattered: ScatteredOptions,
-    /// Options of the warp by lattices.
+    /// Options of the lattice warp.
     #[serde(skip_serializing_if = "is_default")]
     pub lattice: LatticeOptions,
 }
@@ -98,91 +97,91 @@ impl Default for TransitionOptions {
     }
 }
 
+/// Returns whether an option has its default; such options are not written to files.
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// How much is tried for a film of rigid parts of outlines.
+/// How much work is spent on finding a good match of outlines for rigid parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuildQuality {
-    /// One match, and its film as it comes.
+    /// The first match, without any improvement.
     Draft,
-    /// Several matches; the one whose film has the least trouble is improved.
+    /// Several matches are tried, and the one with the fewest defects is improved.
     #[default]
     Best,
 }
 
 named! { BuildQuality {
-    Draft: "draft", "Draft", "The first film, at once";
-    Best: "best", "Best", "Several matches are tried, and the best film is improved";
+    Draft: "draft", "Draft", "Shows the first match immediately";
+    Best: "best", "Best", "Tries several matches and improves the best one";
 } }
 
-/// What is done where a film of rigid parts of outlines folds, or its outlines meet.
+/// Whether collisions and folds are avoided in the motion of rigid parts of outlines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CollisionAvoidance {
-    /// It is moved aside by as little as keeps it apart. Of the best film only: the first
-    /// one is there at once.
+    /// Vertices are moved aside by as little as needed. Only for [`BuildQuality::Best`]: a draft
+    /// must be ready at once.
     #[default]
     Guarded,
-    /// Nothing.
+    /// Collisions and folds are accepted.
     Plain,
 }
 
 named! { CollisionAvoidance {
-    Guarded: "guarded", "Guarded", "What would fold or cross is moved aside, a little";
-    Plain: "plain", "Plain", "As rigid as it can be, whatever it meets";
+    Guarded: "guarded", "On", "Moves shapes slightly aside where they would fold or cross";
+    Plain: "plain", "Off", "Moves as rigidly as possible, even where shapes collide";
 } }
 
-/// What drawings are painted with.
+/// How drawings are coloured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PaintRule {
-    /// Their own colours, where they have any.
+    /// In their own colours, if they have any.
     #[default]
     Own,
-    /// The style's colours: each drawing is the figure that it makes.
+    /// In the colours of the style, as one figure.
     One,
 }
 
 named! { PaintRule {
-    Own: "own", "As drawn", "In the colours of the drawings, one part over the other";
-    One: "one", "One colour", "As a figure, in a colour that goes with t";
+    Own: "own", "As drawn", "Uses the colours of the drawings, layer over layer";
+    One: "one", "One colour", "Fills each drawing with one colour that changes with t";
 } }
 
-/// Where the boundary of a distance field runs.
+/// Where the zero boundary of a distance field lies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FieldBoundary {
-    /// Where the outline is; Euclidean only.
+    /// On the outline; only with the Euclidean metric.
     #[default]
     Exact,
-    /// Between cells, as in the paper.
+    /// Between grid cells inside and outside, as in the paper.
     Binary,
 }
 
 named! { FieldBoundary {
-    Exact: "exact", "Exact", "Where the drawing has it: smooth";
-    Binary: "binary", "Binary", "Between cells, as the paper's tool: stepped";
+    Exact: "exact", "Exact", "On the drawn outline: smooth";
+    Binary: "binary", "Binary", "Between grid cells, as in the paper: stepped";
 } }
 
-/// Options of the distance fields.
+/// Options of distance fields.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct FieldOptions {
-    /// How distance is measured; all but the Euclidean need
-    /// [`FieldBoundary::Binary`].
+    /// The metric; all metrics except the Euclidean one need [`FieldBoundary::Binary`].
     pub metric: Metric,
-    /// Where the boundary runs.
+    /// Where the zero boundary lies.
     pub boundary: FieldBoundary,
     /// How the two fields are mixed.
     pub blend: FieldBlend,
-    /// Cells along the longer side of the frame. Distances, ε and the
-    /// threshold count in these cells.
+    /// Number of grid cells along the longer side of the frame. Distances, ε and the threshold are
+    /// in units of these cells.
     pub cells: u32,
-    /// Room around the designs, as a fraction of the longer side.
+    /// Margin around the designs, as a fraction of the longer side.
     pub margin: f64,
 }
 
@@ -199,13 +198,13 @@ impl Default for FieldOptions {
 }
 
 impl FieldOptions {
-    /// Whether the boundary runs on the outline: the metrics that are not
-    /// Euclidean belong to the pixels of a binary picture.
+    /// Returns whether the boundary lies on the outline. Metrics other than the Euclidean one are
+    /// defined on the pixels of a binary image only.
     pub(super) fn is_exact(&self) -> bool {
         self.boundary == FieldBoundary::Exact && self.metric == Metric::Euclidean
     }
 
-    /// Whether the boundary cannot be as exact as it is asked for.
+    /// Returns whether an exact boundary was requested but the metric does not allow it.
     pub(super) fn is_switched(&self) -> bool {
         self.boundary == FieldBoundary::Exact && !self.is_exact()
     }

@@ -1,22 +1,22 @@
-//! What is said of how painted parts come and go.
+//! How painted parts fade and change their stacking order.
 
 use serde::{Deserialize, Serialize};
 
-/// How painted parts come and go, and lie over each other.
+/// How painted parts fade and change their stacking order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct PaintLayerOptions {
-    /// What one drawing has alone fades in or out, besides growing or shrinking.
+    /// Whether unmatched parts fade in or out, in addition to growing or shrinking.
     pub fade: bool,
-    /// The t, from 0 to 1, at which those change places that lie over each other
-    /// otherwise in the target than in the source.
+    /// t, from 0 to 1, at which layers switch from the stacking order of the source to that of the
+    /// target.
     pub reorder_at: f64,
 }
 
-/// A t at which nothing can change places.
+/// A time outside [0, 1] at which layers cannot change their order.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("layers cannot change places at t = {0}; give a number from 0 to 1")]
+#[error("layers cannot change their order at t = {0}; give a number from 0 to 1")]
 pub struct PaintLayerOptionsError(f64);
 
 impl Default for PaintLayerOptions {
@@ -29,10 +29,10 @@ impl Default for PaintLayerOptions {
 }
 
 impl PaintLayerOptions {
-    /// Checks that places are changed within the film.
+    /// Checks that the order changes within [0, 1].
     ///
     /// # Errors
-    /// [`PaintLayerOptionsError`] where they are not.
+    /// [`PaintLayerOptionsError`] if it does not.
     pub fn check(&self) -> Result<(), PaintLayerOptionsError> {
         let is_within = (0.0..=1.0).contains(&self.reorder_at);
         is_within

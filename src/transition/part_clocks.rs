@@ -1,4 +1,4 @@
-//! Gives the parts of a film their own times.
+//! Applies part timings to a transition.
 
 use super::any_warp::AnyWarp;
 use super::note::TransitionNote;
@@ -11,8 +11,7 @@ use crate::warp::{Arap, PartClock, StaggeredArap};
 use std::collections::BTreeMap;
 
 impl TransitionData {
-    /// The same transition, in which parts have these times of their own and no
-    /// others. Only rigid parts have any.
+    /// Replaces the part timings. Other methods than rigid parts get a note instead.
     pub(super) fn timed(mut self, times: &[PartTime]) -> Self {
         self.moved
             .notes
@@ -30,7 +29,7 @@ impl TransitionData {
         let Content::Solid(solid) = &mut self.content else {
             return self;
         };
-        // What was recorded has other times, unless none had any.
+        // An existing recording has other timings, unless there are none before and after.
         if !times.is_empty() || matches!(self.moved.warp, AnyWarp::Staggered(_)) {
             self.film = RecordingSlot::default();
         }
@@ -48,34 +47,34 @@ impl TransitionData {
     }
 }
 
-/// The clocks that parts go by, each once, and for each part the number of its own.
+/// Returns the distinct clocks in use, and for each part the index of its own.
 fn in_use(
     clocks: &[PartClock],
     of_parts: &[Option<usize>],
 ) -> (Vec<PartClock>, Vec<Option<usize>>) {
-    let mut used: Vec<PartClock> = Vec::new();
+    let mut distinct: Vec<PartClock> = Vec::new();
     let mut renumbered = BTreeMap::new();
-    let number = |of_part: &Option<usize>| {
+    let index_of = |of_part: &Option<usize>| {
         let own = (*of_part)?;
         Some(*renumbered.entry(own).or_insert_with(|| {
-            let same = used.iter().position(|clock| *clock == clocks[own]);
+            let same = distinct.iter().position(|clock| *clock == clocks[own]);
             same.unwrap_or_else(|| {
-                used.push(clocks[own]);
-                used.len() - 1
+                distinct.push(clocks[own]);
+                distinct.len() - 1
             })
         }))
     };
-    let of_parts = of_parts.iter().map(number).collect();
-    (used, of_parts)
+    let of_parts = of_parts.iter().map(index_of).collect();
+    (distinct, of_parts)
 }
 
-/// For each connected part the number of the time that it has, the last of several.
-fn of_parts(film: &Arap, matched: Option<&RegionMatch>, times: &[PartTime]) -> Vec<Option<usize>> {
-    let of_vertices = film.mesh().components();
+/// Returns, for each connected part of the mesh, the index of its timing; the last one wins.
+fn of_parts(arap: &Arap, matched: Option<&RegionMatch>, times: &[PartTime]) -> Vec<Option<usize>> {
+    let of_vertices = arap.mesh().components();
     let count = of_vertices
         .iter()
         .max()
-        .map_or(0, |&most| most as usize + 1);
+        .map_or(0, |&highest| highest as usize + 1);
     let mut of_parts = vec![None; count];
     let pieces: &[PieceMatch] = matched.map_or(&[], |matched| &matched.pieces);
     for (k, time) in times.iter().enumerate() {
@@ -83,11 +82,11 @@ fn of_parts(film: &Arap, matched: Option<&RegionMatch>, times: &[PartTime]) -> V
             let piece = pieces.get(piece)?;
             [piece.source_part, piece.target_part][time.side]
         };
-        let Some(named) = part_at(film, &of_vertices, time, part) else {
+        let Some(named) = part_at(arap, &of_vertices, time, part) else {
             continue;
         };
         of_parts[named] = Some(k);
-        // A part that is split has several pieces.
+        // A part that is split has several pieces, which share its timing.
         if let Some(own) = part(named) {
             let pieces = (0..count).filter(|&piece| part(piece) == Some(own));
             pieces.for_each(|piece| of_parts[piece] = Some(k));
@@ -96,54 +95,60 @@ fn of_parts(film: &Arap, matched: Option<&RegionMatch>, times: &[PartTime]) -> V
     of_parts
 }
 
-/// The connected part that the point of a time is in, or else the nearest one. Of several that
-/// hold it the uppermost: parts of a design are painted in the order of their numbers.
+/// Returns the connected part that contains the point of a timing, or else the nearest one. Of
+/// several that contain it, the uppermost: the parts of a design are painted in ascending order.
 fn part_at(
-    film: &Arap,
+    arap: &Arap,
     of_vertices: &[u32],
     time: &PartTime,
     part: impl Fn(usize) -> Option<usize>,
 ) -> Option<usize> {
-    let mesh = film.mesh();
+    let mesh = arap.mesh();
     let places = [mesh.source(), mesh.target()][time.side];
-    let holds = |face: &&[u32; 3]| {
+    let contains_point = |face: &&[u32; 3]| {
         let [a, b, c] = face.map(|v| places[v as usize]);
-        let beside = [[a, b], [b, c], [c, a]];
+        let edges = [[a, b], [b, c], [c, a]];
         let is_left = |[a, b]: &[DVec2; 2]| twice_signed_area(*a, *b, time.at) >= 0.0;
-        twice_signed_area(a, b, c) > 0.0 && beside.iter().all(is_left)
+        twice_signed_area(a, b, c) > 0.0 && edges.iter().all(is_left)
     };
     let component = |v: usize| of_vertices[v] as usize;
-    let holding = mesh.faces().iter().filter(holds);
-    let uppermost = holding
+    let containing = mesh.faces().iter().filter(contains_point);
+    let uppermost = containing
         .map(|face| component(face[0] as usize))
         .max_by_key(|&component| part(component));
-    let far = |v: &usize| places[*v].distance_squared(time.at);
+    let distance_squared = |v: &usize| places[*v].distance_squared(time.at);
     uppermost.or_else(|| {
-        let nearest = (0..places.len()).min_by(|a, b| far(a).total_cmp(&far(b)))?;
+        let nearest =
+            (0..places.len()).min_by(|a, b| distance_squared(a).total_cmp(&distance_squared(b)))?;
         Some(component(nearest))
     })
 }
 
 impl SolidContent {
+    /// Removes all clocks.
     fn take_clocks(&mut self) {
         self.clocks = None;
-        // It was there for the sake of the clocks.
+        // A coating without paint exists only for the clocks.
         self.coating = self.coating.take().filter(|coating| !is_plain(coating));
     }
 
-    /// Parts in one colour are coats too: it goes with their time.
-    fn put_clocks(&mut self, film: &Arap, clocks: &[PartClock], of_parts: &[Option<usize>]) {
-        let of_vertices = film.mesh().components();
-        let clock = |v: u32| of_parts[of_vertices[v as usize] as usize].unwrap_or(clocks.len());
-        let of_walk = |walk: &Vec<u32>| walk.first().map_or(clocks.len(), |&v| clock(v));
+    /// Assigns a clock to each loop, hole and vertex. Parts in one colour also become paint layers,
+    /// since their colour follows their clock.
+    fn put_clocks(&mut self, arap: &Arap, clocks: &[PartClock], of_parts: &[Option<usize>]) {
+        let of_vertices = arap.mesh().components();
+        let clock_of = |v: u32| of_parts[of_vertices[v as usize] as usize].unwrap_or(clocks.len());
+        let clock_of_loop = |boundary_loop: &Vec<u32>| {
+            let first = boundary_loop.first();
+            first.map_or(clocks.len(), |&v| clock_of(v))
+        };
         self.clocks = Some(BarClocks {
-            of_walks: self.loops.iter().map(of_walk).collect(),
+            of_walks: self.loops.iter().map(clock_of_loop).collect(),
             of_holes: self
                 .holes
                 .iter()
-                .map(|hole| clock(hole.face(0)[0]))
+                .map(|hole| clock_of(hole.face(0)[0]))
                 .collect(),
-            of_vertices: (0..of_vertices.len() as u32).map(clock).collect(),
+            of_vertices: (0..of_vertices.len() as u32).map(clock_of).collect(),
             clocks: clocks.iter().copied().chain([PartClock::WHOLE]).collect(),
         });
         if self.coating.is_none() && !self.loops.is_empty() {
@@ -152,7 +157,7 @@ impl SolidContent {
     }
 }
 
-/// Whether it says nothing.
+/// Returns whether a coating has no paint.
 fn is_plain(coating: &PaintLayerStack) -> bool {
     let is_plain = |coat: &PlacedPaintLayer| coat.paints == [None; 2] && coat.lines == [None; 2];
     coating.coats.iter().all(is_plain)

@@ -1,69 +1,70 @@
-//! Parts that make their way in their own time.
+//! Parts that move in a time window of their own.
 //!
-//! What is said of a part is said by a point of a design, and holds for all that
-//! the part becomes: where it is split, for each of the pieces.
+//! A part is identified by a point of a design. The timing applies to everything the part becomes;
+//! if it is split, to each of the pieces.
 
 use crate::geometry::{DVec2, RANGE_MESSAGE, Side, Similarity, is_in_range};
-use crate::time::easing::EasingFunction;
+use crate::time::EasingFunction;
 use crate::warp::PartClock;
 use serde::{Deserialize, Serialize};
 
-/// When a part makes its way within the film.
+/// The time window in which a part moves.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PartTime {
-    /// The design in which the part is named.
+    /// The design to which the point belongs.
     pub side: Side,
-    /// A point in or near it: in a document in the design's own coordinates, in a
-    /// specification in those of the common frame.
+    /// A point in or near the part: in the design's own coordinates in a document, in those of the
+    /// common frame in a specification.
     pub at: DVec2,
-    /// When it sets out, from 0.
+    /// t at which the part starts, at least 0.
     #[serde(default)]
     pub from: f64,
-    /// When it arrives, later than that, up to 1.
+    /// t at which the part arrives, greater than `from` and at most 1.
     #[serde(default = "one")]
     pub to: f64,
-    /// How it runs in between.
+    /// Easing between the two.
     #[serde(default)]
     pub easing: EasingFunction,
 }
 
-/// Several times as many as parts that are matched.
-const MOST_TIMES: usize = 2000;
+/// Maximum number of part timings (resource limit: several times the maximum number of matched
+/// parts).
+const MAX_PART_TIMES: usize = 2000;
 
 fn one() -> f64 {
     1.0
 }
 
-/// A time that cannot be meant. Parts count from 1 in messages.
+/// Why a part timing is invalid. Parts count from 1 in messages.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PartTimeError {
-    /// More than there can be parts.
-    #[error("{0} times of parts are too many; give {MOST_TIMES} at most")]
+    /// More timings than there can be parts.
+    #[error("{0} part timings are too many; the maximum is {MAX_PART_TIMES}")]
     TooMany(usize),
-    /// The point is too far out.
-    #[error("the part of time {} {RANGE_MESSAGE}", .0 + 1)]
+    /// The coordinates of the point are out of range.
+    #[error("the point of part timing {} {RANGE_MESSAGE}", .0 + 1)]
     Place(usize),
-    /// It does not set out and then arrive.
+    /// The part does not start before it arrives, or not within [0, 1].
     #[error(
-        "a part cannot make its way from t = {from} to t = {to}; give two numbers from 0 to 1, the first of them smaller"
+        "a part cannot move from t = {from} to t = {to}; give two numbers from 0 to 1, the smaller one first"
     )]
     Span {
-        /// When it was to set out.
+        /// The requested start.
         from: f64,
-        /// When it was to arrive.
+        /// The requested arrival.
         to: f64,
     },
 }
 
 impl PartTime {
-    /// Checks that all are places and times that can be meant.
+    /// Checks that all points and times are valid.
     ///
     /// # Errors
-    /// [`PartTimeError`] names the first that is none.
+    /// [`PartTimeError`] for the first that is not.
     pub fn check(all: &[Self]) -> Result<(), PartTimeError> {
-        if all.len() > MOST_TIMES {
+        if all.len() > MAX_PART_TIMES {
             return Err(PartTimeError::TooMany(all.len()));
         }
         for (k, &Self { at, from, to, .. }) in all.iter().enumerate() {
@@ -77,7 +78,7 @@ impl PartTime {
         Ok(())
     }
 
-    /// When it makes its way.
+    /// Returns the clock of the part.
     #[must_use]
     pub fn clock(&self) -> PartClock {
         let Self {
@@ -86,7 +87,7 @@ impl PartTime {
         PartClock { from, to, easing }
     }
 
-    /// The same by another clock.
+    /// Replaces the clock.
     #[must_use]
     pub fn with_clock(self, PartClock { from, to, easing }: PartClock) -> Self {
         Self {
@@ -97,7 +98,7 @@ impl PartTime {
         }
     }
 
-    /// The same said of designs that were laid down by one similarity each.
+    /// Transforms the point by the similarity of its design.
     #[must_use]
     pub fn placed(&self, by: &[Similarity; 2]) -> Self {
         Self {
@@ -106,7 +107,7 @@ impl PartTime {
         }
     }
 
-    /// The same of the designs exchanged, whose film runs the other way.
+    /// Returns the timing for the exchanged designs, whose motion runs backwards.
     #[must_use]
     pub fn swapped(&self) -> Self {
         Self {

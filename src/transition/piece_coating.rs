@@ -1,4 +1,4 @@
-//! The coats of a film.
+//! Paints the pieces of a transition: one paint layer for each pair of source and target layers.
 
 use super::drawing_pair::{DrawingPair, LayerInk};
 use super::paint_layer_options::PaintLayerOptions;
@@ -11,7 +11,7 @@ use crate::correspondence::{PartLooks, PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side};
 
 impl TransitionData {
-    /// The same transition with its coats as these options ask for.
+    /// Applies options for paint layers.
     pub(super) fn coated(mut self, options: &PaintLayerOptions) -> Self {
         if let Some(coating) = self.content.coating_mut() {
             coating.reordered_at = options.reorder_at;
@@ -21,18 +21,18 @@ impl TransitionData {
     }
 }
 
-/// The boundary walks of a film.
+/// The boundary loops of a transition.
 pub(super) struct PieceBoundaryLoops<'a> {
-    /// As vertex indices.
+    /// Vertex indices of each loop.
     pub walks: Vec<Vec<u32>>,
-    /// For each the piece that it goes around.
+    /// Index of the piece to which each loop belongs.
     pub pieces: Vec<usize>,
-    /// Where the vertices are in the designs.
+    /// Positions of the vertices in source and target.
     pub places: [&'a [DVec2]; 2],
 }
 
 impl<'a> PieceBoundaryLoops<'a> {
-    /// Of a mesh whose connected parts are the pieces.
+    /// Returns the loops of a mesh whose connected components are the pieces.
     pub fn of_mesh(mesh: &'a CompatibleMesh) -> Self {
         let parts = mesh.components();
         let walks = mesh.boundary_loops();
@@ -45,31 +45,32 @@ impl<'a> PieceBoundaryLoops<'a> {
     }
 }
 
-/// How a film is painted: a coat for each level. None of designs in one colour.
+/// Returns the paint layers of a transition; `None` for designs in one colour.
 pub(super) fn coating(
     drawings: &DrawingPair,
     matched: &RegionMatch,
-    film: &PieceBoundaryLoops,
+    loops: &PieceBoundaryLoops,
     holes: &[PieceHole],
 ) -> Option<PaintLayerStack> {
     if drawings.looks == PartLooks::default() {
         return None;
     }
-    let levels = PieceLayers::of(matched, &drawings.looks);
-    let pieces = film.pieces.iter();
-    let of_walks: Vec<usize> = pieces.map(|&piece| levels.of_piece(piece)).collect();
-    let along = |level: usize| {
-        let own = film.walks.iter().zip(&of_walks);
-        let own = own.filter(|&(_, of)| *of == level);
-        own.flat_map(|(walk, _)| walk.iter().copied()).collect()
+    let layers = PieceLayers::of(matched, &drawings.looks);
+    let pieces = loops.pieces.iter();
+    let of_walks: Vec<usize> = pieces.map(|&piece| layers.of_piece(piece)).collect();
+    let loop_vertices = |layer: usize| {
+        let all = loops.walks.iter().zip(&of_walks);
+        let in_layer = all.filter(|&(_, layer_of_loop)| *layer_of_loop == layer);
+        let vertices = in_layer.flat_map(|(boundary_loop, _)| boundary_loop.iter().copied());
+        vertices.collect()
     };
     Some(PaintLayerStack {
-        coats: coats(drawings, &levels, along, film.places),
+        coats: coats(drawings, &layers, loop_vertices, loops.places),
         of_holes: holes
             .iter()
-            .map(|(piece, _)| levels.of_piece(*piece))
+            .map(|(piece, _)| layers.of_piece(*piece))
             .collect(),
-        lone_walks: film
+        lone_walks: loops
             .pieces
             .iter()
             .map(|&piece| alone(matched.pieces.get(piece)?))
@@ -80,7 +81,7 @@ pub(super) fn coating(
     })
 }
 
-/// The design that has a piece alone.
+/// Returns the design that has an unmatched piece; `None` for a matched one.
 fn alone(piece: &PieceMatch) -> Option<Side> {
     match [piece.source_part, piece.target_part] {
         [Some(_), None] => Some(Side::Source),
@@ -89,23 +90,23 @@ fn alone(piece: &PieceMatch) -> Option<Side> {
     }
 }
 
-/// The coats of levels. A gradient goes with the vertices along the level's walks, which
-/// are in these places in the designs.
+/// Returns the paint of each layer. Gradients move with the vertices that `vertices_along` returns
+/// for a layer; `places` are the positions of all vertices in the designs.
 pub(super) fn coats(
     drawings: &DrawingPair,
     levels: &PieceLayers,
-    along: impl Fn(usize) -> Vec<u32>,
+    vertices_along: impl Fn(usize) -> Vec<u32>,
     places: [&[DVec2]; 2],
 ) -> Vec<PlacedPaintLayer> {
     let heights = Side::BOTH.map(|side| heights(&levels.coats, side));
     let coat = |level: usize| {
         let ink = |side: Side| Some(&drawings.inks[side][levels.coats[level][side]?]);
         let inks = Side::BOTH.map(ink);
-        // What one design has alone keeps its paint, while its line grows with it.
+        // An unmatched layer keeps its paint, while its stroke grows with it.
         let paint = |side: Side| inks[side].or(inks[side.other()])?.paint;
         PlacedPaintLayer {
             paints: Side::BOTH.map(paint),
-            shading: shading(inks, along(level), places),
+            shading: shading(inks, vertices_along(level), places),
             lines: inks.map(|ink| ink?.line),
             heights: [heights[0][level], heights[1][level]],
             alone: match levels.coats[level] {
@@ -118,8 +119,7 @@ pub(super) fn coats(
     (0..levels.coats.len()).map(coat).collect()
 }
 
-/// The gradients of a coat that has these vertices; what one design has alone keeps its
-/// own.
+/// Returns the gradients of a layer with these vertices; an unmatched layer keeps its own.
 fn shading(
     inks: [Option<&LayerInk>; 2],
     vertices: Vec<u32>,
@@ -147,27 +147,31 @@ fn shading(
     }
 }
 
-/// How many levels lie below each, in one design; one that it does not have lies
-/// right above the one that is next below it in the other design.
+/// Returns the stacking height of each layer in one design. A layer that this design lacks lies
+/// directly above the layer that is next below it in the other design.
 fn heights(levels: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
     let other = side.other();
     let mut order: Vec<usize> = (0..levels.len())
         .filter(|&k| levels[k][side].is_some())
         .collect();
     order.sort_by_key(|&k| (levels[k][side], levels[k][other]));
-    let mut alone: Vec<usize> = (0..levels.len())
+    let mut unmatched: Vec<usize> = (0..levels.len())
         .filter(|&k| levels[k][side].is_none())
         .collect();
-    alone.sort_by_key(|&k| levels[k][other]);
-    for k in alone {
+    unmatched.sort_by_key(|&k| levels[k][other]);
+    for k in unmatched {
         let is_below = |&placed: &usize| {
             levels[placed][other].is_some() && levels[placed][other] < levels[k][other]
         };
-        let at = order.iter().rposition(is_below).map_or(0, |at| at + 1);
-        // What is born lies over what dies there, in both designs.
-        let is_dying = |&&placed: &&usize| side == Side::Source && levels[placed][other].is_none();
-        let dying = order[at..].iter().take_while(is_dying).count();
-        order.insert(at + dying, k);
+        let index = order
+            .iter()
+            .rposition(is_below)
+            .map_or(0, |below| below + 1);
+        // Appearing layers lie above disappearing ones at the same height, in both designs.
+        let is_disappearing =
+            |&&placed: &&usize| side == Side::Source && levels[placed][other].is_none();
+        let disappearing_count = order[index..].iter().take_while(is_disappearing).count();
+        order.insert(index + disappearing_count, k);
     }
     let mut heights = vec![0; levels.len()];
     order
@@ -182,8 +186,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_alone_lies_above_what_is_below_it_and_what_is_born_over_what_dies() {
-        // A sky and a sun in both; a sea that dies over them, and a word that is born.
+    fn unmatched_layers_lie_above_their_neighbour_and_appearing_above_disappearing_ones() {
+        // Sky and sun in both designs; a sea disappears in front of them, and a word appears.
         let levels = [
             [Some(0), Some(0)],
             [Some(1), Some(1)],
@@ -193,7 +197,7 @@ mod tests {
         for side in Side::BOTH {
             assert_eq!(heights(&levels, side), [0, 1, 2, 3], "{side:?}");
         }
-        // A sun that sinks below its sky, with what only one has between them.
+        // The sun sinks behind the sky, and a layer between them exists in only one design.
         let levels = [[Some(0), Some(1)], [Some(1), Some(0)], [None, Some(2)]];
         assert_eq!(heights(&levels, Side::Source), [0, 1, 2]);
         assert_eq!(heights(&levels, Side::Target), [1, 0, 2]);

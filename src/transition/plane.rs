@@ -1,5 +1,5 @@
-//! Warps of the whole plane for fields and colours: from pins and lines to a
-//! warp on a grid, or to rigid parts of the frame.
+//! Warps of the whole plane for distance fields and pictures: from pins and lines to a warp on a
+//! grid, or to rigid parts of the frame.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::arap_build::build_arap;
@@ -18,25 +18,26 @@ use crate::warp::{
 use crate::work::progress::{Progress, ProgressSpan, beside, checkpoint};
 use std::sync::Arc;
 
-/// Squares of the grid along the longer side of the frame, on which a warp is
-/// taken as linear.
-/// Some pixels a square in a window: what is linear within is not seen.
-const GRID: u32 = 160;
+/// Number of grid cells along the longer side of the frame; the warp is linear within a cell
+/// (heuristic: some pixels of a window).
+const MAX_GRID_CELLS: u32 = 160;
 
-/// Work of one frame, in places times features, beyond which the grid is made
-/// coarser.
-/// Some milliseconds on a core or two, so that a film plays at 60 frames.
-const MOST_WORK: f64 = 3e6;
+/// Maximum work per frame, in grid points times features; beyond it the grid is coarser (resource
+/// limit: some milliseconds on one or two cores, for 60 frames per second).
+const MAX_FRAME_WORK: f64 = 3e6;
 
-/// Work of a place by lattices, in features: it does not grow with them.
+/// Work of one grid point of the lattice warp, in features; it does not grow with their number
+/// (heuristic).
 const LATTICE_WORK: usize = 16;
 
-/// How far a mesh of rigid parts reaches beyond the frame, in longer sides:
-/// its border bends on the way.
-/// More costs faces that nobody sees.
-const BEYOND: f64 = 0.25;
+/// How far the mesh of rigid parts extends beyond the frame, as a fraction of the longer side
+/// (heuristic): its border bends, and more of it would cost faces that are never visible.
+const FRAME_MARGIN: f64 = 0.25;
 
-/// The warp of a specification over a frame.
+/// Builds the specified warp over a frame.
+///
+/// # Errors
+/// If features cannot be determined, the warp cannot be built, or the work is cancelled.
 pub(super) fn warp(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -53,10 +54,13 @@ pub(super) fn warp(
         return rigid(spec, frame, features, progress);
     }
     checkpoint(progress, "warping", 0.0)?;
-    // Equations of all features at once: beside, so that a cancel is answered.
+    // Solving for all features is one long call, so it runs in the background while a cancellation
+    // is awaited.
     let (spec, frame, features) = (spec.clone(), *frame, Arc::new(features));
-    let theirs = Arc::clone(&features);
-    let warp = beside(progress, move || of_features(&spec, &frame, &theirs))?;
+    let features_for_warp = Arc::clone(&features);
+    let warp = beside(progress, move || {
+        build_grid_warp(&spec, &frame, &features_for_warp)
+    })?;
     Ok(BuiltWarp {
         automatic: features.automatic(),
         notes: features.notes.clone(),
@@ -64,8 +68,8 @@ pub(super) fn warp(
     })
 }
 
-/// The warp that takes its features along.
-fn of_features(
+/// Builds a grid warp that moves the features.
+fn build_grid_warp(
     spec: &TransitionSpec,
     frame: &Bounds,
     features: &PlaneFeatures,
@@ -85,7 +89,7 @@ fn of_features(
                 Ok(Lattice::new(frame, points, lines, options.lattice)?)
             })
         }
-        // The table has no such cell; one that is added must be built.
+        // The table has no such method for planes; a new one must be added here.
         WarpKind::None | WarpKind::Paths | WarpKind::Arap => Err(BuildError::Unavailable(format!(
             "{} cannot be built; choose another method",
             spec.cell.name()
@@ -93,8 +97,8 @@ fn of_features(
     }
 }
 
-/// A warp of the features on a grid; behind their common motion where they
-/// travel as a whole.
+/// Builds a warp of the features on a grid, combined with their common rigid motion if they travel
+/// as a whole. `work` is the cost of one grid point, in features.
 fn on_grid<W: PlaneWarp>(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -102,38 +106,43 @@ fn on_grid<W: PlaneWarp>(
     work: usize,
     new: impl FnOnce(&Bounds, &[PointPair], &[LinePair]) -> Result<W, BuildError>,
 ) -> Result<Arc<dyn Warp>, BuildError> {
-    let is_whole = match spec.options.travel {
+    let travels_as_whole = match spec.options.travel {
         FeatureTravel::Auto => spec.cell.content() == ContentKind::Field,
         FeatureTravel::Whole => true,
         FeatureTravel::Straight => false,
     };
-    let rigid = CommonRigidMotion::of(points, lines).filter(|_| is_whole);
+    let rigid = CommonRigidMotion::of(points, lines).filter(|_| travels_as_whole);
     Ok(match rigid {
         Some(rigid) => {
             let warp = RigidElasticPlaneWarp::new(rigid, frame, points, lines, new)?;
-            // What turns leaves the frame on its way; pictures are cut to it.
-            let seen = match spec.cell.content() {
+            // Rotating fields leave the frame on their way; pictures are cropped to it.
+            let visible_area = match spec.cell.content() {
                 ContentKind::Field => rigid.swept(frame),
                 ContentKind::Colours | ContentKind::Solid => *frame,
             };
-            Arc::new(GridWarp::new(warp, grid(&seen, work)))
+            Arc::new(GridWarp::new(warp, grid(&visible_area, work)))
         }
         None => Arc::new(GridWarp::new(new(frame, points, lines)?, grid(frame, work))),
     })
 }
 
-/// A grid that can be looked up in the time of a frame.
+/// Returns a grid that is fine enough but can be evaluated within one frame.
 fn grid(frame: &Bounds, work: usize) -> PlaneGrid {
-    let size = frame.size();
-    let aspect = size.min_element() / size.max_element();
-    // aspect · cells² places, each at the cost of all features.
-    let places = MOST_WORK / (work.max(1) as f64);
-    let cells = (places / aspect.max(0.01)).sqrt().min(f64::from(GRID));
+    let frame_size = frame.size();
+    let aspect = frame_size.min_element() / frame_size.max_element();
+    // The grid has aspect · cells² points, each at the cost of all features.
+    let max_points = MAX_FRAME_WORK / (work.max(1) as f64);
+    let cells = (max_points / aspect.max(0.01))
+        .sqrt()
+        .min(f64::from(MAX_GRID_CELLS));
     PlaneGrid::covering(frame, (cells as u32).max(24))
 }
 
-/// The frame as rigid as its pins allow. What nobody pinned may be pinned by
-/// fewer points until no fold is left.
+/// Builds the frame as one mesh that is as rigid as its pins or matched outlines allow. Automatic
+/// pins are thinned out until nothing folds.
+///
+/// # Errors
+/// If pins set by the user fold the frame, it cannot be triangulated, or the work is cancelled.
 fn rigid(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -142,11 +151,11 @@ fn rigid(
 ) -> Result<BuiltWarp, BuildError> {
     let mut notes = std::mem::take(&mut features.notes);
     let mut pins = features.as_points();
-    let found = pins.len();
+    let found_count = pins.len();
     let mut warp = None;
     if let Some(matched) = &features.matched {
         match about_outlines(spec, frame, &features, matched, progress)? {
-            Ok(made) => warp = Some(made),
+            Ok(outline_warp) => warp = Some(outline_warp),
             Err(error) => notes.push(TransitionNote::NotByOutlines(error)),
         }
     }
@@ -154,13 +163,13 @@ fn rigid(
         Some(warp) => warp,
         None => about_pins(spec, frame, features.are_automatic, &mut pins, progress)?,
     };
-    if pins.len() < found {
+    if pins.len() < found_count {
         notes.push(TransitionNote::FewerPins {
             left: pins.len(),
-            of: found,
+            of: found_count,
         });
     }
-    // Pins that somebody set are shown as theirs already.
+    // Pins set by the user are displayed already.
     pins.retain(|_| features.are_automatic);
     Ok(BuiltWarp {
         automatic: pins,
@@ -169,8 +178,11 @@ fn rigid(
     })
 }
 
-/// The frame as rigid as its pins allow, of which every other one is left out
-/// while it folds and they may be.
+/// Builds the frame as rigid as its pins allow. As long as it folds, every other automatic pin is
+/// removed.
+///
+/// # Errors
+/// If the frame folds with pins set by the user, cannot be triangulated, or the work is cancelled.
 fn about_pins(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -178,7 +190,7 @@ fn about_pins(
     pins: &mut Vec<PointPair>,
     progress: &dyn Progress,
 ) -> Result<AnyWarp, BuildError> {
-    let frame = frame.padded(BEYOND * frame.size().max_element());
+    let frame = frame.padded(FRAME_MARGIN * frame.size().max_element());
     let mesh = loop {
         match CompatibleMesh::around_pins(&frame, pins, progress) {
             Ok(mesh) => break mesh,
@@ -186,7 +198,7 @@ fn about_pins(
                 if are_automatic && !pins.is_empty() =>
             {
                 *pins = pins.iter().copied().step_by(2).collect();
-                // Every other pin of one is that one again.
+                // Halving a single pin would leave it.
                 if pins.len() == 1 {
                     pins.clear();
                 }
@@ -198,8 +210,8 @@ fn about_pins(
     Ok(AnyWarp::Rigid(arap))
 }
 
-/// The frame as rigid as matched outlines allow, behind the motion that they
-/// have in common; why not, where they do not divide the frame alike.
+/// Builds the frame as rigid as matched outlines allow, combined with their common rigid motion.
+/// The inner error says why the outlines do not divide the frame in the same way in both designs.
 fn about_outlines(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -218,13 +230,14 @@ fn about_outlines(
         Some(rigid) => (&rigid.match_at_rest(matched), rigid.frame_at_rest(frame)),
         None => (matched, *frame),
     };
-    // An outline that leaves the frame at rest could not be an edge of its mesh.
+    // An outline must lie within the frame to become an edge of its mesh.
     let frame = around(matched, &frame);
-    let made = CompatibleMesh::around_outlines(&frame, matched, &options.triangulation, progress);
-    let mesh = match made {
+    let attempt =
+        CompatibleMesh::around_outlines(&frame, matched, &options.triangulation, progress);
+    let mesh = match attempt {
         Ok(mesh) => mesh,
         Err(error) => {
-            // A cancel comes back as an error of the mesh; it must not become a note.
+            // A cancellation is returned as an error of the mesh; it must not become a note.
             checkpoint(progress, "triangulating", 0.0)?;
             return Ok(Err(error));
         }
@@ -236,10 +249,10 @@ fn about_outlines(
     }))
 }
 
-/// The frame with all outlines in it, and room around.
+/// Returns the frame extended by all outlines and a margin.
 fn around(matched: &RegionMatch, frame: &Bounds) -> Bounds {
     let rings = matched.pieces.iter().flat_map(|piece| &piece.rings);
     let points = rings.flat_map(|ring| ring.source.iter().chain(&ring.target));
-    let all = Bounds::of(points.copied()).map_or(*frame, |all| all.union(frame));
-    all.padded(BEYOND * all.size().max_element())
+    let all = Bounds::of(points.copied()).map_or(*frame, |outlines| outlines.union(frame));
+    all.padded(FRAME_MARGIN * all.size().max_element())
 }

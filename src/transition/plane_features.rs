@@ -1,5 +1,5 @@
-//! What a warp of the plane goes by: pins and lines that were set, or found
-//! along matched outlines.
+//! The features that a plane warp follows: pins and lines set by the user, or automatic ones along
+//! matched outlines.
 
 use super::error::BuildError;
 use super::note::TransitionNote;
@@ -12,68 +12,73 @@ use crate::geometry::{Regions, Ring, Side};
 use crate::warp::WarpKind;
 use crate::work::progress::{Progress, checkpoint};
 
-/// Pins so near an outline are on it, as a share of the design's diameter.
-/// A few pixels of a window: so far a hand misses that drags along a line.
-const ON_OUTLINE: f64 = 0.005;
+/// Pins closer to an outline than this lie on it, as a fraction of the design's diameter
+/// (tolerance: a few pixels in a window, the precision of dragging along a line).
+const ON_OUTLINE_DISTANCE: f64 = 0.005;
 
-/// Pins that are set along each outline where nobody set any.
-/// Each costs a row of the equations.
-const AUTOMATIC: usize = 24;
+/// Number of automatic pins along each outline (heuristic; each adds a row to the equations).
+const AUTOMATIC_PINS: usize = 24;
 
-/// The same of lines, each of which pulls the whole plane along: where many are
-/// near each other it folds.
+/// Number of automatic lines along each outline (heuristic; lines act on the whole plane, and many
+/// close together fold it).
 const AUTOMATIC_LINES: usize = 10;
 
-/// What a warp of the plane goes by.
+/// The features that a plane warp follows.
 #[derive(Default)]
 pub(super) struct PlaneFeatures {
     pub points: Vec<PointPair>,
     pub lines: Vec<LinePair>,
-    /// Nobody set them.
+    /// Whether the features are automatic, not set by the user.
     pub are_automatic: bool,
-    /// The outlines that they are on, where all are on outlines.
+    /// The match of the outlines on which all features lie, if they do.
     pub matched: Option<RegionMatch>,
-    /// What was done otherwise than asked.
+    /// Deviations from the request.
     pub notes: Vec<TransitionNote>,
 }
 
 impl PlaneFeatures {
-    /// Those that were set; where there are none and outlines are what is
-    /// seen, some along matched outlines.
+    /// Returns the features set by the user; if there are none and outlines are visible, automatic
+    /// ones along matched outlines.
+    ///
+    /// # Errors
+    /// If outlines cannot be computed or matched, or the work is cancelled.
     pub fn of(
         spec: &TransitionSpec,
         bar_width: f64,
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
-        let asked = &spec.options.matching;
+        let requested = &spec.options.matching;
         let given = Self {
-            points: asked.pins.clone(),
-            lines: asked.lines.clone(),
+            points: requested.pins.clone(),
+            lines: requested.lines.clone(),
             ..Self::default()
         };
-        // Outlines of a picture's form are not what is seen of it.
+        // The outline of a picture is invisible.
         if spec.cell.content() != ContentKind::Field {
             return Ok(given);
         }
-        // No map of the plane cuts a ring open or a part in two.
+        // A map of the plane cannot cut a ring open or split a part.
         let matching = MatchSettings {
             holes: HoleRule::Close,
             parts: PartRule::Alone,
-            ..asked.clone()
+            ..requested.clone()
         };
         let outlines = spec.outlines(bar_width, progress)?;
         if given.points.is_empty() && given.lines.is_empty() {
-            return Self::found(spec.cell.warp(), &outlines, &matching, progress);
+            return Self::automatic_features(spec.cell.warp(), &outlines, &matching, progress);
         }
-        // Pins that somebody moved along the outlines still match them.
+        // Pins that the user has moved along the outlines still match them.
         if spec.cell.warp() == WarpKind::Arap && given.are_on(&outlines) {
             return given.with_match(&outlines, &matching, progress);
         }
         Ok(given)
     }
 
-    /// Some along matched outlines.
-    fn found(
+    /// Returns automatic features along matched outlines.
+    ///
+    /// # Errors
+    /// If the outlines cannot be matched or the work is cancelled.
+    fn automatic_features(
         warp: WarpKind,
         [source, target]: &[Regions; 2],
         matching: &MatchSettings,
@@ -88,21 +93,25 @@ impl PlaneFeatures {
             let rings = matched.automatic_pins(AUTOMATIC_LINES);
             found.lines = rings.iter().flat_map(|ring| sides(ring)).collect();
         } else {
-            found.points = matched.automatic_pins(AUTOMATIC).concat();
+            found.points = matched.automatic_pins(AUTOMATIC_PINS).concat();
         }
         found.notes.extend(TransitionNote::of_match(&matched));
         found.matched = Some(matched);
         Ok(found)
     }
 
-    /// With the match of the outlines that they are on, where there is one.
+    /// Adds the match of the outlines on which the features lie, or a note if they cannot be
+    /// matched.
+    ///
+    /// # Errors
+    /// If the work is cancelled.
     fn with_match(
         mut self,
         [source, target]: &[Regions; 2],
         matching: &MatchSettings,
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
-        // A cancel must not pass for outlines that do not match.
+        // A cancellation must not be mistaken for outlines that do not match.
         let matched = match_regions(source, target, matching, progress);
         checkpoint(progress, "matching", 0.5)?;
         match matched {
@@ -115,45 +124,45 @@ impl PlaneFeatures {
         Ok(self)
     }
 
-    /// Lines as their ends and their middle.
+    /// Returns the points, and three points on each line: its ends and its middle.
     pub fn as_points(&self) -> Vec<PointPair> {
-        let of_line = |line: &LinePair| [0.0, 0.5, 1.0].map(|along| on(line, along));
-        let ends = self.lines.iter().flat_map(of_line);
-        self.points.iter().copied().chain(ends).collect()
+        let points_on = |line: &LinePair| [0.0, 0.5, 1.0].map(|along| point_on_line(line, along));
+        let line_points = self.lines.iter().flat_map(points_on);
+        self.points.iter().copied().chain(line_points).collect()
     }
 
-    /// Points and the beginnings of lines, where nobody set them.
+    /// Returns the points and the starting points of lines if they are automatic; otherwise none.
     pub fn automatic(&self) -> Vec<PointPair> {
         if !self.are_automatic {
             return Vec::new();
         }
-        let starts = self.lines.iter().map(|line| on(line, 0.0));
+        let starts = self.lines.iter().map(|line| point_on_line(line, 0.0));
         self.points.iter().copied().chain(starts).collect()
     }
 
-    /// Whether each feature is a point, and on the outline of either design.
+    /// Returns whether all features are points that lie on the outlines of both designs.
     fn are_on(&self, outlines: &[Regions; 2]) -> bool {
         let is_on = |pair: &PointPair| {
             Side::BOTH.iter().all(|&side| {
                 let regions = &outlines[side];
-                let far = |ring: &Ring| ring.distance_squared(pair[side]).sqrt();
-                let near = regions.rings().map(far).fold(f64::INFINITY, f64::min);
-                near <= ON_OUTLINE * regions.bounds().diameter()
+                let distance = |ring: &Ring| ring.distance_squared(pair[side]).sqrt();
+                let nearest = regions.rings().map(distance).fold(f64::INFINITY, f64::min);
+                nearest <= ON_OUTLINE_DISTANCE * regions.bounds().diameter()
             })
         };
         self.lines.is_empty() && self.points.iter().all(is_on)
     }
 }
 
-/// A place along a line, 0 at its beginning and 1 at its end.
-fn on(line: &LinePair, along: f64) -> PointPair {
+/// Returns the point at a fraction of a line, from 0 at its beginning to 1 at its end.
+fn point_on_line(line: &LinePair, along: f64) -> PointPair {
     PointPair {
         source: line.source[0].lerp(line.source[1], along),
         target: line.target[0].lerp(line.target[1], along),
     }
 }
 
-/// The lines from each pin of a ring to the next.
+/// Returns the lines from each pin of a ring to the next.
 fn sides(ring: &[PointPair]) -> impl Iterator<Item = LinePair> {
     let next = ring.iter().cycle().skip(1);
     ring.iter().zip(next).map(|(a, b)| LinePair {

@@ -1,4 +1,4 @@
-//! What is proved of the film of a transition.
+//! The proof that the motion of a transition neither folds nor collides at any t.
 
 #[cfg(doc)]
 use super::options::CollisionAvoidance;
@@ -11,33 +11,33 @@ use crate::work::progress::{Progress, ProgressSpan};
 use serde::Serialize;
 use std::fmt;
 
-/// How much is done once the film is recorded.
-const RECORDED: f64 = 0.5;
+/// Fraction of the progress when the motion is recorded (heuristic).
+const RECORDING_PROGRESS: f64 = 0.5;
 
-/// What holds of a film at every t, and of what of it that is said.
+/// The result of checking a transition at every t, and what the check covers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TransitionProof {
-    /// What was found.
+    /// The result for the recorded motion.
     pub proof: RecordingProof,
-    /// How many faces there are; none of boundary paths.
+    /// Number of faces that were checked; 0 for boundary paths.
     pub faces: usize,
-    /// How near the film is to what it was recorded from; see [`Recording::error`].
+    /// Largest error of the recording; see [`Recording::error`].
     pub film_error: f64,
-    /// Holes that come and go, and parts that swell: nothing is said of these.
+    /// Number of unmatched holes, and of parts that swell; the check does not cover these.
     pub left_out: usize,
-    /// How far the guard moves a point aside at most, in diameters of the designs; none
-    /// where nothing is moved. See [`CollisionAvoidance`].
+    /// Largest distance by which a point is moved aside to avoid collisions, in diameters of the
+    /// designs; `None` if nothing is moved. See [`CollisionAvoidance`].
     pub moved_aside: Option<f64>,
 }
 
 impl Transition {
-    /// Records the film, if nobody did, and looks at it at every t in [0, 1]: does a
-    /// face turn over, does an outline meet itself or another? None of what has no
-    /// faces: fields and pictures.
+    /// Records the transition if necessary, and checks at every t in [0, 1] whether a face folds or
+    /// an outline crosses itself or another. Returns `None` for content without faces: distance
+    /// fields and pictures.
     ///
     /// # Errors
-    /// [`RecordingError`] if there is no film, or nobody wants it any more.
+    /// [`RecordingError`] if the transition cannot be recorded or the work is cancelled.
     pub fn prove(
         &self,
         options: &RecordingOptions,
@@ -46,62 +46,67 @@ impl Transition {
         let Content::Solid(solid) = self.content() else {
             return Ok(None);
         };
-        // Bars may cross, and their panels are not seen.
+        // Bars may cross, and the panels of a truss are invisible.
         if solid.loops.is_empty() {
             return Ok(None);
         }
-        let [recording, proving] =
-            [(0.0, RECORDED), (RECORDED, 1.0)].map(|(a, b)| ProgressSpan::new(progress, a, b));
-        let film: Recording = self.record(options, &recording)?;
+        let [recording, checking] = [(0.0, RECORDING_PROGRESS), (RECORDING_PROGRESS, 1.0)]
+            .map(|(a, b)| ProgressSpan::new(progress, a, b));
+        let recorded: Recording = self.record(options, &recording)?;
         Ok(Some(TransitionProof {
-            proof: film.prove(&walks(solid), &proving)?,
+            proof: recorded.prove(&drawn_loops(solid), &checking)?,
             faces: self.compatible().map_or(0, |mesh| mesh.faces().len()),
-            film_error: film.error(),
+            film_error: recorded.error(),
             left_out: solid.holes.len() + solid.swells.len(),
             moved_aside: self.arap().and_then(Arap::moved_aside),
         }))
     }
 }
 
-/// The boundaries that are drawn as the vertices are placed.
-fn walks(solid: &SolidContent) -> Vec<DrawnLoop> {
+/// Returns the boundary loops that are drawn exactly where their vertices are.
+fn drawn_loops(solid: &SolidContent) -> Vec<DrawnLoop> {
     let swells = |k: usize| solid.swells.iter().any(|swell| swell.walks().contains(&k));
     let level = |k: usize| match &solid.coating {
         Some(coating) => coating.of_walks[k],
         None => 0,
     };
-    let drawn = |k: usize| {
-        let speck = solid.specks.iter().find(|speck| speck.walks.contains(&k));
+    let visible_interval = |k: usize| {
+        let seed_shape = solid
+            .specks
+            .iter()
+            .find(|seed_shape| seed_shape.walks.contains(&k));
         let clock = solid.clocks.as_ref();
         let clock = clock.map_or(PartClock::WHOLE, |clocks| clocks.clocks[clocks.of_walks[k]]);
-        speck.map_or([0.0, 1.0], |speck| speck.life.there(|t| clock.when(t)))
+        seed_shape.map_or([0.0, 1.0], |seed_shape| {
+            seed_shape.life.there(|t| clock.when(t))
+        })
     };
-    let walks = solid.loops.iter().enumerate();
-    walks
+    let loops = solid.loops.iter().enumerate();
+    loops
         .filter(|(k, _)| !swells(*k))
-        .map(|(k, walk)| DrawnLoop {
-            vertices: walk.clone(),
+        .map(|(k, boundary_loop)| DrawnLoop {
+            vertices: boundary_loop.clone(),
             level: level(k),
-            drawn: drawn(k),
+            drawn: visible_interval(k),
         })
         .collect()
 }
 
 impl TransitionProof {
-    /// No face turns over and no outline meets another, at any t, of all that is
-    /// looked at.
+    /// Returns whether no face folds and no outlines meet at any t, as far as the check covers
+    /// them.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.proof.holds()
     }
 
-    /// Nothing is left out.
+    /// Returns whether the check covers everything.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.left_out == 0 && self.proof.touching == 0
     }
 
-    /// The first t at which something is not proved.
+    /// Returns the first t at which the check fails.
     #[must_use]
     pub fn first_t(&self) -> Option<f64> {
         let fold = self.proof.fold.map(|fold| fold.t);
@@ -109,27 +114,27 @@ impl TransitionProof {
         fold.into_iter().chain(meeting).min_by(f64::total_cmp)
     }
 
-    /// What was done for it, and what nothing is said of.
+    /// Writes how far points are moved aside, and what the check does not cover.
     fn write_exceptions(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(by) = self.moved_aside {
             let percent = 100.0 * by;
             write!(
                 f,
-                "; points are moved aside by up to {percent:.2} % of the diameter"
+                "; points are moved aside by up to {percent:.2} % of the diameter to avoid collisions"
             )?;
         }
         let touching = self.proof.touching;
         if touching > 0 {
             write!(
                 f,
-                "; {touching} points that touch an edge at an end are left out there"
+                "; not checked: {touching} points near the start or end, where they touch an edge"
             )?;
         }
         if self.left_out > 0 {
             let count = self.left_out;
             write!(
                 f,
-                "; {count} holes and parts that come and go within their outline are left out"
+                "; not checked: {count} holes and parts that appear or disappear within their outline"
             )?;
         }
         Ok(())
@@ -142,27 +147,22 @@ impl fmt::Display for TransitionProof {
         match (fold, meeting) {
             (None, None) => {
                 let faces = if self.faces > 0 {
-                    "no face turns over, "
+                    "no face folds, "
                 } else {
                     ""
                 };
-                write!(f, "proved for every t in [0, 1]: {faces}no outlines meet")?;
+                write!(f, "checked at every moment: {faces}no outlines cross")?;
             }
-            _ => f.write_str("not proved")?,
+            _ => f.write_str("check failed")?,
         }
         if let Some(fold) = fold {
-            write!(
-                f,
-                "; face {} may turn over at t = {:.9}",
-                fold.face + 1,
-                fold.t
-            )?;
+            write!(f, "; face {} may fold at t = {:.9}", fold.face + 1, fold.t)?;
         }
         if let Some(meeting) = meeting {
             let (t, place) = (meeting.t, meeting.place);
             write!(
                 f,
-                "; outlines may meet at t = {t:.9}, near ({:.4}, {:.4})",
+                "; outlines may cross at t = {t:.9}, near ({:.4}, {:.4})",
                 place.x, place.y
             )?;
         }

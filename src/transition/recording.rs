@@ -1,24 +1,26 @@
-//! The film of a transition, once somebody has recorded it.
+//! The recording of a transition, made on request.
 
 use super::transition::Transition;
 use crate::recording::{Recording, RecordingError, RecordingOptions};
 use crate::work::progress::Progress;
 
 impl Transition {
-    /// Records the warp over [0, 1]. From then on all frames within, those that there
-    /// are already among them, are played from memory instead of solved; to the eye
-    /// they are the same. Does nothing where that was done before.
+    /// Records the warp over [0, 1]. From then on all frames, existing ones included, are evaluated
+    /// from the recording instead of solved; the difference is invisible. Does nothing if there is
+    /// a recording already.
     ///
     /// # Errors
-    /// [`RecordingError`] says why frames go on being solved.
+    /// [`RecordingError`] with the reason why frames continue to be solved.
     ///
     /// ```
-    /// use morphospace::{Design, Transition, film::FilmOptions, progress::Silent};
+    /// use morphospace::recording::RecordingOptions;
+    /// use morphospace::work::progress::Silent;
+    /// use morphospace::{Design, Transition};
     /// let [a, b] = [[[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]], [[0.0, 0.0], [5.0, 1.0], [1.0, 3.0]]];
     /// let transition = Transition::between(Design::of_rings("a", [a])?, Design::of_rings("b", [b])?)?;
     /// let mut frame = transition.frame(0.5);
     /// let solved = frame.placement().in_frame.clone();
-    /// transition.record(&FilmOptions::default(), &Silent)?;
+    /// transition.record(&RecordingOptions::default(), &Silent)?;
     /// frame.seek(0.5);
     /// let played = frame.placement().in_frame.iter().zip(&solved);
     /// assert!(played.map(|(p, q)| p.distance(*q)).all(|off| off < 1e-8));
@@ -29,21 +31,21 @@ impl Transition {
         options: &RecordingOptions,
         progress: &dyn Progress,
     ) -> Result<Recording, RecordingError> {
-        if let Some(known) = self.film() {
-            return known.clone();
+        if let Some(existing) = self.film() {
+            return existing.clone();
         }
-        let film = Recording::record(self.shared_warp(), options, progress);
-        // Another time, or with more room, there may be one.
+        let recording = Recording::record(self.shared_warp(), options, progress);
+        // These may succeed later, so they are not stored.
         if matches!(
-            film,
+            recording,
             Err(RecordingError::Cancelled(_) | RecordingError::TooLarge { .. })
         ) {
-            return film;
+            return recording;
         }
-        self.slot().get_or_init(|| film).clone()
+        self.slot().get_or_init(|| recording).clone()
     }
 
-    /// The film, or why there is none; nothing as long as nobody has recorded it.
+    /// Returns the recording, or why there is none; `None` until recording was requested.
     #[must_use]
     pub fn film(&self) -> Option<&Result<Recording, RecordingError>> {
         self.slot().get()

@@ -1,5 +1,5 @@
-//! The film of both outlines, as it is kept: in it, all that is born or dies has its place
-//! and its time, where it meets nothing.
+//! The solved motion of matched outlines: unmatched parts and holes have a position and a time
+//! window in which they collide with nothing, as far as one exists.
 
 use super::collision_guard::FailedProof;
 use super::drawing_pair::DrawingPair;
@@ -18,24 +18,30 @@ use crate::correspondence::{MatchPlan, RegionMatch};
 use crate::warp::{Arap, ArapOptions, OutlineParameters};
 use crate::work::progress::{Progress, checkpoint};
 
-/// How often all that is born or dies is placed anew for what the proof found: of 60 pairs
-/// of icons none was proved that took more than two.
-const CLOSER: usize = 3;
+/// Maximum number of times that unmatched parts are placed again after a failed proof (resource
+/// limit; two suffice for all icons tested).
+const MAX_REFINEMENTS: usize = 3;
 
-/// The film of both outlines, as it is settled: not subdivided.
+/// The solved motion of two outlines, before subdivision.
 #[derive(Clone, Debug)]
 pub(super) struct RigidSolution {
-    /// The match that was kept.
+    /// The match that was chosen.
     pub matched: RegionMatch,
+    /// The interpolation of the matched pieces.
     pub arap: Arap,
-    /// Holes that one of the designs has alone.
+    /// Holes that exist in only one design.
     pub holes: Vec<PieceHole>,
-    /// The pieces that one of the designs has alone and that swell.
+    /// Indices of unmatched pieces that swell: they grow in thickness, within their outline,
+    /// instead of in size.
     pub swelling: Vec<usize>,
+    /// Deviations from the request, and suggestions.
     pub notes: Vec<TransitionNote>,
 }
 
-/// The match of both outlines that is kept, and its film, settled.
+/// Finds the best match of two outlines and solves its motion.
+///
+/// # Errors
+/// If outlines cannot be matched or triangulated, are too large, or the work is cancelled.
 pub(super) fn solve_best(
     spec: &TransitionSpec,
     drawings: &DrawingPair,
@@ -43,105 +49,136 @@ pub(super) fn solve_best(
 ) -> Result<RigidSolution, BuildError> {
     let designs = drawings.outlines.each_ref();
     checkpoint(progress, "matching", 0.0)?;
-    let asked = &spec.options.matching;
-    let mut prepared = MatchPlan::new(designs, &drawings.looks, asked, progress)?;
-    let parted = separate(&mut prepared, spec, progress)?;
+    let requested = &spec.options.matching;
+    let mut prepared = MatchPlan::new(designs, &drawings.looks, requested, progress)?;
+    let separation = separate(&mut prepared, spec, progress)?;
     let notes = match spec.options.quality {
-        BuildQuality::Best => mirror_check::mirror_note(spec, drawings, &parted.pieces, progress)?,
+        BuildQuality::Best => {
+            mirror_check::mirror_note(spec, drawings, &separation.pieces, progress)?
+        }
         BuildQuality::Draft => None,
     };
-    let matched = parted.matched;
-    let levels = PieceLayers::of(&matched, &drawings.looks);
-    let arap = stiffen_folds(parted.arap, progress)?;
-    // What is held stiffer moves a little otherwise.
-    let timetable = |holes: &[PieceHole]| {
-        placement::timetable(&matched, &arap, (holes, &levels), spec.options.quality)
+    let matched = separation.matched;
+    let layers = PieceLayers::of(&matched, &drawings.looks);
+    let arap = stiffen_folds(separation.arap, progress)?;
+    // Stiffening changed the motion slightly, so the schedule is based on the result.
+    let schedule_for = |holes: &[PieceHole]| {
+        placement::timetable(&matched, &arap, (holes, &layers), spec.options.quality)
     };
-    let holes = timed_by(&matched.pieces, &arap, &levels, &timetable, progress)?;
-    let film = RigidSolution {
+    let holes = timed_by(&matched.pieces, &arap, &layers, &schedule_for, progress)?;
+    let solution = RigidSolution {
         matched,
         arap,
         holes,
         swelling: Vec::new(),
         notes: notes.into_iter().collect(),
     };
-    kept_apart(film, &levels, &spec.options, progress)
+    without_collisions(solution, &layers, &spec.options, progress)
 }
 
-/// A film with all that is born or dies in its place and time, in which nothing meets
-/// anything, as far as that can be had.
+/// Places unmatched parts so that nothing collides at any t, as far as possible.
 ///
-/// Where the proof finds what was missed between the steps that were looked at, these
-/// are looked at, too, and all is placed anew.
-fn kept_apart(
-    film: RigidSolution,
-    levels: &PieceLayers,
+/// If the proof finds a collision of an unmatched part between the sampled times, the sampling is
+/// refined there and all parts are placed again.
+///
+/// # Errors
+/// If the motion cannot be solved or the work is cancelled.
+fn without_collisions(
+    solution: RigidSolution,
+    layers: &PieceLayers,
     options: &TransitionOptions,
     progress: &dyn Progress,
 ) -> Result<RigidSolution, BuildError> {
-    let (mut steps, mut first, mut met) = (SampleTimes::default(), None, Vec::new());
+    let (mut sample_times, mut first) = (SampleTimes::default(), None);
+    let mut previous_collisions = Vec::new();
     loop {
-        let placed = placed(film.clone(), (levels, &steps), options.quality, progress)?;
+        let placed = placed(
+            solution.clone(),
+            (layers, &sample_times),
+            options.quality,
+            progress,
+        )?;
         let arap = stiffen_folds(placed.arap, progress)?;
-        let film = RigidSolution { arap, ..placed };
+        let solution = RigidSolution { arap, ..placed };
         if (options.quality, options.guard) != (BuildQuality::Best, CollisionAvoidance::Guarded) {
-            return Ok(film);
+            return Ok(solution);
         }
-        let pieces = (film.matched.pieces.len(), &film.swelling[..]);
-        let Some(unproved) = FailedProof::of(&film.arap, pieces, levels, progress)? else {
-            return Ok(film);
+        let pieces = (solution.matched.pieces.len(), &solution.swelling[..]);
+        let Some(failed_proof) = FailedProof::of(&solution.arap, pieces, layers, progress)? else {
+            return Ok(solution);
         };
-        let births = unproved.births();
-        let now = (film, unproved);
-        if births.is_empty() || met.len() == CLOSER || met.last() == Some(&births) {
-            // What was looked at more closely in vain stays as it was at first.
-            let kept = if births.is_empty() { None } else { first };
-            let (film, unproved) = kept.unwrap_or(now);
-            let arap = unproved.kept_apart(progress)?;
-            return Ok(RigidSolution { arap, ..film });
+        let collision_times = failed_proof.births();
+        let current = (solution, failed_proof);
+        if collision_times.is_empty()
+            || previous_collisions.len() == MAX_REFINEMENTS
+            || previous_collisions.last() == Some(&collision_times)
+        {
+            // If refinement did not help, return to the first placement.
+            let restored = if collision_times.is_empty() {
+                None
+            } else {
+                first
+            };
+            let (solution, failed_proof) = restored.unwrap_or(current);
+            let arap = failed_proof.kept_apart(progress)?;
+            return Ok(RigidSolution { arap, ..solution });
         }
-        births.iter().for_each(|&t| steps.look_at(t));
-        met.push(births);
-        first.get_or_insert(now);
+        collision_times
+            .iter()
+            .for_each(|&t| sample_times.look_at(t));
+        previous_collisions.push(collision_times);
+        first.get_or_insert(current);
     }
 }
 
-/// A settled film as the options ask for it.
+/// Rebuilds a solved motion with the requested options, such as subdivision.
+///
+/// # Errors
+/// If the motion cannot be solved or the work is cancelled.
 pub(super) fn with_requested_options(
-    settled: &Arap,
-    asked: &ArapOptions,
+    solved: &Arap,
+    requested: &ArapOptions,
     progress: &dyn Progress,
 ) -> Result<Arap, BuildError> {
-    if settled.options() == asked {
-        return Ok(settled.clone());
+    if solved.options() == requested {
+        return Ok(solved.clone());
     }
-    stiffen_folds(settled.rebuilt(asked, progress)?, progress)
+    stiffen_folds(solved.rebuilt(requested, progress)?, progress)
 }
 
-/// A film with all that is born or dies in its place and time.
+/// Gives all unmatched parts a position and a time window.
+///
+/// # Errors
+/// If the motion cannot be solved or the work is cancelled.
 fn placed(
-    film: RigidSolution,
-    (levels, steps): (&PieceLayers, &SampleTimes),
+    solution: RigidSolution,
+    (layers, steps): (&PieceLayers, &SampleTimes),
     quality: BuildQuality,
     progress: &dyn Progress,
 ) -> Result<RigidSolution, BuildError> {
-    let options = film.arap.options();
-    let there = (&film.holes[..], levels, steps);
-    let placed = placement::placed(&film.matched, &film.arap, there, quality, progress)?;
+    let options = solution.arap.options();
+    let obstacles = (&solution.holes[..], layers, steps);
+    let placed = placement::placed(
+        &solution.matched,
+        &solution.arap,
+        obstacles,
+        quality,
+        progress,
+    )?;
     Ok(match placed {
         Some(placed) => {
-            let settled = OutlineParameters {
+            let parameters = OutlineParameters {
                 lives: &placed.lives,
-                stiffness: film.arap.stiffness(),
+                stiffness: solution.arap.stiffness(),
             };
             RigidSolution {
-                arap: Arap::settled(&placed.mesh, options, settled, progress)?,
+                arap: Arap::settled(&placed.mesh, options, parameters, progress)?,
                 matched: placed.matched,
                 swelling: placed.swelling,
-                // They lie in none of what was moved.
-                ..film
+                // Holes lie in matched pieces, which were not moved.
+                ..solution
             }
         }
-        None => film,
+        None => solution,
     })
 }

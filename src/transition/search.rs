@@ -1,4 +1,9 @@
-//! The search for the best match of each part: candidates, attempts and their scores.
+//! The search for the best match of each piece: candidates, attempts and their ratings.
+//!
+//! - `candidate`: a matched piece and the defects of its motion
+//! - `group`: variants of matching the pieces of a group of parts
+//! - `attempts`: the order in which variants are tried
+//! - `mirror_check`: whether the designs would match better if one were mirrored
 
 pub(crate) mod attempts;
 pub(crate) mod candidate;

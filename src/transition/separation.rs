@@ -1,11 +1,10 @@
-//! Parts that keep out of each other's way.
+//! Matches every piece so that the pieces do not pass through each other.
 //!
-//! Each piece has its match by itself. Parts of both designs that would then go
-//! through each other are let go: what is there dies, and what it was to become
-//! is born. So is a piece of which there is no mesh. That is seen with matches
-//! as they were asked for, which cost little, and again with the best of each
-//! piece. Between the two, large parts that are alone are shared out to their
-//! neighbours, where that fits better than that they come and go.
+//! Each piece is matched on its own. If matched pieces then collide, some of them are unpaired: the
+//! source part disappears and the target part appears. So are pieces that cannot be triangulated.
+//! Collisions are first resolved with the requested matches, which are cheap, and then again with
+//! the best match of each piece. In between, large unmatched parts are assigned to neighbouring
+//! groups, if that distorts less than letting them disappear.
 
 use super::arap_build::{check_size, unsubdivided};
 use super::collisions::{piece_weights, pieces_to_release};
@@ -25,57 +24,62 @@ use crate::work::progress::{Progress, ProgressShares, ProgressSpan, still_wanted
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// How often pieces are let go: what was split is split anew, and may meet
-/// anew.
-const ROUNDS: u32 = 3;
+/// Maximum number of rounds in which pieces are unpaired (resource limit; splitting a group again
+/// can cause new collisions).
+const MAX_ROUNDS: u32 = 3;
 
-/// How much is done once it is known who is let go of the matches as they were
-/// asked for, and once it is known what is shared out.
-const DRAFTED: f64 = 0.1;
-const SHARED: f64 = 0.2;
+/// Fraction of the progress when collisions of the requested matches are resolved (heuristic).
+const DRAFT_PROGRESS: f64 = 0.1;
+/// Fraction of the progress when unmatched parts are assigned to neighbouring groups (heuristic).
+const JOIN_PROGRESS: f64 = 0.2;
 
-/// How much of a round is done once the pieces have their matches.
-const CHOSEN: f64 = 0.9;
+/// Fraction of a round's progress when the pieces are matched (heuristic).
+const MATCH_PROGRESS: f64 = 0.9;
 
-/// A part that comes or goes fits as badly as one of its size that is distorted so much. With
-/// 100, three of 120 pairs of icons move otherwise. Were only counted what is alone, a word
-/// would be cut from a sign, and the worst tenth of 60 pairs distorted by 27, not 23.
-const ALONE: f64 = 30.0;
+/// Distortion that an unmatched part counts as, compared with a matched part of its size
+/// (heuristic).
+const UNMATCHED_DISTORTION: f64 = 30.0;
 
-/// Sharing out is worth it where less is alone by this, as a share of both designs. Half a large part: where one is let go for another, nothing is won, and
-/// of two words an m would become an e, upside down.
-const SAVED: f64 = 0.05;
+/// Smallest reduction of the unmatched share of both designs for which assigning unmatched parts to
+/// other groups is accepted (heuristic: about half a large part).
+const MIN_SAVING: f64 = 0.05;
 
-/// The matches of all pieces, of which none of both designs meet, and their film.
+/// The matches of all pieces without collisions, and their motion.
 pub(super) struct Separation {
     pub(super) matched: RegionMatch,
     pub(super) arap: Arap,
+    /// The matched and triangulated pieces.
     pub(super) pieces: Vec<MatchCandidate>,
+    /// The pieces of each group, for reuse.
     known: ChosenGroups,
 }
 
 impl Separation {
-    /// What is alone, as a share of both designs.
-    fn alone(&self) -> f64 {
+    /// Returns the unmatched share of both designs, from 0 to 1.
+    fn unmatched_share(&self) -> f64 {
         let pieces = self.matched.pieces.iter().zip(piece_weights(&self.matched));
-        let alone = pieces.filter(|(piece, _)| !piece.is_in_both());
-        alone.map(|(_, worth)| worth).sum()
+        let unmatched = pieces.filter(|(piece, _)| !piece.is_in_both());
+        unmatched.map(|(_, weight)| weight).sum()
     }
 
-    /// The mean of the pieces' misfits and of [`ALONE`], in logarithms, each counting as
-    /// much as its share of the designs.
+    /// Returns the mean of the logarithms of the pieces' misfits, weighted by their share of the
+    /// designs; unmatched pieces count as [`UNMATCHED_DISTORTION`].
     fn misfit(&self) -> f64 {
-        let of = |piece: &MatchCandidate| match piece.matched.is_in_both() {
+        let misfit = |piece: &MatchCandidate| match piece.matched.is_in_both() {
             true => piece.misfit(),
-            false => ALONE,
+            false => UNMATCHED_DISTORTION,
         };
         let pieces = self.pieces.iter().zip(piece_weights(&self.matched));
-        pieces.map(|(piece, worth)| worth * of(piece).ln()).sum()
+        pieces
+            .map(|(piece, weight)| weight * misfit(piece).ln())
+            .sum()
     }
 }
 
-/// The match of each piece, once what would go through other parts is let go,
-/// and the film of all.
+/// Matches each piece and resolves collisions.
+///
+/// # Errors
+/// If a piece cannot be matched at all, the motion cannot be solved, or the work is cancelled.
 pub(super) fn separate(
     prepared: &mut MatchPlan,
     spec: &TransitionSpec,
@@ -84,39 +88,47 @@ pub(super) fn separate(
     if spec.options.quality == BuildQuality::Draft {
         return apart(prepared, spec, &as_asked, progress);
     }
-    // The best of all pieces of what is let go at once was half of the work: of
-    // two icons 17 s, now 7.7.
-    let [drafting, sharing, choosing] = [(0.0, DRAFTED), (DRAFTED, SHARED), (SHARED, 1.0)]
-        .map(|(from, to)| ProgressSpan::new(progress, from, to));
+    // Unpairing with cheap matches first avoids half of the search for best matches.
+    let [drafting, joining, searching] = [
+        (0.0, DRAFT_PROGRESS),
+        (DRAFT_PROGRESS, JOIN_PROGRESS),
+        (JOIN_PROGRESS, 1.0),
+    ]
+    .map(|(from, to)| ProgressSpan::new(progress, from, to));
     let mut drafts = apart(prepared, spec, &as_asked, &drafting)?;
-    if let Some(mut other) = prepared.shared_out(&sharing) {
-        // What cannot be had is no better: there is a film without it.
-        let shared = apart(&mut other, spec, &as_asked, &sharing).ok();
-        still_wanted(&sharing)?;
-        let is_better = |shared: &Separation| {
-            drafts.alone() - shared.alone() > SAVED && shared.misfit() < drafts.misfit()
+    if let Some(mut joined) = prepared.shared_out(&joining) {
+        // A failed attempt is no better: a result exists already.
+        let candidate = apart(&mut joined, spec, &as_asked, &joining).ok();
+        still_wanted(&joining)?;
+        let is_better = |candidate: &Separation| {
+            drafts.unmatched_share() - candidate.unmatched_share() > MIN_SAVING
+                && candidate.misfit() < drafts.misfit()
         };
-        if let Some(shared) = shared.filter(is_better) {
-            (*prepared, drafts) = (other, shared);
+        if let Some(candidate) = candidate.filter(is_better) {
+            (*prepared, drafts) = (joined, candidate);
         }
     }
     let best = |group: &GroupSearch, progress: &dyn Progress| {
         let drafts = drafts.known.get(&group.prepared.groups()[group.group]);
         best_of_group(group, drafts, progress)
     };
-    apart(prepared, spec, &best, &choosing)
+    apart(prepared, spec, &best, &searching)
 }
 
-/// How the pieces of a group get their matches.
+/// Chooses the matches of the pieces of a group.
 type PieceChooser<'a> =
     dyn Fn(&GroupSearch, &dyn Progress) -> Result<Vec<PieceResult>, BuildError> + Sync + 'a;
 
+/// Chooses the requested match of each piece.
 fn as_asked(group: &GroupSearch, progress: &dyn Progress) -> Result<Vec<PieceResult>, BuildError> {
     drafts_of_group(group, progress)
 }
 
-/// The pieces so chosen, once those are let go that would go through others,
-/// with their film.
+/// Matches the pieces with `choice`, and unpairs pieces until none collide or the rounds are used
+/// up.
+///
+/// # Errors
+/// As [`separate`].
 fn apart(
     prepared: &mut MatchPlan,
     spec: &TransitionSpec,
@@ -124,14 +136,14 @@ fn apart(
     progress: &dyn Progress,
 ) -> Result<Separation, BuildError> {
     let mut known = ChosenGroups::new();
-    let (mut round, mut mended) = (0, 0);
+    let (mut round, mut repairs) = (0, 0);
     loop {
-        // Most films need one round, few the last.
+        // Most motions need one round; each further one gets half of the remaining progress.
         let done = |rounds: u32| 1.0 - 0.5_f64.powi(rounds as i32);
         let progress = &ProgressSpan::new(progress, done(round), done(round + 1));
-        let [choosing, filming] =
-            [(0.0, CHOSEN), (CHOSEN, 1.0)].map(|(from, to)| ProgressSpan::new(progress, from, to));
-        let groups = chosen(prepared, &known, spec, choice, &choosing)?;
+        let [matching, solving] = [(0.0, MATCH_PROGRESS), (MATCH_PROGRESS, 1.0)]
+            .map(|(from, to)| ProgressSpan::new(progress, from, to));
+        let groups = chosen(prepared, &known, spec, choice, &matching)?;
         let matched = match_of(&groups);
         known = prepared
             .groups()
@@ -139,19 +151,19 @@ fn apart(
             .cloned()
             .zip(groups.clone())
             .collect();
-        if prepared.let_go(&matched, &broken(&groups, mended), progress) {
-            mended += 1;
+        if prepared.let_go(&matched, &failed_pieces(&groups, repairs), progress) {
+            repairs += 1;
             continue;
         }
-        let candidates = meshed(groups.concat())?;
+        let candidates = all_meshed(groups.concat())?;
         let mesh = merged_meshes(candidates.iter().map(|best| &best.mesh));
         check_size(&mesh, &spec.options.arap, progress)?;
         let coarse = unsubdivided(&spec.options.arap);
-        let arap = Arap::of_outlines(&mesh, &coarse, &lives(&matched), &filming)?;
-        let levels = PieceLayers::of(&matched, prepared.looks());
-        let holes = timed(&matched.pieces, &arap, &levels, progress)?;
-        let gone = pieces_to_release(&matched, &arap, (&holes, &levels), progress)?;
-        if round == ROUNDS || !prepared.let_go(&matched, &gone, progress) {
+        let arap = Arap::of_outlines(&mesh, &coarse, &lives(&matched), &solving)?;
+        let layers = PieceLayers::of(&matched, prepared.looks());
+        let holes = timed(&matched.pieces, &arap, &layers, progress)?;
+        let unpaired = pieces_to_release(&matched, &arap, (&holes, &layers), progress)?;
+        if round == MAX_ROUNDS || !prepared.let_go(&matched, &unpaired, progress) {
             return Ok(Separation {
                 matched,
                 arap,
@@ -163,10 +175,13 @@ fn apart(
     }
 }
 
-/// The groups of parts whose pieces are chosen already.
+/// The groups of parts whose pieces have been chosen.
 type ChosenGroups = BTreeMap<PartGroup, Vec<PieceResult>>;
 
-/// The pieces of each group, but for those that are chosen already.
+/// Chooses the pieces of each group that is not in `known`.
+///
+/// # Errors
+/// The first error in the order of the groups.
 fn chosen(
     prepared: &MatchPlan,
     known: &ChosenGroups,
@@ -187,38 +202,42 @@ fn chosen(
             choice(&group, &shares.part(k))
         }
     });
-    // All first: of several failures it is the first in order that is told.
+    // Collected first, so that the reported error does not depend on the order of threads.
     let chosen: Vec<Result<Vec<PieceResult>, BuildError>> = chosen.collect();
     chosen.into_iter().collect()
 }
 
+/// Returns the match of all pieces.
 fn match_of(groups: &[Vec<PieceResult>]) -> RegionMatch {
-    let piece = |chosen: &PieceResult| match chosen {
+    let piece_of = |chosen: &PieceResult| match chosen {
         Ok(best) => best.matched.clone(),
         Err((piece, _)) => piece.clone(),
     };
     RegionMatch {
-        pieces: groups.iter().flatten().map(piece).collect(),
+        pieces: groups.iter().flatten().map(piece_of).collect(),
     }
 }
 
-/// The pieces to let go because there is no mesh of them; where that was done
-/// before, with all that they were split from: what is split anew may break
-/// anew.
-fn broken(groups: &[Vec<PieceResult>], mended: u32) -> Vec<usize> {
-    let mut first = 0;
-    let mut broken = Vec::new();
+/// Returns the pieces to unpair because they cannot be triangulated. After the first time, all
+/// pieces of such a group are unpaired, since pieces that are split again may fail again.
+fn failed_pieces(groups: &[Vec<PieceResult>], repairs: u32) -> Vec<usize> {
+    let mut first_piece = 0;
+    let mut failing = Vec::new();
     for group in groups {
-        let is_broken = group.iter().any(Result::is_err);
-        let is_let_go = |k: &usize| group[*k].is_err() || (is_broken && mended > 0);
-        broken.extend((0..group.len()).filter(is_let_go).map(|k| first + k));
-        first += group.len();
+        let has_failed = group.iter().any(Result::is_err);
+        let is_released = |k: &usize| group[*k].is_err() || (has_failed && repairs > 0);
+        failing.extend(
+            (0..group.len())
+                .filter(is_released)
+                .map(|k| first_piece + k),
+        );
+        first_piece += group.len();
     }
-    broken
+    failing
 }
 
-/// All pieces, or what is wrong with the first that has no mesh.
-fn meshed(chosen: Vec<PieceResult>) -> Result<Vec<MatchCandidate>, BuildError> {
+/// Returns all pieces, or the error of the first one that could not be triangulated.
+fn all_meshed(chosen: Vec<PieceResult>) -> Result<Vec<MatchCandidate>, BuildError> {
     let pieces = chosen.len();
     let candidates = chosen.into_iter().enumerate().map(|(piece, chosen)| {
         chosen.map_err(|(_, error)| {

@@ -1,12 +1,12 @@
-//! Transitions one after the other: a film through many designs.
+//! Sequences: transitions one after another, through many designs.
 //!
-//! t counts the designs: at 0 there is the first, at 1 the second, and between the two
-//! the transition from one to the other, the first *leg*. A pair is the case of one
-//! leg, and all that is shown, measured or written of it is the same to the last bit.
+//! t counts the designs: the first is at 0, the second at 1, and between them runs the transition
+//! from one to the other, the first *segment*. A pair of designs is a sequence of one segment, and
+//! everything shown, measured or written of it is identical to the single transition.
 //!
-//! Guaranteed: at each whole t the design itself, whichever leg it is reached by.
-//! Not guaranteed: that points go on in the direction that they arrived in; a pass
-//! rests there, or is eased, so that nobody sees it.
+//! Guaranteed: at each integer t the design itself, from whichever segment it is reached. Not
+//! guaranteed: that points continue in the direction in which they arrived; playback pauses there
+//! or is eased, which hides the change.
 
 use super::frame::Frame;
 use super::style::TransitionStyle;
@@ -14,18 +14,17 @@ use super::transition::Transition;
 use crate::geometry::Bounds;
 use std::sync::Arc;
 
-/// Transitions one after the other, at least one. Cloning is cheap.
+/// Transitions one after another, at least one. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::transition::Sequence;
 /// use morphospace::{Design, Transition};
 /// let box_ = |w: f64, h: f64| Design::of_rings("box", [[[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]]);
-/// let leg = |a: Design, b: Design| Transition::between(a, b);
-/// let legs = vec![
-///     leg(box_(1.0, 1.0)?, box_(3.0, 1.0)?)?,
-///     leg(box_(3.0, 1.0)?, box_(3.0, 3.0)?)?,
+/// let segments = vec![
+///     Transition::between(box_(1.0, 1.0)?, box_(3.0, 1.0)?)?,
+///     Transition::between(box_(3.0, 1.0)?, box_(3.0, 3.0)?)?,
 /// ];
-/// let sequence = Sequence::new(legs).expect("two are more than none");
+/// let sequence = Sequence::new(segments).expect("two segments");
 /// assert_eq!(sequence.end(), 2.0);
 /// let mut frame = sequence.frame(0.0);
 /// frame.seek(1.5);
@@ -34,16 +33,16 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Sequence {
-    legs: Arc<[Transition]>,
-    /// The last leg leads back to the first design.
-    leads_back: bool,
+    segments: Arc<[Transition]>,
+    /// The last segment leads back to the first design.
+    is_closed: bool,
 }
 
 impl From<Transition> for Sequence {
     fn from(only: Transition) -> Self {
         Self {
-            legs: [only].into(),
-            leads_back: false,
+            segments: [only].into(),
+            is_closed: false,
         }
     }
 }
@@ -61,175 +60,185 @@ impl From<&Self> for Sequence {
 }
 
 impl Sequence {
-    /// None of no legs. That each begins with the design that the last one ends with is
-    /// for the caller to see to.
+    /// Creates a sequence; `None` without segments. The caller must ensure that each segment begins
+    /// with the design with which the one before it ends.
     #[must_use]
-    pub fn new(legs: Vec<Transition>) -> Option<Self> {
-        (!legs.is_empty()).then(|| Self {
-            legs: legs.into(),
-            leads_back: false,
+    pub fn new(segments: Vec<Transition>) -> Option<Self> {
+        (!segments.is_empty()).then(|| Self {
+            segments: segments.into(),
+            is_closed: false,
         })
     }
 
-    /// The same, whose last leg leads back to the first design, or does not: then the
-    /// colours that go with t come back as well.
+    /// Sets whether the last segment leads back to the first design: then the colours that change
+    /// with t return as well.
     #[must_use]
-    pub fn leading_back(self, leads_back: bool) -> Self {
-        Self { leads_back, ..self }
+    pub fn leading_back(self, is_closed: bool) -> Self {
+        Self { is_closed, ..self }
     }
 
-    /// The transitions, in their order.
+    /// Returns the transitions in order.
     #[must_use]
     pub fn legs(&self) -> &[Transition] {
-        &self.legs
+        &self.segments
     }
 
-    /// Whether these are the same transitions. Clones share what they are made of; comparing
-    /// that would take longer.
+    /// Returns whether two sequences share the same transitions. Compares pointers, which clones
+    /// share; comparing the data would take longer.
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
         let same = |(a, b): (&Transition, &Transition)| a.is(b);
-        self.legs.len() == other.legs.len() && self.legs.iter().zip(other.legs.iter()).all(same)
+        self.segments.len() == other.segments.len()
+            && self.segments.iter().zip(other.segments.iter()).all(same)
     }
 
-    /// The t of the last design: how many legs there are.
+    /// Returns t of the last design, which is the number of segments.
     #[must_use]
     pub fn end(&self) -> f64 {
-        self.legs.len() as f64
+        self.segments.len() as f64
     }
 
-    /// The leg that is shown at `t`, and where in it: before the first design and behind
-    /// the last one it extrapolates.
+    /// Returns the segment shown at `t`, and the t within it; before the first design and beyond
+    /// the last one it is extrapolated.
     #[must_use]
     pub fn place(&self, t: f64) -> (usize, f64) {
-        segment_at(self.legs.len(), t)
+        segment_at(self.segments.len(), t)
     }
 
-    /// The box that holds every frame for t from the first design to the last, nearly.
+    /// Returns a box around every frame from the first design to the last. Approximate: frames are
+    /// sampled.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        let boxes = self.legs.iter().map(Transition::bounds);
+        let boxes = self.segments.iter().map(Transition::bounds);
         boxes
             .reduce(|a, b| a.union(&b))
-            .unwrap_or_else(|| unreachable!("there is a leg"))
+            .unwrap_or_else(|| unreachable!("there is a segment"))
     }
 
-    /// The t within, at which a design is reached or something sets out, arrives or
-    /// changes its pace: between them every point moves smoothly. In no order.
+    /// Returns every t inside the sequence at which a design is reached or a part starts, stops or
+    /// changes pace. Between these, every point moves smoothly. Unsorted.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
-        let of_leg = |(k, leg): (usize, &Transition)| {
+        let breaks_of_segment = |(k, segment): (usize, &Transition)| {
             let first = k as f64;
-            let joint = (k > 0).then_some(first);
-            let within = leg.breaks().into_iter().map(move |t| first + t);
-            joint.into_iter().chain(within)
+            let segment_start = (k > 0).then_some(first);
+            let within = segment.breaks().into_iter().map(move |t| first + t);
+            segment_start.into_iter().chain(within)
         };
-        self.legs.iter().enumerate().flat_map(of_leg).collect()
+        self.segments
+            .iter()
+            .enumerate()
+            .flat_map(breaks_of_segment)
+            .collect()
     }
 
-    /// How a leg is painted where the whole is painted so: colours that go with t go once
-    /// through all legs.
+    /// Returns the style of a segment for a given style of the whole sequence: colours that change
+    /// with t run once through all segments.
     #[must_use]
-    pub fn style_of(&self, leg: usize, style: &TransitionStyle) -> TransitionStyle {
-        style_of(leg, (self.legs.len(), self.leads_back), style)
+    pub fn style_of(&self, segment: usize, style: &TransitionStyle) -> TransitionStyle {
+        style_of(segment, (self.segments.len(), self.is_closed), style)
     }
 
-    /// A frame at `t`, with memory of its own; a `t` that is not finite counts as 0.
+    /// Creates a frame at `t`, with its own memory; a `t` that is not finite counts as 0.
     #[must_use]
     pub fn frame(&self, t: f64) -> SequenceFrame {
         let t = if t.is_finite() { t } else { 0.0 };
-        let (leg, within) = self.place(t);
-        let mut frames: Vec<Option<Frame>> = self.legs.iter().map(|_| None).collect();
-        frames[leg] = Some(self.legs[leg].frame(within));
+        let (segment, within) = self.place(t);
+        let mut frames: Vec<Option<Frame>> = self.segments.iter().map(|_| None).collect();
+        frames[segment] = Some(self.segments[segment].frame(within));
         SequenceFrame {
             sequence: self.clone(),
             frames,
-            leg,
+            segment,
             t,
         }
     }
 }
 
-/// As [`Sequence::place`], of so many legs.
+/// As [`Sequence::place`], for a sequence of `segment_count` segments.
 #[must_use]
-pub fn segment_at(legs: usize, t: f64) -> (usize, f64) {
-    let last = legs.saturating_sub(1);
-    // `as` saturates, and takes what is no number for 0.
-    let leg = (t.floor().max(0.0) as usize).min(last);
-    (leg, t - leg as f64)
+pub fn segment_at(segment_count: usize, t: f64) -> (usize, f64) {
+    let last = segment_count.saturating_sub(1);
+    // `as` saturates and converts NaN to 0.
+    let segment = (t.floor().max(0.0) as usize).min(last);
+    (segment, t - segment as f64)
 }
 
-/// As [`Sequence::style_of`], of so many legs, which lead back or do not.
+/// As [`Sequence::style_of`], given the number of segments and whether the last one leads back.
 #[must_use]
-pub fn style_of(leg: usize, all: (usize, bool), style: &TransitionStyle) -> TransitionStyle {
-    let at = |k: usize| style.fill_at(colour_fraction(k as f64, all));
+pub fn style_of(
+    segment: usize,
+    sequence: (usize, bool),
+    style: &TransitionStyle,
+) -> TransitionStyle {
+    let colour_of_design = |k: usize| style.fill_at(colour_fraction(k as f64, sequence));
     TransitionStyle {
-        source: at(leg),
-        target: at(leg + 1),
+        source: colour_of_design(segment),
+        target: colour_of_design(segment + 1),
         ..*style
     }
 }
 
-/// Where between the first colour of a style and its second one so many legs have come at
-/// `t`: from one to the other, and back where they lead back.
+/// Returns the position between the style's source colour (0) and target colour (1) at `t`: from 0
+/// to 1 over all segments, or to 1 and back if the last segment leads back.
 #[must_use]
-pub fn colour_fraction(t: f64, (legs, leads_back): (usize, bool)) -> f64 {
-    let share = t / legs.max(1) as f64;
-    match leads_back {
-        true => 1.0 - (2.0 * share - 1.0).abs(),
-        false => share,
+pub fn colour_fraction(t: f64, (segment_count, is_closed): (usize, bool)) -> f64 {
+    let fraction = t / segment_count.max(1) as f64;
+    match is_closed {
+        true => 1.0 - (2.0 * fraction - 1.0).abs(),
+        false => fraction,
     }
 }
 
-/// A sequence at one t. Only legs that were looked at have memory.
+/// A sequence at one t. Only segments that have been shown take up memory.
 #[derive(Debug)]
 pub struct SequenceFrame {
     sequence: Sequence,
     frames: Vec<Option<Frame>>,
-    leg: usize,
+    segment: usize,
     t: f64,
 }
 
 impl SequenceFrame {
-    /// Moves to `t`, without allocating within a leg that was looked at before. A `t`
-    /// that is not finite counts as 0.
+    /// Moves to `t`. Does not allocate within a segment that has been shown before. A `t` that is
+    /// not finite counts as 0.
     pub fn seek(&mut self, t: f64) {
         self.t = if t.is_finite() { t } else { 0.0 };
-        let (leg, within) = self.sequence.place(self.t);
-        self.leg = leg;
-        match &mut self.frames[leg] {
+        let (segment, within) = self.sequence.place(self.t);
+        self.segment = segment;
+        match &mut self.frames[segment] {
             Some(frame) => frame.seek(within),
-            none => *none = Some(self.sequence.legs[leg].frame(within)),
+            none => *none = Some(self.sequence.segments[segment].frame(within)),
         }
     }
 
-    /// The frame of the leg that is shown.
+    /// Returns the frame of the segment that is shown.
     ///
     /// # Panics
-    /// Never: the leg that is shown was looked at.
+    /// Never: that segment has a frame.
     #[must_use]
     pub fn now(&self) -> &Frame {
-        self.frames[self.leg]
+        self.frames[self.segment]
             .as_ref()
             .unwrap_or_else(|| unreachable!("it was sought"))
     }
 
-    /// The number of that leg, from 0.
+    /// Returns the index of the segment that is shown.
     #[must_use]
     pub fn leg(&self) -> usize {
-        self.leg
+        self.segment
     }
 
-    /// Where it is in the whole.
+    /// Returns t within the whole sequence.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.t
     }
 
-    /// How it is painted where the whole is painted so; see [`Sequence::style_of`].
+    /// Returns the style of the segment that is shown; see [`Sequence::style_of`].
     #[must_use]
     pub fn style(&self, style: &TransitionStyle) -> TransitionStyle {
-        self.sequence.style_of(self.leg, style)
+        self.sequence.style_of(self.segment, style)
     }
 }
 
@@ -246,23 +255,23 @@ mod tests {
 
     fn three() -> Sequence {
         let sizes = [[1.0, 1.0], [3.0, 1.0], [2.0, 4.0]];
-        let leg = |k: usize| {
+        let segment = |k: usize| {
             let [a, b] = [0, 1].map(|i| design("x", sizes[k + i]));
             Transition::between(a, b).expect("a transition")
         };
-        Sequence::new(vec![leg(0), leg(1)]).expect("two legs")
+        Sequence::new(vec![segment(0), segment(1)]).expect("two segments")
     }
 
     #[test]
-    fn a_leg_is_what_it_is_alone() {
+    fn a_segment_equals_the_single_transition() {
         let sequence = three();
         let mut frame = sequence.frame(0.25);
         for t in [0.25, 1.75, 0.5, 1.0, -0.5, 2.5, 2.0] {
             frame.seek(t);
-            let (leg, within) = sequence.place(t);
-            let alone = sequence.legs()[leg].frame(within).figure();
+            let (segment, within) = sequence.place(t);
+            let alone = sequence.legs()[segment].frame(within).figure();
             assert_eq!(frame.now().figure(), alone, "{t}");
-            assert_eq!((frame.t(), frame.leg()), (t, leg));
+            assert_eq!((frame.t(), frame.leg()), (t, segment));
         }
         assert_eq!(
             [-0.5, 0.0, 1.0, 1.5, 2.0, 2.5].map(|t| sequence.place(t).0),
@@ -275,10 +284,10 @@ mod tests {
     }
 
     #[test]
-    fn designs_are_met_from_both_sides_to_the_last_bit() {
+    fn designs_are_exact_from_both_sides() {
         let sequence = three();
-        let [arriving, leaving] = [(0, 1.0), (1, 0.0)].map(|(leg, t)| {
-            let frame = sequence.legs()[leg].frame(t);
+        let [arriving, leaving] = [(0, 1.0), (1, 0.0)].map(|(segment, t)| {
+            let frame = sequence.legs()[segment].frame(t);
             let mut points = frame.figure().rings.concat();
             points.retain(|p| design("x", [3.0, 1.0]).extent.padded(1e-9).contains(*p));
             points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -291,9 +300,9 @@ mod tests {
     }
 
     #[test]
-    fn colours_go_once_through_all_legs() {
+    fn colours_run_once_through_all_segments() {
         let (sequence, style) = (three(), TransitionStyle::default());
-        let [first, second] = [0, 1].map(|leg| sequence.style_of(leg, &style));
+        let [first, second] = [0, 1].map(|segment| sequence.style_of(segment, &style));
         assert_eq!(first.source, style.source);
         assert_eq!(second.target, style.target);
         assert_eq!(first.target, second.source);
@@ -306,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn breaks_are_those_of_the_legs_and_the_designs_between() {
+    fn breaks_are_those_of_the_segments_and_the_designs_between_them() {
         assert_eq!(three().breaks(), [1.0]);
     }
 }

@@ -1,7 +1,8 @@
-//! Two designs as rigid parts: one triangulation of both, interpolated.
+//! Transitions of rigid parts: one triangulation of both designs, interpolated as rigidly as
+//! possible.
 //!
-//! Two meshes bring their triangulation along, two trusses their panels; all
-//! other forms are matched as outlines.
+//! Two meshes bring their triangulation along, two trusses their panels; all other forms are
+//! matched as outlines.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::arap_build::check_size;
@@ -25,7 +26,10 @@ use crate::work::progress::{Progress, checkpoint};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// The parts, and what is seen of them.
+/// Builds the interpolation of rigid parts, and the visible content.
+///
+/// # Errors
+/// If the designs cannot be matched or triangulated, are too large, or the work is cancelled.
 pub(super) fn rigid_parts(
     spec: &TransitionSpec,
     bar_width: f64,
@@ -37,66 +41,72 @@ pub(super) fn rigid_parts(
         ..SolidContent::default()
     };
     let mut drawings = None;
-    let (arap, kept) = match (&spec.source.form, &spec.target.form) {
+    let (arap, solved) = match (&spec.source.form, &spec.target.form) {
         (DesignForm::Mesh(a), DesignForm::Mesh(b)) => {
             let mesh = CompatibleMesh::from_meshes(a, b);
-            (given(spec, mesh, progress)?, None)
+            (from_common_mesh(spec, mesh, progress)?, None)
         }
         (DesignForm::Truss(a), DesignForm::Truss(b)) => {
             solid.bars = a.bars().to_vec();
-            solid.bar_paints = paints(spec.options.paint, [a, b]);
+            solid.bar_paints = bar_paints(spec.options.paint, [a, b]);
             let mesh = CompatibleMesh::from_trusses(a, b, progress);
-            (given(spec, mesh, progress)?, None)
+            (from_common_mesh(spec, mesh, progress)?, None)
         }
         _ => {
-            let drawn = drawings.insert(spec.drawings(bar_width, progress)?);
-            let kept = found_or_best(spec, drawn, progress)?;
-            let arap = rigid_solution::with_requested_options(
-                &kept.film.arap,
-                &spec.options.arap,
-                progress,
-            )?;
-            (arap, Some(Arc::new(kept)))
+            let pair = drawings.insert(spec.drawings(bar_width, progress)?);
+            let solved = cached_or_best(spec, pair, progress)?;
+            let (motion, options) = (&solved.film.arap, &spec.options.arap);
+            let arap = rigid_solution::with_requested_options(motion, options, progress)?;
+            (arap, Some(Arc::new(solved)))
         }
     };
-    // The panels of a truss carry its nodes, and are not seen.
+    // The panels of a truss move its joints and are invisible.
     if solid.bars.is_empty() {
         solid.loops = arap.mesh().boundary_loops();
     }
-    let film = kept.as_ref().map(|kept| &kept.film);
-    if let Some((film, drawings)) = film.zip(drawings) {
-        let walks = PieceBoundaryLoops::of_mesh(arap.mesh());
-        solid.coating = piece_coating::coating(&drawings, &film.matched, &walks, &film.holes);
-        solid.holes = film.holes.iter().map(|(_, hole)| hole.clone()).collect();
-        (solid.swells, solid.specks) = shapes::drawn(&arap, &film.swelling);
+    let solution = solved.as_ref().map(|solved| &solved.film);
+    if let Some((solution, drawings)) = solution.zip(drawings) {
+        let loops = PieceBoundaryLoops::of_mesh(arap.mesh());
+        solid.coating =
+            piece_coating::coating(&drawings, &solution.matched, &loops, &solution.holes);
+        solid.holes = solution
+            .holes
+            .iter()
+            .map(|(_, hole)| hole.clone())
+            .collect();
+        (solid.swells, solid.specks) = shapes::drawn(&arap, &solution.swelling);
     }
     let moved = BuiltWarp {
-        matched: film.map(|film| film.matched.clone()),
-        notes: film.map_or_else(Vec::new, |film| film.notes.clone()),
-        kept,
+        matched: solution.map(|solution| solution.matched.clone()),
+        notes: solution.map_or_else(Vec::new, |solution| solution.notes.clone()),
+        kept: solved,
         ..AnyWarp::Rigid(arap).into()
     };
     Ok((moved, solid))
 }
 
-/// The paints of the bars of two trusses, as the first lists them.
-fn paints(rule: PaintRule, trusses: [&Truss; 2]) -> Vec<[Option<Paint>; 2]> {
+/// Returns the paints of the bars of two trusses, in the order of the first truss; empty without
+/// colours.
+fn bar_paints(rule: PaintRule, trusses: [&Truss; 2]) -> Vec<[Option<Paint>; 2]> {
     let is_painted = |truss: &&Truss| !truss.parts().colours.is_empty();
     if rule == PaintRule::One || !trusses.iter().any(is_painted) {
         return Vec::new();
     }
     let undirected = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-    let of_bars = trusses.map(|truss| -> HashMap<[u32; 2], Rgb> {
+    let colour_maps = trusses.map(|truss| -> HashMap<[u32; 2], Rgb> {
         let bars = truss.bars().iter().map(|&bar| undirected(bar));
         bars.zip(truss.parts().colours.iter().copied()).collect()
     });
     let bars = trusses[0].bars().iter();
-    let paint = |bar: [u32; 2]| of_bars.each_ref().map(|of| Some((*of.get(&bar)?).into()));
+    let paint = |bar: [u32; 2]| {
+        let colours = colour_maps.each_ref();
+        colours.map(|colour_of| Some((*colour_of.get(&bar)?).into()))
+    };
     bars.map(|&bar| paint(undirected(bar))).collect()
 }
 
-/// What was found before for the same outlines and options, or the best film.
-fn found_or_best(
+/// Returns the cached solution for the same outlines and options, or computes the best one.
+fn cached_or_best(
     spec: &TransitionSpec,
     drawings: &DrawingPair,
     progress: &dyn Progress,
@@ -109,8 +119,8 @@ fn found_or_best(
     Ok(KeyedSolution { key, film })
 }
 
-/// The interpolation of a triangulation that the designs brought along.
-fn given(
+/// Builds the interpolation of a triangulation that the designs bring along.
+fn from_common_mesh(
     spec: &TransitionSpec,
     mesh: Result<CompatibleMesh, CompatibleError>,
     progress: &dyn Progress,

@@ -1,21 +1,20 @@
-//! What was found for two designs, in a form that a document keeps: it opens at
-//! once, and plays the same film wherever it is opened.
+//! Packs the solved motion of two designs for storage in a document, so that the document opens at
+//! once and plays the same motion everywhere.
 //!
-//! Kept is the match with the mesh of its film, both as they were settled, from
-//! which the film is one factorisation away. It is taken only for the outlines
-//! and the options that it was found for, and only where all of it is sound;
-//! otherwise the match is looked for anew, and nothing is said.
+//! Stored are the match and the mesh of the solved motion, from which the motion is one
+//! factorisation away. A stored result is only used for the outlines and options for which it was
+//! computed, and only if all of it is valid; otherwise the match is silently computed again.
 
-use super::arap_build::{check_size, unsubdivided};
 use super::cached_match::{CachedMatch, SharedText};
-use super::error::BuildError;
-use super::note::TransitionNote;
-use super::options::TransitionOptions;
-use super::rigid_solution::RigidSolution;
-use super::transients::holes;
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::PieceMatch;
 use crate::geometry::DVec2;
+use crate::transition::arap_build::{check_size, unsubdivided};
+use crate::transition::error::BuildError;
+use crate::transition::note::TransitionNote;
+use crate::transition::options::TransitionOptions;
+use crate::transition::rigid_solution::RigidSolution;
+use crate::transition::transients::holes;
 use crate::warp::{Arap, Guard, OutlineParameters, TimeWindow};
 use crate::work::progress::{Progress, still_wanted};
 use base64::Engine;
@@ -25,37 +24,36 @@ use flate2::read::{ZlibDecoder, ZlibEncoder};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
-/// What is kept unpacks to less: some 50 bytes a face. What is made up of empty
-/// pieces takes 16 times as much memory as it has bytes.
-const MOST_BYTES: u64 = 16 << 20;
+/// Maximum size of the unpacked data in bytes (resource limit: about 50 bytes per face; data made
+/// of empty pieces takes 16 times its size in memory).
+const MAX_BYTES: u64 = 16 << 20;
 
-/// Characters of a line of what is kept, as of certificates and letters.
-const LINE: usize = 76;
+/// Number of characters in a line of the encoded text, as in certificates and e-mail.
+const LINE_LENGTH: usize = 76;
 
-/// A settled film and the key of what it was found for.
+/// A solved motion, and the key of its inputs.
 #[derive(Clone, Debug)]
-pub(super) struct KeyedSolution {
+pub(in crate::transition) struct KeyedSolution {
     pub key: String,
     pub film: RigidSolution,
 }
 
 impl KeyedSolution {
-    /// As text for a document.
+    /// Packs the motion as text for a document.
     pub fn packed(&self) -> CachedMatch {
-        let film = SolutionRecord::of(&self.film).and_then(|record| record.packed());
+        let packed = SolutionRecord::of(&self.film).and_then(|record| record.packed());
         CachedMatch {
             of: self.key.clone(),
-            film: SharedText(film.unwrap_or_default().into()),
+            film: SharedText(packed.unwrap_or_default().into()),
         }
     }
 }
 
-/// The film that was found for what has this key, if there is one that is
-/// sound.
+/// Restores the cached motion if it was computed for this key and is valid.
 ///
 /// # Errors
-/// A cancel, or the film is too large.
-pub(super) fn restore(
+/// If the mesh is too large or the work is cancelled.
+pub(in crate::transition) fn restore(
     found: &CachedMatch,
     key: &str,
     options: &TransitionOptions,
@@ -66,12 +64,12 @@ pub(super) fn restore(
     } else {
         None
     };
-    let film = record.map(|record| record.film(options, progress));
+    let solution = record.map(|record| record.rebuild(options, progress));
     still_wanted(progress)?;
-    Ok(film.transpose()?.flatten())
+    Ok(solution.transpose()?.flatten())
 }
 
-/// A film as it is written. Holes are found again by what is in the match.
+/// The stored form of a solved motion. Holes are found again from the match.
 #[derive(Serialize, Deserialize)]
 struct SolutionRecord {
     pieces: Vec<PieceMatch>,
@@ -81,54 +79,62 @@ struct SolutionRecord {
     stiffness: Vec<f64>,
     holes: Vec<TimeWindow>,
     swelling: Vec<usize>,
-    /// Distortion as drawn, and mirrored.
+    /// Distortion as drawn and mirrored, if mirroring was suggested.
     mirrored: Option<[f64; 2]>,
     guard: Option<Guard>,
 }
 
 impl SolutionRecord {
-    /// None of a film with more to say than can be written.
-    fn of(film: &RigidSolution) -> Option<Self> {
-        let mesh = film.arap.mesh();
-        let mirrored = match film.notes[..] {
+    /// Converts a motion; `None` if it has notes that cannot be stored.
+    fn of(solution: &RigidSolution) -> Option<Self> {
+        let mesh = solution.arap.mesh();
+        let mirrored = match solution.notes[..] {
             [] => None,
             [TransitionNote::Mirrored { as_drawn, mirrored }] => Some([as_drawn, mirrored]),
             _ => return None,
         };
         Some(Self {
-            pieces: film.matched.pieces.clone(),
+            pieces: solution.matched.pieces.clone(),
             faces: mesh.faces().to_vec(),
             places: [mesh.source().to_vec(), mesh.target().to_vec()],
-            lives: film.arap.lives().to_vec(),
-            stiffness: film.arap.stiffness().to_vec(),
-            holes: film.holes.iter().map(|(_, hole)| hole.life).collect(),
-            swelling: film.swelling.clone(),
+            lives: solution.arap.lives().to_vec(),
+            stiffness: solution.arap.stiffness().to_vec(),
+            holes: solution.holes.iter().map(|(_, hole)| hole.life).collect(),
+            swelling: solution.swelling.clone(),
             mirrored,
-            guard: film.arap.guard().cloned(),
+            guard: solution.arap.guard().cloned(),
         })
     }
 
+    /// Serialises, compresses and encodes the record.
     fn packed(&self) -> Option<String> {
         let bytes = rmp_serde::to_vec(self).ok()?;
         let mut packed = Vec::new();
         let mut encoder = ZlibEncoder::new(&bytes[..], Compression::best());
         encoder.read_to_end(&mut packed).ok()?;
         let text = STANDARD.encode(packed);
-        let lines = text.as_bytes().chunks(LINE).map(String::from_utf8_lossy);
+        let lines = text
+            .as_bytes()
+            .chunks(LINE_LENGTH)
+            .map(String::from_utf8_lossy);
         Some(lines.collect::<Vec<_>>().join("\n"))
     }
 
+    /// Decodes, decompresses and deserialises a record; `None` if it is invalid.
     fn unpacked(text: &str) -> Option<Self> {
         let text: Vec<u8> = text.bytes().filter(|b| !b.is_ascii_whitespace()).collect();
         let packed = STANDARD.decode(text).ok()?;
         let mut bytes = Vec::new();
         let decoder = ZlibDecoder::new(&packed[..]);
-        decoder.take(MOST_BYTES).read_to_end(&mut bytes).ok()?;
+        decoder.take(MAX_BYTES).read_to_end(&mut bytes).ok()?;
         rmp_serde::from_slice(&bytes).ok()
     }
 
-    /// The film; none where something about it is not sound.
-    fn film(
+    /// Rebuilds the motion; `None` if the record is invalid.
+    ///
+    /// # Errors
+    /// If the mesh is too large.
+    fn rebuild(
         self,
         options: &TransitionOptions,
         progress: &dyn Progress,
@@ -169,7 +175,7 @@ impl SolutionRecord {
         }))
     }
 
-    /// Whether all numbers are what they could be; the mesh looks after its own.
+    /// Returns whether all numbers are plausible; the mesh checks its own.
     fn is_sound(&self) -> bool {
         let pieces = self.pieces.len();
         let is_piece = |piece: &PieceMatch| {
@@ -213,15 +219,14 @@ mod tests {
         Arc::new(import("a.svg", text.as_bytes(), &ImportOptions::default()).expect("a drawing"))
     }
 
-    /// Parts that move, a hole of one design alone, a ring that swells, and a
-    /// part that is born.
+    /// Parts that move, an unmatched hole, a ring that swells, and a part that appears.
     fn spec() -> TransitionSpec {
         let bars = svg("M32 30h12v40h-12z M56 30h12v40h-12z M34 40v4h4v-4z");
         let badge = svg(
             "M32 30h12v40h-12z M56 32h12v38h-12z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76 M2 2h6v6h-6z",
         );
         let mut spec = TransitionSpec::new(bars, badge);
-        // The bar with a hole is not to become the ring.
+        // Keep the bar with the hole from becoming the ring.
         let at = |design: &Design| design.form.bounds().centre() - 12.0 * DVec2::X;
         spec.options.matching.links = vec![PointPair {
             source: at(&spec.source),
@@ -239,7 +244,7 @@ mod tests {
         (0..=8).map(at).collect()
     }
 
-    /// What was found, as a document has it.
+    /// Returns the cached match after a round trip through a document.
     fn found(transition: &Transition) -> CachedMatch {
         let found = transition.found().expect("outlines were matched");
         let text = toml::to_string_pretty(&found).expect("text");
@@ -248,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_found_plays_the_same_film_without_a_draft() {
+    fn a_cached_match_plays_the_same_motion_without_a_draft() {
         let mut spec = spec();
         for subdivisions in 0..2 {
             spec.options.arap.subdivisions = subdivisions;
@@ -267,7 +272,7 @@ mod tests {
         }
     }
 
-    /// So many vertices are moved at t = 0.5.
+    /// A guard that moves all of this many vertices at t = 0.5.
     fn guard(vertices: usize) -> Option<Guard> {
         let mut rows = vec![vec![DVec2::ZERO; vertices]; 3];
         rows[1].fill(DVec2::new(0.125, 0.0));
@@ -275,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn a_guard_is_kept() {
+    fn a_guard_is_cached() {
         let mut spec = spec();
         let first = built(&spec);
         let found = found(&first);
@@ -292,14 +297,14 @@ mod tests {
     }
 
     #[test]
-    fn it_is_taken_for_what_it_was_found_for_alone() {
+    fn a_cached_match_is_used_only_for_its_own_inputs() {
         let mut spec = spec();
         let of = |spec: &TransitionSpec| {
             let drawings = spec.drawings(1.0, &Silent).expect("outlines");
             cache_key(&spec.options, &drawings)
         };
         let asked = of(&spec);
-        // Not of what is done with the film once it is settled.
+        // The key does not depend on options that apply after solving.
         spec.options.arap.subdivisions = 2;
         spec.options.field.cells = 99;
         assert_eq!(asked, of(&spec));
@@ -316,9 +321,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_sound_is_looked_for_anew() {
+    fn an_invalid_cached_match_is_computed_again() {
         let mut spec = spec();
-        // Many films: the quick ones will do.
+        // Drafts, because many transitions are built.
         spec.options.quality = BuildQuality::Draft;
         let first = built(&spec);
         let wanted = rings(&first);
@@ -357,7 +362,7 @@ mod tests {
             };
             assert_eq!(rings(&built(&spec)), wanted);
         }
-        // What is sound is taken, so that the films above were no others.
+        // A valid record is used, so the ones above were really rejected.
         let mut record = record();
         change_life(&mut record, &|life| [life.from, life.to] = [0.3, 0.4]);
         spec.found = CachedMatch {
@@ -368,18 +373,18 @@ mod tests {
     }
 
     #[test]
-    fn whatever_the_bytes_are_there_is_a_film_or_none() {
+    fn random_bytes_give_a_finite_motion_or_none() {
         let mut spec = spec();
         spec.options.quality = BuildQuality::Draft;
         let record = SolutionRecord::unpacked(&found(&built(&spec)).film.0).expect("a record");
         let bytes = rmp_serde::to_vec(&record).expect("bytes");
         let mut state = 1_u64;
         let mut random = |below: usize| {
-            // Knuth's MMIX: its high bits are random enough.
+            // Knuth's MMIX generator: its high bits are random enough.
             state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
             (state >> 33) as usize % below
         };
-        let mut films = 0;
+        let mut valid_count = 0;
         for _ in 0..400 {
             let mut bytes = bytes.clone();
             for _ in 0..=random(3) {
@@ -389,14 +394,14 @@ mod tests {
             let Ok(record) = rmp_serde::from_slice::<SolutionRecord>(&bytes) else {
                 continue;
             };
-            if let Ok(Some(film)) = record.film(&spec.options, &Silent) {
-                films += 1;
-                let mut placer = film.arap.placer();
+            if let Ok(Some(solution)) = record.rebuild(&spec.options, &Silent) {
+                valid_count += 1;
+                let mut placer = solution.arap.placer();
                 placer.place(0.5);
                 let places = &placer.placement().in_frame;
                 assert!(places.iter().all(|p| p.is_finite()));
             }
         }
-        assert!(films > 0, "no number was changed without harm");
+        assert!(valid_count > 0, "no number was changed without harm");
     }
 }

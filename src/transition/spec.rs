@@ -1,4 +1,4 @@
-//! What a transition is built from.
+//! The specification from which a transition is built.
 
 use super::cached_match;
 use super::cached_match::CachedMatch;
@@ -14,32 +14,31 @@ use crate::work::budget::WorkloadKind;
 use crate::work::progress::{Progress, beside, checkpoint};
 use std::sync::Arc;
 
-/// Everything a transition is built from: two designs laid into one frame, a
-/// cell of the table and the options of all methods.
+/// Everything a transition is built from: two designs placed in one frame, a method, and the
+/// options of all methods.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct TransitionSpec {
-    /// The design at t = 0.
+    /// Design at t = 0.
     pub source: Arc<Design>,
-    /// The design at t = 1.
+    /// Design at t = 1.
     pub target: Arc<Design>,
-    /// Warp and content.
+    /// The method: warp and content.
     pub cell: TransitionMethod,
-    /// The options of all methods; places of the match are in the common
-    /// frame.
+    /// Options of all methods; positions of the match are in the coordinates of the common frame.
     pub options: TransitionOptions,
-    /// Whether what takes very long is begun all the same; see
-    /// [`crate::work::budget`].
+    /// Whether to start work that will take very long; see [`crate::work::budget`].
     pub patient: bool,
-    /// What was found before, taken where it was found for this.
+    /// A cached match, reused if it was computed for the same outlines and options.
     pub found: CachedMatch,
-    /// The other designs of a sequence, laid into the same frame: all its fields lie on
-    /// one grid, and all its bars have one width.
+    /// The other designs of a sequence, placed in the same frame: all of its fields share one grid,
+    /// and all of its bars one width.
     pub others: Vec<Arc<Design>>,
 }
 
 impl TransitionSpec {
-    /// Two designs by the method that suits them best, with default options.
+    /// Two designs with default options and the method that suits them best: cross-dissolve for two
+    /// photographs, otherwise rigid parts.
     #[must_use]
     pub fn new(source: Arc<Design>, target: Arc<Design>) -> Self {
         let are_photographs = [&source, &target]
@@ -61,32 +60,32 @@ impl TransitionSpec {
         }
     }
 
-    /// The same as a draft, which is there sooner; `None` where nothing is
-    /// tried for a better one, or the best was found before.
+    /// Returns the same specification in draft quality, which builds sooner; `None` if drafts do
+    /// not exist for it or the best match is cached.
     #[must_use]
     pub fn draft(&self, progress: &dyn Progress) -> Option<Self> {
-        let are_given = matches!(
+        let have_a_common_mesh = matches!(
             (&self.source.form, &self.target.form),
             (DesignForm::Mesh(_), DesignForm::Mesh(_))
                 | (DesignForm::Truss(_), DesignForm::Truss(_))
         );
-        let is_tried = self.cell == TransitionMethod::RIGID_PARTS && !are_given;
-        let is_asked = is_tried && self.options.quality != BuildQuality::Draft;
-        (is_asked && !self.is_found(progress)).then(|| {
+        let is_matched = self.cell == TransitionMethod::RIGID_PARTS && !have_a_common_mesh;
+        let is_wanted = is_matched && self.options.quality != BuildQuality::Draft;
+        (is_wanted && !self.has_cached_match(progress)).then(|| {
             let mut draft = self.clone();
             draft.options.quality = BuildQuality::Draft;
             draft
         })
     }
 
-    /// All designs that lie in the frame.
+    /// Returns all designs in the frame.
     pub(super) fn all(&self) -> impl Iterator<Item = &Arc<Design>> {
         [&self.source, &self.target].into_iter().chain(&self.others)
     }
 
-    /// Whether what was found before was found for this.
-    fn is_found(&self, progress: &dyn Progress) -> bool {
-        // Outlines are looked at only where there is something to gain.
+    /// Returns whether the cached match was computed for these outlines and options.
+    fn has_cached_match(&self, progress: &dyn Progress) -> bool {
+        // Computing the key needs the outlines: skip that without a cached match.
         if self.found.is_none() {
             return false;
         }
@@ -95,7 +94,10 @@ impl TransitionSpec {
         key.is_ok_and(|key| self.found.is_for(&key))
     }
 
-    /// The outlines of both designs; bars are so wide, in units of the designs.
+    /// Returns the outlines of both designs. `bar_width` is in units of the designs.
+    ///
+    /// # Errors
+    /// If a design has no outline, the outlines are too large, or the work is cancelled.
     pub(super) fn outlines(
         &self,
         bar_width: f64,
@@ -106,12 +108,15 @@ impl TransitionSpec {
             outline(&self.target, bar_width, progress)?,
         ];
         self.allow(&outlines, progress)?;
-        // What is drawn well may be no piece to a triangulation.
+        // Parts that touch in a point are valid drawings but cannot be triangulated.
         Ok(outlines.map(|outline| outline.pulled_apart()))
     }
 
-    /// Both designs as they are matched for rigid parts; bars are so wide, in
-    /// units of the designs.
+    /// Returns both designs, with their paint layers, as they are matched for rigid parts.
+    /// `bar_width` is in units of the designs.
+    ///
+    /// # Errors
+    /// As for [`Self::outlines`].
     pub(super) fn drawings(
         &self,
         bar_width: f64,
@@ -128,7 +133,10 @@ impl TransitionSpec {
         Ok(drawings)
     }
 
-    /// Whether outlines are not too much.
+    /// Checks that outlines are not too large to be matched.
+    ///
+    /// # Errors
+    /// [`BuildError::TooMuch`] if they have too many parts, holes or points.
     pub(super) fn allow(
         &self,
         outlines: &[Regions; 2],
@@ -136,23 +144,22 @@ impl TransitionSpec {
     ) -> Result<(), BuildError> {
         let pieces = outlines.iter().map(|regions| regions.len()).sum();
         let rings = outlines.iter().flat_map(Regions::rings);
-        let sizes: Vec<usize> = rings.map(|ring| ring.points().len()).collect();
+        let point_counts: Vec<usize> = rings.map(|ring| ring.points().len()).collect();
         WorkloadKind::Pieces.allow(pieces, progress)?;
-        WorkloadKind::Holes.allow(sizes.len() - pieces, progress)?;
-        Ok(WorkloadKind::Points.allow(sizes.iter().sum(), progress)?)
+        WorkloadKind::Holes.allow(point_counts.len() - pieces, progress)?;
+        Ok(WorkloadKind::Points.allow(point_counts.iter().sum(), progress)?)
     }
 
-    /// Whether designs of these kinds can be interpolated by `cell`, without
-    /// trying.
+    /// Checks whether designs of these kinds can be interpolated by `cell`, without trying.
     ///
     /// # Errors
-    /// [`BuildError::Unavailable`] with the reason, for a greyed button.
+    /// [`BuildError::Unavailable`] with the reason, for a disabled button.
     pub fn available(
         cell: TransitionMethod,
         source: &Design,
         target: &Design,
     ) -> Result<(), BuildError> {
-        // Every form has an outline; not every one came as a picture.
+        // Every design has an outline, but only pictures have colours.
         if cell.content() != ContentKind::Colours {
             return Ok(());
         }
@@ -167,18 +174,24 @@ impl TransitionSpec {
     }
 }
 
-/// The width of bars, in units of the designs.
+/// Returns the width of bars in units of the designs.
+///
+/// # Errors
+/// [`BuildError::BarWidth`] if the option is not a fraction.
 pub(crate) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
-    let share = spec.options.bar_width;
-    if !(share > 0.0 && share <= 1.0) {
-        return Err(BuildError::BarWidth(share));
+    let fraction = spec.options.bar_width;
+    if !(fraction > 0.0 && fraction <= 1.0) {
+        return Err(BuildError::BarWidth(fraction));
     }
     let diameters = spec.all().map(|design| extent(design).diameter());
-    Ok(share * diameters.fold(0.0, f64::max))
+    Ok(fraction * diameters.fold(0.0, f64::max))
 }
 
-/// The outline of a design. Uniting bars or faces is a long call of a library,
-/// beside which a cancel is answered.
+/// Returns the outline of a design. Uniting bars or faces is a long library call, so it runs in the
+/// background while a cancellation is awaited.
+///
+/// # Errors
+/// If there are too many bars, the outline is empty, or the work is cancelled.
 pub(crate) fn outline(
     design: &Arc<Design>,
     bar_width: f64,
@@ -195,7 +208,7 @@ pub(crate) fn outline(
     Ok(beside(progress, move || design.outline(bar_width))??)
 }
 
-/// The coats of a design; one without paint where it has none.
+/// Returns the paint layers of a design; a single layer without paint if it has none.
 fn coats_of(
     design: &Arc<Design>,
     bar_width: f64,
@@ -213,9 +226,9 @@ fn coats_of(
     } else {
         design.coats.clone()
     };
-    let apart = coats.into_iter().map(|coat| PaintLayer {
+    let separated = coats.into_iter().map(|coat| PaintLayer {
         regions: coat.regions.pulled_apart(),
         ..coat
     });
-    Ok(apart.collect())
+    Ok(separated.collect())
 }

@@ -1,12 +1,11 @@
-//! A film without folds, where stiffness alone can have it.
+//! Removes folds from a motion by stiffening faces, where that is possible.
 //!
-//! Along its local map no face turns over; it folds where its neighbours want
-//! something else. So those that fold are held stiffer, again and again, until
-//! none does or it is of no use. Both ends stay as they are, since there every
-//! face is as its local map says.
+//! A face that follows its local map exactly never folds; it folds where its neighbours pull it
+//! elsewhere. Folded faces are therefore stiffened repeatedly until none folds or it no longer
+//! helps. Both ends stay exact, since there every face equals its local map.
 //!
-//! Looked at at [`STEPS`] steps: a fold between two is missed. Not guaranteed:
-//! where a film folds in the large, stiffness only moves the fold.
+//! The motion is sampled at [`STEPS`] steps; folds between two steps are missed. Not guaranteed:
+//! where large areas fold, stiffness only moves the fold elsewhere.
 
 use super::error::BuildError;
 use crate::geometry::orient2d;
@@ -14,42 +13,46 @@ use crate::warp::{Arap, Warp};
 use crate::work::progress::{Progress, still_wanted};
 use rayon::prelude::*;
 
-/// Steps of a film that is looked at.
+/// Number of even time steps at which folds are detected (resource limit).
 const STEPS: u32 = 64;
 
-/// How often stiffness is raised, and by how much where a face folds.
-const ROUNDS: u32 = 8;
-const RAISE: f64 = 4.0;
+/// Maximum number of times that stiffness is raised (resource limit).
+const MAX_ROUNDS: u32 = 8;
+/// Factor by which the stiffness of a folded face is raised each time (heuristic).
+const STIFFNESS_FACTOR: f64 = 4.0;
 
-/// Films of more faces are not looked at: one subdivided is stiff already where
-/// that before did fold, and to look at a million faces took 4 s a round.
-const MOST_FACES: usize = 100_000;
+/// Maximum number of faces for which folds are detected (resource limit: a round takes 0.4 s per
+/// 100,000 faces).
+const MAX_FACES: usize = 100_000;
 
-/// The film that has the fewest folds of those that were tried.
-pub(super) fn stiffen_folds(film: Arap, progress: &dyn Progress) -> Result<Arap, BuildError> {
-    if film.mesh().faces().len() > MOST_FACES {
-        return Ok(film);
+/// Returns the motion with the fewest folds among those that were tried.
+///
+/// # Errors
+/// If the work is cancelled.
+pub(super) fn stiffen_folds(motion: Arap, progress: &dyn Progress) -> Result<Arap, BuildError> {
+    if motion.mesh().faces().len() > MAX_FACES {
+        return Ok(motion);
     }
-    let mut folded = folds(&film);
-    if folded.is_empty() || !film.options().homotopy.keeps_orientation() {
-        return Ok(film);
+    let mut folded = folds(&motion);
+    if folded.is_empty() || !motion.options().homotopy.keeps_orientation() {
+        return Ok(motion);
     }
-    let mut stiffness = film.stiffness().to_vec();
-    stiffness.resize(film.mesh().faces().len(), 1.0);
-    let (mut best, mut least) = (film, folded.len());
-    for _ in 0..ROUNDS {
+    let mut stiffness = motion.stiffness().to_vec();
+    stiffness.resize(motion.mesh().faces().len(), 1.0);
+    let (mut best, mut fewest_folds) = (motion, folded.len());
+    for _ in 0..MAX_ROUNDS {
         still_wanted(progress)?;
         folded.sort_unstable();
         folded.dedup();
         for &face in &folded {
-            stiffness[face] *= RAISE;
+            stiffness[face] *= STIFFNESS_FACTOR;
         }
         let Ok(stiffer) = best.stiffened(&stiffness, progress) else {
             break;
         };
         folded = folds(&stiffer);
-        if folded.len() < least {
-            least = folded.len();
+        if folded.len() < fewest_folds {
+            fewest_folds = folded.len();
             best = stiffer;
         }
         if folded.is_empty() {
@@ -60,19 +63,22 @@ pub(super) fn stiffen_folds(film: Arap, progress: &dyn Progress) -> Result<Arap,
     Ok(best)
 }
 
-/// The faces that are not positive, once for each step at which they are not.
-fn folds(film: &Arap) -> Vec<usize> {
-    let at = |step: u32| {
-        let mut placer = film.placer();
+/// Returns the faces that are not positively oriented, once for each step at which they are not.
+fn folds(motion: &Arap) -> Vec<usize> {
+    let folded_at = |step: u32| {
+        let mut placer = motion.placer();
         placer.place(f64::from(step) / f64::from(STEPS));
-        let places = &placer.placement().in_frame;
+        let positions = &placer.placement().in_frame;
         let is_folded = |face: &[u32; 3]| {
-            let [a, b, c] = face.map(|v| places[v as usize]);
+            let [a, b, c] = face.map(|v| positions[v as usize]);
             orient2d(a, b, c) <= 0.0
         };
-        let faces = film.mesh().faces().iter().enumerate();
+        let faces = motion.mesh().faces().iter().enumerate();
         let folded = faces.filter(|(_, face)| is_folded(face)).map(|(k, _)| k);
         folded.collect::<Vec<_>>()
     };
-    (1..STEPS).into_par_iter().flat_map_iter(at).collect()
+    (1..STEPS)
+        .into_par_iter()
+        .flat_map_iter(folded_at)
+        .collect()
 }

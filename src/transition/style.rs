@@ -1,4 +1,4 @@
-//! How a transition is painted: what window and export share.
+//! The colours of a transition, shared by window and export.
 
 use crate::colour::{Gradient, Paint, Rgb};
 use serde::{Deserialize, Serialize};
@@ -11,15 +11,14 @@ pub struct TransitionStyle {
     pub source: Rgb,
     /// Fill at t = 1.
     pub target: Rgb,
-    /// What is behind.
+    /// Background.
     pub ground: Rgb,
-    /// Whether the joints of a truss are marked.
+    /// Whether the joints of a truss are drawn.
     pub joints: bool,
 }
 
 impl Default for TransitionStyle {
-    /// Blue to orange on warm white: told apart in every common form of
-    /// colour blindness.
+    /// Blue to orange on warm white: distinguishable with every common form of colour blindness.
     fn default() -> Self {
         Self {
             source: Rgb([0x2f, 0x6f, 0xb3]),
@@ -31,14 +30,14 @@ impl Default for TransitionStyle {
 }
 
 impl TransitionStyle {
-    /// The fill at `t`.
+    /// Returns the fill at `t`.
     #[must_use]
     pub fn fill_at(&self, t: f64) -> Rgb {
         self.source.mixed(self.target, t)
     }
 
-    /// At `t` what has these paints at both ends; what has none at an end has the
-    /// style's colour there.
+    /// Returns the paint at `t` of a shape with these paints in source and target; a missing paint
+    /// is replaced by the style's colour at that end.
     #[must_use]
     pub fn paint_at(&self, ends: [Option<Paint>; 2], t: f64) -> Paint {
         match ends {
@@ -49,8 +48,9 @@ impl TransitionStyle {
             }
         }
     }
-    /// At `t` what has these gradients at both ends, or a gradient at one end and a paint
-    /// at the other; none where it has none at either.
+
+    /// Returns the gradient at `t` of a shape with a gradient in source, target or both; the other
+    /// end contributes its paint. `None` if neither end has a gradient.
     #[must_use]
     pub fn gradient_at(
         &self,
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ends_are_exact_and_extrapolation_stays_at_them() {
+    fn ends_are_exact_and_colours_are_not_extrapolated() {
         let style = TransitionStyle::default();
         for (t, colour) in [
             (-1.0, style.source),

@@ -1,4 +1,4 @@
-//! Cells, frames and the arrangement of unlike designs.
+//! Methods, frames, notes, cancellation, and the placement of designs in one frame.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
@@ -27,9 +27,12 @@ fn svg(path: &str) -> Arc<Design> {
     ))
 }
 
+/// A unit square as a mesh of two triangles.
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+/// A triangle of three bars.
 const TRUSS: &str = r#"{"nodes": [[0,0],[2,0],[1,1.5]], "bars": [[0,1],[1,2],[2,0]]}"#;
 
+/// A blend of distance fields on a coarse grid.
 fn field_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
     spec.cell = TransitionMethod::new(WarpKind::None, ContentKind::Field).unwrap();
@@ -53,7 +56,7 @@ fn any_two_forms_become_rigid_parts() {
 }
 
 #[test]
-fn outlines_as_rigid_parts_show_the_designs_at_the_ends() {
+fn rigid_outlines_show_the_designs_at_the_ends() {
     let (a, b) = (
         svg("M10 10h80v80h-80z"),
         svg("M50 20L80 80H20zM85 10h10v10h-10z"),
@@ -97,7 +100,7 @@ fn field_ends_show_the_designs() {
 }
 
 #[test]
-fn a_truss_is_seen_by_both_methods() {
+fn a_truss_is_drawn_as_bars_and_as_a_field() {
     let truss = design(TRUSS);
     let spec = TransitionSpec::new(Arc::clone(&truss), Arc::clone(&truss));
     let bars = Transition::build(&spec, &Silent)
@@ -115,12 +118,14 @@ fn a_truss_is_seen_by_both_methods() {
     assert_eq!(figure.rings.len(), 2, "a triangle of bars has one hole");
 }
 
+/// Boundary paths.
 fn paths_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
     spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
     spec
 }
 
+/// Returns the signed area of closed polygons.
 fn area(rings: &[Vec<DVec2>]) -> f64 {
     let of = |ring: &Vec<DVec2>| -> f64 {
         let next = ring.iter().cycle().skip(1);
@@ -130,7 +135,7 @@ fn area(rings: &[Vec<DVec2>]) -> f64 {
 }
 
 #[test]
-fn boundaries_show_the_designs_at_the_ends_and_births_as_points() {
+fn boundary_paths_show_the_designs_at_the_ends_and_unmatched_rings_as_points() {
     let (a, b) = (
         svg("M10 10h80v80h-80z"),
         svg("M50 20L80 80H20zM48 60v6h4v-6zM85 10h10v10h-10z"),
@@ -152,7 +157,7 @@ fn boundaries_show_the_designs_at_the_ends_and_births_as_points() {
 }
 
 #[test]
-fn a_letter_is_born_from_a_point() {
+fn a_letter_appears_from_a_point() {
     let mut spec = crate::project::gallery::load("words")
         .unwrap()
         .spec()
@@ -223,18 +228,20 @@ fn a_mesh_with_a_hole_is_one_part() {
         let rings = transition.frame(t).figure().rings;
         assert_eq!(rings.len(), 2);
         assert!((area(&rings) - 8.0).abs() < 1e-9);
-        assert!((rings[0][0].distance(rings[1][0]) - rings_gap(&transition)).abs() < 1e-9);
+        assert!(
+            (rings[0][0].distance(rings[1][0]) - ring_distance_at_start(&transition)).abs() < 1e-9
+        );
     }
 }
 
-/// From the first point of the first ring to that of the second, at t = 0.
-fn rings_gap(transition: &Transition) -> f64 {
+/// Returns the distance between the first points of the first two rings at t = 0.
+fn ring_distance_at_start(transition: &Transition) -> f64 {
     let rings = transition.frame(0.0).figure().rings;
     rings[0][0].distance(rings[1][0])
 }
 
 #[test]
-fn frames_do_not_depend_on_what_was_shown_before() {
+fn frames_do_not_depend_on_earlier_frames() {
     let turned = "v 0 0 0\nv 0 1 0\nv -1 1 0\nv -1 0 0\nf 1 2 3\nf 1 3 4\n";
     let spec = TransitionSpec::new(design(SQUARE), design(turned));
     let transition = Transition::build(&spec, &Silent).unwrap();
@@ -339,7 +346,7 @@ fn arrow(turned: bool) -> Arc<Design> {
 }
 
 #[test]
-fn what_turns_with_its_field_is_not_cut_off_at_the_frame() {
+fn fields_that_turn_are_not_cropped_by_the_frame() {
     for warp in [WarpKind::Scattered, WarpKind::Lattice, WarpKind::Arap] {
         let mut spec = field_spec(arrow(false), arrow(true));
         spec.cell = TransitionMethod::new(warp, ContentKind::Field).unwrap();
@@ -357,7 +364,7 @@ fn what_turns_with_its_field_is_not_cut_off_at_the_frame() {
 }
 
 #[test]
-fn pins_that_were_found_can_be_taken_over_by_hand() {
+fn automatic_pins_can_be_set_by_hand() {
     let mut spec = field_spec(arrow(false), arrow(true));
     spec.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let found = Transition::build(&spec, &Silent).unwrap();
@@ -370,7 +377,7 @@ fn pins_that_were_found_can_be_taken_over_by_hand() {
 }
 
 #[test]
-fn rigid_parts_carry_a_field_that_only_turned_rigidly() {
+fn rigid_parts_carry_a_rotated_field_rigidly() {
     let boot = "M10 10h20v40h30v20h-50z";
     let turned = "M20 70v-20h40v-30h20v50z";
     let mut spec = field_spec(svg(boot), svg(turned));
@@ -412,7 +419,7 @@ fn one_part_and_two_are_carried_by_every_warp() {
 }
 
 #[test]
-fn what_carries_fields_and_pictures_as_rigid_parts_is_told() {
+fn the_mesh_that_carries_fields_and_pictures_is_accessible() {
     let mut fields = field_spec(arrow(false), arrow(true));
     fields.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let mut loaded = crate::project::gallery::load("portraits-points").unwrap();
@@ -430,7 +437,7 @@ fn what_carries_fields_and_pictures_as_rigid_parts_is_told() {
 }
 
 #[test]
-fn every_cell_of_the_table_is_built() {
+fn every_method_is_built() {
     let loaded = crate::project::gallery::load("portraits-points").unwrap();
     let pictures = loaded.spec().unwrap();
     let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
@@ -456,7 +463,7 @@ fn rigid_fields(source: &str, target: &str) -> TransitionSpec {
 }
 
 #[test]
-fn parts_that_leave_a_hole_are_carried_by_fewer_pins_and_that_is_told() {
+fn parts_that_leave_a_hole_are_carried_by_fewer_pins_with_a_note() {
     let inside = "M5 20h60v60h-60z M15 30v40h40v-40z M30 45h10v10h-10z";
     let outside = "M5 20h60v60h-60z M15 30v40h40v-40z M80 45h10v10h-10z";
     let spec = rigid_fields(inside, outside);
@@ -473,10 +480,10 @@ fn parts_that_leave_a_hole_are_carried_by_fewer_pins_and_that_is_told() {
 }
 
 #[test]
-fn pins_that_do_not_match_their_outlines_carry_alone_and_that_is_told() {
+fn pins_that_contradict_their_outlines_carry_alone_with_a_note() {
     let ring = "M10 10h80v80h-80z M40 40v20h20v-20z";
     let mut spec = rigid_fields(ring, ring);
-    // From the hole to the outer boundary, which closing holes does not allow.
+    // A pin from the hole to the outer boundary contradicts closing the hole.
     let [y, hole] = [50.0, 40.0];
     let outer = 10.0;
     spec.options.matching.pins = vec![crate::correspondence::PointPair {
@@ -492,7 +499,7 @@ fn pins_that_do_not_match_their_outlines_carry_alone_and_that_is_told() {
 }
 
 #[test]
-fn a_boundary_that_cannot_be_exact_is_told() {
+fn a_boundary_that_cannot_be_exact_gives_a_note() {
     let mut spec = field_spec(svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
     spec.options.field.metric = crate::field::Metric::CityBlock;
     let notes = |spec: &TransitionSpec| {
@@ -507,8 +514,8 @@ fn a_boundary_that_cannot_be_exact_is_told() {
 }
 
 #[test]
-fn what_a_match_could_not_do_is_told() {
-    // A small hole within a hole that winds around it: no cut leads there.
+fn impossible_cuts_give_a_note() {
+    // An island within a hole that winds around it: no straight cut leads there.
     let drawn = |island: &str| {
         let winding = "M5.25 13V5.25H14.75V14.75H3.25V8H2.75V15.25H15.25V4.75H4.75V13z";
         design(&format!(
@@ -529,8 +536,8 @@ fn what_a_match_could_not_do_is_told() {
     );
 }
 
-/// The most crossings at any of many steps.
-fn most_crossings(source: &Arc<Design>, target: &Arc<Design>) -> usize {
+/// Returns the largest number of crossings in any of 51 frames.
+fn max_crossings(source: &Arc<Design>, target: &Arc<Design>) -> usize {
     let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
@@ -542,18 +549,18 @@ fn most_crossings(source: &Arc<Design>, target: &Arc<Design>) -> usize {
 }
 
 #[test]
-fn parts_keep_out_of_each_others_way() {
+fn parts_do_not_collide() {
     let two = svg("M35 35h30v30h-30z M5 5h10v10h-10z");
     let badge = svg("M10 10h80v80h-80z M20 20v60h60v-60z M40 40h20v20h-20z");
     let bar = svg("M10 40h80v20h-80z");
     let column = svg("M40 10h20v20h-20z M40 40h20v20h-20z M40 70h20v20h-20z");
     for (a, b) in [(&two, &badge), (&bar, &badge), (&bar, &column)] {
-        assert_eq!([most_crossings(a, b), most_crossings(b, a)], [0, 0]);
+        assert_eq!([max_crossings(a, b), max_crossings(b, a)], [0, 0]);
     }
 }
 
 #[test]
-fn parts_that_somebody_had_split_stay_together() {
+fn parts_split_by_the_user_stay_together() {
     let bar = svg("M10 40h80v20h-80z");
     let column = svg("M40 10h20v20h-20z M40 40h20v20h-20z M40 70h20v20h-20z");
     let mut spec = TransitionSpec::new(bar, column);

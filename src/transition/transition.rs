@@ -1,4 +1,4 @@
-//! A transition that is ready to be played.
+//! A built transition.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::cached_match::CachedMatch;
@@ -35,36 +35,40 @@ use std::sync::{Arc, OnceLock, Weak};
 #[derive(Clone, Debug)]
 pub struct Transition(Arc<TransitionData>);
 
-/// Where the film of a warp will be, for all transitions that share the warp; or why
-/// there is none.
+/// The recording of a warp, or why there is none, once it has been made; shared by all transitions
+/// that share the warp.
 pub(super) type RecordingSlot = Arc<OnceLock<Result<Recording, RecordingError>>>;
 
-/// What a transition consists of.
+/// The shared data of a transition.
 #[derive(Clone, Debug)]
 pub(super) struct TransitionData {
+    /// The method.
     pub cell: TransitionMethod,
+    /// Source and target, placed in the common frame.
     pub designs: [Arc<Design>; 2],
+    /// The warp, and how it was determined.
     pub moved: BuiltWarp,
     pub content: Content,
+    /// Box around all frames, approximately.
     pub bounds: Bounds,
-    /// Width of the bars of trusses, in units of the designs.
+    /// Width of truss bars in units of the designs.
     pub bar_width: f64,
-    /// The film of `moved`, once it was recorded.
+    /// The recording of the warp, once it has been made.
     pub film: RecordingSlot,
 }
 
-/// Which transition something was found out about, without keeping it.
+/// Identifies a transition without keeping it alive.
 #[derive(Clone, Debug)]
 pub struct TransitionId(Weak<TransitionData>);
 
 impl TransitionId {
-    /// Whether it is of this one, or of a clone of it.
+    /// Returns whether it identifies this transition or a clone of it.
     #[must_use]
     pub fn is_of(&self, transition: &Transition) -> bool {
         std::ptr::eq(self.0.as_ptr(), Arc::as_ptr(&transition.0))
     }
 
-    /// Nobody has that transition any more.
+    /// Returns whether the transition no longer exists.
     #[must_use]
     pub fn is_gone(&self) -> bool {
         self.0.strong_count() == 0
@@ -78,20 +82,20 @@ impl From<TransitionData> for Transition {
 }
 
 impl Transition {
-    /// Whether they are clones of each other. What they consist of is not compared.
+    /// Returns whether two transitions are clones of each other. The data is not compared.
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
-    /// Which one it is.
+    /// Returns the identity of the transition.
     #[must_use]
     pub fn id(&self) -> TransitionId {
         TransitionId(Arc::downgrade(&self.0))
     }
 
-    /// The same fields mixed in another way, without measuring them again;
-    /// `None` where there are no fields, or those of many designs in turn.
+    /// Returns a transition of the same distance fields with another blend, without computing them
+    /// again; `None` unless the content is the fields of two designs.
     ///
     /// # Errors
     /// [`FieldPairError`] if ε or the threshold is out of range.
@@ -108,80 +112,79 @@ impl Transition {
         }))
     }
 
-    /// The same film, in which parts have these times of their own and no others,
-    /// their places in the coordinates of the frame.
+    /// Returns the same transition with these part timings instead of the previous ones. Points are
+    /// in the coordinates of the common frame.
     #[must_use]
     pub fn with_part_times(&self, times: &[PartTime]) -> Self {
         Self::from(self.0.as_ref().clone().timed(times))
     }
 
-    /// The same film with its coats as these options ask for.
+    /// Returns the same transition with these options for its paint layers.
     #[must_use]
     pub fn with_coats(&self, options: &PaintLayerOptions) -> Self {
         Self::from(self.0.as_ref().clone().coated(options))
     }
 
-    /// Row and column of the table.
+    /// Returns the method: warp and content.
     #[must_use]
     pub fn cell(&self) -> TransitionMethod {
         self.0.cell
     }
 
-    /// What is seen.
+    /// Returns the visible content.
     #[must_use]
     pub fn content(&self) -> &Content {
         &self.0.content
     }
 
-    /// The t within (0, 1) at which something sets out, arrives or changes its pace:
-    /// between them every point moves smoothly. In no order.
+    /// Returns every t in (0, 1) at which a part starts, stops or changes pace. Between these,
+    /// every point moves smoothly. Unsorted.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
         self.warp().breaks()
     }
 
-    /// Where each point is at t.
+    /// Returns the warp.
     pub(super) fn warp(&self) -> &dyn Warp {
         self.0.moved.warp.as_warp()
     }
 
-    /// The same, for a film to keep.
+    /// Returns the warp as shared data, for a recording to own.
     pub(super) fn shared_warp(&self) -> Arc<dyn Warp> {
         self.0.moved.warp.shared()
     }
 
-    /// Where the film is, once it was recorded.
+    /// Returns the place where the recording is stored once it has been made.
     pub(super) fn slot(&self) -> &RecordingSlot {
         &self.0.film
     }
 
-    /// The rigidity-preserving interpolation, where that is the warp: of
-    /// solids, or of the frame that carries fields or pictures. Where the
-    /// frame turns as a whole, it is the interpolation of what is left, at
-    /// rest.
+    /// Returns the rigidity-preserving interpolation, if the warp is one: of solids, or of the
+    /// frame that carries fields or pictures. If the frame also has a common rigid motion, this is
+    /// the interpolation relative to that motion.
     #[must_use]
     pub fn arap(&self) -> Option<&Arap> {
         self.0.moved.warp.arap()
     }
 
-    /// How another film of the same mesh is played: its parts in the times that
-    /// those of this one have.
-    pub(crate) fn placer_of(&self, film: &Arap) -> Placer {
+    /// Returns a placer for another interpolation of the same mesh, with the part timings of this
+    /// transition.
+    pub(crate) fn placer_of(&self, arap: &Arap) -> Placer {
         match &self.0.moved.warp {
-            AnyWarp::Staggered(warp) => warp.of(film.clone()).placer(),
-            _ => film.placer(),
+            AnyWarp::Staggered(warp) => warp.of(arap.clone()).placer(),
+            _ => arap.placer(),
         }
     }
 
-    /// As [`Self::placer_of`], of the film of the exchanged designs.
-    pub(crate) fn placer_backwards(&self, film: &Arap) -> Placer {
+    /// As [`Self::placer_of`], for the interpolation of the exchanged designs.
+    pub(crate) fn placer_backwards(&self, arap: &Arap) -> Placer {
         match &self.0.moved.warp {
-            AnyWarp::Staggered(warp) => warp.backwards(film.clone()).placer(),
-            _ => film.placer(),
+            AnyWarp::Staggered(warp) => warp.backwards(arap.clone()).placer(),
+            _ => arap.placer(),
         }
     }
 
-    /// The time that a vertex of rigid parts shows at `t`.
+    /// Returns the t that the part of a vertex has reached at `t`, according to its timing.
     pub(crate) fn time_of(&self, vertex: u32, t: f64) -> f64 {
         match &self.0.moved.warp {
             AnyWarp::Staggered(warp) => warp.clock(vertex).at(t),
@@ -189,44 +192,40 @@ impl Transition {
         }
     }
 
-    /// What was done otherwise than asked while it was built, in that order.
+    /// Returns deviations from the request and suggestions, in the order in which they arose.
     #[must_use]
     pub fn notes(&self) -> &[TransitionNote] {
         &self.0.moved.notes
     }
 
-    /// Which point of one outline is which of the other, in the coordinates
-    /// of the frame; none where the designs brought their match along or need
-    /// none.
+    /// Returns which point of one outline corresponds to which of the other, in the coordinates of
+    /// the common frame; `None` if the designs share a mesh or no match was needed.
     #[must_use]
     pub fn matched(&self) -> Option<&RegionMatch> {
         self.0.moved.matched.as_ref()
     }
 
-    /// What was found for the designs, to be kept with a document; none where
-    /// nothing had to be looked for.
+    /// Returns the match in a form that a document can cache; `None` if nothing had to be matched.
     #[must_use]
     pub fn found(&self) -> Option<CachedMatch> {
         self.0.moved.kept.as_ref().map(|kept| kept.packed())
     }
 
-    /// The pairs of points that a warp of the plane goes by where nobody set
-    /// any, in the coordinates of the frame; of lines where each begins.
+    /// Returns the automatic pins of a plane warp, in the coordinates of the common frame; for
+    /// lines, their starting points. Empty if the user has set pins or lines.
     #[must_use]
     pub fn automatic_pins(&self) -> &[PointPair] {
         &self.0.moved.automatic
     }
 
-    /// The features that the warp does not lead to where they belong at `t`;
-    /// none where it meets all of them.
+    /// Returns the pins and lines that the warp misses at `t`; `None` if it meets all of them.
     #[must_use]
     pub fn missed(&self, t: f64) -> Option<MissedFeatures> {
         self.warp().missed(t)
     }
 
-    /// The common triangulation of the designs, where solids have one. What
-    /// carries fields and pictures is a mesh of the frame: see
-    /// [`Self::arap`].
+    /// Returns the common triangulation of solid designs, if they have one. The mesh of the frame
+    /// that carries fields and pictures is available from [`Self::arap`].
     #[must_use]
     pub fn compatible(&self) -> Option<&CompatibleMesh> {
         match (self.content(), &self.0.moved.warp) {
@@ -236,19 +235,19 @@ impl Transition {
         }
     }
 
-    /// The box that holds every frame for t in [0, 1], nearly.
+    /// Returns a box around every frame for t in [0, 1]. Approximate: frames are sampled.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.0.bounds
     }
 
-    /// The designs, laid into one frame: source and target.
+    /// Returns source and target, placed in the common frame.
     #[must_use]
     pub fn designs(&self) -> &[Arc<Design>; 2] {
         &self.0.designs
     }
 
-    /// Width of the bars of trusses, in units of the designs.
+    /// Returns the width of truss bars in units of the designs.
     pub(super) fn bar_width(&self) -> f64 {
         self.0.bar_width
     }

@@ -1,50 +1,52 @@
-//! Polynomials in Bernstein's form, whose coefficients bound them.
+//! Polynomials in Bernstein form, whose coefficients bound them.
 //!
-//! A polynomial on [0, 1] lies between the least and the largest of its Bernstein
-//! coefficients, and begins and ends with the first and the last of them. De
-//! Casteljau's scheme gives those of both halves.
+//! On [0, 1] a polynomial lies between the smallest and the largest of its Bernstein coefficients;
+//! its values at the ends are the first and the last. De Casteljau's algorithm gives the
+//! coefficients of both halves.
 
 use crate::recording::nodes::MAX_NODES;
 
-/// The largest degree of a place, and of a product of two.
-const PLACE: usize = MAX_NODES + 1;
-pub(super) const MAX_PRODUCT_DEGREE: usize = 2 * PLACE;
+/// Largest degree of a coordinate (derived: nodes and both ends of an interval).
+const MAX_DEGREE: usize = MAX_NODES + 1;
+/// Largest degree of a product of two coordinates (derived).
+pub(super) const MAX_PRODUCT_DEGREE: usize = 2 * MAX_DEGREE;
 
-/// Rounding of one operation.
+/// Bound on the relative rounding error of one operation.
 pub(super) const EPS: f64 = f64::EPSILON;
 
-/// Binomial coefficients; exact up to a row of 50.
+/// Returns a binomial coefficient; exact for n up to 50.
 fn binomial(n: usize, k: usize) -> f64 {
     (0..k.min(n - k)).fold(1.0, |c, i| (c * (n - i) as f64 / (i + 1) as f64).round())
 }
 
-/// For each k below `n` the coefficients of 4s(1 − s) T_k(2s − 1), in degree n + 1.
+/// Returns the basis of a recording in degree n + 1: for each k below `n`, the Bernstein
+/// coefficients of 4s(1 − s) T_k(2s − 1).
 pub(super) fn bernstein_basis(n: usize) -> Vec<Vec<f64>> {
     let degree = n + 1;
     let of = |k: usize| -> Vec<f64> {
-        // T_k(2s − 1) in degree k: (−1)^(k−i) C(2k, 2i) / C(k, i).
+        // T_k(2s − 1) in degree k has the coefficients (−1)^(k−i) C(2k, 2i) / C(k, i).
         let sign = |i: usize| if (k - i).is_multiple_of(2) { 1.0 } else { -1.0 };
-        let mut own: Vec<f64> = (0..=k)
+        let mut coefficients: Vec<f64> = (0..=k)
             .map(|i| sign(i) * binomial(2 * k, 2 * i) / binomial(k, i))
             .collect();
-        // Times 4s(1 − s), which is 0, 2, 0 in degree 2.
-        let inner = own
+        // Multiply by 4s(1 − s), whose coefficients in degree 2 are 0, 2, 0.
+        let inner = coefficients
             .iter()
             .enumerate()
             .map(|(i, c)| 2.0 * c * 2.0 * binomial(k, i) / binomial(k + 2, i + 1));
-        own = [0.0].into_iter().chain(inner).chain([0.0]).collect();
-        while own.len() <= degree {
-            own = elevated(&own);
+        coefficients = [0.0].into_iter().chain(inner).chain([0.0]).collect();
+        while coefficients.len() <= degree {
+            coefficients = degree_elevated(&coefficients);
         }
-        own
+        coefficients
     };
     (0..n).map(of).collect()
 }
 
-/// The same polynomial in a degree more.
-fn elevated(own: &[f64]) -> Vec<f64> {
-    let degree = own.len();
-    let at = |i: usize| own.get(i).copied().unwrap_or(0.0);
+/// Returns the coefficients of the same polynomial in the next higher degree.
+fn degree_elevated(coefficients: &[f64]) -> Vec<f64> {
+    let degree = coefficients.len();
+    let at = |i: usize| coefficients.get(i).copied().unwrap_or(0.0);
     let coefficient = |i: usize| {
         let share = i as f64 / degree as f64;
         let before = if i > 0 { at(i - 1) } else { 0.0 };
@@ -53,13 +55,14 @@ fn elevated(own: &[f64]) -> Vec<f64> {
     (0..=degree).map(coefficient).collect()
 }
 
-/// What makes the coefficients of a product of two polynomials of a degree.
+/// The weights for multiplying two polynomials of one degree in Bernstein form.
 pub(super) struct BernsteinProducts {
     degree: usize,
     weights: Vec<f64>,
 }
 
 impl BernsteinProducts {
+    /// Computes the weights for factors of this degree.
     pub(super) fn of_degree(degree: usize) -> Self {
         let weight = |i: usize, j: usize| {
             binomial(degree, i) * binomial(degree, j) / binomial(2 * degree, i + j)
@@ -71,7 +74,7 @@ impl BernsteinProducts {
         }
     }
 
-    /// Σ of `of(i, j)`, each with its weight: the product where that is uᵢ vⱼ.
+    /// Returns the weighted sum of `of(i, j)`: the product of u and v if `of(i, j)` is uᵢ vⱼ.
     pub(super) fn sum(&self, of: impl Fn(usize, usize) -> f64) -> BernsteinPolynomial {
         let mut sum = BernsteinPolynomial::zero(2 * self.degree);
         for i in 0..=self.degree {
@@ -83,16 +86,17 @@ impl BernsteinProducts {
     }
 }
 
-/// A polynomial whose coefficients are known but for an error.
+/// A polynomial in Bernstein form with a bound on the error of its coefficients.
 #[derive(Clone, Copy)]
 pub(super) struct BernsteinPolynomial {
     degree: usize,
     c: [f64; MAX_PRODUCT_DEGREE + 1],
-    /// No coefficient is further off.
+    /// Bound on the error of each coefficient.
     pub(super) error: f64,
 }
 
 impl BernsteinPolynomial {
+    /// Returns the zero polynomial.
     fn zero(degree: usize) -> Self {
         Self {
             degree,
@@ -101,16 +105,18 @@ impl BernsteinPolynomial {
         }
     }
 
+    /// Returns the Bernstein coefficients.
     pub(super) fn coefficients(&self) -> &[f64] {
         &self.c[..=self.degree]
     }
 
+    /// Returns the polynomial with the opposite sign.
     pub(super) fn negated(mut self) -> Self {
         self.c.iter_mut().for_each(|c| *c = -*c);
         self
     }
 
-    /// Both halves.
+    /// Returns the polynomial on both halves of its interval, each rescaled to [0, 1].
     pub(super) fn halves(&self) -> [Self; 2] {
         let (mut left, mut right) = (*self, *self);
         let largest = self
@@ -128,8 +134,8 @@ impl BernsteinPolynomial {
         [left, right]
     }
 
-    /// Whether it is positive all along; `ends` tells of its ends what is known
-    /// better than its coefficients do.
+    /// Returns whether the polynomial is proved to be positive on [0, 1]. `ends` gives the signs at
+    /// both ends where they are known exactly.
     pub(super) fn is_positive(&self, ends: [EndSign; 2]) -> bool {
         let c = self.coefficients();
         let last = self.degree;
@@ -138,22 +144,24 @@ impl BernsteinPolynomial {
             EndSign::Not => false,
             EndSign::No => c > self.error,
         };
-        // NaN is not.
+        // Comparisons with NaN are false: not proved.
         end(ends[0], c[0]) && end(ends[1], c[last]) && c[1..last].iter().all(|&c| c > self.error)
     }
 }
 
-/// What is known of the sign of a polynomial at an end.
+/// The sign of a polynomial at an end of its interval, if it is known exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum EndSign {
-    /// Nothing but its coefficient.
+    /// Only the coefficient is known.
     No,
+    /// Strictly positive.
     Positive,
-    /// It is zero or negative.
+    /// Zero or negative.
     Not,
 }
 
 impl EndSign {
+    /// Returns the sign of an exact value.
     pub(super) fn of(exact: f64) -> Self {
         if exact > 0.0 {
             Self::Positive
@@ -177,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn the_basis_is_that_of_the_film() {
+    fn the_basis_equals_the_basis_of_a_recording() {
         for n in [1, 2, 7, MAX_NODES] {
             for (k, own) in bernstein_basis(n).iter().enumerate() {
                 for i in 0..=20 {
@@ -190,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn products_and_halves_are_the_polynomial() {
+    fn products_and_halves_match_the_polynomial() {
         let (u, v) = ([1.0, -2.0, 0.5, 3.0], [0.3, 0.7, -1.0, 2.0]);
         let product = BernsteinProducts::of_degree(3).sum(|i, j| u[i] * v[j]);
         let [left, right] = product.halves();

@@ -1,12 +1,12 @@
-//! What is drawn.
+//! Boundary loops to be examined for meetings.
 
-/// A closed boundary of what is drawn, as vertices.
+/// A closed boundary loop of a drawn shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnLoop {
-    /// The vertices, one after the other.
+    /// Vertex indices in order along the loop.
     pub vertices: Vec<u32>,
-    /// Walks on different levels may pass over each other.
+    /// Paint layer; loops on different layers may cross.
     pub level: usize,
-    /// It is drawn from and until then.
+    /// First and last t at which the loop is drawn.
     pub drawn: [f64; 2],
 }

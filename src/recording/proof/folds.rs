@@ -1,4 +1,4 @@
-//! Faces that turn over.
+//! The first face of an interval that may fold: its signed area is not proved to be positive.
 
 use super::bernstein::{BernsteinPolynomial, BernsteinProducts, EPS, EndSign};
 use super::vertex_curve::{IntervalCurves, VertexCurve};
@@ -7,21 +7,22 @@ use crate::work::progress::{Cancelled, Progress, still_wanted};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How often a reel is halved: to a thousand-millionth.
+/// Maximum number of halvings (tolerance: 2⁻³⁰, about 1e-9 of an interval).
 pub(super) const MAX_HALVINGS: u32 = 30;
 
-/// The first place in the reel at which a face is not proved to be positive, and the
-/// face.
+/// Returns the first s in the interval at which a face is not proved to be positively oriented, and
+/// the index of that face. `at_ends` says which ends of the interval are the designs, whose
+/// orientations are exact.
 pub(super) fn first_fold(
-    ways: &IntervalCurves,
+    curves: &IntervalCurves,
     faces: &[[u32; 3]],
     at_ends: [bool; 2],
     progress: &dyn Progress,
 ) -> Result<Option<(f64, usize)>, Cancelled> {
-    let products = BernsteinProducts::of_degree(ways.degree());
+    let products = BernsteinProducts::of_degree(curves.degree());
     let earliest = EarliestFailure::default();
     let of_face = |(face, corners): (usize, &[u32; 3])| {
-        let corners = corners.map(|v| ways.way(v as usize));
+        let corners = corners.map(|v| curves.way(v as usize));
         let known = |end: usize, k: usize| {
             let [a, b, c] = corners.each_ref().map(|way| way.at[k]);
             match at_ends[end] {
@@ -29,7 +30,7 @@ pub(super) fn first_fold(
                 false => EndSign::No,
             }
         };
-        let ends = [known(0, 0), known(1, ways.degree())];
+        let ends = [known(0, 0), known(1, curves.degree())];
         let area = twice_area(&products, corners.each_ref());
         if progress.is_cancelled() {
             return None;
@@ -37,13 +38,13 @@ pub(super) fn first_fold(
         let s = not_positive(&area, ends, [0.0, 1.0], MAX_HALVINGS, &earliest)?;
         Some((s, face))
     };
-    let found = faces.par_iter().enumerate().filter_map(of_face);
-    let first = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let failures = faces.par_iter().enumerate().filter_map(of_face);
+    let first = failures.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     still_wanted(progress)?;
     Ok(first)
 }
 
-/// The earliest trouble of any so far: what comes later need not be looked at.
+/// The earliest failure found so far by any thread; later parts of the interval can be skipped.
 pub(super) struct EarliestFailure(AtomicU64);
 
 impl Default for EarliestFailure {
@@ -53,19 +54,21 @@ impl Default for EarliestFailure {
 }
 
 impl EarliestFailure {
+    /// Returns whether a failure earlier than `s` is known.
     pub(super) fn is_before(&self, s: f64) -> bool {
-        // Relaxed: it only saves work. What is not negative is in the order of its bits.
+        // Relaxed suffices: it only saves work. Bits of non-negative floats are ordered like the
+        // floats.
         self.0.load(Ordering::Relaxed) < s.to_bits()
     }
 
-    /// What was found, told.
+    /// Records a failure at `s` and returns `s`.
     pub(super) fn told(&self, s: f64) -> f64 {
         self.0.fetch_min(s.to_bits(), Ordering::Relaxed);
         s
     }
 }
 
-/// Twice the area of three vertices.
+/// Returns the polynomial of twice the signed area of three vertices.
 pub(super) fn twice_area(
     products: &BernsteinProducts,
     [a, b, c]: [&VertexCurve; 3],
@@ -73,7 +76,8 @@ pub(super) fn twice_area(
     product(products, [a, b], [a, c], DVec2::perp_dot)
 }
 
-/// A product, component by component, of the ways from one vertex to another.
+/// Returns a bilinear product, such as a dot product, of two edge vectors as a polynomial with an
+/// error bound. Each pair of curves is the beginning and the end of an edge vector.
 pub(super) fn product(
     products: &BernsteinProducts,
     first: [&VertexCurve; 2],
@@ -81,23 +85,24 @@ pub(super) fn product(
     of: impl Fn(DVec2, DVec2) -> f64,
 ) -> BernsteinPolynomial {
     let between = |[from, to]: [&VertexCurve; 2]| -> (Vec<DVec2>, f64, f64) {
-        let ways: Vec<DVec2> = (to.at.iter().zip(&from.at)).map(|(b, a)| *b - *a).collect();
-        let largest = ways.iter().map(|d| d.abs().max_element());
+        let vectors: Vec<DVec2> = (to.at.iter().zip(&from.at)).map(|(b, a)| *b - *a).collect();
+        let largest = vectors.iter().map(|d| d.abs().max_element());
         let largest = largest.fold(0.0, f64::max);
         let error = from.error + to.error + EPS * largest;
-        (ways, largest, error)
+        (vectors, largest, error)
     };
-    let [(u, most_u, off_u), (v, most_v, off_v)] = [first, second].map(between);
+    let [(u, max_u, error_u), (v, max_v, error_v)] = [first, second].map(between);
     let mut sum = products.sum(|i, j| of(u[i], v[j]));
-    // Two products of coordinates, each off by what its factors are off, and as many
-    // roundings as there are terms.
-    let off = off_u * most_v + off_v * most_u + off_u * off_v;
-    let rounded = (2 * u.len() + 8) as f64 * EPS * most_u * most_v;
-    sum.error = 2.0 * (off + rounded);
+    // Each of the two products of coordinates carries the errors of its factors, and the sum as
+    // many roundings as it has terms.
+    let factor_error = error_u * max_v + error_v * max_u + error_u * error_v;
+    let rounding = (2 * u.len() + 8) as f64 * EPS * max_u * max_v;
+    sum.error = 2.0 * (factor_error + rounding);
     sum
 }
 
-/// The first place at which a polynomial is not proved to be positive.
+/// Returns the first s at which a polynomial on `[from, to]` is not proved to be positive, by
+/// bisection; `None` if it is positive throughout.
 pub(super) fn not_positive(
     of: &BernsteinPolynomial,
     ends: [EndSign; 2],

@@ -1,9 +1,9 @@
-//! Outlines that meet.
+//! The first outlines of an interval that may meet.
 //!
-//! Outlines that are apart at first meet first where a vertex comes to lie on an edge.
-//! Boxes around the ways of edges tell which are near each other; where too many are,
-//! the reel is halved. What is near is apart as long as the vertex is on one side of
-//! the edge's line, or ahead of the edge, or behind it.
+//! Outlines that start apart first meet where a vertex touches an edge. Boxes around the curves of
+//! edges find the pairs that come near each other; where there are too many, the interval is
+//! halved. A pair is apart as long as the vertex stays on one side of the edge's line, or ahead of
+//! the edge, or behind it; each is the sign of a polynomial.
 
 use super::bernstein::{BernsteinProducts, EndSign};
 use super::drawn_loop::DrawnLoop;
@@ -14,75 +14,83 @@ use crate::work::progress::{Cancelled, Progress, still_wanted};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// A part of a reel is halved where so many pairs of edges for each edge are near
-/// each other, as long as it is no shorter than a 1024th.
-const PAIRS: usize = 12;
-const PARTS: u32 = 10;
+/// Largest number of nearby pairs per edge before an interval is halved (resource limit).
+const MAX_PAIRS_PER_EDGE: usize = 12;
+/// Maximum number of halvings for fewer pairs (resource limit: 2¹⁰ parts).
+const MAX_INTERVAL_HALVINGS: u32 = 10;
 
-/// What touches at an end of the film is left out for so long.
-const TOUCHING: f64 = 1.0 / 1024.0;
+/// Length in t, next to an end of the motion, in which pairs that touch at that end are not tested
+/// (tolerance: the sides of a cut need some time to come apart).
+const UNTESTED_LENGTH: f64 = 1.0 / 1024.0;
 
-/// Where the pieces of a reel end that are looked at each for itself: what is near an
-/// end of the film is one. `length` is how much of the film the reel is.
-fn pieces(at_ends: [bool; 2], length: f64) -> Vec<f64> {
-    let near = (TOUCHING / length).min(0.25);
+/// Returns the ends of the pieces into which an interval is divided: next to an end of the motion
+/// lies a short piece of its own. `length` is the length of the interval in t.
+fn piece_ends(at_ends: [bool; 2], length: f64) -> Vec<f64> {
+    let near = (UNTESTED_LENGTH / length).min(0.25);
     let begin = at_ends[0].then_some(near);
     let end = at_ends[1].then_some(1.0 - near);
     begin.into_iter().chain(end).chain([1.0]).collect()
 }
 
-/// The place in the reel, the vertex, the edge, and where that is.
+/// s of the meeting, vertex, edge, and the position of the vertex.
 type VertexEdgeMeeting = (f64, u32, [u32; 2], DVec2);
 
-/// What was found in a reel.
+/// The meetings in one interval.
 #[derive(Default)]
 pub(super) struct IntervalMeetings {
+    /// The earliest meeting.
     pub first: Option<VertexEdgeMeeting>,
+    /// Number of vertex–edge pairs that touch at an end of the motion and were not tested there.
     pub touching: usize,
 }
 
-/// An edge, by its vertices' numbers among those of the walks.
+/// An edge of a boundary loop; its vertices are indices into [`MeetingSearch::vertices`].
 #[derive(Clone, Copy)]
 struct LoopEdge {
     ends: [usize; 2],
     level: usize,
 }
 
-/// A vertex and an edge that it must not meet.
+/// A vertex and the ends of an edge that it must not meet.
 type VertexEdgePair = (usize, [usize; 2]);
 
+/// Returns the earliest meeting of the given loops in an interval. `at_ends` says which ends of the
+/// interval are the designs.
 pub(super) fn first_meeting(
-    ways: &IntervalCurves,
-    walks: &[&DrawnLoop],
+    curves: &IntervalCurves,
+    loops: &[&DrawnLoop],
     at_ends: [bool; 2],
     progress: &dyn Progress,
 ) -> Result<IntervalMeetings, Cancelled> {
-    let search = MeetingSearch::of(walks, ways.degree(), progress);
+    let search = MeetingSearch::of(loops, curves.degree(), progress);
     let vertices = &search.vertices;
-    let mut rest: Vec<VertexCurve> = vertices.par_iter().map(|&v| ways.way(v as usize)).collect();
+    let mut remaining: Vec<VertexCurve> = vertices
+        .par_iter()
+        .map(|&v| curves.way(v as usize))
+        .collect();
     let mut found = IntervalMeetings::default();
     let mut from = 0.0;
-    for to in pieces(at_ends, ways.length()) {
+    for to in piece_ends(at_ends, curves.length()) {
         let piece = match to < 1.0 {
             true => {
-                let cut = |way: &VertexCurve| way.cut((to - from) / (1.0 - from)).into();
+                let split = |curve: &VertexCurve| curve.cut((to - from) / (1.0 - from)).into();
                 let (piece, after): (Vec<VertexCurve>, Vec<VertexCurve>) =
-                    rest.par_iter().map(cut).unzip();
-                rest = after;
+                    remaining.par_iter().map(split).unzip();
+                remaining = after;
                 piece
             }
-            false => std::mem::take(&mut rest),
+            false => std::mem::take(&mut remaining),
         };
         let ends = [at_ends[0] && from == 0.0, at_ends[1] && to == 1.0];
-        // A cut's sides lie on each other in the designs: that is looked at once they
-        // are apart.
-        let crossed = (!ends[0]).then(|| search.crossed(&piece, walks, from));
+        // Crossings at the beginning of a piece are tested directly, except at t = 0, where the
+        // sides of a cut lie on each other.
+        let crossed = (!ends[0]).then(|| search.first_crossing(&piece, loops, from));
         let next = match crossed.flatten() {
             Some(first) => IntervalMeetings {
                 first: Some(first),
                 touching: 0,
             },
-            None => search.part(&piece, ends, [from, to], PARTS)?,
+            None => search.first_in_part(&piece, ends, [from, to], MAX_INTERVAL_HALVINGS)?,
         };
         found.touching += next.touching;
         found.first = next.first;
@@ -98,32 +106,35 @@ pub(super) fn first_meeting(
     Ok(found)
 }
 
+/// The state of the search for meetings in one interval.
 struct MeetingSearch<'a> {
     products: BernsteinProducts,
     edges: Vec<LoopEdge>,
-    /// The vertices of all walks, and for each of them its number here.
+    /// The vertex indices of all loops.
     vertices: Vec<u32>,
+    /// For each vertex its index in `vertices`.
     numbers: BTreeMap<u32, usize>,
     progress: &'a dyn Progress,
 }
 
 impl<'a> MeetingSearch<'a> {
-    fn of(walks: &[&DrawnLoop], degree: usize, progress: &'a dyn Progress) -> Self {
+    /// Collects the edges and vertices of the loops. `degree` is that of the curves.
+    fn of(loops: &[&DrawnLoop], degree: usize, progress: &'a dyn Progress) -> Self {
         let mut numbers = BTreeMap::new();
-        for walk in walks {
-            for &v in &walk.vertices {
+        for boundary_loop in loops {
+            for &v in &boundary_loop.vertices {
                 let next = numbers.len();
                 numbers.entry(v).or_insert(next);
             }
         }
         let mut vertices = vec![0; numbers.len()];
         numbers.iter().for_each(|(&v, &k)| vertices[k] = v);
-        let edges = walks.iter().flat_map(|walk| {
-            let next = walk.vertices.iter().cycle().skip(1);
-            let ends = walk.vertices.iter().zip(next);
+        let edges = loops.iter().flat_map(|boundary_loop| {
+            let next = boundary_loop.vertices.iter().cycle().skip(1);
+            let ends = boundary_loop.vertices.iter().zip(next);
             ends.map(|(a, b)| LoopEdge {
                 ends: [numbers[a], numbers[b]],
-                level: walk.level,
+                level: boundary_loop.level,
             })
         });
         Self {
@@ -135,67 +146,74 @@ impl<'a> MeetingSearch<'a> {
         }
     }
 
-    /// A crossing at the beginning.
-    fn crossed(
+    /// Returns a crossing of the loops at the beginning of the curves, which lies at `s`.
+    fn first_crossing(
         &self,
-        places: &[VertexCurve],
-        walks: &[&DrawnLoop],
+        curves: &[VertexCurve],
+        loops: &[&DrawnLoop],
         s: f64,
     ) -> Option<VertexEdgeMeeting> {
-        let number =
-            |walk: &DrawnLoop, k: usize| self.numbers[&walk.vertices[k % walk.vertices.len()]];
-        let ring = |walk: &&DrawnLoop| -> Vec<DVec2> {
-            let numbers = (0..walk.vertices.len()).map(|k| number(walk, k));
-            numbers.map(|v| places[v].at[0]).collect()
+        let index_at = |boundary_loop: &DrawnLoop, k: usize| {
+            self.numbers[&boundary_loop.vertices[k % boundary_loop.vertices.len()]]
         };
-        let rings: Vec<Vec<DVec2>> = walks.iter().map(ring).collect();
+        let ring = |boundary_loop: &&DrawnLoop| -> Vec<DVec2> {
+            let indices = (0..boundary_loop.vertices.len()).map(|k| index_at(boundary_loop, k));
+            indices.map(|v| curves[v].at[0]).collect()
+        };
+        let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).collect();
         let all = crossings(&rings);
-        let is_met = |crossing: &&EdgeCrossing| {
-            let [a, b] = crossing.edges.map(|edge| walks[edge.ring].level);
+        let is_same_layer = |crossing: &&EdgeCrossing| {
+            let [a, b] = crossing.edges.map(|edge| loops[edge.ring].level);
             a == b
         };
-        let crossing = all.iter().find(is_met)?;
+        let crossing = all.iter().find(is_same_layer)?;
         let [one, other] = crossing.edges;
-        let edge = [other.point, other.point + 1].map(|k| number(walks[other.ring], k) as u32);
-        let vertex = number(walks[one.ring], one.point) as u32;
+        let edge = [other.point, other.point + 1].map(|k| index_at(loops[other.ring], k) as u32);
+        let vertex = index_at(loops[one.ring], one.point) as u32;
         Some((s, vertex, edge, crossing.place))
     }
 
-    /// The first meeting in a part of the reel.
-    fn part(
+    /// Returns the earliest meeting in the part `[from, to]` of the interval.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the work is cancelled.
+    fn first_in_part(
         &self,
-        places: &[VertexCurve],
+        curves: &[VertexCurve],
         at_ends: [bool; 2],
         [from, to]: [f64; 2],
         halvings: u32,
     ) -> Result<IntervalMeetings, Cancelled> {
         still_wanted(self.progress)?;
-        let most = PAIRS * self.edges.len() + 1000;
-        let Some(pairs) = self.near(places, if halvings > 0 { most } else { usize::MAX }) else {
+        let max_pairs = MAX_PAIRS_PER_EDGE * self.edges.len() + 1000;
+        let max_pairs = if halvings > 0 { max_pairs } else { usize::MAX };
+        let Some(pairs) = self.near_pairs(curves, max_pairs) else {
             let middle = from.midpoint(to);
             let (left, right): (Vec<VertexCurve>, Vec<VertexCurve>) =
-                places.par_iter().map(|way| way.halves().into()).unzip();
-            let mut found = self.part(&left, [at_ends[0], false], [from, middle], halvings - 1)?;
+                curves.par_iter().map(|curve| curve.halves().into()).unzip();
+            let mut found =
+                self.first_in_part(&left, [at_ends[0], false], [from, middle], halvings - 1)?;
             if found.first.is_none() {
-                let right = self.part(&right, [false, at_ends[1]], [middle, to], halvings - 1)?;
+                let right =
+                    self.first_in_part(&right, [false, at_ends[1]], [middle, to], halvings - 1)?;
                 found.first = right.first;
                 found.touching += right.touching;
             }
             return Ok(found);
         };
         let earliest = EarliestFailure::default();
-        let touches = |pair: &VertexEdgePair| self.touches(places, at_ends, pair);
+        let touches = |pair: &VertexEdgePair| self.touches(curves, at_ends, pair);
         let (touching, apart): (Vec<VertexEdgePair>, Vec<VertexEdgePair>) =
             pairs.into_par_iter().partition(touches);
         let meets = |&(v, [a, b]): &VertexEdgePair| {
-            let ways = [&places[a], &places[b], &places[v]].map(Clone::clone);
+            let triple = [&curves[a], &curves[b], &curves[v]].map(Clone::clone);
             if self.progress.is_cancelled() {
                 return None;
             }
-            let s = self.meets(ways, at_ends, [from, to], (MAX_HALVINGS, &earliest))?;
+            let s = self.first_contact(triple, at_ends, [from, to], (MAX_HALVINGS, &earliest))?;
             let edge = [a as u32, b as u32];
-            // As good as where it is then: it is for the eye.
-            Some((s, v as u32, edge, places[v].at[0]))
+            // The position at the beginning of the part is accurate enough for display.
+            Some((s, v as u32, edge, curves[v].at[0]))
         };
         let found = apart.par_iter().filter_map(meets);
         let key = |m: &VertexEdgeMeeting| (m.1, m.2);
@@ -207,17 +225,18 @@ impl<'a> MeetingSearch<'a> {
         })
     }
 
-    /// The vertices and edges whose boxes overlap; none if they are more than so many.
-    fn near(&self, places: &[VertexCurve], most: usize) -> Option<Vec<VertexEdgePair>> {
-        let boxes: Vec<[DVec2; 2]> = places.par_iter().map(VertexCurve::bounds).collect();
-        let around = |edge: &LoopEdge| {
+    /// Returns the vertex–edge pairs of one layer whose boxes overlap; `None` if there are more
+    /// than `max_pairs`. Sweeps along x.
+    fn near_pairs(&self, curves: &[VertexCurve], max_pairs: usize) -> Option<Vec<VertexEdgePair>> {
+        let boxes: Vec<[DVec2; 2]> = curves.par_iter().map(VertexCurve::bounds).collect();
+        let edge_box = |edge: &LoopEdge| {
             let [a, b] = edge.ends.map(|v| boxes[v]);
             [a[0].min(b[0]), a[1].max(b[1])]
         };
         let mut sorted: Vec<([DVec2; 2], LoopEdge)> = self
             .edges
             .iter()
-            .map(|edge| (around(edge), *edge))
+            .map(|edge| (edge_box(edge), *edge))
             .collect();
         sorted.sort_by(|(a, _), (b, _)| a[0].x.total_cmp(&b[0].x));
         let mut pairs = Vec::new();
@@ -231,7 +250,8 @@ impl<'a> MeetingSearch<'a> {
                     pairs.extend(both.filter(|(v, ends)| !ends.contains(v)));
                 }
             }
-            if pairs.len() > most.saturating_mul(4) {
+            // Duplicates are removed below; up to four copies of a pair are expected.
+            if pairs.len() > max_pairs.saturating_mul(4) {
                 return None;
             }
         }
@@ -240,30 +260,30 @@ impl<'a> MeetingSearch<'a> {
         Some(pairs)
     }
 
-    /// Whether the vertex lies on the edge at an end of the film.
+    /// Returns whether the vertex lies on the edge at an end of the motion.
     fn touches(
         &self,
-        places: &[VertexCurve],
+        curves: &[VertexCurve],
         at_ends: [bool; 2],
         &(v, edge): &VertexEdgePair,
     ) -> bool {
-        let last = places[v].at.len() - 1;
-        let at = |k: usize| {
-            let [a, b, p] = [edge[0], edge[1], v].map(|v| places[v].at[k]);
-            let room = places[v].error + places[edge[0]].error + places[edge[1]].error;
+        let last = curves[v].at.len() - 1;
+        let touches_at = |k: usize| {
+            let [a, b, p] = [edge[0], edge[1], v].map(|v| curves[v].at[k]);
+            let tolerance = curves[v].error + curves[edge[0]].error + curves[edge[1]].error;
             let along = b - a;
-            let share = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            // Not where the edge is a point: then it is what is near that point.
-            p.distance(a + along * share) <= room || p == a || p == b
+            let fraction = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            // An edge of length zero counts only if the vertex is that very point.
+            p.distance(a + along * fraction) <= tolerance || p == a || p == b
         };
-        (at_ends[0] && at(0)) || (at_ends[1] && at(last))
+        (at_ends[0] && touches_at(0)) || (at_ends[1] && touches_at(last))
     }
 
-    /// The first place at which the third is not proved to be off the edge of the other
-    /// two.
-    fn meets(
+    /// Returns the first s at which the third curve is not proved to be off the edge between the
+    /// other two, by bisection of `[from, to]`.
+    fn first_contact(
         &self,
-        ways: [VertexCurve; 3],
+        curves: [VertexCurve; 3],
         at_ends: [bool; 2],
         [from, to]: [f64; 2],
         (halvings, earliest): (u32, &EarliestFailure),
@@ -271,17 +291,17 @@ impl<'a> MeetingSearch<'a> {
         if earliest.is_before(from) {
             return None;
         }
-        let [a, b, p] = ways.each_ref();
+        let [a, b, p] = curves.each_ref();
         let last = p.at.len() - 1;
         let [low, high] = p.bounds();
         let [of_a, of_b] = [a, b].map(VertexCurve::bounds);
-        let (least, most) = (of_a[0].min(of_b[0]), of_a[1].max(of_b[1]));
-        if low.cmpgt(most).any() || high.cmplt(least).any() {
+        let (edge_low, edge_high) = (of_a[0].min(of_b[0]), of_a[1].max(of_b[1]));
+        if low.cmpgt(edge_high).any() || high.cmplt(edge_low).any() {
             return None;
         }
         let side = twice_area(&self.products, [a, b, p]);
         let exact = [0, last].map(|k| orient2d(a.at[k], b.at[k], p.at[k]));
-        let known = |sign: f64| {
+        let known_signs = |sign: f64| {
             let at = |end: usize| match at_ends[end] {
                 true => EndSign::of(sign * exact[end]),
                 false => EndSign::No,
@@ -291,8 +311,8 @@ impl<'a> MeetingSearch<'a> {
         let none = [EndSign::No; 2];
         let behind = || product(&self.products, [a, p], [a, b], DVec2::dot).negated();
         let ahead = || product(&self.products, [b, p], [a, b], DVec2::dot);
-        if side.is_positive(known(1.0))
-            || side.negated().is_positive(known(-1.0))
+        if side.is_positive(known_signs(1.0))
+            || side.negated().is_positive(known_signs(-1.0))
             || behind().is_positive(none)
             || ahead().is_positive(none)
         {
@@ -305,7 +325,7 @@ impl<'a> MeetingSearch<'a> {
         let next = (halvings - 1, earliest);
         let [[a0, a1], [b0, b1], [p0, p1]] = [a, b, p].map(VertexCurve::halves);
         let (left, right) = ([a0, b0, p0], [a1, b1, p1]);
-        self.meets(left, [at_ends[0], false], [from, middle], next)
-            .or_else(|| self.meets(right, [false, at_ends[1]], [middle, to], next))
+        self.first_contact(left, [at_ends[0], false], [from, middle], next)
+            .or_else(|| self.first_contact(right, [false, at_ends[1]], [middle, to], next))
     }
 }

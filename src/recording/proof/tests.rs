@@ -1,4 +1,4 @@
-//! Planted faults are found, and what has none is proved.
+//! Planted folds and meetings are found; recordings without any are proved.
 
 use super::*;
 use crate::recording::RecordingOptions;
@@ -6,7 +6,7 @@ use crate::warp::{Placement, Placer, Warp};
 use crate::work::progress::Silent;
 use std::sync::Arc;
 
-/// Points that move as a function says.
+/// A warp of points that move as a function of index and t: faces, number of points, function.
 struct FunctionWarp<F>(Vec<[u32; 3]>, usize, F);
 
 impl<F> std::fmt::Debug for FunctionWarp<F> {
@@ -28,7 +28,7 @@ impl<F: Fn(usize, f64) -> DVec2 + Copy + Send + Sync + 'static> Warp for Functio
     }
 }
 
-fn film<F>(faces: Vec<[u32; 3]>, count: usize, at: F) -> Recording
+fn recording_of<F>(faces: Vec<[u32; 3]>, count: usize, at: F) -> Recording
 where
     F: Fn(usize, f64) -> DVec2 + Copy + Send + Sync + 'static,
 {
@@ -36,7 +36,7 @@ where
     Recording::record(warp, &RecordingOptions::default(), &Silent).expect("a film")
 }
 
-fn walk(vertices: &[u32]) -> DrawnLoop {
+fn drawn_loop(vertices: &[u32]) -> DrawnLoop {
     DrawnLoop {
         vertices: vertices.to_vec(),
         level: 0,
@@ -44,7 +44,7 @@ fn walk(vertices: &[u32]) -> DrawnLoop {
     }
 }
 
-/// Negative between these times alone, and by how little.
+/// A parabola that is negative exactly between two times, by very little.
 fn dips(t: f64, from: f64, to: f64) -> f64 {
     (t - from) * (t - to)
 }
@@ -52,27 +52,28 @@ fn dips(t: f64, from: f64, to: f64) -> f64 {
 #[test]
 fn a_fold_between_two_samples_is_found() {
     let folds = |from: f64, to: f64| {
-        let film = film(vec![[0, 1, 2]], 3, move |k, t| match k {
+        let recording = recording_of(vec![[0, 1, 2]], 3, move |k, t| match k {
             0 => DVec2::ZERO,
             1 => DVec2::X,
             _ => DVec2::new(0.3, dips(t, from, to)),
         });
-        film.prove(&[], &Silent).expect("an answer").fold
+        recording.prove(&[], &Silent).expect("an answer").fold
     };
     for from in [0.3701, 0.5, 0.77] {
         let fold = folds(from, from + 1e-4).expect("a fold");
         assert_eq!(fold.face, 0);
         assert!((fold.t - from).abs() < 1e-7, "{} for {from}", fold.t);
-        // As long as it is no less than rounding.
+        // Even a dip close to rounding is found, if less accurately.
         let fold = folds(from, from + 1e-6).expect("a fold");
         assert!((fold.t - from).abs() < 1e-4, "{} for {from}", fold.t);
     }
     assert_eq!(folds(1.2, 1.3), None);
 }
 
-/// Two triangles, the tip of the second of which comes near a side of the first.
+/// Two triangles, the tip of the second of which approaches a side of the first up to `gap`, less
+/// the dip between the two times.
 fn tip(gap: f64, from: f64, to: f64) -> Recording {
-    film(vec![[0, 1, 2], [3, 4, 5]], 6, move |k, t| {
+    recording_of(vec![[0, 1, 2], [3, 4, 5]], 6, move |k, t| {
         let turn = DVec2::from_angle(0.7 * t);
         let at = match k {
             0 => DVec2::ZERO,
@@ -87,9 +88,9 @@ fn tip(gap: f64, from: f64, to: f64) -> Recording {
 }
 
 #[test]
-fn outlines_that_meet_for_a_millionth_are_found() {
-    let walks = [walk(&[0, 1, 2]), walk(&[3, 4, 5])];
-    let prove = |film: Recording| film.prove(&walks, &Silent).expect("an answer");
+fn outlines_that_meet_for_a_millionth_of_the_time_are_found() {
+    let loops = [drawn_loop(&[0, 1, 2]), drawn_loop(&[3, 4, 5])];
+    let prove = |recording: Recording| recording.prove(&loops, &Silent).expect("an answer");
     for from in [0.123_456, 0.61] {
         let proof = prove(tip(0.0, from, from + 1e-6));
         let meeting = proof.meeting.expect("they meet");
@@ -103,27 +104,27 @@ fn outlines_that_meet_for_a_millionth_are_found() {
 }
 
 #[test]
-fn what_is_on_other_levels_or_not_drawn_yet_is_not_met() {
+fn loops_on_different_layers_may_cross() {
     let through = || tip(0.0, 0.4, 0.6);
-    let mut walks = [walk(&[0, 1, 2]), walk(&[3, 4, 5])];
+    let mut loops = [drawn_loop(&[0, 1, 2]), drawn_loop(&[3, 4, 5])];
     assert!(
         through()
-            .prove(&walks, &Silent)
+            .prove(&loops, &Silent)
             .expect("an answer")
             .meeting
             .is_some()
     );
-    walks[1].level = 1;
+    loops[1].level = 1;
     assert_eq!(
-        through().prove(&walks, &Silent).expect("an answer").meeting,
+        through().prove(&loops, &Silent).expect("an answer").meeting,
         None
     );
 }
 
 #[test]
-fn what_touches_at_an_end_is_counted() {
-    // Both sides of a slit that opens.
-    let film = film(vec![], 6, |k, t| match k {
+fn pairs_that_touch_at_an_end_are_counted() {
+    // The two sides of a slit that opens.
+    let recording = recording_of(vec![], 6, |k, t| match k {
         0 => DVec2::new(0.0, 0.1 * t),
         1 => DVec2::new(1.0, 0.1 * t),
         2 => DVec2::new(0.5, 1.0),
@@ -131,41 +132,41 @@ fn what_touches_at_an_end_is_counted() {
         4 => DVec2::new(0.5, -1.0),
         _ => DVec2::new(1.0, 0.0),
     });
-    let walks = [walk(&[0, 1, 2]), walk(&[3, 4, 5])];
-    let proof = film.prove(&walks, &Silent).expect("an answer");
+    let loops = [drawn_loop(&[0, 1, 2]), drawn_loop(&[3, 4, 5])];
+    let proof = recording.prove(&loops, &Silent).expect("an answer");
     assert!(proof.touching > 0 && proof.meeting.is_none(), "{proof:?}");
 }
 
 #[test]
-fn a_proof_that_is_given_other_coefficients_fails() {
+fn a_slightly_larger_dip_is_not_proved() {
     let proves = |by: f64| {
-        let film = film(vec![[0, 1, 2]], 3, move |k, t| match k {
+        let recording = recording_of(vec![[0, 1, 2]], 3, move |k, t| match k {
             0 => DVec2::ZERO,
             1 => DVec2::X,
             _ => DVec2::new(0.3, 1e-4 + t * (1.0 - t) * (0.25 - by * 4.0)),
         });
-        film.prove(&[], &Silent).expect("an answer").holds()
+        recording.prove(&[], &Silent).expect("an answer").holds()
     };
     assert!(proves(0.0));
     assert!(!proves(0.063));
 }
 
 #[test]
-fn the_answer_is_the_same_on_any_number_of_threads() {
+fn the_proof_is_the_same_on_any_number_of_threads() {
     let of = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let film = tip(0.0, 0.4, 0.5);
-        let walks = [walk(&[0, 1, 2]), walk(&[3, 4, 5])];
-        let prove = || film.prove(&walks, &Silent).expect("an answer");
+        let recording = tip(0.0, 0.4, 0.5);
+        let loops = [drawn_loop(&[0, 1, 2]), drawn_loop(&[3, 4, 5])];
+        let prove = || recording.prove(&loops, &Silent).expect("an answer");
         pool.expect("threads").install(prove)
     };
     assert_eq!(of(1), of(3));
 }
 
 #[test]
-fn what_crosses_from_the_first_is_not_proved() {
-    // A bar across another; no vertex meets anything.
-    let film = film(vec![], 6, |k, t| {
+fn outlines_that_cross_from_the_beginning_are_found() {
+    // Two bars that cross; no vertex meets anything.
+    let recording = recording_of(vec![], 6, |k, t| {
         let at = match k {
             0 => DVec2::new(-5.0, -0.1),
             1 => DVec2::new(5.0, -0.1),
@@ -176,14 +177,14 @@ fn what_crosses_from_the_first_is_not_proved() {
         };
         DVec2::from_angle(t).rotate(at)
     });
-    let proof = film.prove(&[walk(&[0, 1, 2]), walk(&[3, 4, 5])], &Silent);
+    let proof = recording.prove(&[drawn_loop(&[0, 1, 2]), drawn_loop(&[3, 4, 5])], &Silent);
     assert!(proof.expect("an answer").meeting.is_some());
 }
 
 #[test]
-fn what_touches_at_an_end_and_goes_in_is_found() {
-    // The foot of the first stands on the second, sinks in and comes out again.
-    let film = film(vec![], 6, |k, t| {
+fn outlines_that_touch_at_an_end_and_then_cross_are_found() {
+    // The base of the first triangle stands on the second, sinks in and comes out again.
+    let recording = recording_of(vec![], 6, |k, t| {
         let sinks = -0.2 * t * (1.0 - t);
         match k {
             0 => DVec2::new(0.2, sinks),
@@ -194,7 +195,7 @@ fn what_touches_at_an_end_and_goes_in_is_found() {
             _ => DVec2::new(1.0, 0.0),
         }
     });
-    let proof = film.prove(&[walk(&[0, 1, 2]), walk(&[3, 4, 5])], &Silent);
+    let proof = recording.prove(&[drawn_loop(&[0, 1, 2]), drawn_loop(&[3, 4, 5])], &Silent);
     let proof = proof.expect("an answer");
     assert!(proof.touching > 0 && proof.meeting.is_some(), "{proof:?}");
 }

@@ -1,4 +1,4 @@
-//! One way to match a piece: its mesh, and what is seen of its film.
+//! A candidate match of a piece: its mesh, and the defects of its motion.
 
 use crate::compatible::{CompatibleMesh, PieceMeshError, mesh_of_piece};
 use crate::correspondence::{HolePolicy, PieceMatch};
@@ -15,63 +15,58 @@ use crate::warp::{Arap, ArapOptions, Warp};
 use crate::work::progress::{Cancelled, Progress, ProgressSpan, still_wanted};
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
-/// Steps of a film that is looked at for folds and crossings.
-/// Each costs a frame of every candidate; a fold between two is missed.
+/// Number of even time steps at which folds and crossings are counted (resource limit: each costs a
+/// frame of every candidate; a fold between two steps is missed).
 const STEPS: u32 = 32;
 
-/// How much of a candidate is done once it has its mesh.
-const MESHED: f64 = 0.9;
+/// Fraction of the progress when the mesh is built (heuristic).
+const MESH_PROGRESS: f64 = 0.9;
 
-/// The share of the area whose distortion is not looked at: the corners of
-/// any triangulation hold some.
-const WORST: f64 = 0.05;
+/// Fraction of the area, the most distorted, that is ignored (heuristic: the corners of every
+/// triangulation are distorted).
+const IGNORED_AREA: f64 = 0.05;
 
-/// The power of the outlines' turning, as a ratio to that between the ends,
-/// by which distortion counts as more. By 5 the worst tenth of the distortion of
-/// 60 pairs of silhouettes grew from 22 to 24.
-const JAGGED: i32 = 3;
+/// Exponent of the outlines' excess turning in the misfit (heuristic).
+const TURNING_EXPONENT: i32 = 3;
 
-/// The power of one more than the half turns that a piece makes, by which
-/// distortion counts as more. Of 200 pairs of letters 58 turn by more than a
-/// right angle without it, an O on its way to a c by 166 degrees; 35 by 1 and
-/// 28 by 2, and nothing is distorted more for it.
-const UPSIDE_DOWN: i32 = 2;
+/// Exponent of 1 plus the number of half turns of the piece in the misfit (heuristic).
+const ROTATION_EXPONENT: i32 = 2;
 
-/// What turns by no more is upright, in radians.
-const UPRIGHT: f64 = FRAC_PI_6;
+/// Largest rotation of an upright piece, in radians (heuristic).
+const MAX_UPRIGHT_ROTATION: f64 = FRAC_PI_6;
 
-/// A matched piece with its mesh, and how good its film is.
+/// A matched piece with its mesh, and the quality of its motion.
 #[derive(Clone)]
 pub(in crate::transition) struct MatchCandidate {
     pub(in crate::transition) matched: PieceMatch,
-    /// How its holes were treated.
+    /// How unmatched holes were treated.
     pub(in crate::transition) holes: HolePolicy,
     pub(in crate::transition) mesh: CompatibleMesh,
     trouble: MotionDefects,
-    /// As [`CompatibleMesh::distortion`].
+    /// Distortion; see [`CompatibleMesh::distortion`].
     pub(in crate::transition) distortion: f64,
 }
 
-/// What is seen of a film.
+/// Defects of a motion, sampled at even steps.
 #[derive(Clone, Copy, Default)]
 struct MotionDefects {
-    /// Faces that are not positive, over all steps.
+    /// Number of faces that are not positively oriented, summed over all steps.
     folds: usize,
-    /// Crossings of the outlines, over all steps.
+    /// Number of crossings of the outlines, summed over all steps.
     crossings: usize,
-    /// The share by which the outlines turn more than between the ends.
+    /// Excess turning of the outlines over that of the ends, as a fraction.
     turning: f64,
-    /// The share by which the piece has more area than between the ends.
+    /// Excess area over that of the ends, as a fraction.
     swelling: f64,
-    /// How far the piece turns as a whole, in radians.
+    /// Rotation of the piece as a whole, in radians.
     rotation: f64,
 }
 
-/// Why there is no candidate.
+/// Why a candidate could not be built.
 pub(in crate::transition) enum CandidateError {
-    /// There is no mesh of the piece.
+    /// The piece could not be triangulated.
     Mesh(PieceMeshError),
-    /// There is no film of it, or nobody wants it.
+    /// The motion could not be solved, or the work was cancelled.
     Build(BuildError),
 }
 
@@ -88,77 +83,91 @@ impl From<Cancelled> for CandidateError {
 }
 
 impl MatchCandidate {
+    /// Triangulates a matched piece, solves its motion, and measures its defects.
+    ///
+    /// # Errors
+    /// If the piece cannot be triangulated, the motion cannot be solved, or the work is cancelled.
     pub(in crate::transition) fn new(
         matched: PieceMatch,
         holes: HolePolicy,
         options: &TransitionOptions,
         progress: &dyn Progress,
     ) -> Result<Self, CandidateError> {
-        let [meshing, filming] =
-            [(0.0, MESHED), (MESHED, 1.0)].map(|(from, to)| ProgressSpan::new(progress, from, to));
+        let [meshing, solving] = [(0.0, MESH_PROGRESS), (MESH_PROGRESS, 1.0)]
+            .map(|(from, to)| ProgressSpan::new(progress, from, to));
         let mesh = mesh_of_piece(&matched, &options.triangulation, &meshing)
             .map_err(CandidateError::Mesh)?;
         let trouble = if matched.is_in_both() {
-            // As it moves by itself: weights and anchors are said of the whole.
-            // A film that is expensive is not tried of each: it ends alike.
+            // The piece is rated on its own, with default weights and anchor, which concern the
+            // whole. The polar path stands in for bounded distortion, which is expensive but ends
+            // alike.
             let homotopy = match options.arap.homotopy {
                 Homotopy::Bounded => Homotopy::Polar,
                 homotopy => homotopy,
             };
-            let alone = ArapOptions {
+            let own_options = ArapOptions {
                 homotopy,
                 symmetric: options.arap.symmetric,
                 ..ArapOptions::default()
             };
-            let film = build_arap(&mesh, &alone, &[], &filming)?;
-            // Nothing else is there.
-            let alone = PieceLayers::default();
-            let lone = timed(std::slice::from_ref(&matched), &film, &alone, progress)?;
-            MotionDefects::of(&film, &lone, progress)?
+            let motion = build_arap(&mesh, &own_options, &[], &solving)?;
+            // A single piece lies on a single layer.
+            let layers = PieceLayers::default();
+            let holes = timed(std::slice::from_ref(&matched), &motion, &layers, progress)?;
+            MotionDefects::of(&motion, &holes, progress)?
         } else {
             MotionDefects::default()
         };
         Ok(Self {
             trouble,
-            distortion: mesh.distortion(WORST),
+            distortion: mesh.distortion(IGNORED_AREA),
             holes,
             matched,
             mesh,
         })
     }
 
+    /// Returns whether this candidate is better than another.
     pub(in crate::transition) fn is_better_than(&self, other: &Self) -> bool {
-        // NaN compares false: what cannot be measured is not better.
-        self.order() < other.order()
+        // Comparisons with NaN are false: an undefined misfit is never better.
+        self.comparison_key() < other.comparison_key()
     }
 
+    /// Returns whether a face folds at some step.
     pub(in crate::transition) fn folds(&self) -> bool {
         self.trouble.folds > 0
     }
 
+    /// Returns whether the piece hardly turns as a whole.
     pub(in crate::transition) fn is_upright(&self) -> bool {
-        self.trouble.rotation.abs() <= UPRIGHT
+        self.trouble.rotation.abs() <= MAX_UPRIGHT_ROTATION
     }
 
-    /// What makes one film worse than another, first things first.
-    fn order(&self) -> (usize, usize, f64) {
+    /// Returns the quantities by which candidates are compared, the most important first; lower is
+    /// better.
+    fn comparison_key(&self) -> (usize, usize, f64) {
         (self.trouble.folds, self.trouble.crossings, self.misfit())
     }
 
-    /// Its distortion, and by what is seen of its film more than that: at least 1.
+    /// Returns the distortion, increased by excess turning, rotation and excess area; at least 1.
     pub(in crate::transition) fn misfit(&self) -> f64 {
-        let jagged = (1.0 + self.trouble.turning).powi(JAGGED);
-        let upside_down = (1.0 + self.trouble.rotation.abs() / PI).powi(UPSIDE_DOWN);
-        // By it, and where holes slide both paired and not, the area up and down of the worst
-        // tenth of 200 pairs of letters went from 0.056 to 0.030. Squared it is 0.028, and
-        // outlines are distorted by 3.06 in the median, not 2.97.
-        let swollen = 1.0 + self.trouble.swelling;
-        self.distortion * jagged * upside_down * swollen
+        let turning = (1.0 + self.trouble.turning).powi(TURNING_EXPONENT);
+        let rotation = (1.0 + self.trouble.rotation.abs() / PI).powi(ROTATION_EXPONENT);
+        let area = 1.0 + self.trouble.swelling;
+        self.distortion * turning * rotation * area
     }
 }
 
 impl MotionDefects {
-    fn of(arap: &Arap, lone: &[PieceHole], progress: &dyn Progress) -> Result<Self, Cancelled> {
+    /// Samples a motion at even steps and measures its defects.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the work is cancelled.
+    fn of(
+        arap: &Arap,
+        unmatched_holes: &[PieceHole],
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
         let mesh = arap.mesh();
         let (loops, diameter) = (mesh.boundary_loops(), mesh.diameter());
         let [mut folds, mut crossings] = [0; 2];
@@ -170,15 +179,17 @@ impl MotionDefects {
             placer.place(t);
             let places = &placer.placement().in_frame;
             let ring = |ring: &Vec<u32>| ring.iter().map(|&v| places[v as usize]).collect();
-            let holes = lone.iter().filter_map(|(_, hole)| hole.at(places, t));
+            let holes = unmatched_holes
+                .iter()
+                .filter_map(|(_, hole)| hole.at(places, t));
             let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).chain(holes).collect();
-            // What is gone still counts as a point, which turns once.
-            let gone = loops.len() + lone.len() - rings.len();
-            turned.push([t, total_turning(&rings, diameter) + TAU * gone as f64]);
+            // A hole that has disappeared still counts as a point, which turns once.
+            let absent = loops.len() + unmatched_holes.len() - rings.len();
+            turned.push([t, total_turning(&rings, diameter) + TAU * absent as f64]);
             areas.push([t, rings.iter().map(|ring| signed_area(ring)).sum::<f64>()]);
-            // The ends are the designs.
+            // The ends are the designs themselves.
             if step > 0 && step < STEPS {
-                folds += folded(arap, places);
+                folds += count_folded(arap, places);
                 crossings += count_crossings(&rings);
             }
         }
@@ -192,8 +203,8 @@ impl MotionDefects {
     }
 }
 
-/// Faces that are not positive.
-fn folded(arap: &Arap, places: &[DVec2]) -> usize {
+/// Returns the number of faces that are not positively oriented.
+fn count_folded(arap: &Arap, places: &[DVec2]) -> usize {
     let is_folded = |face: &&[u32; 3]| {
         let [a, b, c] = face.map(|v| places[v as usize]);
         orient2d(a, b, c) <= 0.0

@@ -1,5 +1,5 @@
-//! The pieces of a group of parts, matched in several ways: for each piece the
-//! best candidate so far.
+//! Matches the pieces of a group of parts in several variants and selects the best candidate for
+//! each piece.
 
 use super::candidate::{CandidateError, MatchCandidate};
 use crate::compatible::PieceMeshError;
@@ -9,19 +9,20 @@ use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, still_wanted};
 use rayon::prelude::*;
 
-/// How much of a way is done once the pieces are matched, as it is told.
-const MATCHED: f64 = 0.2;
+/// Fraction of the progress of a variant when its pieces are matched (heuristic).
+const MATCH_PROGRESS: f64 = 0.2;
 
-/// What became of a piece: its best candidate, or why there is none.
+/// The result for a piece: its best candidate, or why it cannot be triangulated.
 pub(in crate::transition) type PieceResult = Result<MatchCandidate, (PieceMatch, PieceMeshError)>;
 
-/// One way to match the pieces of a group.
+/// A variant of matching the pieces of a group.
 pub(in crate::transition) struct MatchVariant {
     pub(in crate::transition) options: MatchOptions,
+    /// How unmatched holes are treated.
     pub(in crate::transition) holes: HolePolicy,
 }
 
-/// The piece, as it is matched best so far.
+/// Returns the piece as matched by the best candidate so far.
 pub(in crate::transition) fn piece(chosen: &PieceResult) -> &PieceMatch {
     match chosen {
         Ok(best) => &best.matched,
@@ -32,14 +33,14 @@ pub(in crate::transition) fn piece(chosen: &PieceResult) -> &PieceMatch {
 /// A group of parts that is being matched.
 pub(in crate::transition) struct GroupSearch<'a> {
     pub(in crate::transition) prepared: &'a MatchPlan<'a>,
-    /// Its number among the groups.
+    /// Index of the group.
     pub(in crate::transition) group: usize,
     pub(in crate::transition) spec: &'a TransitionSpec,
 }
 
 impl GroupSearch<'_> {
-    /// How holes without a partner are treated at first: as was asked for, or
-    /// so that they bend nothing.
+    /// Returns how unmatched holes are treated first: as requested, or, with automatic treatment,
+    /// such that they appear or disappear without bending anything.
     pub(in crate::transition) fn first_holes(&self) -> HolePolicy {
         HolePolicy::By(match self.spec.options.matching.holes {
             HoleRule::Auto => HoleRule::Alone,
@@ -47,15 +48,18 @@ impl GroupSearch<'_> {
         })
     }
 
-    /// The pieces at the prices that were asked for.
+    /// Matches the pieces with the requested costs.
+    ///
+    /// # Errors
+    /// If the group cannot be matched, a candidate cannot be solved, or the work is cancelled.
     pub(in crate::transition) fn as_asked(
         &self,
         progress: &dyn Progress,
     ) -> Result<Vec<PieceResult>, BuildError> {
-        let (prices, holes) = (self.spec.options.matching.options(), self.first_holes());
+        let (costs, holes) = (self.spec.options.matching.options(), self.first_holes());
         let pieces = self
             .prepared
-            .matched_group(self.group, &prices, holes, progress)?;
+            .matched_group(self.group, &costs, holes, progress)?;
         let shares = ProgressShares::new(progress, pieces.len());
         let pieces = pieces.into_par_iter().enumerate();
         pieces
@@ -63,75 +67,87 @@ impl GroupSearch<'_> {
             .collect()
     }
 
-    /// Tries several ways to match the pieces that want it, and takes those that
-    /// are better.
+    /// Tries several variants for the pieces selected by `wants`, and replaces candidates by better
+    /// ones.
+    ///
+    /// # Errors
+    /// If the work is cancelled.
     pub(in crate::transition) fn try_ways(
         &self,
         chosen: &mut [PieceResult],
-        ways: &[MatchVariant],
+        variants: &[MatchVariant],
         wants: &[bool],
         progress: &dyn Progress,
     ) -> Result<(), BuildError> {
         if wants.contains(&true) {
-            let found = self.others(ways, wants, progress)?;
-            found
+            let candidates = self.candidates_of_variants(variants, wants, progress)?;
+            candidates
                 .into_iter()
-                .for_each(|found| take_better(chosen, found));
+                .for_each(|candidates| take_better(chosen, candidates));
         }
         Ok(())
     }
 
-    /// For each of these ways the candidates of the pieces that want one.
-    fn others(
+    /// Returns, for each variant, the candidates of the pieces selected by `wants`.
+    ///
+    /// # Errors
+    /// If the work is cancelled.
+    fn candidates_of_variants(
         &self,
-        ways: &[MatchVariant],
+        variants: &[MatchVariant],
         wants: &[bool],
         progress: &dyn Progress,
     ) -> Result<Vec<Vec<Option<MatchCandidate>>>, BuildError> {
-        let shares = ProgressShares::new(progress, ways.len());
-        let found = ways.par_iter().enumerate().map(|(k, way)| {
+        let shares = ProgressShares::new(progress, variants.len());
+        let candidates_by_variant = variants.par_iter().enumerate().map(|(k, variant)| {
             let share = shares.part(k);
-            let [begin, rest] =
-                [(0.0, MATCHED), (MATCHED, 1.0)].map(|(a, b)| ProgressSpan::new(&share, a, b));
-            let matched = self
-                .prepared
-                .matched_group(self.group, &way.options, way.holes, &begin);
+            let [matching, rating] = [(0.0, MATCH_PROGRESS), (MATCH_PROGRESS, 1.0)]
+                .map(|(a, b)| ProgressSpan::new(&share, a, b));
+            let matched =
+                self.prepared
+                    .matched_group(self.group, &variant.options, variant.holes, &matching);
             still_wanted(progress)?;
-            // What cannot be had is no better: there is the first one.
+            // A variant that fails is no better: each piece has a result already.
             let pieces = matched.unwrap_or_default();
-            let shares = ProgressShares::new(&rest, pieces.len());
+            let shares = ProgressShares::new(&rating, pieces.len());
             let pieces = pieces.into_par_iter().zip(wants).enumerate();
-            let candidates = pieces.map(|(k, (piece, wanted))| {
+            let candidates = pieces.map(|(k, (piece, is_wanted))| {
                 let new = || {
-                    MatchCandidate::new(piece, way.holes, &self.spec.options, &shares.part(k)).ok()
+                    MatchCandidate::new(piece, variant.holes, &self.spec.options, &shares.part(k))
+                        .ok()
                 };
-                let made = wanted.then(new);
-                // But a cancel is an answer.
+                let candidate = is_wanted.then(new);
+                // A cancellation, however, must end the work.
                 still_wanted(progress)?;
-                Ok(made.flatten())
+                Ok(candidate.flatten())
             });
             candidates.collect::<Result<Vec<_>, BuildError>>()
         });
-        found.collect()
+        candidates_by_variant.collect()
     }
 }
 
-/// Takes those that are better, piece by piece, and the earlier among equals.
+/// Replaces results by better candidates, piece by piece; among equals the earlier one stays.
 pub(in crate::transition) fn take_better(
     chosen: &mut [PieceResult],
-    found: Vec<Option<MatchCandidate>>,
+    candidates: Vec<Option<MatchCandidate>>,
 ) {
-    for (chosen, found) in chosen.iter_mut().zip(found) {
-        let is_better = |found: &MatchCandidate| match &*chosen {
-            Ok(best) => found.is_better_than(best),
+    for (chosen, candidate) in chosen.iter_mut().zip(candidates) {
+        let is_better = |candidate: &MatchCandidate| match &*chosen {
+            Ok(best) => candidate.is_better_than(best),
             Err(_) => true,
         };
-        if let Some(found) = found.filter(is_better) {
-            *chosen = Ok(found);
+        if let Some(candidate) = candidate.filter(is_better) {
+            *chosen = Ok(candidate);
         }
     }
 }
 
+/// Triangulates a matched piece and rates its motion. A piece that cannot be triangulated is a
+/// result, not an error.
+///
+/// # Errors
+/// If the motion cannot be solved or the work is cancelled.
 fn candidate(
     piece: PieceMatch,
     holes: HolePolicy,

@@ -1,8 +1,7 @@
-//! Whether two designs would match far better if one of them were mirrored.
+//! Checks whether two designs would match far better if one of them were mirrored.
 //!
-//! A match turns and stretches, and never turns over: two springs that wind
-//! against each other have none that is good. It is told and not done, since
-//! a letter that is mirrored is no letter.
+//! A match may turn and stretch but never mirror: two spirals of opposite handedness have no good
+//! match. The result is only reported, not applied, since a mirrored letter is no letter.
 
 use super::candidate::MatchCandidate;
 use super::group::{GroupSearch, PieceResult};
@@ -14,26 +13,28 @@ use crate::transition::note::TransitionNote;
 use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, still_wanted};
 
-/// Films that distort less than this are good enough as they are.
+/// Distortion below which a match is good enough as drawn (heuristic).
 const GOOD: f64 = 2.0;
 
-/// Far better is a draft of the mirrored design that distorts by at most this
-/// share of what the best film of the design as drawn does. Of 320 pairs of
-/// icons, glyphs and silhouettes it is said of two: d and q, and a face.
+/// Largest ratio of distortions, mirrored draft to best match as drawn, that counts as far better
+/// (heuristic).
 const FAR_BETTER: f64 = 0.4;
 
-/// What to say of it; none where nobody would gain by it.
+/// Returns a note if mirroring would help much; `None` otherwise, and for matches set by hand.
+///
+/// # Errors
+/// If the work is cancelled.
 pub(in crate::transition) fn mirror_note(
     spec: &TransitionSpec,
     drawings: &DrawingPair,
     best: &[MatchCandidate],
     progress: &dyn Progress,
 ) -> Result<Option<TransitionNote>, BuildError> {
-    let asked = &spec.options.matching;
-    let is_set_by_hand = !(asked.pins.is_empty()
-        && asked.links.is_empty()
-        && asked.lone.is_empty()
-        && asked.cuts.is_empty());
+    let requested = &spec.options.matching;
+    let is_set_by_hand = !(requested.pins.is_empty()
+        && requested.links.is_empty()
+        && requested.lone.is_empty()
+        && requested.cuts.is_empty());
     let as_drawn = distortion(best.iter());
     if is_set_by_hand || as_drawn < GOOD {
         return Ok(None);
@@ -42,14 +43,14 @@ pub(in crate::transition) fn mirror_note(
     let target = mirrored(target);
     let draft = draft(spec, [source, &target], &drawings.looks, progress);
     still_wanted(progress)?;
-    // A film that was looked for longer may well have less trouble than a draft.
+    // A draft without folds is required: more search can find a better match than a draft.
     let draft = draft.filter(|draft| !draft.iter().any(MatchCandidate::folds));
     let mirrored = draft.map(|draft| distortion(draft.iter()));
     let far_better = mirrored.filter(|mirrored| *mirrored < FAR_BETTER * as_drawn);
     Ok(far_better.map(|mirrored| TransitionNote::Mirrored { as_drawn, mirrored }))
 }
 
-/// The pieces of two designs as they are matched at first.
+/// Returns the pieces of the first match of two designs; `None` if one cannot be matched.
 fn draft(
     spec: &TransitionSpec,
     designs: [&Regions; 2],
@@ -69,7 +70,8 @@ fn draft(
     Some(groups.collect::<Option<Vec<_>>>()?.concat())
 }
 
-/// The mean distortion of the pieces of both designs, by their length.
+/// Returns the mean distortion of the pieces that both designs have, weighted by the length of
+/// their outlines; 1 if there are none.
 fn distortion<'a>(pieces: impl Iterator<Item = &'a MatchCandidate>) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for piece in pieces.filter(|piece| piece.matched.is_in_both()) {
@@ -80,11 +82,11 @@ fn distortion<'a>(pieces: impl Iterator<Item = &'a MatchCandidate>) -> f64 {
     if total > 0.0 { sum / total } else { 1.0 }
 }
 
-/// A design turned over, left for right, its parts in their order.
+/// Returns a design mirrored left to right, with its parts in the same order.
 fn mirrored(design: &Regions) -> Regions {
-    let over = Similarity {
+    let flip = Similarity {
         mirror: true,
         ..Similarity::IDENTITY
     };
-    design.transformed(&over)
+    design.transformed(&flip)
 }

@@ -1,4 +1,4 @@
-//! Outlines that turn evenly on their way.
+//! Outlines of rigid parts turn evenly during the motion.
 
 use super::*;
 use crate::design::import_file;
@@ -6,8 +6,9 @@ use crate::geometry::{count_crossings, max_overshoot, total_turning};
 use crate::warp::{Arap, Warp};
 use std::path::Path;
 
-/// What outlines turn beyond their ends, and how often they cross, over all steps.
-fn seen(film: &Arap) -> (f64, usize) {
+/// Returns the excess turning of the outlines over that of the ends, and the number of crossings
+/// over all steps.
+fn excess_and_crossings(film: &Arap) -> (f64, usize) {
     let mut placer = film.placer();
     let loops = film.mesh().boundary_loops();
     let (mut turned, mut crossings) = (Vec::new(), 0);
@@ -28,7 +29,7 @@ fn seen(film: &Arap) -> (f64, usize) {
 }
 
 #[test]
-fn outlines_turn_less_than_faces_alone_have_it_and_cross_no_more() {
+fn outline_terms_reduce_turning_and_add_no_crossings() {
     let letter = |text: &str| {
         let path = Path::new(text);
         Arc::new(import_file(path, &ImportOptions::default()).unwrap())
@@ -38,9 +39,9 @@ fn outlines_turn_less_than_faces_alone_have_it_and_cross_no_more() {
         let [source, target] = [source, target].map(|name| letter(&format!("glyph:{name}")));
         let transition = Transition::build(&TransitionSpec::new(source, target), &Silent).unwrap();
         let film = transition.arap().unwrap();
-        // Of the same mesh, with nothing that belongs to outlines.
+        // The same mesh without the terms for outlines.
         let plain = Arap::build(film.mesh(), film.options(), &Silent).unwrap();
-        let [film, plain] = [film, &plain].map(seen);
+        let [film, plain] = [film, &plain].map(excess_and_crossings);
         assert!(film.1 <= plain.1, "{film:?} {plain:?}");
         gained.push(plain.0 - film.0);
     }

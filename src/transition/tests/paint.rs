@@ -1,4 +1,4 @@
-//! Films of drawings in their own colours.
+//! Transitions of drawings in their own colours.
 
 use super::*;
 use crate::colour::{Paint, Rgb};
@@ -26,8 +26,8 @@ fn film_of(source: &str, target: &str) -> Transition {
     film(&drawing(source), &drawing(target))
 }
 
-/// What is seen at `t`, the lowest first: paint and area.
-fn seen(film: &Transition, t: f64) -> Vec<(Paint, f64)> {
+/// Returns paint and area of the visible layers at `t`, the lowest first.
+fn visible_layers(film: &Transition, t: f64) -> Vec<(Paint, f64)> {
     let figure = film.frame(t).figure();
     let style = TransitionStyle::default();
     let coats = figure.coats.iter().map(|coat| {
@@ -38,7 +38,8 @@ fn seen(film: &Transition, t: f64) -> Vec<(Paint, f64)> {
 }
 
 fn assert_same(found: &[(Paint, f64)], wanted: &[(Paint, f64)]) {
-    let paints = |seen: &[(Paint, f64)]| seen.iter().map(|s| s.0).collect::<Vec<_>>();
+    let paints =
+        |visible_layers: &[(Paint, f64)]| visible_layers.iter().map(|s| s.0).collect::<Vec<_>>();
     assert_eq!(paints(found), paints(wanted));
     for (found, wanted) in found.iter().zip(wanted) {
         assert!((found.1 - wanted.1).abs() < 1e-3, "{found:?} {wanted:?}");
@@ -46,7 +47,7 @@ fn assert_same(found: &[(Paint, f64)], wanted: &[(Paint, f64)]) {
 }
 
 #[test]
-fn the_ends_are_the_drawings_and_the_way_back_is_the_same_film() {
+fn the_ends_are_the_drawings_and_exchanging_them_reverses_the_motion() {
     let a = drawing(&format!(
         "{}{}<circle cx='50' cy='50' r='9' fill='#abcdef' fill-opacity='0.5'/>",
         square(10.0, 10.0, 80.0, BLUE),
@@ -60,19 +61,20 @@ fn the_ends_are_the_drawings_and_the_way_back_is_the_same_film() {
     for (design, t) in [(&a, 0.0), (&b, 1.0)] {
         let coats = design.coats.iter();
         let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
-        assert_same(&seen(&there, t), &wanted.collect::<Vec<_>>());
+        assert_same(&visible_layers(&there, t), &wanted.collect::<Vec<_>>());
     }
     for k in 0..=8 {
         let t = f64::from(k) / 8.0;
-        // At the middle the order is that of the target, either way.
+        // The stacking order changes at the middle, so there it is that of the target in either
+        // direction.
         if k != 4 {
-            assert_same(&seen(&there, t), &seen(&back, 1.0 - t));
+            assert_same(&visible_layers(&there, t), &visible_layers(&back, 1.0 - t));
         }
     }
 }
 
 #[test]
-fn parts_are_paired_by_their_paint_where_they_could_be_by_their_place() {
+fn paint_outweighs_position_when_parts_are_paired() {
     let frame = "<path d='M0 0h2v2h-2zM98 98h2v2h-2z' fill='black'/>";
     let pair = |left: Rgb, right: Rgb| {
         let [left, right] = [(40.0, left), (52.0, right)].map(|(x, c)| square(x, 45.0, 8.0, c));
@@ -85,7 +87,7 @@ fn parts_are_paired_by_their_paint_where_they_could_be_by_their_place() {
     for coat in &solid.coating.as_ref().unwrap().coats {
         assert_eq!(coat.paints[0], coat.paints[1]);
     }
-    // What passes over another part is in nobody's way.
+    // Parts on different layers may cross.
     let frame = crossed.frame(0.4);
     let places = &frame.placement().in_frame;
     assert!(count_crossings(&frame.figure().rings) > 0);
@@ -94,7 +96,7 @@ fn parts_are_paired_by_their_paint_where_they_could_be_by_their_place() {
 }
 
 #[test]
-fn a_name_pairs_what_nothing_else_would() {
+fn equal_names_pair_parts() {
     let named = |x: f64, y: f64, fill: Rgb, id: &str| {
         square(x, y, 10.0, fill).replace("<rect", &format!("<rect id='{id}'"))
     };
@@ -104,7 +106,7 @@ fn a_name_pairs_what_nothing_else_would() {
     let pieces = &film.matched().unwrap().pieces;
     let moved = |k: usize| pieces[k].rings[0].source[0].distance(pieces[k].rings[0].target[0]);
     assert!((0..2).all(|k| moved(k) > 50.0));
-    // But not what a program counted.
+    // Automatic names with numbers do not pair parts.
     let counted = |body: &str| body.replace("cat", "path7").replace("dog", "rect3");
     let film = film_of(&counted(&a), &counted(&b));
     let pieces = &film.matched().unwrap().pieces;
@@ -112,7 +114,7 @@ fn a_name_pairs_what_nothing_else_would() {
 }
 
 #[test]
-fn what_lies_over_each_other_otherwise_changes_places_in_the_middle() {
+fn the_stacking_order_changes_in_the_middle() {
     let over = |below: Rgb, above: Rgb| {
         let sizes = [(RED, 40.0), (BLUE, 30.0)];
         let size = |fill: Rgb| sizes.iter().find(|s| s.0 == fill).unwrap().1;
@@ -121,8 +123,10 @@ fn what_lies_over_each_other_otherwise_changes_places_in_the_middle() {
     };
     let film = film(&over(RED, BLUE), &over(BLUE, RED));
     let order = |t: f64| {
-        let seen = seen(&film, t).into_iter();
-        seen.map(|(paint, _)| paint.colour).collect::<Vec<_>>()
+        let visible_layers = visible_layers(&film, t).into_iter();
+        visible_layers
+            .map(|(paint, _)| paint.colour)
+            .collect::<Vec<_>>()
     };
     assert_eq!(
         (order(0.0), order(0.49)),
@@ -147,7 +151,7 @@ fn boundary_paths_show_drawings_in_their_own_colours() {
     let film = Transition::build(&spec, &Silent).unwrap();
     for t in [0.0, 0.5, 1.0] {
         assert_same(
-            &seen(&film, t),
+            &visible_layers(&film, t),
             &[(RED.into(), 1600.0), (BLUE.into(), 225.0)],
         );
     }
@@ -157,7 +161,7 @@ fn boundary_paths_show_drawings_in_their_own_colours() {
 }
 
 #[test]
-fn bars_keep_the_colours_that_they_are_given() {
+fn bars_keep_their_colours() {
     let truss = |colours: &str, bars: &str| {
         let nodes = "[[0, 0], [4, 0], [0, 3]]";
         let text = format!("{{\"nodes\": {nodes}, \"bars\": {bars}, \"colours\": {colours}}}");
@@ -167,7 +171,7 @@ fn bars_keep_the_colours_that_they_are_given() {
         "[\"#ff0000\", \"#ff0000\", \"#0000ff\"]",
         "[[0, 1], [1, 2], [2, 0]]",
     );
-    // In another order, and the other way round.
+    // The same bars in another order and direction.
     let target = truss(
         "[\"#0000ff\", \"#0000ff\", \"#ff0000\"]",
         "[[0, 2], [2, 1], [1, 0]]",
@@ -183,7 +187,7 @@ fn bars_keep_the_colours_that_they_are_given() {
 }
 
 #[test]
-fn what_is_alone_fades_where_that_is_asked_for() {
+fn unmatched_parts_fade_on_request() {
     let both = square(10.0, 10.0, 30.0, BLUE);
     let film = film_of(&both, &format!("{both}{}", square(60.0, 60.0, 20.0, RED)));
     let fading = PaintLayerOptions {
@@ -192,8 +196,8 @@ fn what_is_alone_fades_where_that_is_asked_for() {
     };
     let faded = film.with_coats(&fading);
     let opacity = |film: &Transition, t: f64| {
-        let seen = seen(film, t);
-        let red = seen.iter().find(|(paint, _)| paint.colour == RED);
+        let visible_layers = visible_layers(film, t);
+        let red = visible_layers.iter().find(|(paint, _)| paint.colour == RED);
         red.map(|(paint, _)| paint.opacity)
     };
     for t in [0.8, 0.9, 1.0] {
@@ -205,7 +209,7 @@ fn what_is_alone_fades_where_that_is_asked_for() {
 }
 
 #[test]
-fn places_are_changed_when_that_is_asked_for() {
+fn the_stacking_order_changes_when_requested() {
     let (red, blue) = (
         square(10.0, 10.0, 40.0, RED),
         square(30.0, 30.0, 40.0, BLUE),
@@ -216,7 +220,7 @@ fn places_are_changed_when_that_is_asked_for() {
         ..PaintLayerOptions::default()
     };
     let late = film.with_coats(&late);
-    let lowest = |film: &Transition, t: f64| seen(film, t)[0].0.colour;
+    let lowest = |film: &Transition, t: f64| visible_layers(film, t)[0].0.colour;
     assert_eq!([0.4, 0.6].map(|t| lowest(&film, t)), [RED, BLUE]);
     assert_eq!([0.6, 0.9].map(|t| lowest(&late, t)), [RED, BLUE]);
     let never = PaintLayerOptions {
@@ -227,7 +231,7 @@ fn places_are_changed_when_that_is_asked_for() {
 }
 
 #[test]
-fn what_one_drawing_has_alone_keeps_its_place_in_the_order() {
+fn unmatched_layers_keep_their_stacking_position() {
     let face = square(10.0, 10.0, 80.0, BLUE);
     let eye = "<circle id='eye' cx='30' cy='30' r='8' fill='white'/>";
     let hat = square(20.0, 0.0, 50.0, RED);
@@ -235,26 +239,28 @@ fn what_one_drawing_has_alone_keeps_its_place_in_the_order() {
     let b = drawing(&format!("{face}{eye}{hat}"));
     let film = film(&a, &b);
     let colours = |t: f64| {
-        let seen = seen(&film, t).into_iter();
-        seen.map(|(paint, _)| paint.colour).collect::<Vec<_>>()
+        let visible_layers = visible_layers(&film, t).into_iter();
+        visible_layers
+            .map(|(paint, _)| paint.colour)
+            .collect::<Vec<_>>()
     };
     assert_eq!(colours(0.0), [BLUE]);
     assert_eq!(colours(0.99), [BLUE, Rgb([255; 3]), RED]);
-    // Over what is there, and not beside it.
+    // The eye appears in front of the face, in its final position.
     let eye = film.frame(0.99).figure().rings[1].clone();
     assert!(eye.iter().all(|p| p.distance(DVec2::new(30.0, 70.0)) < 9.0));
 }
 
 #[test]
-fn a_figure_without_colours_takes_those_of_the_style() {
+fn a_drawing_without_colours_takes_those_of_the_style() {
     let (plain, painted) = (
         svg("M10 10h80v80h-80z"),
         drawing(&square(20.0, 20.0, 40.0, RED)),
     );
     let mixed = film(&plain, &painted);
     let style = TransitionStyle::default();
-    assert_eq!(seen(&mixed, 0.0)[0].0, style.source.into());
-    assert_eq!(seen(&mixed, 1.0)[0].0, RED.into());
+    assert_eq!(visible_layers(&mixed, 0.0)[0].0, style.source.into());
+    assert_eq!(visible_layers(&mixed, 1.0)[0].0, RED.into());
     let of = |rule: PaintRule| {
         let mut spec = TransitionSpec::new(Arc::clone(&plain), Arc::clone(&painted));
         spec.options.paint = rule;
@@ -265,7 +271,7 @@ fn a_figure_without_colours_takes_those_of_the_style() {
 }
 
 #[test]
-fn fields_have_one_for_each_paint() {
+fn each_paint_has_its_own_field() {
     let a = drawing(&format!(
         "{}{}",
         square(10.0, 10.0, 80.0, BLUE),
@@ -287,7 +293,7 @@ fn fields_have_one_for_each_paint() {
             let coats = design.coats.iter();
             let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
             let wanted: Vec<(Paint, f64)> = wanted.collect();
-            let found = seen(&own, t);
+            let found = visible_layers(&own, t);
             assert_eq!(found.len(), wanted.len(), "{warp:?} {t}");
             for (found, wanted) in found.iter().zip(&wanted) {
                 assert_eq!(found.0, wanted.0);
@@ -297,8 +303,8 @@ fn fields_have_one_for_each_paint() {
                 );
             }
         }
-        // Red and lime become each other, and do not lie over each other in between.
-        assert_eq!(seen(&own, 0.1).len(), 2);
+        // Red and lime turn into each other instead of overlapping.
+        assert_eq!(visible_layers(&own, 0.1).len(), 2);
         let one = film(warp, PaintRule::One);
         assert!(one.frame(0.5).figure().coats.is_empty());
     }

@@ -1,12 +1,13 @@
-//! Films whose parts make their way in their own time.
+//! Parts that move in time windows of their own.
 
 use super::*;
 use crate::content::Content;
 use crate::correspondence::UnmatchedPart;
 use crate::geometry::Side;
 use crate::measure;
-use crate::time::easing::NamedEasing;
+use crate::time::NamedEasing;
 
+/// A part that moves in the second half.
 fn late(side: Side, at: [f64; 2]) -> PartTime {
     PartTime {
         side,
@@ -17,7 +18,8 @@ fn late(side: Side, at: [f64; 2]) -> PartTime {
     }
 }
 
-/// Two squares that become two circles further up. Places are those of the drawing, y up.
+/// Two squares that become a circle and a diamond further up. Points are in the coordinates of the
+/// drawing, y up.
 fn squares(times: Vec<PartTime>) -> Transition {
     let source = svg("M0 60h20v20h-20z M60 60h20v20h-20z");
     let target = svg("M0 10a10 10 0 0 0 20 0a10 10 0 0 0 -20 0z M60 10l10-10l10 10l-10 10z");
@@ -26,8 +28,8 @@ fn squares(times: Vec<PartTime>) -> Transition {
     Transition::build(&spec, &Silent).unwrap()
 }
 
-/// A point in the right-hand one of the source's squares.
-fn right(film: &Transition) -> [f64; 2] {
+/// Returns a point in the right one of the source's squares.
+fn point_in_right_square(film: &Transition) -> [f64; 2] {
     let bounds = film.designs()[0].form.bounds();
     (bounds.max - DVec2::splat(5.0)).into()
 }
@@ -37,13 +39,13 @@ fn rings(film: &Transition, t: f64) -> Vec<Vec<DVec2>> {
 }
 
 #[test]
-fn a_part_waits_and_then_makes_its_way_as_it_would() {
+fn a_part_waits_and_then_moves_as_usual() {
     let plain = squares(Vec::new());
-    let timed = plain.with_part_times(&[late(Side::Source, right(&plain))]);
+    let timed = plain.with_part_times(&[late(Side::Source, point_in_right_square(&plain))]);
     let x = |ring: &Vec<DVec2>| ring.iter().map(|p| p.x).fold(0.0, f64::max);
     for t in [0.0, 0.2, 0.5, 0.7, 0.9, 1.0] {
         let own = late(Side::Source, [0.0; 2]).clock().at(t);
-        // Which is which: coats are in another order than walks.
+        // Sort by position: paint layers and loops have different orders.
         let mut expected = vec![
             rings(&plain, t)
                 .into_iter()
@@ -64,9 +66,9 @@ fn a_part_waits_and_then_makes_its_way_as_it_would() {
 }
 
 #[test]
-fn its_colour_goes_with_its_time() {
+fn a_part_changes_colour_in_its_own_time() {
     let plain = squares(Vec::new());
-    let timed = plain.with_part_times(&[late(Side::Source, right(&plain))]);
+    let timed = plain.with_part_times(&[late(Side::Source, point_in_right_square(&plain))]);
     let style = TransitionStyle::default();
     let figure = timed.frame(0.4).figure();
     let paints = figure
@@ -82,9 +84,9 @@ fn its_colour_goes_with_its_time() {
 }
 
 #[test]
-fn the_film_of_the_exchanged_designs_is_the_same() {
+fn exchanging_the_designs_reverses_the_part_times() {
     let plain = squares(Vec::new());
-    let timed = plain.with_part_times(&[late(Side::Source, right(&plain))]);
+    let timed = plain.with_part_times(&[late(Side::Source, point_in_right_square(&plain))]);
     let report = measure::film(&timed, 17, &Silent).unwrap();
     assert!(report.asymmetry.unwrap() < 1e-9, "{:?}", report.asymmetry);
     assert_eq!(report.worst_folds, Some(0));
@@ -111,7 +113,7 @@ fn a_part_that_splits_waits_with_all_its_pieces() {
 }
 
 #[test]
-fn of_parts_upon_each_other_the_uppermost_waits() {
+fn of_overlapping_parts_the_uppermost_waits() {
     let stack = |at: f64| {
         let text = format!(
             "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>\
@@ -123,18 +125,18 @@ fn of_parts_upon_each_other_the_uppermost_waits() {
     };
     let plain = Transition::build(&TransitionSpec::new(stack(0.0), stack(30.0)), &Silent).unwrap();
     let bounds = plain.designs()[0].form.bounds();
-    // Of each coat, the lowest first, how far it is on its way.
-    let ways = |at: DVec2| -> Vec<f64> {
+    // Returns the t that each layer has reached, the lowest first.
+    let layer_times = |at: DVec2| -> Vec<f64> {
         let timed = plain.with_part_times(&[late(Side::Source, at.into())]);
         let coats = timed.frame(0.75).figure().coats;
         coats.iter().map(|coat| coat.t).collect()
     };
-    assert_eq!(ways(bounds.centre()), [0.75, 0.5]);
-    assert_eq!(ways(bounds.min + DVec2::splat(5.0)), [0.5, 0.75]);
+    assert_eq!(layer_times(bounds.centre()), [0.75, 0.5]);
+    assert_eq!(layer_times(bounds.min + DVec2::splat(5.0)), [0.5, 0.75]);
 }
 
 #[test]
-fn what_is_born_and_its_hole_wait_too() {
+fn an_appearing_part_and_its_hole_wait() {
     let source = svg("M0 0h20v20h-20z");
     let target = svg("M0 0h20v20h-20z M40 0h30v30h-30z M50 10v10h10v-10z");
     let corner = target.form.bounds().max - DVec2::splat(2.0);
@@ -159,7 +161,7 @@ fn what_is_born_and_its_hole_wait_too() {
 }
 
 #[test]
-fn times_that_cannot_be_meant_are_named() {
+fn invalid_part_times_are_refused() {
     let time = late(Side::Source, [0.0; 2]);
     let wrong = |edit: fn(&mut PartTime)| {
         let mut time = time;
@@ -176,7 +178,7 @@ fn times_that_cannot_be_meant_are_named() {
 }
 
 #[test]
-fn other_methods_tell_that_all_parts_move_together() {
+fn other_methods_note_that_all_parts_move_together() {
     let source = svg("M0 60h20v20h-20z M60 60h20v20h-20z");
     let mut spec = TransitionSpec::new(Arc::clone(&source), source);
     spec.cell = TransitionMethod::FIELD_BLEND;

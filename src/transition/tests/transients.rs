@@ -1,5 +1,4 @@
-//! Films with holes that one design has alone, drafts of films, and what is said of
-//! mirrored designs.
+//! Unmatched holes and parts, drafts, and the note on mirrored designs.
 
 use super::*;
 use crate::content::Content;
@@ -13,6 +12,7 @@ fn perforated(holes: u32) -> Arc<Design> {
     svg(&format!("M5 20h90v60h-90z {holes}"))
 }
 
+/// Returns the signed areas of rings in ascending order.
 fn sorted(rings: &[Vec<DVec2>]) -> Vec<f64> {
     let mut areas: Vec<f64> = rings
         .iter()
@@ -23,7 +23,7 @@ fn sorted(rings: &[Vec<DVec2>]) -> Vec<f64> {
 }
 
 #[test]
-fn holes_of_one_design_shrink_where_they_are() {
+fn unmatched_holes_shrink_in_place() {
     let mut spec = TransitionSpec::new(perforated(5), perforated(0));
     spec.options.matching.holes = HoleRule::Alone;
     let transition = Transition::build(&spec, &Silent).unwrap();
@@ -41,13 +41,13 @@ fn holes_of_one_design_shrink_where_they_are() {
         last.len() == 1 && (last[0] - 5400.0).abs() < 1e-9,
         "{last:?}"
     );
-    // Beyond the ends they are as at them.
+    // Extrapolation keeps them as at the end.
     frame.seek(1.5);
     assert_eq!(frame.figure().rings.len(), 1);
 }
 
 #[test]
-fn films_of_exchanged_designs_have_their_holes_at_the_same_times() {
+fn exchanging_the_designs_keeps_the_times_of_holes() {
     let (a, b) = (
         perforated(4),
         svg("M10 10L90 30L70 95L20 80z M40 40v20h20v-20z"),
@@ -69,18 +69,18 @@ fn films_of_exchanged_designs_have_their_holes_at_the_same_times() {
 }
 
 #[test]
-fn a_hole_that_is_alone_crosses_nothing_on_its_way() {
+fn an_unmatched_hole_crosses_nothing() {
     let frame = svg("M10 10h80v80h-80z M20 20v60h60v-60z");
     let bend = svg("M10 10h80v20h-60v60h-20z");
     assert_eq!(
-        [most_crossings(&frame, &bend), most_crossings(&bend, &frame)],
+        [max_crossings(&frame, &bend), max_crossings(&bend, &frame)],
         [0, 0]
     );
 }
 
 #[test]
-fn a_hole_makes_way_for_one_in_its_midst() {
-    // As long as it is there, the small one crosses it, whenever it comes.
+fn a_hole_makes_way_for_one_inside_it() {
+    // As long as the large hole exists, the small one crosses it at any time.
     let window = svg("M5 20h90v60h-90z M20 30v40h60v-40z");
     let dot = svg("M5 20h90v60h-90z M45 45v10h10v-10z");
     for (a, b) in [(&window, &dot), (&dot, &window)] {
@@ -100,7 +100,7 @@ fn a_hole_makes_way_for_one_in_its_midst() {
 }
 
 #[test]
-fn a_draft_is_one_film_of_several_with_the_same_ends() {
+fn a_draft_has_the_same_ends_as_the_best_match() {
     let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
     let spec = TransitionSpec::new(a, b);
     let draft = spec.draft(&Silent).unwrap();
@@ -118,8 +118,8 @@ fn a_draft_is_one_film_of_several_with_the_same_ends() {
 }
 
 #[test]
-fn what_would_match_far_better_mirrored_is_told() {
-    // A spring, wound either way.
+fn designs_that_would_match_better_mirrored_give_a_note() {
+    // A spiral of either handedness.
     let spring = "M10 10H90V90H20V40H60V70H40V60H50V50H30V80H80V20H10Z";
     let over = "M90 10H10V90H80V40H40V70H60V60H50V50H70V80H20V20H90Z";
     let notes = |source: &str, target: &str| {
@@ -138,7 +138,7 @@ fn what_would_match_far_better_mirrored_is_told() {
     }
 }
 
-/// How many parts swell in the film from one design to another.
+/// Returns the number of parts that swell.
 fn swelling(transition: &Transition) -> usize {
     match transition.content() {
         Content::Solid(solid) => solid.swells.len(),
@@ -147,7 +147,7 @@ fn swelling(transition: &Transition) -> usize {
 }
 
 #[test]
-fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
+fn a_ring_around_other_parts_appears_as_a_line_that_thickens() {
     let bars = svg("M32 30h12v40h-12z M56 30h12v40h-12z");
     let badge = svg(
         "M32 30h12v40h-12z M56 30h12v40h-12z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76",
@@ -164,7 +164,7 @@ fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
         let frame = there.frame(t);
         let rings = frame.figure().rings;
         assert_eq!(count_crossings(&rings), 0, "{t}");
-        // Whatever it would cross could be told of.
+        // Every ring must be locatable, so that crossings can be reported.
         if let Content::Solid(solid) = there.content() {
             let places = &frame.placement().in_frame;
             for ring in 0..solid.rings_at(places, t).len() {
@@ -173,7 +173,7 @@ fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
             }
         }
         let now = area(&rings);
-        // Nothing is done in vain: the ring only grows.
+        // The area only increases, as the ring grows.
         assert!(now >= before - 1e-6, "{t}: {now} after {before}");
         assert!((area(&back.frame(1.0 - t).figure().rings) - now).abs() < 1e-6);
         before = now;
@@ -184,7 +184,7 @@ fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
 }
 
 #[test]
-fn a_film_in_which_nothing_has_a_partner_goes_from_one_design_to_the_other() {
+fn designs_without_any_matched_part_are_interpolated() {
     let (a, b) = (svg("M10 10h30v30h-30z"), svg("M50 40h40v40h-40z"));
     let mut spec = TransitionSpec::new(a, b);
     let matching = &mut spec.options.matching;
@@ -194,7 +194,7 @@ fn a_film_in_which_nothing_has_a_partner_goes_from_one_design_to_the_other() {
     }
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
-    // What is not there yet is a speck.
+    // The absent square is a seed shape of negligible area.
     for (t, wanted) in [(0.0, 900.0), (1.0, 1600.0)] {
         frame.seek(t);
         let found = area(&frame.figure().rings);
@@ -205,8 +205,8 @@ fn a_film_in_which_nothing_has_a_partner_goes_from_one_design_to_the_other() {
 }
 
 #[test]
-fn nothing_is_born_in_what_has_just_begun_to_die() {
-    // Either would be free to come and go in its own place, were the other not there.
+fn nothing_appears_inside_a_disappearing_part() {
+    // Each square alone could appear or disappear in place; together they would overlap.
     let one = svg("M10 10h30v80h-30z M62 42h16v16h-16z");
     let two = svg("M10 10h30v80h-30z M55 35h30v30h-30z");
     for (source, target) in [(&one, &two), (&two, &one)] {
@@ -231,7 +231,7 @@ fn nothing_is_born_in_what_has_just_begun_to_die() {
 }
 
 #[test]
-fn what_is_born_is_not_drawn_before_it_is() {
+fn absent_parts_are_not_drawn() {
     let (one, two) = (
         svg("M10 10h40v40h-40z"),
         svg("M10 10h40v40h-40z M60 60h20v20h-20z"),
@@ -242,7 +242,7 @@ fn what_is_born_is_not_drawn_before_it_is() {
         let transition = Transition::build(&spec, &Silent).unwrap();
         let rings = |t: f64| transition.frame(t).figure().rings.len();
         assert_eq!([rings(0.0), rings(1.0)], wanted);
-        // Beyond the film nothing comes to be.
+        // Nothing appears in extrapolation.
         assert_eq!([rings(-0.2), rings(1.2)], wanted);
         assert_eq!(rings(0.5), 2);
     }

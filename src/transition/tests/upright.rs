@@ -1,12 +1,11 @@
-//! Designs stay upright where that costs little, and turn where they are the
-//! same thing turned.
+//! Designs stay upright if that costs little, and turn if they are rotated copies.
 
 use super::*;
 use crate::design::import_file;
 use std::path::Path;
 
-/// How far the one is turned on its way to the other, in degrees.
-fn turned(source: &str, target: &str) -> f64 {
+/// Returns the rotation from one design to the other, in degrees.
+fn rotation_degrees(source: &str, target: &str) -> f64 {
     let letter = |text: &str| {
         let path = Path::new(text);
         Arc::new(import_file(path, &ImportOptions::default()).unwrap())
@@ -19,13 +18,20 @@ fn turned(source: &str, target: &str) -> f64 {
 #[test]
 fn letters_stay_upright() {
     for (source, target) in [("O", "c"), ("F", "r"), ("K", "p")] {
-        let turned = turned(&format!("glyph:{source}"), &format!("glyph:{target}"));
-        assert!(turned < 30.0, "{source} to {target}: {turned}°");
+        let rotation_degrees =
+            rotation_degrees(&format!("glyph:{source}"), &format!("glyph:{target}"));
+        assert!(
+            rotation_degrees < 30.0,
+            "{source} to {target}: {rotation_degrees}°"
+        );
     }
 }
 
 #[test]
-fn what_is_the_same_turned_turns() {
-    let turned = turned("glyph:p", "glyph:d");
-    assert!((turned - 180.0).abs() < 15.0, "{turned}°");
+fn rotated_copies_turn() {
+    let rotation_degrees = rotation_degrees("glyph:p", "glyph:d");
+    assert!(
+        (rotation_degrees - 180.0).abs() < 15.0,
+        "{rotation_degrees}°"
+    );
 }

@@ -1,21 +1,21 @@
-//! How much what grows turns and encloses while it does.
+//! The turning and area of a growing shape as functions of its size.
 
 use crate::geometry::{DVec2, signed_area, total_turning};
 use std::f64::consts::TAU;
 
-/// Sizes at which what grows is looked at.
+/// Number of even size steps that are tabulated (resource limit).
 pub(in crate::transition) const SIZE_STEPS: usize = 16;
 
-/// Turning in radians, beyond that of as many points as there are outlines, and area of
-/// what grows, from no size to its own in even steps.
+/// Turning in radians, less one full turn per outline, and area of a growing shape, from size 0 to
+/// its full size in even steps.
 #[derive(Clone)]
 pub(in crate::transition) struct GrowthProfile([[f64; 2]; SIZE_STEPS + 1]);
 
 impl GrowthProfile {
-    /// Of nothing.
+    /// The profile of a shape without extent.
     pub(in crate::transition) const NONE: Self = Self([[0.0; 2]; SIZE_STEPS + 1]);
 
-    /// Of what grows in size; `diameter` is that of the whole.
+    /// Returns the profile of a shape that is scaled up; `diameter` is that of the whole design.
     pub(in crate::transition) fn scaled(rings: &[Vec<DVec2>], diameter: f64) -> Self {
         let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
         Self::by(rings.len(), |size| {
@@ -23,7 +23,8 @@ impl GrowthProfile {
         })
     }
 
-    /// Of what is this at each step; `diameter` is that of the whole.
+    /// Returns the profile of a shape whose outlines at each size step are given by `at`;
+    /// `diameter` is that of the whole design.
     pub(in crate::transition) fn of<'a>(
         at: impl Fn(usize) -> &'a [Vec<DVec2>],
         diameter: f64,
@@ -35,16 +36,17 @@ impl GrowthProfile {
         })
     }
 
-    fn by(outlines: usize, at: impl Fn(f64) -> [f64; 2]) -> Self {
+    /// Tabulates turning and area at each size.
+    fn by(outline_count: usize, at: impl Fn(f64) -> [f64; 2]) -> Self {
         let mut all = [[0.0; 2]; SIZE_STEPS + 1];
-        for (k, found) in all.iter_mut().enumerate().skip(1) {
+        for (k, entry) in all.iter_mut().enumerate().skip(1) {
             let [turning, area] = at(k as f64 / SIZE_STEPS as f64);
-            *found = [turning - TAU * outlines as f64, area];
+            *entry = [turning - TAU * outline_count as f64, area];
         }
         Self(all)
     }
 
-    /// At a share of its own size.
+    /// Returns turning and area at a fraction of the full size, interpolated linearly.
     pub(in crate::transition) fn at(&self, size: f64) -> [f64; 2] {
         let at = size * SIZE_STEPS as f64;
         let below = (at as usize).min(SIZE_STEPS - 1);

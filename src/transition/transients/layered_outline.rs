@@ -1,19 +1,20 @@
-//! Closed walks that are asked where they cross and what they hold.
+//! Closed outlines on paint layers, for crossing and containment tests.
 
 use crate::geometry::{Bounds, DVec2, EdgeBvh, ring_edges, segments_cross, winding};
 use std::sync::OnceLock;
 
-/// A closed walk and the box around it.
+/// A closed outline with its bounding box.
 pub(in crate::transition) struct LayeredOutline {
     pub(in crate::transition) points: Vec<DVec2>,
-    /// What is on another level is in nobody's way.
+    /// Paint layer; only outlines on the same layer collide.
     pub(in crate::transition) level: usize,
     bounds: Bounds,
-    /// Its edges, once somebody asks which of them are near.
+    /// Edges in a search structure, built on first use.
     edges: OnceLock<EdgeBvh>,
 }
 
 impl LayeredOutline {
+    /// Wraps a closed polygon.
     pub(in crate::transition) fn of(points: Vec<DVec2>, level: usize) -> Self {
         let bounds = Bounds::of(points.iter().copied()).unwrap_or_else(|| Bounds::at(DVec2::ZERO));
         Self {
@@ -24,6 +25,7 @@ impl LayeredOutline {
         }
     }
 
+    /// Returns whether an edge crosses an edge of another outline on the same layer.
     pub(in crate::transition) fn crosses(&self, other: &Self) -> bool {
         if self.level != other.level || !self.bounds.meets(&other.bounds) {
             return false;
@@ -38,6 +40,7 @@ impl LayeredOutline {
         })
     }
 
+    /// Returns the winding number about a point.
     pub(in crate::transition) fn winding(&self, p: DVec2) -> i32 {
         if self.bounds.contains(p) {
             winding(&self.points, p)

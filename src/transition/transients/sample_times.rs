@@ -1,31 +1,33 @@
-//! Times at which a film is looked at where it matters what meets what.
+//! Sample times for detecting collisions.
 //!
-//! Evenly, and closer together near both ends: there what is born lies next to what it
-//! comes from, and what dies beside what it goes to. By even steps alone 43 of 60 pairs of
-//! icons were proved not to cross, instead of 46. More can be put where a film turned out
-//! to need them.
+//! Even steps, refined near both ends: there appearing parts are next to the parts from which they
+//! grow, and disappearing parts next to those into which they shrink. More times can be added where
+//! a motion turns out to need them.
 
-/// Even steps of the film, and how many of them at each end are divided in how many.
-const EVEN: u32 = 64;
-const DIVIDED: u32 = 2;
-const PARTS: u32 = 4;
+/// Number of even steps (resource limit).
+const EVEN_STEPS: u32 = 64;
+/// Number of even steps at each end that are subdivided (heuristic).
+const SUBDIVIDED_STEPS: u32 = 2;
+/// Number of parts into which such a step is subdivided (heuristic).
+const SUBDIVISION: u32 = 4;
 
-/// The first and the last of those, each divided in as many once more. What comes or goes
-/// at once takes so long, and is looked at while it does.
-pub(in crate::transition) const FINE_STEP: f64 = 1.0 / (EVEN * PARTS) as f64;
+/// Length of a subdivided step. The first and the last one are subdivided once more, because parts
+/// that appear or disappear at once do so within this time.
+pub(in crate::transition) const FINE_STEP: f64 = 1.0 / (EVEN_STEPS * SUBDIVISION) as f64;
 
-/// Times that are added are multiples of this, which a film run backwards has as well.
+/// Added times are rounded to multiples of this, so that the reversed motion has the same times
+/// (tolerance).
 const GRAIN: f64 = 1.0 / 65_536.0;
 
-/// Times from 0 to 1, both included, each later than the one before.
+/// Strictly increasing times from 0 to 1, both included.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::transition) struct SampleTimes(Vec<f64>);
 
 impl Default for SampleTimes {
     fn default() -> Self {
-        let even = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN));
-        let last = (0..PARTS).map(|k| f64::from(k) * FINE_STEP / f64::from(PARTS));
-        let near = (0..DIVIDED * PARTS)
+        let even = (0..=EVEN_STEPS).map(|k| f64::from(k) / f64::from(EVEN_STEPS));
+        let last = (0..SUBDIVISION).map(|k| f64::from(k) * FINE_STEP / f64::from(SUBDIVISION));
+        let near = (0..SUBDIVIDED_STEPS * SUBDIVISION)
             .map(|k| f64::from(k) * FINE_STEP)
             .chain(last);
         let mut times: Vec<f64> = even.chain(near.flat_map(|t| [t, 1.0 - t])).collect();
@@ -36,31 +38,32 @@ impl Default for SampleTimes {
 }
 
 impl SampleTimes {
+    /// Returns the times.
     pub(in crate::transition) fn times(&self) -> &[f64] {
         &self.0
     }
 
-    /// The number of the last step, at t = 1.
+    /// Returns the index of the last time, t = 1.
     pub(in crate::transition) fn last(&self) -> usize {
         self.0.len() - 1
     }
 
-    /// The last step that is not after a time in [0, 1].
+    /// Returns the index of the last time not after `t`, for `t` in [0, 1].
     pub(in crate::transition) fn before(&self, t: f64) -> usize {
         self.0.partition_point(|&time| time <= t).max(1) - 1
     }
 
-    /// How much of the film is nearer to a step than to the others.
+    /// Returns the fraction of the transition that is closer to this time than to the others.
     pub(in crate::transition) fn long(&self, step: usize) -> f64 {
         let [before, after] = [step.saturating_sub(1), (step + 1).min(self.last())];
         (self.0[after] - self.0[before]) / 2.0
     }
 
-    /// Adds a step at a time within the film, and halfway to those about it.
+    /// Adds a time, and the midpoints between it and its neighbours.
     pub(in crate::transition) fn look_at(&mut self, t: f64) {
         let before = self.before(t).min(self.last() - 1);
-        let about = [self.0[before], self.0[before + 1]];
-        let added = about.map(|end| end.midpoint(t)).into_iter().chain([t]);
+        let neighbours = [self.0[before], self.0[before + 1]];
+        let added = neighbours.map(|end| end.midpoint(t)).into_iter().chain([t]);
         self.0.extend(added.map(|t| (t / GRAIN).round() * GRAIN));
         self.0.sort_by(f64::total_cmp);
         self.0.dedup();
@@ -72,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn they_run_from_end_to_end_and_back_alike() {
+    fn times_run_from_0_to_1_and_are_symmetric() {
         let steps = SampleTimes::default();
         let times = steps.times();
         assert_eq!([times[0], times[steps.last()]], [0.0, 1.0]);
@@ -83,7 +86,7 @@ mod tests {
             assert_eq!(pair[0], 1.0 - times[steps.last() - step]);
             assert_eq!(steps.before(pair[0] + 1e-6), step);
         }
-        // What lives change at.
+        // Time windows begin and end at eighths.
         assert!(
             (0..=8)
                 .map(|k| f64::from(k) / 8.0)
@@ -92,11 +95,11 @@ mod tests {
     }
 
     #[test]
-    fn more_are_added_alike_from_either_end() {
+    fn added_times_are_symmetric() {
         let [mut forwards, mut backwards] = [SampleTimes::default(), SampleTimes::default()];
         for t in [0.3, 0.0, 1.0, 0.999_999_999] {
             forwards.look_at(t);
-            // As a film run backwards is told, to rounding.
+            // As the reversed motion reports it, up to rounding.
             backwards.look_at(1.0 - t + 1e-12);
         }
         let mirrored: Vec<f64> = backwards.times().iter().map(|t| 1.0 - t).rev().collect();
