@@ -1,9 +1,13 @@
-//! Warps: where each material point is at time t. One file per row of the
-//! table of cells.
+//! Warps: mappings that say where each point of the designs lies at blend parameter t.
 //!
-//! A [`Warp`] is built once, and building can fail. It hands out [`Placer`]s,
-//! which own all memory a frame needs; placing allocates nothing and cannot
-//! fail. Warps know nothing of contents.
+//! There is one warp per method: rigid parts, boundary paths, line pairs, scattered points,
+//! B-spline lattices, and no motion at all. A [`Warp`] is built once, which can fail. It hands
+//! out [`Placer`]s, which own all the memory that a frame needs; evaluating one neither
+//! allocates nor fails. Warps are independent of the content they carry (solids, distance
+//! fields or pictures).
+//!
+//! In this module "the frame" is the visible rectangle of the plane, whereas "a frame" is one
+//! image of the animation.
 
 mod arap;
 mod elementary;
@@ -44,23 +48,24 @@ use crate::geometry::DVec2;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// What joins warps and contents: faces, and for each vertex its place in the
-/// frame at t, in the source and in the target. All three have the same
+/// A triangle mesh placed in the frame at one t, with texture coordinates in both designs.
+///
+/// This is the interface between warps and contents. The three vertex lists have the same
 /// length.
 #[derive(Clone, Debug)]
 pub struct Placement {
-    /// Vertex indices, three a face; the same at every t.
+    /// Vertex indices of each face; the same at every t.
     pub faces: Arc<[[u32; 3]]>,
-    /// Where each vertex is seen at t.
+    /// Position of each vertex in the frame at t.
     pub in_frame: Vec<DVec2>,
-    /// The point of the source that is there.
+    /// Point of the source shown at that vertex.
     pub in_source: Vec<DVec2>,
-    /// The point of the target that is there.
+    /// Point of the target shown at that vertex.
     pub in_target: Vec<DVec2>,
 }
 
 impl Placement {
-    /// At t = 0: each vertex is where it is in the source.
+    /// Returns the placement at t = 0, with each vertex at its source position.
     pub(crate) fn of_source(faces: Arc<[[u32; 3]]>, source: &[DVec2], target: &[DVec2]) -> Self {
         Self {
             faces,
@@ -71,44 +76,45 @@ impl Placement {
     }
 }
 
-/// Features that a warp does not lead to where they belong.
+/// Features that a warp fails to map to their positions in the designs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MissedFeatures {
-    /// How many; a line counts as its samples.
+    /// Number of missed features; every sample of a line counts.
     pub count: usize,
-    /// How far the worst one is off in a design, in units of the plane.
+    /// Distance by which the worst one misses its position in a design, in plane units.
     pub by: f64,
-    /// Where the worst one ought to be in the frame.
+    /// Position of the worst one in the frame.
     pub place: DVec2,
-    /// Folds were not allowed; with them it might be met.
+    /// Whether folds were forbidden; if so, allowing them may help.
     pub unfolded: bool,
 }
 
-/// A row of the table, ready to be played.
+/// A warp that is built and can be evaluated at any t.
 pub trait Warp: Debug + Send + Sync {
-    /// A placer with memory of its own, at t = 0.
+    /// Returns an evaluator with its own memory, placed at t = 0.
     fn placer(&self) -> Placer;
 
-    /// The times within (0, 1) at which something sets out, arrives or changes its
-    /// pace: between them every vertex moves smoothly. In no order.
+    /// Returns the times at which a part starts, stops or changes its speed abruptly.
+    ///
+    /// Between two of these times every vertex moves smoothly. They are unsorted and may
+    /// include 0 and 1.
     fn breaks(&self) -> Vec<f64> {
         Vec::new()
     }
 
-    /// The features that are not where they belong at `t`; none where all
-    /// are, to the warp's own tolerance.
+    /// Returns the features missed at `t`, or `None` if all are met within the warp's tolerance.
     fn missed(&self, _t: f64) -> Option<MissedFeatures> {
         None
     }
 }
 
-/// Evaluates a warp. Needs no allocation and cannot fail.
+/// Evaluator of a warp. Evaluation neither allocates nor fails.
 pub struct Placer {
     placement: Placement,
     mover: Box<PlacementUpdate>,
 }
 
-/// Moves a placement to a t, and owns all memory that this takes.
+/// Function that moves a placement to a given t and owns the memory for it.
 type PlacementUpdate = dyn FnMut(f64, &mut Placement) + Send + Sync;
 
 impl Placer {
@@ -122,13 +128,14 @@ impl Placer {
         }
     }
 
-    /// Moves the placement to `t`; outside [0, 1] it extrapolates.
+    /// Moves the placement to `t`; values outside [0, 1] extrapolate.
     pub fn place(&mut self, t: f64) {
         (self.mover)(t, &mut self.placement);
     }
 
-    /// A placer that asks `first` to move the placement, and does it itself where that
-    /// says that it did not.
+    /// Returns a placer that tries `first` and falls back to its own evaluation.
+    ///
+    /// `first` returns whether it has moved the placement.
     pub(crate) fn after(
         mut self,
         mut first: impl FnMut(f64, &mut Placement) -> bool + Send + Sync + 'static,
@@ -140,7 +147,7 @@ impl Placer {
         })
     }
 
-    /// The placement at the last `t`.
+    /// Returns the placement at the most recent `t`.
     #[must_use]
     pub fn placement(&self) -> &Placement {
         &self.placement

@@ -1,37 +1,37 @@
-//! Rigidity-preserving (as-rigid-as-possible) interpolation.
+//! Rigidity-preserving (as-rigid-as-possible) interpolation of compatible triangulations.
 //!
-//! Alexa, Cohen-Or, Levin, "As-rigid-as-possible shape interpolation" (2000);
-//! the paper's §3.2; the symmetric energy is ½E(A→B, t) + ½E(B→A, 1−t) in one
-//! matrix. With local maps M_T(t) along a homotopy and W_T the weights,
+//! Alexa, Cohen-Or, Levin, "As-rigid-as-possible shape interpolation" (2000), in the form of
+//! "Design-Space Representation through Blended Transitions", §3.2. Each face T has a local map
+//! M_T(t) that follows a homotopy from the identity to the map from source to target. With weights
+//! W_T and the Jacobian J_T(V) of the vertex positions V, the energy is
 //!
-//! E_t(V) = Σ_T tr((J_T(V) − M_T(t)) W_T (J_T(V) − M_T(t))ᵀ)
+//! E_t(V) = Σ_T tr((J_T(V) − M_T(t)) W_T (J_T(V) − M_T(t))ᵀ).
 //!
-//! is least where K U = Σ (M(t) − M_linear(t)) W g for the deviation U from
-//! the straight line (1−t) P + t Q. K does not depend on t: it is factored
-//! once, and a frame is one pass over the faces and one back-substitution
-//! with two right-hand sides.
+//! It is minimal where K U = Σ (M(t) − M_linear(t)) W g, with U the deviation from the straight
+//! paths (1−t) P + t Q and g the gradients of the hat functions. K does not depend on t and is
+//! factored once; a frame takes one pass over the faces and one back-substitution with two
+//! right-hand sides. The symmetric energy ½E(A→B, t) + ½E(B→A, 1−t) also has a single matrix.
 //!
-//! Guaranteed: at t = 0 and t = 1 the designs to the last bit; a rigid target
-//! moves rigidly; swapping the designs plays the film backwards (symmetric
-//! energy). Not guaranteed: that no face folds in between; see
-//! [`crate::measure`].
+//! Guaranteed: at t = 0 and t = 1 the designs, bit for bit. A rigid target moves rigidly. With
+//! the symmetric energy, exchanging the designs reverses the motion. Not guaranteed: that no face
+//! folds in between; see [`crate::measure`].
 //!
-//! - `options`: what may be chosen, and what may be wrong with it
-//! - `angles`: one consistent rotation angle for each face
+//! - `options`: options, validation and errors
+//! - `angles`: consistent rotation angles of all faces
 //! - `assembly`: gradients, weights and the matrix
-//! - `stresses`: the right-hand side of a frame, many faces at a time
-//! - `bounded`: the maps of all faces together, for bounded distortion
-//! - `put_back`: what of these is sheared too much, solved once more
-//! - `rim`: edges of outlines as elements of their own
-//! - `lengths`: how long these are on their way
-//! - `sides`: what keeps straight sides straight
-//! - `player`: what a film is made of, and a frame of it
-//! - `guard`: what is moved aside where the film would meet itself
-//! - `ridge`: what is added to a matrix that rounding has eaten at
-//! - `drift`: where parts as a whole are at t
-//! - `times`: when each part is
-//! - `life`: when parts grow from points and shrink to them
-//! - `many`: many designs at once
+//! - `forces`: vectorised right-hand sides of a frame
+//! - `bounded`: local maps with bounded distortion, computed for all faces together
+//! - `strain_limiting`: correction of faces that are sheared beyond that bound
+//! - `boundary_edges`: boundary edges as additional elements of the energy
+//! - `edge_lengths`: lengths of these elements during the motion
+//! - `straight_sides`: constraints that keep straight sides straight
+//! - `frame_solver`: the factored system and the evaluation of a frame
+//! - `guard`: displacements that avoid collisions of the outlines
+//! - `ridge`: factorisation of numerically singular matrices
+//! - `part_translations`: positions of the connected parts
+//! - `evaluation_times`: the time at which each part is evaluated
+//! - `time_window`: when parts of a single design appear or disappear
+//! - `many_designs`: interpolation of more than two designs
 
 mod angles;
 mod assembly;
@@ -77,7 +77,7 @@ use std::iter::repeat_n;
 use std::sync::Arc;
 use straight_sides::OutlineConstraints;
 
-/// A prefactored rigidity-preserving interpolation.
+/// Rigidity-preserving interpolation with a factored matrix. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::compatible::CompatibleMesh;
@@ -99,12 +99,13 @@ use straight_sides::OutlineConstraints;
 #[derive(Clone, Debug)]
 pub struct Arap(Arc<FactoredArap>);
 
-/// What was settled about a mesh of outlines besides its options.
+/// Parameters of a mesh of outlines that are computed, not chosen by the user.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct OutlineParameters<'a> {
-    /// Of each connected part; none beyond the list.
+    /// Time window of each connected part that is a point in one of the designs; `None` for other
+    /// parts and beyond the end of the list.
     pub lives: &'a [Option<TimeWindow>],
-    /// Of each face; 1 beyond the list.
+    /// Factor of each face's weight; 1 beyond the end of the list.
     pub stiffness: &'a [f64],
 }
 
@@ -112,25 +113,30 @@ impl Arap {
     /// Decomposes the local maps, assembles the matrix and factors it.
     ///
     /// # Errors
-    /// [`ArapError`] if the options do not fit the mesh, the angles wind
-    /// around a hole, the matrix cannot be factored, or on a cancel.
+    /// [`ArapError`] if the options do not fit the mesh, the angles wind around a hole, the matrix
+    /// cannot be factored, or the job is cancelled.
     pub fn build(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        let settled = OutlineParameters::default();
-        Self::prepared(mesh, options, (settled, OutlineConstraints::No), progress)
+        let parameters = OutlineParameters::default();
+        Self::prepared(
+            mesh,
+            options,
+            (parameters, OutlineConstraints::No),
+            progress,
+        )
     }
 
-    /// As [`Self::build`], of a mesh of drawn outlines: what is straight in both
-    /// designs, and divided alike, stays straight. Some of its connected parts
-    /// may be points
-    /// in one of the designs, and have a time in which they change their size;
-    /// none for those that are not, and for parts beyond the list. Where the
-    /// design is as a whole, and how it turns, is then decided by the others.
-    /// By the linear homotopy, which knows of no whole, they wait where they
-    /// are points.
+    /// Builds the interpolation of a triangulation of outlines.
+    ///
+    /// In contrast to [`Self::build`], boundary edges are elements of the energy, and sides that
+    /// are straight and equally divided in both designs stay straight. Connected parts that are
+    /// points in one of the designs have a time window in `lives`, in which they change their
+    /// size; other parts, and parts beyond the end of the list, have none. The position and
+    /// rotation of the design as a whole are determined by the other parts. Waiting parts move with
+    /// the whole, except with the linear homotopy, where they stay where they are points.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -140,28 +146,35 @@ impl Arap {
         lives: &[Option<TimeWindow>],
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        let settled = OutlineParameters {
+        let parameters = OutlineParameters {
             lives,
             ..OutlineParameters::default()
         };
-        Self::settled(mesh, options, settled, progress)
+        Self::settled(mesh, options, parameters, progress)
     }
 
-    /// As [`Self::of_outlines`], with all that was settled about it.
+    /// Builds the interpolation like [`Self::of_outlines`], with time windows and stiffness.
     ///
     /// # Errors
     /// As [`Self::build`].
     pub(crate) fn settled(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        settled: OutlineParameters,
+        parameters: OutlineParameters,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        Self::prepared(mesh, options, (settled, OutlineConstraints::Yes), progress)
+        Self::prepared(
+            mesh,
+            options,
+            (parameters, OutlineConstraints::Yes),
+            progress,
+        )
     }
 
-    /// The same mesh with other options, subdivided once more if they ask for it:
-    /// what a face is divided into is as stiff as the face.
+    /// Builds the interpolation of the same mesh with other options.
+    ///
+    /// If they request a subdivision, the mesh is subdivided further, and each child face inherits
+    /// the stiffness of its parent.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -170,11 +183,12 @@ impl Arap {
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        let settled = OutlineParameters {
+        let parameters = OutlineParameters {
             lives: self.lives(),
             stiffness: self.stiffness(),
         };
-        let rebuilt = Self::prepared(self.mesh(), options, (settled, self.0.outlined), progress)?;
+        let parameters = (parameters, self.0.outlined);
+        let rebuilt = Self::prepared(self.mesh(), options, parameters, progress)?;
         let Some(guard) = self.guard() else {
             return Ok(rebuilt);
         };
@@ -183,10 +197,11 @@ impl Arap {
         Ok(rebuilt.guarded(Some(guard.subdivided(&fine, vertices))))
     }
 
+    /// Subdivides the mesh, computes the local maps and factors the matrix.
     fn prepared(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        (settled, outlined): (OutlineParameters, OutlineConstraints),
+        (parameters, outlined): (OutlineParameters, OutlineConstraints),
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let weights = options
@@ -194,11 +209,11 @@ impl Arap {
             .subdivided(mesh.faces().len(), options.subdivisions)?;
         checkpoint(progress, "subdividing", 0.0)?;
         let mesh = mesh.subdivided(options.subdivisions)?;
-        // Subdivision lists the children of a face one after the other.
+        // Subdivision lists the children of each face one after the other.
         let children = 4_usize.saturating_pow(options.subdivisions);
-        let stiffness = settled.stiffness.iter();
-        let stiffness: Vec<f64> = stiffness.flat_map(|&by| repeat_n(by, children)).collect();
-        // After subdividing: an anchor may be one of the new vertices.
+        let coarse = parameters.stiffness.iter();
+        let stiffness: Vec<f64> = coarse.flat_map(|&by| repeat_n(by, children)).collect();
+        // Checked after subdivision, because an anchor may be one of the new vertices.
         options.path.check(mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
         let options = ArapOptions {
@@ -206,14 +221,14 @@ impl Arap {
             subdivisions: 0,
             ..options.clone()
         };
-        let maps = LocalMaps::new(&mesh, &options, settled.lives)?
+        let maps = LocalMaps::new(&mesh, &options, parameters.lives)?
             .stiffened(&stiffness)
-            .rimmed(&mesh, settled.lives, (&options, outlined));
-        let drawn = (settled.lives.to_vec(), outlined);
-        Self::from_maps(mesh, maps, options, drawn, progress)
+            .rimmed(&mesh, parameters.lives, (&options, outlined));
+        let outline = (parameters.lives.to_vec(), outlined);
+        Self::from_maps(mesh, maps, options, outline, progress)
     }
 
-    /// Assembles and factors: `options` are those of the mesh as it is.
+    /// Assembles and factors the matrix of an already subdivided mesh.
     fn from_maps(
         mesh: CompatibleMesh,
         maps: LocalMaps,
@@ -222,11 +237,11 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
-        let thin = |vertex: usize| [mesh.source()[vertex], mesh.target()[vertex]];
-        let held = outlined.of(options.homotopy);
-        let done = factor_with_ridge(maps.matrix(&mesh, held), progress)?;
-        let (cholesky, ridge) = done.map_err(|error| match error {
-            FactorError::NotPositiveDefinite { index } => ArapError::Thin(thin(index)),
+        let ends = |vertex: usize| [mesh.source()[vertex], mesh.target()[vertex]];
+        let constraints = outlined.of(options.homotopy);
+        let result = factor_with_ridge(maps.matrix(&mesh, constraints), progress)?;
+        let (cholesky, ridge) = result.map_err(|error| match error {
+            FactorError::NotPositiveDefinite { index } => ArapError::Thin(ends(index)),
             error => ArapError::Factor(error),
         })?;
         checkpoint(progress, "preparing frames", 0.9)?;
@@ -253,55 +268,55 @@ impl Arap {
         })))
     }
 
-    /// The mesh that is interpolated, subdivided as the options ask.
+    /// Returns the interpolated mesh, which is already subdivided.
     #[must_use]
     pub fn mesh(&self) -> &CompatibleMesh {
         &self.0.mesh
     }
 
-    /// What it was built with, as of the mesh as it is: nothing is left to
-    /// subdivide.
+    /// Returns the options for the interpolated mesh; their number of subdivisions is 0.
     #[must_use]
     pub fn options(&self) -> &ArapOptions {
         &self.0.options
     }
 
-    /// The matrix of the energy, assembled anew; for measurements.
+    /// Assembles the matrix of the energy, for measurements.
     #[must_use]
     pub fn system(&self) -> SymmetricMatrix {
-        let held = self.0.outlined.of(self.0.options.homotopy);
-        self.0.maps.matrix(&self.0.mesh, held)
+        let constraints = self.0.outlined.of(self.0.options.homotopy);
+        self.0.maps.matrix(&self.0.mesh, constraints)
     }
 
-    /// The matrix of the energy with nothing added that holds a part where it is: a
-    /// part that moves as a whole costs nothing.
+    /// Assembles the matrix of the energy without grounding, so that translating a connected part
+    /// has zero energy.
     pub(crate) fn free_system(&self) -> SymmetricMatrix {
-        let held = self.0.outlined.of(self.0.options.homotopy);
-        self.0.maps.free_matrix(&self.0.mesh, held)
+        let constraints = self.0.outlined.of(self.0.options.homotopy);
+        self.0.maps.free_matrix(&self.0.mesh, constraints)
     }
 
-    /// The mass of each vertex, by the area around it; that of all is 1.
+    /// Returns the mass of each vertex, from the area around it; masses sum to 1.
     pub(crate) fn masses(&self) -> &[f64] {
         &self.0.maps.masses
     }
 
-    /// What had to be added to the matrix to factor it; none in all but the
-    /// most uneven of meshes. The film is then a little stiffer than asked
-    /// for, as what is factored is than [`Self::system`].
+    /// Returns the ridge that had to be added to the matrix in order to factor it.
+    ///
+    /// Only very uneven meshes need one. The interpolation is then slightly stiffer than
+    /// [`Self::system`].
     #[must_use]
     pub fn ridge(&self) -> Option<Ridge> {
         self.0.ridge
     }
 
-    /// How many sheets of faces that share edges could not be flattened as bounded
-    /// distortion asks: their faces go each by its own metric.
+    /// Returns the number of edge-connected components that could not be flattened with bounded
+    /// distortion. Their faces follow their own metrics independently.
     #[must_use]
     pub fn unflattened(&self) -> usize {
         self.0.stresses.bounded().map_or(0, Bounded::unflattened)
     }
 
-    /// The rotation angle of each face from source to target, in radians,
-    /// consistent across shared edges.
+    /// Returns the rotation angle of each face from source to target, in radians, consistent
+    /// across shared edges.
     #[must_use]
     pub fn face_angles(&self) -> Vec<f64> {
         self.0
@@ -312,38 +327,41 @@ impl Arap {
             .collect()
     }
 
-    /// The rotation of the design as a whole from source to target, in
-    /// radians, on the branch of the first part.
+    /// Returns the rotation of the whole design from source to target, in radians.
+    ///
+    /// Its whole turns are those of the first part.
     pub(crate) fn rotation(&self) -> f64 {
         self.0.maps.whole_angle
     }
 
-    /// The map of a face from source to target, with its consistent angle.
+    /// Returns the map of a face from source to target, with its consistent angle.
     pub(crate) fn local_map(&self, face: usize) -> PolarDecomposition {
         self.0.maps.faces[face].map
     }
 
-    /// The same interpolation from target to source. It turns back the way it
-    /// came: whole turns are kept, not chosen anew.
+    /// Returns the interpolation from target to source.
+    ///
+    /// Rotations are reversed, with their whole turns, rather than chosen anew.
     ///
     /// # Errors
-    /// [`ArapError`] on a cancel, or if the other matrix cannot be factored.
+    /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
     pub fn swapped(&self, progress: &dyn Progress) -> Result<Self, ArapError> {
         let inner = &*self.0;
         let mesh = inner.mesh.swapped();
-        let lives = inner.drift.lives().iter();
-        let lives: Vec<_> = lives.map(|life| life.map(TimeWindow::backwards)).collect();
+        let windows = inner.drift.lives().iter();
+        let lives: Vec<_> = windows
+            .map(|window| window.map(TimeWindow::backwards))
+            .collect();
         let maps = LocalMaps::new(&mesh, &inner.options, &lives)?
             .stiffened(self.stiffness())
             .rimmed(&mesh, &lives, (&inner.options, inner.outlined))
             .turning_back(&inner.maps);
-        let drawn = (lives, inner.outlined);
-        let swapped = Self::from_maps(mesh, maps, inner.options.clone(), drawn, progress)?;
+        let outline = (lives, inner.outlined);
+        let swapped = Self::from_maps(mesh, maps, inner.options.clone(), outline, progress)?;
         Ok(swapped.guarded(self.guard().map(Guard::backwards)))
     }
 
-    /// The same interpolation, in which vertices are moved beside their way as a guard
-    /// says, or are not.
+    /// Returns the same interpolation with the displacements of a guard, or without any guard.
     pub(crate) fn guarded(&self, guard: Option<Guard>) -> Self {
         let inner = &*self.0;
         Self(Arc::new(FactoredArap {
@@ -359,8 +377,7 @@ impl Arap {
         }))
     }
 
-    /// The same interpolation with other times of the parts that come and go, and no
-    /// guard.
+    /// Returns the same interpolation with other time windows of transient parts, without guard.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -370,78 +387,83 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let inner = &*self.0;
-        let drawn = (lives, inner.outlined);
+        let outline = (lives, inner.outlined);
         Self::from_maps(
             inner.mesh.clone(),
             inner.maps.clone(),
             inner.options.clone(),
-            drawn,
+            outline,
             progress,
         )
     }
 
-    /// How far a vertex is moved aside at most where the film would meet itself, in
-    /// diameters; none where none is.
+    /// Returns the largest displacement applied to avoid collisions, in diameters of the mesh, or
+    /// `None` without a guard.
     #[must_use]
     pub fn moved_aside(&self) -> Option<f64> {
         let guard = self.guard()?;
         Some(guard.farthest() / self.mesh().diameter())
     }
 
-    /// The times between which what is moved beside its way is smooth.
+    /// Returns the times between which the guard's displacements are smooth.
     pub(super) fn guard_times(&self) -> &[f64] {
         self.guard().map(Guard::times).unwrap_or_default()
     }
 
-    /// What is moved beside its way, if anything is.
+    /// Returns the displacements that avoid collisions, if there are any.
     pub(crate) fn guard(&self) -> Option<&Guard> {
         self.0.guard.as_deref()
     }
 
-    /// The same interpolation with the weight of each face multiplied by a positive
-    /// number, 1 for those beyond the list: a stiff one moves as its local map
-    /// says, whatever its neighbours want.
+    /// Returns the same interpolation with the weight of each face multiplied by `by`.
+    ///
+    /// The factors are positive and 1 beyond the end of the list. A stiff face follows its local
+    /// map more closely than its neighbours do.
     ///
     /// # Errors
-    /// [`ArapError`] on a cancel, or if the other matrix cannot be factored.
+    /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
     pub(crate) fn stiffened(&self, by: &[f64], progress: &dyn Progress) -> Result<Self, ArapError> {
         let inner = &*self.0;
         let maps = inner.maps.clone().stiffened(by);
-        let drawn = (self.lives().to_vec(), inner.outlined);
+        let outline = (self.lives().to_vec(), inner.outlined);
         Self::from_maps(
             inner.mesh.clone(),
             maps,
             inner.options.clone(),
-            drawn,
+            outline,
             progress,
         )
     }
 
-    /// What the weight of each face is multiplied with; 1 beyond the list.
+    /// Returns the factor of each face's weight; 1 beyond the end of the list.
     pub(crate) fn stiffness(&self) -> &[f64] {
         &self.0.maps.stiffness
     }
 
-    /// When each connected part changes its size, if it is a point in one of
-    /// the designs; none beyond the list.
+    /// Returns the time window of each connected part that is a point in one of the designs.
+    ///
+    /// It is `None` for other parts and beyond the end of the list.
     #[must_use]
     pub fn lives(&self) -> &[Option<TimeWindow>] {
         self.0.drift.lives()
     }
 
-    /// Where at `t` a part is that moves with the whole, when `share` of its own
-    /// way is done from a place in the source to one in the target.
+    /// Returns the position at `t` of a part that moves with the whole design.
+    ///
+    /// `ends` are its positions in source and target and `share` is the completed fraction of its
+    /// own motion.
     pub(crate) fn carried(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
         self.0.drift.carried(ends, share, t)
     }
 
-    /// The place in the source and in the target from which the whole carries
-    /// a part to a place at `t`.
+    /// Returns the positions in source and target that the motion of the whole carries to `place`
+    /// at `t`.
     pub(crate) fn carried_back(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         self.0.drift.carried_back(place, t)
     }
 
-    /// How many parts there are whose extra turns can be chosen apart.
+    /// Returns the number of parts whose extra turns can be chosen separately (edge-connected
+    /// components).
     #[must_use]
     pub fn part_count(&self) -> usize {
         self.0.maps.part_count
@@ -449,8 +471,9 @@ impl Arap {
 }
 
 impl Arap {
-    /// A placer that shows each connected part at the time that `clock` says it is for
-    /// the part at t. What an anchor holds is held in the time of its part.
+    /// Returns a placer that evaluates each connected part at its own time.
+    ///
+    /// `clock(part, t)` returns that time. An anchor is fixed at the time of its own part.
     pub(in crate::warp) fn placer_by(
         &self,
         clock: impl Fn(usize, f64) -> f64 + Send + Sync + 'static,
@@ -464,6 +487,7 @@ impl Arap {
         })
     }
 
+    /// Returns the placement at t = 0.
     fn at_rest(&self) -> Placement {
         let mesh = self.mesh();
         Placement::of_source(Arc::clone(mesh.faces()), mesh.source(), mesh.target())
@@ -479,8 +503,10 @@ impl Warp for Arap {
     }
 
     fn breaks(&self) -> Vec<f64> {
-        let lives = self.lives().iter().flatten();
-        let lives = lives.flat_map(|life| [life.from, life.to]);
-        lives.chain(self.guard_times().iter().copied()).collect()
+        let windows = self.lives().iter().flatten();
+        let window_ends = windows.flat_map(|window| [window.from, window.to]);
+        window_ends
+            .chain(self.guard_times().iter().copied())
+            .collect()
     }
 }

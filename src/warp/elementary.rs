@@ -1,31 +1,29 @@
-//! Sine, cosine, exponential and logarithm without branches, so that a loop
-//! over many faces or points is compiled to vector instructions.
+//! Branch-free sine, cosine, exponential and logarithm that the compiler can vectorise.
 //!
-//! The argument is reduced by the parts of π/2 or ln 2 (Cody and Waite,
-//! Software Manual for the Elementary Functions, 1980), then a Taylor
-//! polynomial is summed; the logarithm's is that of the inverse hyperbolic
-//! tangent. No fused multiply-add: results are the same on every
-//! machine and for every width of its vectors.
+//! The argument is reduced with π/2 or ln 2 split into several parts (Cody, Waite, "Software
+//! Manual for the Elementary Functions", 1980), then a Taylor polynomial is evaluated; the
+//! logarithm uses the series of the inverse hyperbolic tangent. Fused multiply-add is avoided,
+//! so that results are identical on every machine and for every vector width.
 //!
-//! Guaranteed: within 2 units in the last place, sine and cosine for
-//! |x| ≤ 1e5, the exponential for |x| ≤ 708 and the logarithm for positive
-//! normal x; sin 0 = 0, cos 0 = 1, exp 0 = 1 and ln 1 = 0 exactly. Not
-//! guaranteed: more than finite results of sine and cosine for |x| up to 1e9,
-//! with an error that grows with |x|, and of the logarithm for zero and
-//! subnormal x; anything for infinities and NaN.
+//! Guaranteed: errors of at most 2 units in the last place for sine and cosine with |x| ≤ 1e5,
+//! for the exponential with |x| ≤ 708, and for the logarithm of positive normal x. Exact values:
+//! sin 0 = 0, cos 0 = 1, exp 0 = 1, ln 1 = 0. For sine and cosine with |x| up to 1e9, and for
+//! the logarithm of zero and subnormal x, only finite results are guaranteed. Nothing is
+//! guaranteed for infinities and NaN.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
-/// Added and subtracted again, it rounds to an integer, which then stands in
-/// the low bits of the sum: 1.5 · 2⁵².
+/// 1.5 · 2⁵². Adding and subtracting it rounds to an integer, which appears in the low bits of
+/// the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// 2⁵²: its last bit is worth one.
+/// 2⁵², whose last bit has the value 1.
 const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
 
-/// π/2 in four parts. The first three have at most 33 bits, so that products
-/// with integers below 2²⁰ are exact; 1e5 needs the fourth where it lies
-/// next to a multiple of π/2.
+/// π/2 as a sum of four numbers (Cody–Waite reduction).
+///
+/// The first three have at most 33 bits, so that their products with integers below 2²⁰ are
+/// exact. Arguments near 1e5 that lie close to a multiple of π/2 need the fourth.
 const HALF_PI: [f64; 4] = [
     leading_bits(FRAC_PI_2),
     FRAC_PI_2 - leading_bits(FRAC_PI_2),
@@ -33,21 +31,21 @@ const HALF_PI: [f64; 4] = [
     3.5215598651832e-27,
 ];
 
-/// ln 2 in two parts, the first of 33 bits.
+/// ln 2 as a sum of two numbers, the first with 33 bits (Cody–Waite reduction).
 const LN_2_PARTS: [f64; 2] = [leading_bits(LN_2), 7.440617110012397e-11];
 
-/// From where on results would not be normal numbers.
+/// Largest |x| for which eˣ is a normal number.
 const LARGEST_EXPONENT: f64 = 708.0;
 
-/// 1/3!, −1/5!, 1/7!, …: the first term left out is below 1e-19 at π/4.
+/// Coefficients 1/3!, −1/5!, 1/7!, …; the first omitted term is below 1e-19 at π/4.
 const SINE: [f64; 8] = reciprocal_factorials(3, 2, -1.0);
-/// 1/4!, −1/6!, 1/8!, …: the first term left out is below 1e-17 at π/4.
+/// Coefficients 1/4!, −1/6!, 1/8!, …; the first omitted term is below 1e-17 at π/4.
 const COSINE: [f64; 7] = reciprocal_factorials(4, 2, -1.0);
-/// 1/2!, 1/3!, …: the first term left out is below 1e-17 at ln 2 / 2.
+/// Coefficients 1/2!, 1/3!, …; the first omitted term is below 1e-17 at ln 2 / 2.
 const EXPONENTIAL: [f64; 12] = reciprocal_factorials(2, 1, 1.0);
 
-/// 1/3, 1/5, 1/7, …: the first term left out is below 3e-17 of the sum where
-/// the square is largest, 0.0295.
+/// Coefficients 1/3, 1/5, 1/7, …; the first omitted term is below 3e-17 of the sum at the
+/// largest squared argument, 0.0295.
 const LOGARITHM: [f64; 9] = {
     let mut terms = [0.0; 9];
     let mut k = 0;
@@ -58,15 +56,15 @@ const LOGARITHM: [f64; 9] = {
     terms
 };
 
-/// The bits below the exponent.
+/// Mask of the fraction bits of an `f64`.
 const FRACTION_BITS: u64 = (1 << 52) - 1;
 
-/// The leading 33 bits of a number.
+/// Truncates a number to its leading 33 bits.
 const fn leading_bits(x: f64) -> f64 {
     f64::from_bits(x.to_bits() >> 20 << 20)
 }
 
-/// 1/n! for n = first, first + step, …, from term to term times `sign`.
+/// Returns 1/n! for n = first, first + step, …, multiplied by increasing powers of `sign`.
 const fn reciprocal_factorials<const N: usize>(first: u32, step: u32, sign: f64) -> [f64; N] {
     let mut terms = [0.0; N];
     let (mut k, mut n, mut factorial) = (0, 1, 1.0);
@@ -81,7 +79,7 @@ const fn reciprocal_factorials<const N: usize>(first: u32, step: u32, sign: f64)
     terms
 }
 
-/// Σ aₖ xᵏ by Horner's rule.
+/// Evaluates Σ aₖ xᵏ by Horner's rule.
 #[inline(always)]
 fn polynomial<const N: usize>(x: f64, a: &[f64; N]) -> f64 {
     let mut sum = a[N - 1];
@@ -91,19 +89,21 @@ fn polynomial<const N: usize>(x: f64, a: &[f64; N]) -> f64 {
     sum
 }
 
-/// Sine and cosine.
+/// Returns the sine and cosine of `x` radians.
 #[inline(always)]
 pub(super) fn sin_cos(x: f64) -> (f64, f64) {
     let rounded = x * FRAC_2_PI + ROUNDER;
     let (n, quadrant) = (rounded - ROUNDER, rounded.to_bits());
-    // The first two differences are exact.
+    // The first two subtractions are exact.
     let x = ((x - n * HALF_PI[0]) - n * HALF_PI[1]) - n * HALF_PI[2] - n * HALF_PI[3];
     let square = x * x;
     let sin = x - x * square * polynomial(square, &SINE);
     let half = 0.5 * square;
     let one = 1.0 - half;
-    let lost = (1.0 - one) - half; // by rounding
+    // Restores the digits that rounding removed from 1 − x²/2.
+    let lost = (1.0 - one) - half;
     let cos = one + (lost + square * square * polynomial(square, &COSINE));
+    // Odd quadrants swap sine and cosine; two of the four negate each.
     let swap = 0_u64.wrapping_sub(quadrant & 1);
     let (sin, cos) = (sin.to_bits(), cos.to_bits());
     let exchange = (sin ^ cos) & swap;
@@ -113,10 +113,10 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
     )
 }
 
-/// eˣ, for x beyond ±708 that of ±708.
+/// Returns eˣ, with x clamped to ±708.
 #[inline(always)]
 pub(super) fn exp(x: f64) -> f64 {
-    // Without a branch: the exponent below has 11 bits and would wrap around.
+    // The exponent field has 11 bits and would wrap around; a clamp needs no branch.
     let x = x.clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
     let rounded = x * LOG2_E + ROUNDER;
     let n = rounded - ROUNDER;
@@ -125,8 +125,10 @@ pub(super) fn exp(x: f64) -> f64 {
     (1.0 + (x + x * x * polynomial(x, &EXPONENTIAL))) * power_of_two
 }
 
-/// Σ aₖ xᵏ of [`LOGARITHM`] in pairs (Estrin 1960): Horner's rule waits for
-/// each product, and what is lost by rounding here is a thirtieth of a unit.
+/// Evaluates the series of [`LOGARITHM`] in pairs (Estrin 1960).
+///
+/// Horner's rule would wait for each product. The additional rounding error is a thirtieth of a
+/// unit in the last place.
 #[inline(always)]
 fn logarithm_series(x: f64) -> f64 {
     let a = &LOGARITHM;
@@ -137,19 +139,21 @@ fn logarithm_series(x: f64) -> f64 {
     low + x4 * (high + x4 * a[8])
 }
 
-/// The natural logarithm of a positive normal number, from the fraction f + 1
-/// between √½ and √2 and the exponent: ln(1 + f) = 2 artanh(f / (2 + f)).
+/// Returns the natural logarithm of a positive normal number.
+///
+/// The number is split into 2ⁿ and a fraction 1 + f between √½ and √2, for which
+/// ln(1 + f) = 2 artanh(f / (2 + f)).
 #[inline(always)]
 pub(super) fn ln(x: f64) -> f64 {
     let half_root = FRAC_1_SQRT_2.to_bits();
     let shifted = x.to_bits().wrapping_add(1.0_f64.to_bits() - half_root);
-    // The exponent stands in the low bits of 2⁵² + exponent.
+    // ORing the exponent into the low bits of 2⁵² converts it to a float.
     let n = f64::from_bits((shifted >> 52) | TWO_TO_52.to_bits()) - (TWO_TO_52 + 1023.0);
     let f = f64::from_bits((shifted & FRACTION_BITS) + half_root) - 1.0;
     let s = f / (2.0 + f);
     let square = s * s;
     let rest = 2.0 * square * logarithm_series(square);
-    // 2s is f − s f, and f is exact.
+    // 2s is written as f − s f because f is exact.
     n * LN_2_PARTS[0] + (f - (s * (f - rest) - n * LN_2_PARTS[1]))
 }
 
@@ -158,8 +162,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// How far apart two numbers are, in units in the last place of the
-    /// second.
+    /// Returns the distance of two numbers in units in the last place of the second.
     fn ulps(found: f64, expected: f64) -> f64 {
         let unit = f64::from_bits(expected.abs().to_bits() + 1) - expected.abs();
         ((found - expected) / unit).abs()

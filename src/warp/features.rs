@@ -1,58 +1,59 @@
-//! The pairs of points that warps by points move by, and where they are at t:
-//! on the straight line from the source's place to the target's.
+//! Point features of the scattered-point and lattice warps.
 //!
-//! Lines count as rows of points, so that a person who switches from a warp by
-//! lines loses no work.
+//! Every feature moves on the straight line from its source to its target position. Line pairs
+//! are sampled as points, so that a user who switches from the line warp keeps them.
 
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 
-/// How many points stand for a line: its ends, and evenly between.
+/// Number of points that represent a line: both ends and three evenly spaced between them
+/// (heuristic).
 pub const LINE_SAMPLES: usize = 5;
 
-/// How many features a frame solves for: a line counts as
-/// [`LINE_SAMPLES`].
+/// Maximum number of features, where a line counts as [`LINE_SAMPLES`] (resource limit: every
+/// frame solves a dense system of this size).
 pub const MAX_FEATURES: usize = 512;
 
-/// Features farther from the frame than so many of its diameters, and times
-/// beyond so many films, are taken to be there: squares must not overflow.
+/// Limit of a feature's distance from the frame centre, in frame diameters, and of |t|
+/// (tolerance: squared coordinates must not overflow).
 const FAR: f64 = 1e6;
 
-/// Why features are none.
+/// Reason why features are rejected.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FeatureError {
-    /// The frame has no place or no size in numbers.
+    /// A coordinate of the frame or its diameter is not finite.
     #[error("the frame is not finite: give the designs finite coordinates")]
     Frame,
-    /// A coordinate of a pair of points is infinite or not a number.
-    #[error("pair of points {0}: a coordinate is not finite; move or delete the pair")]
+    /// A coordinate of a point pair is not finite. Pairs are numbered from 1.
+    #[error("point pair {0}: a coordinate is not finite; move or delete the pair")]
     Point(usize),
-    /// A coordinate of a pair of lines is infinite or not a number.
-    #[error("pair of lines {0}: a coordinate is not finite; move or delete the pair")]
+    /// A coordinate of a line pair is not finite. Pairs are numbered from 1.
+    #[error("line pair {0}: a coordinate is not finite; move or delete the pair")]
     Line(usize),
-    /// More than a frame can solve for.
+    /// There are more than [`MAX_FEATURES`] features.
     #[error(
-        "{found} features, a line counting as {LINE_SAMPLES}: at most {MAX_FEATURES} are moved by; delete some"
+        "{found} features (a line counts as {LINE_SAMPLES}), but at most {MAX_FEATURES} are possible; delete some"
     )]
     TooMany {
-        /// How many there are.
+        /// Number of features given.
         found: usize,
     },
 }
 
-/// Checked pairs, with lines sampled.
+/// Validated point pairs, including the samples of lines.
 #[derive(Clone, Debug)]
 pub(super) struct WarpFeatures {
     pairs: Vec<PointPair>,
-    /// The frame's diameter, or 1 if it has none.
+    /// Diameter of the frame, or 1 if that is zero.
     pub(super) unit: f64,
 }
 
 impl WarpFeatures {
+    /// Validates the pairs and samples the lines.
+    ///
     /// # Errors
-    /// [`FeatureError`] on coordinates that are not finite, and on too many
-    /// features. Pairs are counted from 1.
+    /// [`FeatureError`] if a coordinate is not finite or there are too many features.
     pub(super) fn new(
         frame: &Bounds,
         points: &[PointPair],
@@ -68,24 +69,25 @@ impl WarpFeatures {
             return Err(FeatureError::TooMany { found });
         }
         let unit = if diameter > 0.0 { diameter } else { 1.0 };
-        // Held nearer, not refused: a pin dragged off the screen is no error.
+        // Distant pins are clamped, not rejected: a pin dragged off the screen is no error.
         let centre = frame.centre();
-        let near = |p: DVec2| p.clamp(centre - FAR * unit, centre + FAR * unit);
+        let clamp_point = |p: DVec2| p.clamp(centre - FAR * unit, centre + FAR * unit);
         let pairs = points.iter().copied().chain(lines.iter().flat_map(sampled));
-        let nearer = |pair: PointPair| PointPair {
-            source: near(pair.source),
-            target: near(pair.target),
+        let clamp_pair = |pair: PointPair| PointPair {
+            source: clamp_point(pair.source),
+            target: clamp_point(pair.target),
         };
         Ok(Self {
-            pairs: pairs.map(nearer).collect(),
+            pairs: pairs.map(clamp_pair).collect(),
             unit,
         })
     }
 
-    /// The features at t, and from there to the source and to the target. At
-    /// t = 0 and t = 1 the one or the other is exactly zero.
+    /// Returns each feature's position at t with its displacements to the source and the target.
+    ///
+    /// The source displacement is exactly zero at t = 0, the target displacement at t = 1.
     pub(super) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone {
-        // Beyond so many films as well, or (1 − t) p + t q would be infinite.
+        // Without this clamp (1 − t) p + t q could be infinite.
         let t = if t.is_nan() { 0.0 } else { t.clamp(-FAR, FAR) };
         self.pairs.iter().map(move |pair| {
             let at = pair.source * (1.0 - t) + pair.target * t;
@@ -94,22 +96,23 @@ impl WarpFeatures {
     }
 }
 
-/// That all coordinates are finite.
+/// Checks that all coordinates are finite.
 ///
 /// # Errors
-/// [`FeatureError`] names the first pair that has others, counted from 1.
+/// [`FeatureError`] with the number of the first pair that has a coordinate that is not finite.
 pub(super) fn check(points: &[PointPair], lines: &[LinePair]) -> Result<(), FeatureError> {
-    let bad = |p: &PointPair| !(p.source.is_finite() && p.target.is_finite());
-    if let Some(index) = points.iter().position(bad) {
+    let is_bad_point = |p: &PointPair| !(p.source.is_finite() && p.target.is_finite());
+    if let Some(index) = points.iter().position(is_bad_point) {
         return Err(FeatureError::Point(index + 1));
     }
-    let bad = |l: &LinePair| !l.source.iter().chain(&l.target).all(|p| p.is_finite());
-    if let Some(index) = lines.iter().position(bad) {
+    let is_bad_line = |l: &LinePair| !l.source.iter().chain(&l.target).all(|p| p.is_finite());
+    if let Some(index) = lines.iter().position(is_bad_line) {
         return Err(FeatureError::Line(index + 1));
     }
     Ok(())
 }
 
+/// Returns [`LINE_SAMPLES`] evenly spaced point pairs along a line pair.
 fn sampled(line: &LinePair) -> impl Iterator<Item = PointPair> + '_ {
     (0..LINE_SAMPLES).map(|k| {
         let s = k as f64 / (LINE_SAMPLES - 1) as f64;
@@ -144,10 +147,10 @@ mod tests {
             target: DVec2::X * 1e9,
         };
         let features = WarpFeatures::new(&frame, &[far], &[line])?;
-        let places: Vec<_> = features.at(1.0).map(|(at, _)| at).collect();
-        // What is far beyond the frame is held nearer; the rest stays.
-        assert!(places[0] != far.target && places[0].is_finite());
-        assert_eq!(places[1], line.target[0]);
+        let positions: Vec<_> = features.at(1.0).map(|(at, _)| at).collect();
+        // Only features far outside the frame are clamped.
+        assert!(positions[0] != far.target && positions[0].is_finite());
+        assert_eq!(positions[1], line.target[0]);
         Ok(())
     }
 }

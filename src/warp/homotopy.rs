@@ -1,67 +1,68 @@
-//! Paths of 2×2 matrices from the identity to a local map M = R(θ) S.
+//! Homotopies: paths of 2×2 matrices from the identity to a local map M = R(θ) S.
 //!
-//! The paper's eqs. 3 to 5. All of them start at I, end at M, and run
-//! backwards for the inverse map: M_BA(1−t) · M = M_AB(t). Angles are given,
-//! not recomputed, so that θ may exceed π where a shape turns further.
+//! "The paper" below is "Design-Space Representation through Blended Transitions"; these are its
+//! eqs. 3 to 5 and two more. All paths start at I and end at M. Reversed, each is the path of the
+//! inverse map, M_BA(1−t) · M = M_AB(t), except for [`Homotopy::LinearAfterPolar`]. Angles are
+//! given, not recomputed, so θ may exceed π for a shape that turns further.
 //!
-//! [`Homotopy::at`] is the plain form, one matrix at a time; the solver
-//! evaluates the same formulas for several faces at once.
+//! [`Homotopy::at`] is the reference form for one matrix; the solver evaluates the same formulas
+//! for several faces at once.
 
 use crate::geometry::{DMat2, PolarDecomposition, SymmetricEigen};
-use crate::settings::choice::named;
+use crate::settings::named;
 
-/// How the local map of a face moves from the identity to its end.
+/// Path of a face's local map from the identity to its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Homotopy {
-    /// (1−t) I + t M (paper, eq. 3): straight vertex paths; collapses on
-    /// half turns.
+    /// (1−t) I + t M (paper, eq. 3): vertices move on straight lines; collapses on half turns.
     Linear,
-    /// R(tθ) ((1−t) I + t S) (paper, eq. 4; Alexa, Cohen-Or, Levin 2000):
-    /// turns steadily, no reflection on [0, 1].
+    /// R(tθ) ((1−t) I + t S) (paper, eq. 4; Alexa, Cohen-Or, Levin 2000): constant speed of
+    /// rotation, no reflection on [0, 1].
     #[default]
     Polar,
-    /// R(tθ) exp(t log S) (paper, eq. 5): det M(t) = (det M)^t is positive
-    /// for every t, the one for extrapolation.
+    /// R(tθ) exp(t log S) (paper, eq. 5): det M(t) = (det M)^t is positive for every t, which suits
+    /// extrapolation.
     Exponential,
-    /// ((1−t) I + t R(θ)) ((1−t) I + t S): the linear path after polar
-    /// decomposition, for the paper's figure 7b only.
+    /// ((1−t) I + t R(θ)) ((1−t) I + t S): the linear path after polar decomposition; only
+    /// reproduces the paper's figure 7b.
     LinearAfterPolar,
-    /// R(tθ) √((1−t) I + t S²), the exponential one beyond the designs: squared
-    /// lengths change evenly, and no angle is distorted more than at the worse end. Rigid parts go on to flatten these
-    /// metrics all together (Chen, Weber, Keren, Ben-Chen 2013).
+    /// R(tθ) √((1−t) I + t S²) on [0, 1], and the exponential path outside. Squared lengths change
+    /// linearly, so no angle is distorted more than at the worse end. The ARAP warp flattens these
+    /// metrics over whole sheets of faces (Chen, Weber, Keren, Ben-Chen 2013).
     Bounded,
 }
 
 named! { Homotopy {
     Linear: "linear", "Linear",
-        "Points go straight. Cheap and even, but parts shrink while they turn and collapse on \
+        "Points move on straight lines. Fast, but parts shrink while they rotate and collapse on \
          half turns.";
-    LinearAfterPolar: "linear-after-polar", "Linear, turn apart",
-        "Turn and stretch apart, the turn on a straight line: shows why the turn must be on a \
-         circle.";
+    LinearAfterPolar: "linear-after-polar", "Linear after polar",
+        "Rotation and stretch separately, the rotation on a straight line. For comparison: shows \
+         why rotation must follow a circle.";
     Polar: "polar", "Polar",
-        "Parts turn steadily while they stretch evenly. Right for most designs.";
+        "Parts rotate at constant speed while they stretch evenly. Suits most designs.";
     Exponential: "exponential", "Exponential",
-        "Turns steadily and stretches by equal factors: never turns inside out, even far beyond \
-         the designs.";
+        "Rotates at constant speed and stretches by equal factors. Never turns inside out, even \
+         far beyond the designs.";
     Bounded: "bounded", "Bounded",
         "Nothing is sheared more on the way than in the worse of the two designs. Sizes may \
-         change and straight sides bend; slow, unless it plays from a recording.";
+         change and straight sides bend. Slow, unless played from a recording.";
 } }
 
 impl Homotopy {
-    /// Whether no face can turn over for t in [0, 1].
+    /// Returns whether no face can turn over for t in [0, 1].
     #[must_use]
     pub const fn keeps_orientation(self) -> bool {
         matches!(self, Self::Polar | Self::Exponential | Self::Bounded)
     }
 
-    /// M(t).
+    /// Returns M(t).
     ///
     /// ```
-    /// use morphospace::{geometry::{DMat2, Polar}, homotopy::Homotopy};
-    /// let half_turn = Polar { angle: std::f64::consts::PI, stretch: DMat2::IDENTITY };
+    /// use morphospace::{geometry::{DMat2, PolarDecomposition}, warp::homotopy::Homotopy};
+    /// let angle = std::f64::consts::PI;
+    /// let half_turn = PolarDecomposition { angle, stretch: DMat2::IDENTITY };
     /// assert!(Homotopy::Linear.at(&half_turn, 0.5).determinant().abs() < 1e-15);
     /// assert!((Homotopy::Polar.at(&half_turn, 0.5).determinant() - 1.0).abs() < 1e-15);
     /// ```
@@ -73,8 +74,8 @@ impl Homotopy {
             Self::Linear => from_identity(map.matrix()),
             Self::Polar => turned * from_identity(map.stretch),
             Self::Exponential => {
-                // exp(t log S): the eigenvalues are positive, as faces are in
-                // both designs.
+                // exp(t log S): the eigenvalues are positive, because faces are positive in both
+                // designs.
                 turned * SymmetricEigen::of(map.stretch).map(|lambda| lambda.powf(t))
             }
             Self::LinearAfterPolar => {
@@ -82,7 +83,7 @@ impl Homotopy {
             }
             Self::Bounded => {
                 if !(0.0..=1.0).contains(&t) {
-                    // Squared lengths may run out there.
+                    // Squared lengths may become negative outside [0, 1].
                     return Self::Exponential.at(map, t);
                 }
                 let stretched = |lambda: f64| ((1.0 - t) + t * lambda * lambda).sqrt();
@@ -98,6 +99,7 @@ mod tests {
     use crate::geometry::DVec2;
     use proptest::prelude::*;
 
+    /// Local maps with angles beyond half turns.
     fn any_map() -> impl Strategy<Value = PolarDecomposition> {
         (-10.0f64..10.0, -2.0f64..2.0, 0.1f64..5.0, 0.1f64..5.0).prop_map(|(angle, phi, a, b)| {
             let v = DMat2::from_angle(phi);
@@ -117,7 +119,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_bounded_one_is_never_sheared_more_than_at_its_end(
+        fn the_bounded_path_is_never_sheared_more_than_its_end(
             map in any_map(),
             t in 0.0f64..1.0,
         ) {
@@ -138,7 +140,7 @@ mod tests {
         }
 
         #[test]
-        fn the_way_back_is_the_way(map in any_map(), t in -0.5f64..1.5) {
+        fn the_inverse_map_takes_the_reversed_path(map in any_map(), t in -0.5f64..1.5) {
             for homotopy in Homotopy::ALL {
                 if homotopy == Homotopy::LinearAfterPolar {
                     continue;
@@ -158,8 +160,8 @@ mod tests {
         #[test]
         fn angles_are_linear_in_time(map in any_map(), t in 0.0f64..1.0) {
             for homotopy in [Homotopy::Polar, Homotopy::Exponential, Homotopy::Bounded] {
-                let found = PolarDecomposition::of(homotopy.at(&map, t)).angle - t * map.angle;
-                let turns = found / std::f64::consts::TAU;
+                let difference = PolarDecomposition::of(homotopy.at(&map, t)).angle - t * map.angle;
+                let turns = difference / std::f64::consts::TAU;
                 prop_assert!((turns - turns.round()).abs() < 1e-10);
             }
         }

@@ -1,17 +1,19 @@
-//! No warp: the frame, the source and the target are the same plane.
+//! The identity warp: no point moves, so frame, source and target coordinates agree.
+//!
+//! Blends that only mix colours or distances use it.
 
 use super::{Placement, Placer, Warp};
 use crate::geometry::Bounds;
 use std::sync::Arc;
 
-/// A rectangle that stands still, as two triangles.
+/// Identity warp of a rectangle, which is drawn as two triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct IdentityWarp {
     frame: Bounds,
 }
 
 impl IdentityWarp {
-    /// The rectangle that is shown.
+    /// Creates the identity warp of the visible rectangle.
     #[must_use]
     pub const fn new(frame: Bounds) -> Self {
         Self { frame }

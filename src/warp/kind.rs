@@ -1,46 +1,47 @@
-//! The rows of the table, and all that is said of each wherever a warp is
-//! offered, listed or reported.
+//! The list of warps, with every name and description shown to users.
 //!
-//! A new warp is a variant of [`WarpKind`] with its row of names, and a
-//! constant of [`WarpLabels`] here; command line, window, reports and the table of
-//! cells read it from there. Warps know nothing of contents, so a column is
-//! named by a field.
+//! A method is a pair of a warp and a content (solid, field or colours). To add a warp, add a
+//! variant to [`WarpKind`], its row in the name table, and a constant with its labels for each
+//! content. The command line, the window and the reports read all their texts from here.
 
-use crate::settings::choice::named;
+use crate::settings::named;
 
-/// Which warp: a row of the table.
+/// Kind of warp, independent of the content it carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WarpKind {
-    /// Nothing moves.
+    /// Identity: nothing moves.
     None,
-    /// Boundary points on straight or intrinsic paths (Sederberg, Gao, Wang,
-    /// Mu 1993).
+    /// Boundary vertices on straight or intrinsic paths (Sederberg, Gao, Wang, Mu 1993).
     Paths,
-    /// Rigidity-preserving interpolation of compatible triangulations.
+    /// Rigidity-preserving interpolation of compatible triangulations (Alexa, Cohen-Or, Levin
+    /// 2000).
     Arap,
-    /// Pairs of lines (Beier, Neely 1992).
+    /// Line pairs (Beier, Neely 1992).
     Lines,
-    /// Scattered points, by radial basis functions.
+    /// Scattered points with radial basis functions (Ruprecht, Müller 1995).
     Scattered,
-    /// B-spline lattices.
+    /// Multilevel B-spline lattices (Lee, Wolberg, Shin 1997).
     Lattice,
 }
 
 named! { WarpKind {
-    None: "none", "Still", "Nothing moves: each point stays where it is.";
+    None: "none", "No motion", "All points stay where they are.";
     Paths: "paths", "Paths",
-        "Points of the outline move on paths of their own, straight or so that its edges turn \
-         (Sederberg and others 1993).";
-    Arap: "arap", "Rigid", "Each part moves as rigidly as it can: limbs turn instead of shrinking.";
-    Lines: "lines", "Lines", "Pairs of lines pull the plane along (Beier and Neely 1992).";
+        "Each outline vertex moves along its own path, straight or with rotating edges \
+         (Sederberg et al. 1993).";
+    Arap: "arap", "Rigid",
+        "Each part moves as rigidly as possible, so limbs rotate instead of shrinking.";
+    Lines: "lines", "Lines", "Line pairs drag the plane along (Beier and Neely 1992).";
     Scattered: "scattered", "Points",
-        "Pins pull the plane along, smoothly between them (radial basis functions).";
-    Lattice: "lattice", "Lattice", "Pins bend a grid of splines, finer and finer, without folds.";
+        "Pins drag the plane along, with smooth interpolation between them (radial basis \
+         functions).";
+    Lattice: "lattice", "Lattice",
+        "Pins deform a B-spline grid in increasingly fine levels, without folds.";
 } }
 
 impl WarpKind {
-    /// All of them, those that ask least of the designs last.
+    /// All warps, from the highest to the lowest requirements on the designs.
     pub const BY_DEMAND: [Self; Self::ALL.len()] = [
         Self::Arap,
         Self::Paths,
@@ -50,14 +51,14 @@ impl WarpKind {
         Self::None,
     ];
 
-    /// Whether it moves the whole plane by pins and lines, whatever the
-    /// designs are.
+    /// Returns whether the warp deforms the whole plane by pins and lines alone, so that it
+    /// works with any designs.
     #[must_use]
     pub const fn is_of_the_plane(self) -> bool {
         matches!(self, Self::Lines | Self::Scattered | Self::Lattice)
     }
 
-    /// What is said of it.
+    /// Returns the texts shown for the warp and for each of its contents.
     ///
     /// ```
     /// use morphospace::warp::WarpKind;
@@ -77,72 +78,73 @@ impl WarpKind {
     }
 }
 
-/// What is said of a warp.
+/// Texts shown for a warp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WarpLabels {
-    /// Its name in a report, in full; of no warp nothing is said.
+    /// Full name in a report; empty for the identity.
     pub name: &'static str,
-    /// With solids.
+    /// Texts for solids.
     pub solid: CellSupport,
-    /// With distance fields.
+    /// Texts for distance fields.
     pub field: CellSupport,
-    /// With two pictures.
+    /// Texts for two pictures.
     pub colours: CellSupport,
 }
 
-/// What is said of a warp with one content, or why they do not go together.
+/// Texts for a warp with one content, or the reason why the two cannot be combined.
 pub type CellSupport = Result<CellLabels, &'static str>;
 
-/// What is said of a warp with one content.
+/// Texts shown for a warp with one content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CellLabels {
-    /// What it is called, in a few words.
+    /// Name in running text, in lower case.
     pub name: &'static str,
-    /// What it is called on a button, beside the title of its row.
+    /// Label of the button that selects the method, next to the title of the warp.
     pub button: &'static str,
-    /// What it is called in a table of measures.
+    /// Row title in a table of measurements.
     pub report: &'static str,
-    /// What it does, in a sentence or two.
+    /// Description in one or two sentences.
     pub sentence: &'static str,
 }
 
-/// Why a warp of the plane does not go with solids.
-const NOTHING_TO_LOOK_UP: &str = "this warp says where to look in the designs, and a solid has nothing to look up; choose fields or colours, or rigid parts (arap)";
+/// Reason why a plane warp cannot carry solids.
+const NOTHING_TO_LOOK_UP: &str = "this warp distorts a picture of the plane, and a solid has no picture; choose fields or colours, or rigid parts (arap)";
 
-/// Why boundary paths go with solids only.
-const NOTHING_INSIDE: &str = "this warp moves the points of an outline and nothing inside it; choose solids, or rigid parts (arap) to carry fields and colours";
+/// Reason why boundary paths can only carry solids.
+const NOTHING_INSIDE: &str = "this warp moves outlines but nothing inside them; choose solids, or rigid parts (arap) to carry fields and colours";
 
-/// A field that a warp carries.
+/// Returns the texts for a distance field carried by a warp.
 const fn carried_field(name: &'static str, report: &'static str) -> CellLabels {
     CellLabels {
         name,
         button: "Carried field",
         report,
-        sentence: "Distance fields that travel with the warp: parts move instead of dissolving. \
-                   Where nothing is pinned, the outlines are matched and pinned by themselves.",
+        sentence: "Distance fields move with the warp, so parts travel instead of dissolving. \
+                   Without pins, outlines are matched and pinned automatically.",
     }
 }
 
-/// Two pictures that a warp carries.
+/// Returns the texts for a morph of two pictures carried by a warp.
 const fn morph(name: &'static str, report: &'static str) -> CellLabels {
     CellLabels {
         name,
         button: "Morph",
         report,
-        sentence: "Moves what belongs together onto each other while one picture fades into the \
-                   other. Set pins, or lines, on eyes, corners and edges (key E).",
+        sentence: "Aligns matching features while one picture fades into the other. Place pins \
+                   or lines on eyes, corners and edges (key E).",
     }
 }
 
+/// Texts for [`WarpKind::None`].
 const NONE: WarpLabels = WarpLabels {
     name: "",
-    solid: Err("a solid changes by moving, so it needs a warp; choose rigid parts (arap)"),
+    solid: Err("a solid can only change by moving, so it needs a warp; choose rigid parts (arap)"),
     field: Ok(CellLabels {
         name: "field blend",
         button: "Blend",
         report: "field",
-        sentence: "Blends how far each point lies from the two outlines. Any shapes, with holes; \
-                   parts that move grow out of each other instead of turning.",
+        sentence: "Blends each point's distances to the two outlines. Works for any shapes and \
+                   holes, but parts that move dissolve and regrow instead of rotating.",
     }),
     colours: Ok(CellLabels {
         name: "cross-dissolve",
@@ -152,51 +154,56 @@ const NONE: WarpLabels = WarpLabels {
     }),
 };
 
+/// Texts for [`WarpKind::Arap`].
 const ARAP: WarpLabels = WarpLabels {
     name: "rigid parts",
     solid: Ok(CellLabels {
         name: "rigid parts",
         button: "Rigid parts",
         report: "arap",
-        sentence: "Turns and stretches each triangle evenly and joins them again. Parts keep \
-                   their form while they move; outlines are matched by themselves.",
+        sentence: "Rotates and stretches each triangle evenly, then joins them by least squares. \
+                   Parts keep their shape while they move. Outlines are matched automatically.",
     }),
-    field: Ok(carried_field("fields by rigid parts", "arap warp")),
-    colours: Ok(morph("pictures by rigid parts", "arap warp")),
+    field: Ok(carried_field("carried field (rigid parts)", "arap warp")),
+    colours: Ok(morph("morph (rigid parts)", "arap warp")),
 };
 
+/// Texts for [`WarpKind::Paths`].
 const PATHS: WarpLabels = WarpLabels {
     name: "boundary paths",
     solid: Ok(CellLabels {
         name: "boundary paths",
         button: "Outlines",
         report: "paths",
-        sentence: "Moves the points of matched outlines and nothing inside: straight, or so that \
-                   edges turn and keep their lengths. The outline may cross itself.",
+        sentence: "Moves the vertices of matched outlines and nothing inside them, either straight \
+                   or so that edges rotate and keep their lengths. Outlines may cross themselves.",
     }),
     field: Err(NOTHING_INSIDE),
     colours: Err(NOTHING_INSIDE),
 };
 
+/// Texts for [`WarpKind::Lines`].
 const LINES: WarpLabels = WarpLabels {
-    name: "pairs of lines",
+    name: "line pairs",
     solid: Err(NOTHING_TO_LOOK_UP),
-    field: Ok(carried_field("fields by lines", "lines")),
-    colours: Ok(morph("pictures by lines", "lines")),
+    field: Ok(carried_field("carried field (lines)", "lines")),
+    colours: Ok(morph("morph (lines)", "lines")),
 };
 
+/// Texts for [`WarpKind::Scattered`].
 const SCATTERED: WarpLabels = WarpLabels {
     name: "scattered points",
     solid: Err(NOTHING_TO_LOOK_UP),
-    field: Ok(carried_field("fields by scattered points", "scattered")),
-    colours: Ok(morph("pictures by scattered points", "scattered")),
+    field: Ok(carried_field("carried field (points)", "scattered")),
+    colours: Ok(morph("morph (points)", "scattered")),
 };
 
+/// Texts for [`WarpKind::Lattice`].
 const LATTICE: WarpLabels = WarpLabels {
     name: "B-spline lattices",
     solid: Err(NOTHING_TO_LOOK_UP),
-    field: Ok(carried_field("fields by lattices", "lattice")),
-    colours: Ok(morph("pictures by lattices", "lattice")),
+    field: Ok(carried_field("carried field (lattice)", "lattice")),
+    colours: Ok(morph("morph (lattice)", "lattice")),
 };
 
 #[cfg(test)]
@@ -204,10 +211,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_orders_have_every_warp_once() {
+    fn both_orders_list_every_warp_once() {
         for warp in WarpKind::ALL {
-            let places = WarpKind::BY_DEMAND.iter().filter(|other| **other == warp);
-            assert_eq!(places.count(), 1, "{warp:?}");
+            let entries = WarpKind::BY_DEMAND.iter().filter(|other| **other == warp);
+            assert_eq!(entries.count(), 1, "{warp:?}");
         }
     }
 }

@@ -1,32 +1,28 @@
-//! Warps by lattices: multilevel cubic B-splines.
+//! Lattice warp: multilevel cubic B-splines, optionally without folds.
 //!
-//! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel
-//! B-splines" (1997). At t the features lie on the straight lines
-//! (1−t) p + t q. From there, two maps lead to the source and to the target:
-//! layers of displacements, from a coarse lattice to finer ones, each of which
-//! leads the features nearer to where they belong.
+//! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel B-splines" (1997). At t the
+//! features lie at (1−t) p + t q. Two maps lead from there to the source and to the target. Each
+//! is a sequence of displacement layers on increasingly fine lattices, and each layer moves the
+//! features closer to their positions in the design.
 //!
-//! *Fold-free*, layers are **composed** and each control point's displacement
-//! is at most 0.48 of its lattice's spacing, which makes every layer, and so
-//! the whole, injective (Choi, Lee 2000). Otherwise layers are summed, as
-//! published, and the plane may fold: summed layers can fold though each is
-//! within its bound.
+//! In fold-free mode the layers are **composed** and each control point moves by at most 0.48 of
+//! the lattice spacing per axis. This makes every layer, and hence the composition, injective
+//! (Choi, Lee 2000). Otherwise the layers are summed as published, and the map may fold even if
+//! each layer respects the bound.
 //!
-//! Guaranteed: a frame cannot fail. At t = 0 the source, and at t = 1 the
-//! target, is looked up at the very same place, to the last bit. Swapping the
-//! designs plays the film backwards. Fold-free, the plane never folds,
-//! whatever the features do. Not guaranteed: that every feature is met;
-//! [`Lattice::residuals`] says by how much not. Features that meet on their
-//! way cannot be.
+//! Guaranteed: a frame cannot fail. At t = 0 each point shows its own source point and at t = 1
+//! its own target point, bit for bit. Exchanging the designs reverses the motion. In fold-free mode
+//! the map never folds, for any features. Not guaranteed: that every feature is interpolated;
+//! [`Lattice::residuals`] returns the errors. Features that meet on the way are always missed.
 //!
-//! Lattices reach one longer side of the frame beyond it, and displacements
-//! fade to zero there. Features farther than half of a longer side outside
-//! count less and less, and not at all from a whole one.
+//! Lattices extend beyond the frame by the length of its longer side, where displacements fade
+//! to zero. The influence of features outside the frame fades from half of that length onwards
+//! and vanishes at the full length.
 //!
-//! - `options`: how fine, and what may be wrong with it
-//! - `blocks`: control points where there are any
-//! - `layer`: one lattice
-//! - `tower`: layer upon layer
+//! - `options`: resolution, tolerance and their validation
+//! - `control_grid`: sparse storage of control points
+//! - `layer`: one B-spline lattice
+//! - `layer_stack`: the sequence of layers
 
 mod control_grid;
 mod layer;
@@ -45,15 +41,15 @@ use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use layer_stack::{LatticeDomain, LayerStack};
 
-/// Features missed by so many tolerances are told of: a thousandth of the
-/// frame unless another tolerance was chosen.
-const SEEN: f64 = 10.0;
+/// Error in tolerances above which a missed feature is reported (tolerance: with the default
+/// options a thousandth of the frame, which is barely visible).
+const REPORTED_ERROR: f64 = 10.0;
 
-/// How many places a core takes at a time.
-/// A place costs up to some hundred layers: fewer places than other warps take.
+/// Number of points per parallel work item (resource limit: scheduling overhead; a point may pass
+/// through a hundred layers).
 const CHUNK: usize = 256;
 
-/// The row *B-spline lattices*.
+/// Plane warp controlled by point pairs, with multilevel B-spline lattices.
 ///
 /// ```
 /// use morphospace::correspondence::PointPair;
@@ -74,17 +70,18 @@ const CHUNK: usize = 256;
 pub struct Lattice {
     features: WarpFeatures,
     ground: LatticeDomain,
-    /// To the source and to the target, as they last were.
+    /// Maps to the source and to the target at the most recent t.
     towers: [LayerStack; 2],
 }
 
 impl Lattice {
-    /// A warp by pairs of points, and by lines as
-    /// [`super::LINE_SAMPLES`] points each, in the coordinates of the frame.
+    /// Creates a warp from point pairs and line pairs in frame coordinates.
+    ///
+    /// Each line is sampled at [`super::LINE_SAMPLES`] points.
     ///
     /// # Errors
-    /// [`LatticeError`] on coordinates that are not finite, on options out of
-    /// range and on more than [`super::MAX_FEATURES`].
+    /// [`LatticeError`] if a coordinate is not finite, an option is out of range, or there are
+    /// more than [`super::MAX_FEATURES`] features.
     pub fn new(
         frame: &Bounds,
         points: &[PointPair],
@@ -100,24 +97,26 @@ impl Lattice {
         })
     }
 
-    /// The tolerance as a length.
+    /// Returns the tolerance as a length in plane units.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.ground.tolerance
     }
 
-    /// How far the looks from each feature at t are from its places in the
-    /// source and in the target: first points, then the samples of each line
-    /// from end to end. Builds the maps anew.
+    /// Returns each feature's distance at t from its source and its target position, in plane
+    /// units.
+    ///
+    /// Points come first, then the samples of each line. The maps are built anew for this.
     #[must_use]
     pub fn residuals(&self, t: f64) -> Vec<[f64; 2]> {
-        let mut now = self.clone();
-        now.build(t);
-        let [source, target] = &now.towers;
+        let mut at_t = self.clone();
+        at_t.build(t);
+        let [source, target] = &at_t.towers;
         let both = source.residuals().zip(target.residuals());
         both.map(<[f64; 2]>::from).collect()
     }
 
+    /// Builds both maps for time t.
     fn build(&mut self, t: f64) {
         let [source, target] = &mut self.towers;
         let (features, ground) = (&self.features, &self.ground);
@@ -150,10 +149,10 @@ impl PlaneWarp for Lattice {
     }
 
     fn missed(&self, t: f64) -> Option<MissedFeatures> {
-        let seen = SEEN * self.tolerance();
+        let limit = REPORTED_ERROR * self.tolerance();
         let residuals = self.residuals(t).into_iter().zip(self.features.at(t));
-        let off = residuals.map(|([a, b], (at, _))| (a.max(b), at));
-        let missed: Vec<_> = off.filter(|(by, _)| *by > seen).collect();
+        let errors = residuals.map(|([a, b], (at, _))| (a.max(b), at));
+        let missed: Vec<_> = errors.filter(|(error, _)| *error > limit).collect();
         let worst = missed.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(MissedFeatures {
             count: missed.len(),

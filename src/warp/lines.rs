@@ -1,34 +1,30 @@
-//! The warp by line features.
+//! Line warp: field morphing by pairs of line segments.
 //!
-//! Beier, Neely, "Feature-based image metamorphosis" (1992). A line PQ of the
-//! frame and its fellow P′Q′ of a design say of a place X, which lies u along
-//! and v across PQ (§3.1), that P′ + u P′Q′ + v n′ is seen there: u counts in
-//! lengths of the line, v in units, with its sign. Of many lines (§3.2) the
-//! weighted mean of the displacements D is taken,
+//! Beier, Neely, "Feature-based image metamorphosis" (1992). Let PQ be a line in the frame and
+//! P′Q′ the corresponding line in a design. A frame point X at u along and v across PQ (§3.1)
+//! shows the design point P′ + u P′Q′ + v n′, with u relative to the length and v an absolute,
+//! signed distance. For several lines (§3.2) the displacements D are averaged:
 //!
 //! X′ = X + Σ w D / Σ w,  w = (lengthᵖ / (a + dist))ᵇ,
 //!
-//! where dist is that to the segment. At t the lines of the frame lie between
-//! those of the two designs (§3.3), and both designs are looked up by them.
+//! where dist is the distance to the segment. At t the frame's lines lie between those of the
+//! two designs (§3.3), and each design is sampled with its own map.
 //!
-//! Beyond the paper, points count too: a pin is a line without direction and
-//! moves what is near it as it moves itself, with the weight of a line a
-//! tenth of the frame's diameter long. A line that shrinks to a thousandth of
-//! its fellow's length, or below, becomes such a point by and by; the paper's
-//! formula divides by that length.
+//! Two extensions of the paper: A pin is a line without direction. It translates its
+//! neighbourhood and weighs as much as a line of a tenth of the frame's diameter. A line that
+//! shrinks below a thousandth of the length of its counterpart turns gradually into such a
+//! point, because the paper's formula divides by the length.
 //!
-//! Guaranteed: at t = 0 every place is looked up in the source where it is,
-//! and at t = 1 in the target; a single pair of lines of one length is a rigid
-//! motion; swapping the designs plays the film backwards; finite features give
-//! finite places. Not guaranteed: that nothing folds. Lines that cross in the
-//! one design and not in the other must fold, and so may close lines that turn
-//! against each other.
+//! Guaranteed: at t = 0 each point shows its own source point and at t = 1 its own target point.
+//! A single pair of equally long lines gives a rigid motion. Exchanging the designs reverses the
+//! motion. Finite features give finite points. Not guaranteed: absence of folds. Lines that cross
+//! in only one design always fold, and so may nearby lines that rotate against each other.
 //!
-//! - `options`: the paper's constants, and what may be wrong
-//! - `between`: where a line is at t
-//! - `line`: a line with everything that a place needs of it
-//! - `scaled`: coordinates whose products neither overflow nor vanish
-//! - `kernel`: weights and the sums over lines, many places at a time
+//! - `options`: the paper's constants and their validation
+//! - `moving_line`: interpolation of a line at t
+//! - `line`: a line in the form used by the kernel
+//! - `scaled_plane`: coordinates scaled so that products neither overflow nor underflow
+//! - `kernel`: vectorised weights and sums over lines
 
 mod kernel;
 mod line;
@@ -52,26 +48,27 @@ use options::BeierNeelyConstants;
 use pulp::Arch;
 use scaled_plane::ScaledPlane;
 
-/// The length, in diameters of the frame, of a line that weighs as much as a
-/// pin: about that of the lines which people draw along a feature.
+/// Length of a line that weighs as much as a pin, in frame diameters: about the length of a line
+/// drawn along a feature (heuristic).
 const PIN_LENGTH: f64 = 0.1;
 
-/// How many places a thread takes at a time: some 0.1 ms of work.
+/// Number of points per parallel work item, about 0.1 ms of work (resource limit: scheduling
+/// overhead).
 const CHUNK: usize = 1024;
 
-/// A warp of the plane by pairs of lines and of points.
+/// Plane warp controlled by line pairs and point pairs.
 ///
 /// ```
 /// use morphospace::correspondence::LinePair;
 /// use morphospace::geometry::{Bounds, DVec2};
-/// use morphospace::warp::{LineOptions, Lines, PlaneWarp};
+/// use morphospace::warp::{LineOptions, LineWarp, PlaneWarp};
 ///
 /// let line = LinePair {
 ///     source: [DVec2::ZERO, DVec2::X],
 ///     target: [DVec2::Y, DVec2::Y + DVec2::X], // one up
 /// };
 /// let frame = Bounds { min: DVec2::NEG_ONE, max: DVec2::ONE };
-/// let mut lines = Lines::new(&frame, &[line], &[], &LineOptions::default())?;
+/// let mut lines = LineWarp::new(&frame, &[line], &[], &LineOptions::default())?;
 /// let [mut in_source, mut in_target] = [[DVec2::ZERO]; 2];
 /// lines.look_up(0.25, &[DVec2::ZERO], &mut in_source, &mut in_target);
 /// assert!(in_source[0].distance(DVec2::new(0.0, -0.25)) < 1e-15);
@@ -85,23 +82,24 @@ pub struct LineWarp {
     at_t: LinesAtTime,
 }
 
-/// The lines at a t, which move the plane together, into both designs.
+/// The lines of one frame, prepared for sampling both designs.
 #[derive(Clone, Debug)]
 struct LinesAtTime {
     arch: Arch,
     constants: BeierNeelyConstants,
     plane: ScaledPlane,
-    /// a, scaled.
+    /// The paper's constant a in scaled coordinates.
     a: f64,
     lines: Vec<FieldLine>,
 }
 
 impl LineWarp {
-    /// A warp by lines and pins, in the coordinates of the frame. Without any
-    /// nothing moves.
+    /// Creates a warp from lines and pins in frame coordinates.
+    ///
+    /// Without any lines or pins it is the identity.
     ///
     /// # Errors
-    /// [`LinesError`] if a coordinate is not finite or an option out of range.
+    /// [`LinesError`] if a coordinate is not finite or an option is out of range.
     pub fn new(
         frame: &Bounds,
         lines: &[LinePair],
@@ -112,21 +110,21 @@ impl LineWarp {
         check(points, lines)?;
         let line = |line: &LinePair| MovingLine::new(line.source, line.target);
         let pin = |pin: &PointPair| MovingLine::new([pin.source; 2], [pin.target; 2]);
-        // A pin has no length to be weighed by.
-        let nominal = |moving: MovingLine| {
+        // A pin has no length of its own that could determine its weight.
+        let with_nominal_length = |moving: MovingLine| {
             let length = moving.is_point().then_some(PIN_LENGTH * diameter);
             (moving, length)
         };
         let moving = lines.iter().map(line).chain(points.iter().map(pin));
         Ok(Self {
-            features: moving.map(nominal).collect(),
+            features: moving.map(with_nominal_length).collect(),
             between: options.between,
             at_t: LinesAtTime::new(options.constants(diameter)?),
         })
     }
 }
 
-/// The frame's diagonal; 1 for a frame that is a point.
+/// Returns the length of the frame's diagonal, or 1 for a frame of zero size.
 fn diameter(frame: &Bounds) -> Result<f64, FeatureError> {
     let size = frame.size();
     let diameter = size.x.hypot(size.y);
@@ -137,7 +135,7 @@ fn diameter(frame: &Bounds) -> Result<f64, FeatureError> {
 }
 
 impl LinesAtTime {
-    /// No lines yet.
+    /// Creates an empty set of lines.
     fn new(constants: BeierNeelyConstants) -> Self {
         Self {
             arch: Arch::new(),
@@ -148,12 +146,12 @@ impl LinesAtTime {
         }
     }
 
-    /// Replaces the lines. Those that overflowed on their way are left out.
+    /// Replaces the lines. Lines whose interpolation overflowed are left out.
     fn fill(&mut self, features: impl Iterator<Item = LineFeature> + Clone) {
         let features = features.filter(LineFeature::is_finite);
         self.plane = ScaledPlane::around(features.clone());
         let (plane, a) = (self.plane, self.constants.a * self.plane.per_unit);
-        // The kernel's weights are finite for an a in this range only.
+        // The kernel's weights are finite only for a in this range.
         self.a = a.clamp(LEAST_A, LARGEST_A);
         self.lines.clear();
         let lines = features.map(|feature| FieldLine::new(&plane.feature(&feature), a));
@@ -161,11 +159,11 @@ impl LinesAtTime {
         self.weigh();
     }
 
-    /// Makes strengths of lengths, relative to the greatest.
+    /// Replaces each line's length by its strength, (length / greatest length)^(b p).
     fn weigh(&mut self) {
         let lengths = self.lines.iter().map(|line| line.strength);
-        // A factor common to all weights cancels in Σ w D / Σ w, and no power
-        // of a share is above 1.
+        // A common factor cancels in Σ w D / Σ w, and dividing by the greatest length keeps the
+        // powers at or below 1.
         let greatest = lengths.fold(0.0, f64::max);
         let exponent = self.constants.b * self.constants.p;
         for line in &mut self.lines {
@@ -173,8 +171,9 @@ impl LinesAtTime {
         }
     }
 
-    /// Where each place is looked up in both designs. All slices are as long
-    /// as `places`, or what is beyond the shortest is left as it is.
+    /// Computes the points of both designs shown at `places`.
+    ///
+    /// If the slices differ in length, elements beyond the shortest are left unchanged.
     fn map_into(&self, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
         let lines = kernel::ScaledLines {
             lines: &self.lines,

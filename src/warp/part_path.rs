@@ -1,34 +1,36 @@
-//! Where the parts of a design are as wholes.
+//! Paths of the centroids of a design's parts.
 //!
-//! The design's centroid runs on a straight line C(t), and each part k moves
-//! with the whole, c_k(t) = C(t) + R(tΘ) ((1−t) d_k + t R(−Θ) e_k), with d_k
-//! and e_k its offsets in source and target. (On straight lines of their own,
-//! two parts of a design turned by π would meet.)
+//! The design's centroid moves on a straight line C(t), and the design rotates by tΘ about it.
+//! The centroid of part k follows
+//! c_k(t) = C(t) + R(tΘ) ((1−t) d_k + t R(−Θ) e_k), with d_k and e_k its offsets from the design's
+//! centroid in source and target. If each part moved on its own straight line instead, two parts
+//! of a design rotated by π would collide halfway.
 
 use crate::geometry::{DMat2, DVec2};
 
-/// The path of a part's centroid about that of the whole.
+/// Path of a part's centroid relative to the design's centroid.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PartPath {
-    /// d, the offset from the whole's centroid in the source.
+    /// Offset d from the design's centroid in the source.
     begin: DVec2,
-    /// R(−Θ) e, the offset in the target turned back.
+    /// Offset e in the target, rotated back: R(−Θ) e.
     turned_end: DVec2,
 }
 
 impl PartPath {
-    /// Paths of parts with the given centroids, `[source, target]`, and
-    /// masses in a whole that turns by `whole_angle`.
+    /// Returns the paths of parts with the given centroids `[source, target]` and masses, in a
+    /// design that rotates by `whole_angle` radians.
     pub(super) fn all(centres: &[[DVec2; 2]], mass: &[f64], whole_angle: f64) -> Vec<Self> {
         if let [_] = centres {
-            return vec![Self::default()]; // the only part is the whole
+            // A single part has exactly zero offset; computing it would leave rounding.
+            return vec![Self::default()];
         }
         let whole = centroid(centres.iter().copied(), mass);
         let path = |ends: &[DVec2; 2]| Self::of(*ends, whole, whole_angle);
         centres.iter().map(path).collect()
     }
 
-    /// The path between two places in a whole with the given centroid.
+    /// Returns the path between two points, given the design's centroid in both designs.
     pub(super) fn of([begin, end]: [DVec2; 2], [from, to]: [DVec2; 2], whole_angle: f64) -> Self {
         Self {
             begin: begin - from,
@@ -36,44 +38,47 @@ impl PartPath {
         }
     }
 
-    /// The offset from the whole's centroid.
+    /// Returns the offset from the design's centroid at t.
     pub(super) fn at(&self, t: f64, whole_angle: f64) -> DVec2 {
         self.at_share(t, t, whole_angle)
     }
 
-    /// The same where so much of its own way is done, from 0 to 1.
+    /// Returns the offset at t for a part that has completed `share` of its own motion.
+    ///
+    /// `share` runs from 0 to 1; the rotation with the design always follows t.
     pub(super) fn at_share(&self, t: f64, share: f64, whole_angle: f64) -> DVec2 {
-        let own = self.begin * (1.0 - share) + self.turned_end * share;
-        DMat2::from_angle(t * whole_angle) * own
+        let unrotated = self.begin * (1.0 - share) + self.turned_end * share;
+        DMat2::from_angle(t * whole_angle) * unrotated
     }
 
-    /// How far from its straight line the part is; exactly 0 at both ends.
+    /// Returns the deviation from the straight path at t; exactly 0 at both ends.
     pub(super) fn deviation(&self, t: f64, whole_angle: f64) -> DVec2 {
         let straight = self.begin * (1.0 - t) + self.at(1.0, whole_angle) * t;
         self.at(t, whole_angle) - straight
     }
 }
 
-/// The centroids in source and target of pairs of places with masses.
+/// Returns the centres of mass in source and target of point pairs with masses.
 pub(super) fn centroid(
-    places: impl Iterator<Item = [DVec2; 2]> + Clone,
+    points: impl Iterator<Item = [DVec2; 2]> + Clone,
     mass: &[f64],
 ) -> [DVec2; 2] {
     let total: f64 = mass.iter().sum();
     [0, 1].map(|side| {
-        let weighted = places.clone().zip(mass);
+        let weighted = points.clone().zip(mass);
         weighted.map(|(p, &m)| p[side] * (m / total)).sum()
     })
 }
 
-/// The angle of the rotation about the centroids that best takes places with
-/// masses from source to target, least squares, in (−π, π].
+/// Returns the best-fit rotation of weighted point pairs about their centroids.
+///
+/// The fit is least squares (Procrustes); the angle is in radians, in [−π, π].
 pub(super) fn rotation(
-    places: impl Iterator<Item = ([DVec2; 2], f64)>,
+    points: impl Iterator<Item = ([DVec2; 2], f64)>,
     [from, to]: [DVec2; 2],
 ) -> f64 {
     let (mut sin, mut cos) = (0.0, 0.0);
-    for ([p, q], m) in places {
+    for ([p, q], m) in points {
         sin += m * (p - from).perp_dot(q - to);
         cos += m * (p - from).dot(q - to);
     }

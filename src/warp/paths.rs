@@ -1,27 +1,23 @@
-//! Boundary paths: corresponding vertices of closed polygons move on paths of
-//! their own, without anything inside.
+//! Boundary paths: interpolation of matched closed polygons, without their interior.
 //!
-//! Either straight, or intrinsically (Sederberg, Gao, Wang, Mu, "2-D shape
-//! blending: an intrinsic solution to the vertex path problem", 1993, §3 and
-//! §4): lengths and directions of the edges are interpolated, so that what
-//! turns is not shortened on the way. Where a polygon is and how it lies as a
-//! whole is free then. Its centroid runs straight, several parts move with the
-//! design ([`super::part_path`]), and of the whole turns that a match leaves open
-//! those are taken that are nearest to the rotation that fits the designs
-//! best.
+//! Vertices move on straight lines or on intrinsic paths (Sederberg, Gao, Wang, Mu, "2-D shape
+//! blending: an intrinsic solution to the vertex path problem", 1993, §3 and §4). Intrinsic paths
+//! interpolate the lengths and directions of the edges, so that rotating limbs keep their length.
+//! This leaves the position of each polygon free: the design's centroid moves on a straight line
+//! and its parts move with the design ([`super::part_path`]). It also leaves whole turns free:
+//! the ones nearest to the best-fit rotation of the designs are chosen.
 //!
-//! Guaranteed: at t = 0 and t = 1 the designs to the last bit; for |t| up to
-//! 1e75 finite vertices, whatever the polygons are; by intrinsic paths a
-//! rotated and moved copy moves rigidly, one of another size stays similar;
-//! swapping the designs plays the film backwards. Not guaranteed: that the
-//! polygons do not cross themselves or each other in between; a half turn has
-//! two equal films.
+//! Guaranteed: at t = 0 and t = 1 the designs, bit for bit. Vertices are finite for |t| up to
+//! 1e75 and any polygons. On intrinsic paths a rotated and translated copy moves rigidly, and a
+//! scaled copy stays similar. Exchanging the designs reverses the motion. Not guaranteed: that
+//! polygons do not cross themselves or each other. For a rotation by π two directions are
+//! equally good, and rounding decides.
 //!
-//! - `options`: what comes in, and what may be wrong with it
-//! - `turning`: continuous angles along a ring
-//! - `ring`: one ring by its edges, and how it is closed
+//! - `options`: input types, options and validation
+//! - `turning`: continuous edge angles along a ring
+//! - `ring`: interpolation of one ring and closing of its gap
 //! - `part`: an outer ring with its holes
-//! - `whole`: all parts, and where they are
+//! - `intrinsic`: all parts and their positions
 
 mod intrinsic;
 mod options;
@@ -40,16 +36,17 @@ use options::check;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Boundary paths, ready to be played.
+/// Boundary paths of matched polygons. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::geometry::DVec2;
-/// use morphospace::warp::{PathOptions, Paths, RingPair, Warp};
+/// use morphospace::warp::{BoundaryPaths, PathOptions, RingPair, Warp};
 ///
 /// let source = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
 /// let turn = DVec2::from_angle(3.0);
 /// let target = source.iter().map(|&p| turn.rotate(p)).collect();
-/// let paths = Paths::new(&[vec![RingPair { source, target }]], PathOptions::default())?;
+/// let pair = RingPair { source, target };
+/// let paths = BoundaryPaths::new(&[vec![pair]], PathOptions::default())?;
 /// let mut placer = paths.placer();
 /// placer.place(0.5);
 /// let at = &placer.placement().in_frame;
@@ -63,20 +60,21 @@ pub struct BoundaryPaths(Arc<BoundaryPathData>);
 struct BoundaryPathData {
     source: Vec<DVec2>,
     target: Vec<DVec2>,
-    /// Each ring as a range of vertices.
+    /// Range of vertices of each ring.
     rings: Vec<Range<u32>>,
-    /// Nothing where the paths are straight.
+    /// Intrinsic paths, or `None` if the paths are straight.
     intrinsic: Option<IntrinsicPaths>,
 }
 
 impl BoundaryPaths {
-    /// Takes parts, each an outer ring and its holes. The vertices of the
-    /// placement are those of all rings, in order. Cost: of the order of the
-    /// number of vertices, and for each hole of those around it.
+    /// Creates the paths of parts, each an outer ring followed by its holes.
+    ///
+    /// The vertices of the placement are those of all rings in order. The cost is linear in the
+    /// number of vertices, plus the vertices of the outer ring for each hole.
     ///
     /// # Errors
-    /// [`PathsError`] names the ring that has no vertices, not as many in both
-    /// designs, or a point out of range.
+    /// [`PathsError`] with the first ring that has no vertices, different numbers of vertices in
+    /// the two designs, or a coordinate out of range.
     pub fn new(parts: &[Vec<RingPair>], options: PathOptions) -> Result<Self, PathsError> {
         check(parts)?;
         let all = |of: fn(&RingPair) -> &Vec<DVec2>| -> Vec<DVec2> {
@@ -99,8 +97,7 @@ impl BoundaryPaths {
         })))
     }
 
-    /// The rings as walks over the vertices of the placement, in the order in
-    /// which they were given.
+    /// Returns each ring as a list of vertex indices of the placement, in input order.
     #[must_use]
     pub fn loops(&self) -> Vec<Vec<u32>> {
         self.0
@@ -119,7 +116,7 @@ impl Warp for BoundaryPaths {
             let BoundaryPathData { source, target, .. } = &*paths;
             let out = &mut placement.in_frame;
             match &paths.intrinsic {
-                // The ends are the designs themselves, not sums of edges.
+                // Exact ends: summing the edges would introduce rounding.
                 _ if t == 0.0 => out.copy_from_slice(source),
                 _ if t == 1.0 => out.copy_from_slice(target),
                 Some(intrinsic) => intrinsic.write(t, out),

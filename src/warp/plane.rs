@@ -1,8 +1,8 @@
-//! Warps of the whole plane: two maps from the frame, one into each design.
+//! Inverse warps of the whole plane, evaluated on a grid.
 //!
-//! Both are inverse warps: for each place of the frame they say which point of
-//! a design is seen there, so that no hole opens. They are evaluated on a grid
-//! that covers the frame and are taken as linear on its triangles.
+//! A plane warp consists of two maps from the frame, one into each design. Each map returns
+//! the design point shown at a frame point, so that the frame is covered without gaps. The
+//! maps are evaluated at the corners of a grid and interpolated linearly in its triangles.
 
 use super::{MissedFeatures, Placement, Placer, Warp};
 use crate::geometry::{Bounds, DVec2};
@@ -10,13 +10,15 @@ use rayon::prelude::*;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// A family of warps by features: points or lines that lie somewhere between
-/// those of the source and those of the target at t. It holds the memory of
-/// the frame that it was last at; whoever plays it plays a copy.
+/// A plane warp controlled by features (points or lines).
+///
+/// At t the features lie between their source and target positions. The warp reuses its
+/// memory from call to call, so each evaluator works on its own clone.
 pub trait PlaneWarp: Clone + Debug + Send + Sync + 'static {
-    /// Where to look in the source and in the target for each place of the
-    /// frame at t. All slices have one length. Cannot fail: whatever the
-    /// features are and wherever they meet, places are finite.
+    /// Computes the source and target point shown at each point of `frame` at t.
+    ///
+    /// All slices have the same length. The results are finite for all features, even for
+    /// features that meet.
     fn look_up(
         &mut self,
         t: f64,
@@ -25,13 +27,13 @@ pub trait PlaneWarp: Clone + Debug + Send + Sync + 'static {
         in_target: &mut [DVec2],
     );
 
-    /// The features that are missed at t by more than is asked for.
+    /// Returns the features that the maps miss at t by more than their tolerance.
     fn missed(&self, _t: f64) -> Option<MissedFeatures> {
         None
     }
 }
 
-/// Looks up so many places at a time, over all cores.
+/// Evaluates `look` on chunks of `size` frame points, in parallel.
 pub(super) fn in_chunks(
     size: usize,
     frame: &[DVec2],
@@ -45,7 +47,7 @@ pub(super) fn in_chunks(
     chunks.for_each(|(places, (source, target))| look(places, [source, target]));
 }
 
-/// A rectangle divided into columns and rows of two triangles each.
+/// Regular grid of nearly square cells over a rectangle, two triangles per cell.
 #[derive(Clone, Debug)]
 pub struct PlaneGrid {
     faces: Arc<[[u32; 3]]>,
@@ -53,7 +55,7 @@ pub struct PlaneGrid {
 }
 
 impl PlaneGrid {
-    /// `frame` in squares, about `cells` along its longer side; at least one.
+    /// Covers `frame` with about `cells` cells along its longer side, at least one.
     #[must_use]
     pub fn covering(frame: &Bounds, cells: u32) -> Self {
         let size = frame.size();
@@ -69,7 +71,7 @@ impl PlaneGrid {
             let a = j * (columns + 1) + i;
             let (b, d) = (a + 1, a + columns + 1);
             let c = d + 1;
-            // Diagonals alternate, so that none of the two directions rules.
+            // Alternating diagonals avoid a directional bias.
             if (i + j).is_multiple_of(2) {
                 [[a, b, c], [a, c, d]]
             } else {
@@ -83,19 +85,19 @@ impl PlaneGrid {
         }
     }
 
-    /// The triangles, by the corners of the cells.
+    /// Returns the triangles as indices into [`Self::places`].
     pub(super) fn faces(&self) -> Arc<[[u32; 3]]> {
         Arc::clone(&self.faces)
     }
 
-    /// The corners of the cells, row by row from below.
+    /// Returns the cell corners, row by row from the bottom.
     #[must_use]
     pub fn places(&self) -> &[DVec2] {
         &self.places
     }
 }
 
-/// A plane warp on a grid: a row of the table.
+/// Plane warp sampled on a grid, which makes it a [`Warp`].
 #[derive(Debug)]
 pub struct GridWarp<W> {
     warp: W,
@@ -103,7 +105,7 @@ pub struct GridWarp<W> {
 }
 
 impl<W: PlaneWarp> GridWarp<W> {
-    /// The warp as it is seen in a frame.
+    /// Samples `warp` at the corners of `grid`.
     pub const fn new(warp: W, grid: PlaneGrid) -> Self {
         Self { warp, grid }
     }

@@ -1,15 +1,13 @@
-//! A warp of the plane split into a rigid motion and an elastic rest.
+//! Warps composed of a common rigid motion and an elastic remainder.
 //!
-//! Cohen-Or, Levin, Solomovici, "Three-dimensional distance field
-//! metamorphosis" (1998), §4: the rotation that lays the source's features
-//! onto the target's is played as a rotation, and only what it leaves over is
-//! a warp. A thing that turns does not shrink on the way, as it does where its
-//! features go straight.
+//! After Cohen-Or, Levin, Solomovici, "Three-dimensional distance field metamorphosis" (1998),
+//! §4: the best rotation of the source features onto the target features is applied as a
+//! rotation, and only the remaining displacement is warped. A rotating shape therefore keeps
+//! its size, whereas features on straight lines would shrink it.
 //!
-//! Guaranteed: whatever the features, at t = 0 the source and at t = 1 the
-//! target is looked up at the very same place, to the last bit; swapping the
-//! designs plays the film backwards, to rounding, unless the turn is by π, which
-//! goes counter-clockwise either way; features that only moved and turned move
+//! Guaranteed: at t = 0 each point shows its own source point and at t = 1 its own target point,
+//! bit for bit. Exchanging the designs reverses the motion up to rounding, except that a rotation
+//! by π is counter-clockwise in both directions. Features that differ by a rigid motion move
 //! rigidly.
 
 use super::rigid_motion::{CommonRigidMotion, conjugate};
@@ -18,21 +16,22 @@ use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use std::sync::Arc;
 
-/// A warp of the plane behind a rigid motion.
+/// Plane warp composed of a rigid motion and an elastic plane warp.
 #[derive(Clone, Debug)]
 pub struct RigidElasticPlaneWarp<W> {
     rigid: CommonRigidMotion,
     elastic: W,
-    /// The places as the elastic warp sees them.
+    /// Frame points of the current frame in rest coordinates.
     rest: Vec<DVec2>,
 }
 
 impl<W> RigidElasticPlaneWarp<W> {
-    /// Splits off `rigid`; `elastic` makes the warp of what is left, over a
-    /// frame at rest and from the features at rest.
+    /// Splits off `rigid` and builds the elastic warp of the remaining displacements.
+    ///
+    /// `elastic` receives the frame and the features in rest coordinates.
     ///
     /// # Errors
-    /// Whatever `elastic` fails with.
+    /// The error of `elastic`.
     pub fn new<E>(
         rigid: CommonRigidMotion,
         frame: &Bounds,
@@ -83,7 +82,7 @@ impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
         for (places, from_rest) in looks.into_iter().zip(self.rigid.maps_from_rest()) {
             places.iter_mut().for_each(|p| *p = from_rest(*p));
         }
-        // The ends are the designs themselves, not the designs to rounding.
+        // Exact ends, free of the rounding of the two rotations.
         if t == 0.0 {
             in_source.copy_from_slice(frame);
         }
@@ -100,8 +99,9 @@ impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
     }
 }
 
-/// A warp whose vertices keep the points that they show, such as
-/// [`super::Arap`], built at rest and played behind a rigid motion.
+/// A mesh warp built in rest coordinates and composed with a rigid motion.
+///
+/// For warps whose vertices show fixed points of the designs, such as [`super::Arap`].
 #[derive(Clone, Debug)]
 pub struct RigidElasticWarp<W> {
     rigid: CommonRigidMotion,
@@ -109,12 +109,12 @@ pub struct RigidElasticWarp<W> {
 }
 
 impl<W: Warp> RigidElasticWarp<W> {
-    /// Plays `at_rest` behind `rigid`.
+    /// Composes the warp `at_rest` with the motion `rigid`.
     pub const fn new(rigid: CommonRigidMotion, at_rest: W) -> Self {
         Self { rigid, at_rest }
     }
 
-    /// The warp behind the motion.
+    /// Returns the warp in rest coordinates.
     pub const fn at_rest(&self) -> &W {
         &self.at_rest
     }
@@ -157,18 +157,18 @@ mod tests {
         max: DVec2::new(2.0, 2.0),
     };
 
-    fn places() -> Vec<DVec2> {
+    fn frame_points() -> Vec<DVec2> {
         let at = |k: u32| DVec2::new(f64::from(k % 5) - 2.0, f64::from(k / 5) - 2.0);
         (0..25).map(at).collect()
     }
 
-    fn looked<W: PlaneWarp>(warp: &W, t: f64, frame: &[DVec2]) -> [Vec<DVec2>; 2] {
+    fn lookups<W: PlaneWarp>(warp: &W, t: f64, frame: &[DVec2]) -> [Vec<DVec2>; 2] {
         let [mut source, mut target] = [frame.to_vec(), frame.to_vec()];
         warp.clone().look_up(t, frame, &mut source, &mut target);
         [source, target]
     }
 
-    fn moved(points: &[DVec2], turn: f64, by: DVec2) -> Vec<PointPair> {
+    fn rigid_pairs(points: &[DVec2], turn: f64, by: DVec2) -> Vec<PointPair> {
         let to = |p: &DVec2| DVec2::from_angle(turn).rotate(*p) + by;
         points
             .iter()
@@ -195,9 +195,9 @@ mod tests {
     ];
 
     #[test]
-    fn what_only_turned_moves_rigidly() {
+    fn features_that_differ_by_a_rigid_motion_move_rigidly() {
         for turn in [0.3, 2.0, -3.0, PI] {
-            let pairs = moved(&CORNERS, turn, DVec2::new(0.4, -0.2));
+            let pairs = rigid_pairs(&CORNERS, turn, DVec2::new(0.4, -0.2));
             let lattice = {
                 let rigid = CommonRigidMotion::of(&pairs, &[]).expect("two places");
                 RigidElasticPlaneWarp::new(rigid, &FRAME, &pairs, &[], |frame, points, lines| {
@@ -205,13 +205,13 @@ mod tests {
                 })
                 .expect("a warp")
             };
-            let frame = places();
+            let frame = frame_points();
             for t in [0.0, 0.3, 0.5, 0.8, 1.0, 1.4] {
-                for seen in [
-                    looked(&thin_plate(&pairs), t, &frame),
-                    looked(&lattice, t, &frame),
+                for both in [
+                    lookups(&thin_plate(&pairs), t, &frame),
+                    lookups(&lattice, t, &frame),
                 ] {
-                    for side in &seen {
+                    for side in &both {
                         for (k, p) in side.iter().enumerate() {
                             for (l, q) in side.iter().enumerate() {
                                 let (apart, wanted) = (p.distance(*q), frame[k].distance(frame[l]));
@@ -226,11 +226,11 @@ mod tests {
 
     #[test]
     fn the_ends_are_exact() {
-        let mut pairs = moved(&CORNERS, 1.3, DVec2::new(0.3, 0.1));
+        let mut pairs = rigid_pairs(&CORNERS, 1.3, DVec2::new(0.3, 0.1));
         pairs[2].target += DVec2::new(0.2, -0.4);
-        let (warp, frame) = (thin_plate(&pairs), places());
-        assert_eq!(looked(&warp, 0.0, &frame)[0], frame);
-        assert_eq!(looked(&warp, 1.0, &frame)[1], frame);
+        let (warp, frame) = (thin_plate(&pairs), frame_points());
+        assert_eq!(lookups(&warp, 0.0, &frame)[0], frame);
+        assert_eq!(lookups(&warp, 1.0, &frame)[1], frame);
     }
 
     fn pairs() -> impl Strategy<Value = Vec<PointPair>> {
@@ -241,22 +241,22 @@ mod tests {
 
     proptest! {
         #[test]
-        fn swapped_is_backwards_and_finite(pairs in pairs(), t in 0.0..1.0) {
-            let back: Vec<PointPair> = pairs
+        fn exchanged_designs_reverse_the_motion_and_stay_finite(pairs in pairs(), t in 0.0..1.0) {
+            let exchanged: Vec<PointPair> = pairs
                 .iter()
                 .map(|p| PointPair { source: p.target, target: p.source })
                 .collect();
-            let frame = places();
-            let there = looked(&thin_plate(&pairs), t, &frame);
-            let returned = looked(&thin_plate(&back), 1.0 - t, &frame);
-            // Near half a turn the way around is a matter of rounding.
-            let turn = CommonRigidMotion::of(&pairs, &[]).expect("two places").turn();
+            let frame = frame_points();
+            let forward = lookups(&thin_plate(&pairs), t, &frame);
+            let backward = lookups(&thin_plate(&exchanged), 1.0 - t, &frame);
+            // Near half a turn rounding decides the direction of rotation.
+            let turn = CommonRigidMotion::of(&pairs, &[]).expect("two points").turn();
             prop_assume!(turn.abs() < 3.1);
             for k in 0..frame.len() {
-                prop_assert!(there[0][k].is_finite() && there[1][k].is_finite());
-                let scale = 1.0 + there[0][k].length() + there[1][k].length();
-                prop_assert!(there[0][k].distance(returned[1][k]) < 1e-5 * scale);
-                prop_assert!(there[1][k].distance(returned[0][k]) < 1e-5 * scale);
+                prop_assert!(forward[0][k].is_finite() && forward[1][k].is_finite());
+                let scale = 1.0 + forward[0][k].length() + forward[1][k].length();
+                prop_assert!(forward[0][k].distance(backward[1][k]) < 1e-5 * scale);
+                prop_assert!(forward[1][k].distance(backward[0][k]) < 1e-5 * scale);
             }
         }
     }

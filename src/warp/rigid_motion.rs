@@ -1,67 +1,79 @@
-//! The rigid motion that the features of two designs have in common.
+//! The rigid motion common to all features, split off before a plane warp is built.
 //!
-//! Guaranteed: exchanging the designs turns the motion back, to rounding,
-//! unless it turns by π, which goes counter-clockwise either way.
+//! It is the rotation about the features' centroids that fits their target positions best in
+//! the least-squares sense (two-dimensional Procrustes problem). The remaining, elastic
+//! displacement is expressed "at rest": in coordinates in which both designs are centred and
+//! rotated to the halfway angle.
+//!
+//! Guaranteed: exchanging the designs inverts the motion up to rounding, except that a rotation
+//! by π is counter-clockwise in both directions.
 
 use crate::correspondence::{LinePair, PointPair, RegionMatch};
 use crate::geometry::{Bounds, DVec2};
-use crate::settings::choice::named;
+use crate::settings::named;
 
-/// How the features of a warp of the plane travel.
+/// How the features of a plane warp move between the designs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FeatureTravel {
-    /// As a whole where fields are seen; straight where pictures are, whose
-    /// borders would turn into the frame.
+    /// [`Self::Whole`] for fields and [`Self::Straight`] for pictures, whose borders would
+    /// otherwise rotate into the frame.
     #[default]
     Auto,
-    /// The rigid motion that they have in common is played as one, and only
-    /// the rest goes straight.
+    /// The common rigid motion is applied as a rotation; only the remaining displacement is
+    /// interpolated linearly.
     Whole,
-    /// Each goes straight.
+    /// Every feature moves on a straight line.
     Straight,
 }
 
 named! { FeatureTravel {
-    Auto: "auto", "Auto", "As a whole where fields are seen, straight where pictures are.";
-    Whole: "whole", "As a whole",
-        "What turns keeps its size on the way; the borders of pictures turn too.";
+    Auto: "auto", "Auto", "Rotate together for fields, move straight for pictures.";
+    Whole: "whole", "Rotate together",
+        "Rotating shapes keep their size; the borders of pictures rotate too.";
     Straight: "straight", "Straight",
-        "Each goes the shortest way; what turns far shrinks on the way.";
+        "Features move on straight lines; shapes that rotate far shrink on the way.";
 } }
 
-/// The rigid motion that lays features of the source onto those of the target
-/// best, in the sense of least squares: about one centre onto another.
+/// Best rigid motion of the source features onto the target features (least squares).
+///
+/// It rotates about the source centroid and moves that centroid to the target centroid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommonRigidMotion {
-    /// The mean of the features, in the source and in the target.
+    /// Centroid of the features in the source and in the target.
     pub(super) centres: [DVec2; 2],
-    /// From source to target, in radians, counter-clockwise, in (−π, π].
+    /// Rotation from source to target in radians, counter-clockwise, in (−π, π].
     pub(super) turn: f64,
 }
 
-/// At so many steps a motion is looked at.
-/// At most 12° a step, between which a corner bulges by half a percent of its
-/// distance.
-const SWEPT: u32 = 16;
+/// Number of steps for the swept bounds.
+///
+/// Derived: a step covers at most 12°, and the arc between two samples bulges by at most half
+/// a percent of the corner's distance from the centre.
+const SWEEP_STEPS: u32 = 16;
 
-/// Features whose turns cancel to less than this share have none in common.
+/// Relative size of the summed rotation below which it has no direction (tolerance: rounding of
+/// a sum that cancels).
 const NO_TURN: f64 = 1e-9;
 
-/// Turns so near π are π: rounding must not choose the way around.
-const HALF_A_TURN: f64 = 1e-9;
+/// Difference from π in radians below which a rotation counts as π (tolerance: rounding must
+/// not choose the direction).
+const HALF_TURN_TOLERANCE: f64 = 1e-9;
 
 impl CommonRigidMotion {
-    /// The best motion for some features, a line counting as its two ends;
-    /// none where there are fewer than two places or one is not finite.
+    /// Fits the motion to features; a line counts as its two ends.
+    ///
+    /// Returns `None` if the features leave the rotation undetermined (fewer than two distinct
+    /// points) or a coordinate is not finite.
     ///
     /// ```
-    /// use morphospace::{correspondence::PointPair, geometry::DVec2, warp::RigidPart};
+    /// use morphospace::{correspondence::PointPair, geometry::DVec2, warp::CommonRigidMotion};
     /// let pair = |x, y| PointPair {
     ///     source: DVec2::new(x, y),
     ///     target: DVec2::new(x, y).perp(),
     /// };
-    /// let turned = RigidPart::of(&[pair(0.0, 0.0), pair(1.0, 0.0)], &[]).expect("two points");
+    /// let pairs = [pair(0.0, 0.0), pair(1.0, 0.0)];
+    /// let turned = CommonRigidMotion::of(&pairs, &[]).expect("two points");
     /// assert!((turned.turn() - 0.5 * std::f64::consts::PI).abs() < 1e-12);
     /// ```
     #[must_use]
@@ -84,32 +96,33 @@ impl CommonRigidMotion {
             sum += DVec2::new(p.dot(q), p.perp_dot(q));
             size += p.length() * q.length();
         }
-        // Written so that NaN is refused too: no features give a mean of 0 / 0.
+        // The negated comparison also rejects NaN: without features the mean is 0 / 0.
         if !(sum.is_finite() && sum.length() > NO_TURN * size) {
             return None;
         }
         let turn = sum.to_angle();
-        let is_half = std::f64::consts::PI - turn.abs() < HALF_A_TURN;
+        let is_half_turn = std::f64::consts::PI - turn.abs() < HALF_TURN_TOLERANCE;
         Some(Self {
             centres,
-            turn: if is_half { turn.abs() } else { turn },
+            turn: if is_half_turn { turn.abs() } else { turn },
         })
     }
 
-    /// The rotation from source to target, in radians, in (−π, π].
+    /// Returns the rotation from source to target in radians, in (−π, π].
     #[must_use]
     pub fn turn(&self) -> f64 {
         self.turn
     }
 
-    /// The rotation from the frame at `t` to rest, and the centre then.
+    /// Returns the rotation from the frame at `t` to rest coordinates, as a unit complex
+    /// number, and the centre in the frame.
     pub(super) fn at(&self, t: f64) -> (DVec2, DVec2) {
-        // At rest is halfway: +½ of the turn away at t = 0, −½ at t = 1.
+        // Rest is the halfway angle: +½ turn away at t = 0, −½ turn at t = 1.
         let back = DVec2::from_angle((0.5 - t) * self.turn);
         (back, self.centres[0] * (1.0 - t) + self.centres[1] * t)
     }
 
-    /// A match as it would be had nothing moved or turned.
+    /// Returns the boundary match with all points in rest coordinates.
     #[must_use]
     pub fn match_at_rest(&self, matched: &RegionMatch) -> RegionMatch {
         let mut matched = matched.clone();
@@ -121,8 +134,9 @@ impl CommonRigidMotion {
         matched
     }
 
-    /// A frame of the same size where `frame` is at rest, so that options that
-    /// count in frames keep their meaning.
+    /// Returns a frame of the same size, centred on `frame` in rest coordinates.
+    ///
+    /// The size is unchanged because options are relative to the frame's size.
     #[must_use]
     pub fn frame_at_rest(&self, frame: &Bounds) -> Bounds {
         let [a, b] = self.at_rest(frame.centre(), frame.centre());
@@ -133,14 +147,14 @@ impl CommonRigidMotion {
         }
     }
 
-    /// The box around all places that the motion leads the frame of either
-    /// design through, nearly.
+    /// Returns the bounding box of the frame of both designs during the motion.
+    ///
+    /// The motion is sampled, so the box may be too small by about half a percent.
     #[must_use]
     pub fn swept(&self, frame: &Bounds) -> Bounds {
         let mut swept = *frame;
-        // The frame as either design has it at rest.
-        for k in 0..=SWEPT {
-            let t = f64::from(k) / f64::from(SWEPT);
+        for k in 0..=SWEEP_STEPS {
+            let t = f64::from(k) / f64::from(SWEEP_STEPS);
             let (back, centre) = self.at(t);
             for corner in frame.corners() {
                 for rest in self.at_rest(corner, corner) {
@@ -151,7 +165,7 @@ impl CommonRigidMotion {
         swept
     }
 
-    /// Leads places from rest back into the source and into the target.
+    /// Returns the maps from rest coordinates to the source and to the target.
     pub(super) fn maps_from_rest(&self) -> [impl Fn(DVec2) -> DVec2; 2] {
         let half = DVec2::from_angle(0.5 * self.turn);
         let [source, target] = self.centres;
@@ -159,8 +173,10 @@ impl CommonRigidMotion {
             .map(|(turn, centre)| move |p: DVec2| turn.rotate(p) + centre)
     }
 
-    /// The features as they would be had nothing moved or turned: both about
-    /// the origin, the target turned back by half and the source on by half.
+    /// Converts a source point and a target point to rest coordinates.
+    ///
+    /// Both are centred on the origin; the source is rotated forwards by half the turn and the
+    /// target backwards by half.
     pub(super) fn at_rest(&self, source: DVec2, target: DVec2) -> [DVec2; 2] {
         let half = DVec2::from_angle(0.5 * self.turn);
         [
@@ -170,7 +186,7 @@ impl CommonRigidMotion {
     }
 }
 
-/// The rotation back.
+/// Returns the inverse of a rotation given as a unit complex number.
 pub(super) fn conjugate(z: DVec2) -> DVec2 {
     DVec2::new(z.x, -z.y)
 }
@@ -180,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn places_without_a_direction_have_no_rigid_part() {
+    fn points_without_a_direction_have_no_rigid_motion() {
         let pair = |x: f64, y: f64| PointPair {
             source: DVec2::splat(x),
             target: DVec2::splat(y),

@@ -1,26 +1,22 @@
-//! Warps by scattered points: radial basis functions.
+//! Scattered-point warp: interpolation of pins with radial basis functions.
 //!
-//! Ruprecht, Müller, "Image warping with scattered data interpolation" (1995);
-//! thin plates: Duchon (1977), Bookstein, "Principal warps" (1989). At t the
-//! features lie on the straight lines (1−t) p + t q. From there, two maps
-//! lead to the source and to the target: each an identity, plus an affine
-//! part, plus Σ cᵢ φ(|x − xᵢ|), that takes every feature to its place. Both
-//! have the same centres, so that a frame is one factorisation.
+//! Ruprecht, Müller, "Image warping with scattered data interpolation" (1995); thin plates after
+//! Duchon (1977) and Bookstein, "Principal warps" (1989). At t the features lie at (1−t) p + t q.
+//! Two maps lead from there to the source and to the target. Each adds an affine function and
+//! Σ cᵢ φ(|x − xᵢ|) to the identity, such that every feature is mapped to its own position. Both
+//! maps have the same centres, so a frame needs one factorisation.
 //!
-//! Guaranteed: a frame cannot fail. At t = 0 the source, and at t = 1 the
-//! target, is looked up at the very same place, to the last bit. Without
-//! smoothing, features are met, but for those that the plane would have to be
-//! more than twenty times as steep for: features that meet on their way give
-//! way to each other without a jump (`places`). Swapping the designs plays the
-//! film backwards. No feature is the identity, one a translation, two a
-//! similarity.
-//! Not guaranteed: that the plane does not fold; see [`super::Lattice`] for
-//! that.
+//! Guaranteed: a frame cannot fail. At t = 0 each point shows its own source point and at t = 1
+//! its own target point, bit for bit. Without smoothing the map interpolates all features, unless
+//! that requires a slope above 20; features that meet on the way are separated continuously
+//! (`centres`). Exchanging the designs reverses the motion. No feature gives the identity, one
+//! feature a translation, two a similarity.
+//! Not guaranteed: absence of folds; [`super::Lattice`] guarantees that.
 //!
-//! - `options`: the functions to choose from, and what may be wrong
-//! - `places`: where the features are, made ready, and those that meet
-//! - `system`: what is solved, and what is done where that is singular
-//! - `kernel`: the functions, many distances at a time
+//! - `options`: choice and parameters of the radial function
+//! - `centres`: preparation of the features, including those that nearly meet
+//! - `system`: the linear system and its regularisation
+//! - `kernel`: vectorised evaluation of the radial functions
 
 mod centres;
 mod kernel;
@@ -38,19 +34,19 @@ use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use system::RadialSolver;
 
-/// How many places a core takes at a time.
+/// Number of points per parallel work item (resource limit: scheduling overhead).
 const CHUNK: usize = 1024;
 
-/// The row *scattered points*.
+/// Plane warp controlled by point pairs, with radial basis functions.
 ///
 /// ```
 /// use morphospace::correspondence::PointPair;
 /// use morphospace::geometry::{Bounds, DVec2};
-/// use morphospace::warp::{PlaneWarp, Scattered, ScatteredOptions};
+/// use morphospace::warp::{PlaneWarp, ScatteredOptions, ScatteredWarp};
 ///
 /// let frame = Bounds { min: DVec2::ZERO, max: DVec2::ONE };
 /// let pair = PointPair { source: DVec2::ZERO, target: DVec2::X };
-/// let mut warp = Scattered::new(&frame, &[pair], &[], ScatteredOptions::default())?;
+/// let mut warp = ScatteredWarp::new(&frame, &[pair], &[], ScatteredOptions::default())?;
 /// let (mut source, mut target) = ([DVec2::ZERO], [DVec2::ZERO]);
 /// warp.look_up(0.25, &[DVec2::ONE], &mut source, &mut target);
 /// assert_eq!(source, [DVec2::new(0.75, 1.0)]);
@@ -64,12 +60,13 @@ pub struct ScatteredWarp {
 }
 
 impl ScatteredWarp {
-    /// A warp by pairs of points, and by lines as [`super::LINE_SAMPLES`] points
-    /// each, in the coordinates of the frame.
+    /// Creates a warp from point pairs and line pairs in frame coordinates.
+    ///
+    /// Each line is sampled at [`super::LINE_SAMPLES`] points.
     ///
     /// # Errors
-    /// [`ScatteredError`] on coordinates that are not finite, on options out
-    /// of range and on more than [`super::MAX_FEATURES`].
+    /// [`ScatteredError`] if a coordinate is not finite, an option is out of range, or there are
+    /// more than [`super::MAX_FEATURES`] features.
     pub fn new(
         frame: &Bounds,
         points: &[PointPair],

@@ -1,42 +1,43 @@
-//! Rigid parts that make their way in their own time: one sets out later,
-//! another is there sooner.
+//! Rigid interpolation in which each connected part has its own timing.
 //!
-//! A part is at t where the plain film has it at another time, which its
-//! [`PartClock`] tells. The film of the parts is the same, and so are its ends;
-//! what the whole does between them, each part does when its time has come. Since
-//! parts do not touch, a frame is one solve, however many clocks there are. Where
-//! an anchor holds the film, it is held in the time of the anchor's part.
+//! At t a part is shown where the unstaggered interpolation has it at the time that the part's
+//! [`PartClock`] returns. Each part thus follows its usual path and only starts later or arrives
+//! earlier; the ends of the motion are unchanged. Parts share no vertices, so a frame still takes
+//! a single solve, however many clocks there are. An anchor vertex is fixed according to the
+//! clock of its own part.
 
 use super::{Arap, Placer, Warp};
-use crate::time::easing::{EasingFunction, NamedEasing};
+use crate::time::{EasingFunction, NamedEasing};
 use std::sync::Arc;
 
-/// When a part makes its way: it waits until `from`, arrives at `to`, and runs
-/// in between as `easing` says. Beyond [0, 1] it goes on as the whole does.
+/// Time window and easing with which one part moves.
+///
+/// The part waits until `from`, moves with `easing`, and has arrived at `to`. Outside [0, 1] it
+/// extrapolates like the other parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartClock {
-    /// When it sets out, from 0.
+    /// Time at which the part starts, at least 0.
     pub from: f64,
-    /// When it arrives, later than that, up to 1.
+    /// Time at which the part arrives, later than `from` and at most 1.
     pub to: f64,
-    /// How it runs in between.
+    /// Easing between the two.
     pub easing: EasingFunction,
 }
 
 impl PartClock {
-    /// That of the whole.
+    /// Clock of a part that moves during the whole transition at constant speed.
     pub const WHOLE: Self = Self {
         from: 0.0,
         to: 1.0,
         easing: EasingFunction::Named(NamedEasing::Linear),
     };
 
-    /// The time that it shows at `t`: exactly 0 and 1 at the ends.
+    /// Returns the time at which the part is evaluated in frame `t`; exactly 0 and 1 at the ends.
     ///
     /// ```
-    /// use morphospace::time::easing::Easing;
-    /// use morphospace::warp::Clock;
-    /// let late = Clock { from: 0.5, to: 1.0, easing: Easing::Linear.into() };
+    /// use morphospace::time::NamedEasing;
+    /// use morphospace::warp::PartClock;
+    /// let late = PartClock { from: 0.5, to: 1.0, easing: NamedEasing::Linear.into() };
     /// assert_eq!([0.0, 0.5, 0.75, 1.0].map(|t| late.at(t)), [0.0, 0.0, 0.5, 1.0]);
     /// ```
     #[must_use]
@@ -48,12 +49,13 @@ impl PartClock {
         self.easing.apply(share)
     }
 
-    /// When it shows a time within [0, 1].
+    /// Returns the frame time at which the part reaches `time` in [0, 1], the inverse of
+    /// [`Self::at`].
     pub(crate) fn when(&self, time: f64) -> f64 {
         self.from + (self.to - self.from) * self.easing.inverse(time)
     }
 
-    /// The same in the film that is run backwards.
+    /// Returns the clock for the reversed motion.
     #[must_use]
     pub fn backwards(&self) -> Self {
         Self {
@@ -64,53 +66,58 @@ impl PartClock {
     }
 }
 
-/// Rigid parts with a clock each.
+/// Rigid interpolation with one clock per connected part.
 #[derive(Clone, Debug)]
 pub struct StaggeredArap {
     arap: Arap,
     clocks: Arc<[PartClock]>,
-    /// For each connected part the number of its clock.
-    of_parts: Arc<[u32]>,
-    /// For each vertex its connected part.
-    of_vertices: Arc<[u32]>,
+    /// Index of the clock of each connected part.
+    clock_of_part: Arc<[u32]>,
+    /// Index of the connected part of each vertex.
+    part_of_vertex: Arc<[u32]>,
 }
 
 impl StaggeredArap {
-    /// The same film, in which the connected parts of the mesh have these clocks,
-    /// each by its number; that of the whole beyond the list.
+    /// Assigns clocks to the connected parts of the mesh.
+    ///
+    /// `clock_of_part` holds an index into `clocks` for each part. Parts with `None`, and parts
+    /// beyond the end of the list, use [`PartClock::WHOLE`].
     ///
     /// # Panics
-    /// If there is no clock of a number.
+    /// If an index is out of range.
     #[must_use]
-    pub fn new(arap: Arap, clocks: &[PartClock], of_parts: &[Option<usize>]) -> Self {
+    pub fn new(arap: Arap, clocks: &[PartClock], clock_of_part: &[Option<usize>]) -> Self {
         let clocks: Arc<[PartClock]> = clocks.iter().copied().chain([PartClock::WHOLE]).collect();
         let whole = clocks.len() - 1;
-        let of_vertices: Arc<[u32]> = arap.mesh().components().into();
-        let count = of_vertices
+        let part_of_vertex: Arc<[u32]> = arap.mesh().components().into();
+        let count = part_of_vertex
             .iter()
             .max()
             .map_or(0, |&last| last as usize + 1);
-        let of_part = |part: usize| of_parts.get(part).copied().flatten().unwrap_or(whole) as u32;
-        let of_parts: Arc<[u32]> = (0..count).map(of_part).collect();
+        let index = |part: usize| {
+            let chosen = clock_of_part.get(part).copied().flatten();
+            chosen.unwrap_or(whole) as u32
+        };
+        let clock_of_part: Arc<[u32]> = (0..count).map(index).collect();
         assert!(
-            of_parts.iter().all(|&k| (k as usize) < clocks.len()),
-            "a clock for each number"
+            clock_of_part.iter().all(|&k| (k as usize) < clocks.len()),
+            "clock indices are in range"
         );
         Self {
             arap,
             clocks,
-            of_parts,
-            of_vertices,
+            clock_of_part,
+            part_of_vertex,
         }
     }
 
-    /// The film in which every part goes by the clock of the whole.
+    /// Returns the underlying interpolation, without clocks.
     #[must_use]
     pub fn arap(&self) -> &Arap {
         &self.arap
     }
 
-    /// The same clocks for another film of the same parts.
+    /// Applies the same clocks to another interpolation of the same parts.
     #[must_use]
     pub(crate) fn of(&self, arap: Arap) -> Self {
         Self {
@@ -119,7 +126,7 @@ impl StaggeredArap {
         }
     }
 
-    /// The same for the film of the exchanged designs.
+    /// Returns the reversed motion, given the interpolation `arap` of the exchanged designs.
     #[must_use]
     pub(crate) fn backwards(&self, arap: Arap) -> Self {
         Self {
@@ -129,31 +136,36 @@ impl StaggeredArap {
         }
     }
 
-    /// The clock of a vertex.
+    /// Returns the clock of the part that contains a vertex.
     #[must_use]
     pub fn clock(&self, vertex: u32) -> PartClock {
-        let part = self.of_vertices[vertex as usize];
-        self.clocks[self.of_parts[part as usize] as usize]
+        let part = self.part_of_vertex[vertex as usize];
+        self.clocks[self.clock_of_part[part as usize] as usize]
     }
 }
 
 impl Warp for StaggeredArap {
     fn placer(&self) -> Placer {
-        let of_parts = Arc::clone(&self.of_parts);
+        let clock_of_part = Arc::clone(&self.clock_of_part);
         let clocks = Arc::clone(&self.clocks);
         self.arap
-            .placer_by(move |part, t| clocks[of_parts[part] as usize].at(t))
+            .placer_by(move |part, t| clocks[clock_of_part[part] as usize].at(t))
     }
 
     fn breaks(&self) -> Vec<f64> {
-        let of_parts = self.of_parts.iter().enumerate();
-        let breaks = of_parts.flat_map(|(part, &clock)| {
+        let parts = self.clock_of_part.iter().enumerate();
+        let breaks = parts.flat_map(|(part, &clock)| {
             let clock = self.clocks[clock as usize];
-            let life = self.arap.lives().get(part).copied().flatten();
-            let lives = life.into_iter().flat_map(|life| [life.from, life.to]);
-            let within = lives.chain(self.arap.guard_times().iter().copied());
-            let when = move |share: f64| clock.when(share);
-            [clock.from, clock.to].into_iter().chain(within.map(when))
+            let window = self.arap.lives().get(part).copied().flatten();
+            let window_ends = window
+                .into_iter()
+                .flat_map(|window| [window.from, window.to]);
+            let part_times = window_ends.chain(self.arap.guard_times().iter().copied());
+            // The part's own break times occur when its clock shows them.
+            let when = move |time: f64| clock.when(time);
+            [clock.from, clock.to]
+                .into_iter()
+                .chain(part_times.map(when))
         });
         breaks.collect()
     }
@@ -167,13 +179,13 @@ mod tests {
     use crate::warp::ArapOptions;
     use crate::work::progress::Silent;
 
-    /// Two triangles far apart that turn and go up.
+    /// Returns an interpolation of two distant triangles that rotate and move up.
     fn film() -> Arap {
-        let one = [DVec2::ZERO, DVec2::X, DVec2::Y];
-        let source: Vec<DVec2> = one
+        let triangle = [DVec2::ZERO, DVec2::X, DVec2::Y];
+        let source: Vec<DVec2> = triangle
             .iter()
             .copied()
-            .chain(one.map(|p| p + 5.0 * DVec2::X))
+            .chain(triangle.map(|p| p + 5.0 * DVec2::X))
             .collect();
         let turn = DMat2::from_angle(0.8);
         let target = source.iter().map(|&p| turn * p + 3.0 * DVec2::Y).collect();
@@ -182,7 +194,7 @@ mod tests {
         Arap::build(&mesh, &ArapOptions::default(), &Silent).expect("a film")
     }
 
-    fn at(warp: &dyn Warp, t: f64) -> Vec<DVec2> {
+    fn positions(warp: &dyn Warp, t: f64) -> Vec<DVec2> {
         let mut placer = warp.placer();
         placer.place(t);
         placer.placement().in_frame.clone()
@@ -195,27 +207,30 @@ mod tests {
     };
 
     #[test]
-    fn a_part_is_where_the_plain_film_has_it_when_its_time_has_come() {
+    fn a_part_follows_the_plain_motion_at_the_time_of_its_clock() {
         let film = film();
         let late = StaggeredArap::new(film.clone(), &[LATE], &[None, Some(0)]);
         for t in [0.0, 0.3, 0.5, 0.8, 1.0, 1.2, -0.4] {
-            let (plain, own) = (at(&film, t), at(&film, LATE.at(t)));
-            let expected: Vec<DVec2> = plain[..3].iter().chain(&own[3..]).copied().collect();
-            assert_eq!(at(&late, t), expected, "{t}");
+            let (plain, delayed) = (positions(&film, t), positions(&film, LATE.at(t)));
+            let expected: Vec<DVec2> = plain[..3].iter().chain(&delayed[3..]).copied().collect();
+            assert_eq!(positions(&late, t), expected, "{t}");
         }
         let mesh = film.mesh();
-        assert_eq!(at(&late, 0.2)[3..], mesh.source()[3..]);
-        assert_eq!(at(&late, 1.0), mesh.target());
+        assert_eq!(positions(&late, 0.2)[3..], mesh.source()[3..]);
+        assert_eq!(positions(&late, 1.0), mesh.target());
     }
 
     #[test]
-    fn backwards_is_the_same_film() {
+    fn the_reversed_motion_shows_the_same_frames() {
         let film = film();
         let late = StaggeredArap::new(film.clone(), &[LATE], &[Some(0)]);
         let back = film.swapped(&Silent).expect("the film backwards");
         let back = late.backwards(back);
         for t in [0.1, 0.5, 0.75, 0.9] {
-            for (p, q) in at(&late, t).into_iter().zip(at(&back, 1.0 - t)) {
+            for (p, q) in positions(&late, t)
+                .into_iter()
+                .zip(positions(&back, 1.0 - t))
+            {
                 assert!(p.distance(q) < 1e-12, "{t}: {p} {q}");
             }
         }

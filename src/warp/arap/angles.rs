@@ -1,34 +1,34 @@
-//! One consistent rotation angle for each face.
+//! Consistent rotation angles of all faces.
 //!
-//! A polar decomposition gives θ modulo 2π only. Across a shared edge the two
-//! angles truly differ by less than π, since a stretch turns no vector by a
-//! right angle; so walking from face to face and taking the representative
-//! nearest to the neighbour's gives one answer, whatever the order. What
-//! stays free is a whole number of turns for each part (a dual component).
+//! A polar decomposition determines the angle θ only modulo 2π. Across a shared edge the two angles
+//! differ by less than π, because a stretch rotates no vector by a right angle or more.
+//! Propagating from face to face and taking the representative nearest to the neighbour's therefore
+//! gives a unique result, independent of the order. A whole number of turns remains free for each
+//! edge-connected component (here called a part).
 
 use crate::mesh::Connectivity;
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-/// Angles that do not fit together.
+/// Inconsistent rotation angles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AngleError {
-    /// Around some hole the angles add up to whole turns, so that no
-    /// continuous choice exists.
+    /// The angle changes by whole turns around a hole, so that no continuous choice exists. Holds
+    /// two adjacent faces with a jump.
     #[error(
-        "between faces {} and {} the rotation jumps: the target is wound around a hole of the source; cut the ring open there",
+        "the rotation jumps between faces {} and {}, because the target winds around a hole of the source; cut the ring open there",
         .0[0] + 1, .0[1] + 1
     )]
     Winding([usize; 2]),
 }
 
-/// `angle` plus the whole turns that bring it nearest to `reference`.
+/// Returns `angle` plus the whole turns that bring it nearest to `reference`.
 pub(super) fn nearest_branch(angle: f64, reference: f64) -> f64 {
     angle + TAU * ((reference - angle) / TAU).round()
 }
 
-/// Adds whole turns to `angles`, one a face, until neighbours agree.
+/// Adds whole turns to `angles`, one per face, such that neighbours differ by less than π.
 ///
 /// # Errors
 /// [`AngleError::Winding`] if the angles wind around a hole.
@@ -42,7 +42,7 @@ pub(super) fn make_consistent(
         if std::mem::replace(&mut done[seed], true) {
             continue;
         }
-        // A new part starts with whatever turn it has; `choose_turns` decides.
+        // The first face of a part keeps its angle; `choose_turns` adjusts the part later.
         queue.push_back(seed);
         while let Some(face) = queue.pop_front() {
             for other in (0..3).filter_map(|k| connectivity.neighbour(face, k)) {
@@ -53,14 +53,15 @@ pub(super) fn make_consistent(
             }
         }
     }
-    // The walk meets each edge of a tree; the edges that close a loop tell
-    // whether the angles wind around it.
+    // The traversal fixes the edges of a spanning tree. A jump at any other edge means that the
+    // angles wind around a hole.
     match first_jump(connectivity, angles) {
         Some(faces) => Err(AngleError::Winding(faces)),
         None => Ok(()),
     }
 }
 
+/// Returns the first pair of neighbours whose angles differ by more than π.
 fn first_jump(connectivity: &Connectivity, angles: &[f64]) -> Option<[usize; 2]> {
     (0..angles.len())
         .flat_map(|face| (0..3).map(move |k| (face, k)))
@@ -68,9 +69,11 @@ fn first_jump(connectivity: &Connectivity, angles: &[f64]) -> Option<[usize; 2]>
         .find(|&[a, b]| (angles[a] - angles[b]).abs() > PI)
 }
 
-/// Chooses the turns of each part: the first with its mean angle in (−π, π],
-/// the others nearest to the best-fit rotation `whole` of the design. Returns
-/// `whole` on the branch that goes with the first part.
+/// Chooses the whole turns of each part.
+///
+/// The mean angle of the first part is brought into (−π, π], those of the others nearest to the
+/// best-fit rotation `whole` of the design. `extra_turns` are added afterwards. Returns `whole`
+/// on the branch of the first part.
 pub(super) fn choose_turns(
     angles: &mut [f64],
     areas: &[f64],
@@ -84,19 +87,19 @@ pub(super) fn choose_turns(
         let sum = &mut sums[part as usize];
         *sum = (sum.0 + area * angle, sum.1 + area);
     }
-    // Faces are positive, so that no part has an area of 0.
+    // Faces have positive area, so no part has an area of 0.
     let means: Vec<f64> = sums.iter().map(|(sum, area)| sum / area).collect();
     let first = means.first().map_or(whole, |&mean| {
         let reduced = nearest_branch(mean, 0.0);
-        // `round` may leave −π, whose film would go the other way than that of π.
+        // Rounding may give −π, which would rotate in the opposite direction to π.
         if reduced <= -PI {
             reduced + TAU
         } else {
             reduced
         }
     });
-    // The first part is on its own branch; the others follow it by way of the
-    // whole, or a part of ±170° would go around the other way than its fellow.
+    // The other parts follow the whole, which follows the first part. Otherwise two parts at +170°
+    // and −170° would rotate in opposite directions.
     let whole = nearest_branch(whole, first);
     let extra = |part: usize| match extra_turns {
         [all] => f64::from(*all),
@@ -115,7 +118,7 @@ pub(super) fn choose_turns(
         })
         .collect();
     for (angle, &part) in angles.iter_mut().zip(part_of) {
-        // Whole turns exactly, so that equal angles stay equal.
+        // Rounds to exact whole turns, so that equal angles stay equal.
         *angle += TAU * (offsets[part as usize] / TAU).round();
     }
     whole + TAU * extra(0)

@@ -1,11 +1,12 @@
-//! Local maps, weights and the matrix of the energy.
+//! Assembly of the energy: local maps, weights and the matrix K.
 //!
-//! W_T = w_A I one-sided; W_T = ½ (w_A I + w_B (MᵀM)⁻¹) symmetric, which
-//! makes one matrix of the energies of both directions: (MᵀM)⁻¹ takes the gradients
-//! in the source to what they are in the target. A bar that lies in no
-//! face is a two-point element: its local map is the similarity that takes
-//! the bar from source to target, and with area weights its energy is
-//! ½ |Δv − e(t)|², an area like length²/2 times a relative stretch squared.
+//! The weight of a face is W_T = w_A I in the one-sided energy and
+//! W_T = ½ (w_A I + w_B (MᵀM)⁻¹) in the symmetric one. The factor (MᵀM)⁻¹ converts gradients in the
+//! source to gradients in the target, so that a single matrix serves both directions.
+//!
+//! A bar that belongs to no face is a two-point element. Its local map is the similarity that takes
+//! the bar from source to target. With area weights its energy is ½ |Δv − e(t)|², which corresponds
+//! to an area of length²/2 times a squared relative stretch.
 
 use super::angles::{self, choose_turns};
 use super::options::{ArapError, ArapOptions, FaceWeights};
@@ -16,23 +17,24 @@ use crate::geometry::{DMat2, DVec2, PolarDecomposition, twice_signed_area};
 use crate::numerics::SymmetricMatrix;
 use crate::warp::part_path::{centroid, rotation};
 
-/// One face: its local map and W g for its second and third vertex; the first
-/// has minus their sum.
+/// Local map and weighted gradients of one face.
+///
+/// Gradients are stored for the second and third vertex; the first has minus their sum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceMap {
     pub map: PolarDecomposition,
-    /// Gradients of the hat functions of the second and third vertex.
+    /// Gradients of the hat functions of the second and third vertex in the source.
     pub gradients: DMat2,
-    /// W times them.
+    /// Weighted gradients W g.
     pub weighted: DMat2,
     /// Gradients of the same hat functions in the target.
     pub target_gradients: DMat2,
-    /// What |∇|² counts in source and target: W is the sum of both.
+    /// Factors of |∇|² in source and target, whose sum makes up W.
     pub weights: [f64; 2],
 }
 
 impl FaceMap {
-    /// Between faces with these corners, in source and target.
+    /// Creates the map of a face with the given corners in source and target.
     fn new(map: PolarDecomposition, sides: [[DVec2; 3]; 2], weights: [f64; 2]) -> Self {
         let [gradients, target_gradients] = sides.map(gradients);
         let back = edges(sides[0]) * edges(sides[1]).inverse();
@@ -45,47 +47,53 @@ impl FaceMap {
         }
     }
 
-    /// What it adds to K, of each two of its vertices. Summed over both designs, it stays
-    /// positive where W does not: of a mesh of two icons, some faces were 1e14 times as
-    /// long as wide in one, and what was left of the smaller stiffness was rounding.
+    /// Returns the face's 3×3 contribution to K.
+    ///
+    /// Source and target contributions are computed separately and added. This stays positive
+    /// for extremely thin faces, for which rounding would destroy the smaller stiffness in W.
     fn energy(&self) -> [[f64; 3]; 3] {
         let sides = [self.gradients, self.target_gradients].map(with_first);
-        let of = |i: usize, j: usize| {
-            let side = |s: usize| self.weights[s] * sides[s][i].dot(sides[s][j]);
-            side(0) + side(1)
+        let entry = |i: usize, j: usize| {
+            let of_side = |s: usize| self.weights[s] * sides[s][i].dot(sides[s][j]);
+            of_side(0) + of_side(1)
         };
-        [0, 1, 2].map(|i| [0, 1, 2].map(|j| of(i, j)))
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
     }
 }
 
-/// One bar in no face, or one edge of an outline.
+/// Local map of a two-point element: a bar that belongs to no face, or a boundary edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ElementMap {
+    /// Vertices at both ends.
     pub ends: [u32; 2],
-    /// The bar's vector in the source.
+    /// Vector between the ends in the source.
     pub vector: DVec2,
+    /// Rotation from source to target, in radians.
     pub angle: f64,
-    /// Length in the target by length in the source.
+    /// Ratio of the length in the target to the length in the source.
     pub stretch: f64,
+    /// Factor of |Δv − e(t)|² in the energy.
     pub stiffness: f64,
 }
 
-/// Everything that the energy is made of, independent of t.
+/// All quantities of the energy that do not depend on t.
 #[derive(Clone, Debug)]
 pub(super) struct LocalMaps {
     pub faces: Vec<FaceMap>,
+    /// Bars, followed by boundary edges.
     pub elements: Vec<ElementMap>,
-    /// How many dual components the faces have.
+    /// Number of edge-connected components of the faces.
     pub part_count: usize,
-    /// The rotation of the design as a whole.
+    /// Rotation of the whole design in radians.
     pub whole_angle: f64,
-    /// Fixed vertex masses: the mean of the normalised lumped areas.
+    /// Mass of each vertex: the lumped area, normalised in each design and averaged.
     pub masses: Vec<f64>,
-    /// What the weight of each face is multiplied with; 1 beyond the list.
+    /// Factor of each face's weight; 1 beyond the end of the list.
     pub stiffness: Vec<f64>,
 }
 
 impl LocalMaps {
+    /// Computes the local maps of a mesh, with consistent angles.
     pub(super) fn new(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
@@ -103,7 +111,7 @@ impl LocalMaps {
             &mut face_angles,
             &areas.face_masses(),
             &part_of,
-            best_fit_angle(mesh, &counted(mesh, &masses, lives)),
+            best_fit_angle(mesh, &permanent_masses(mesh, &masses, lives)),
             &options.extra_turns,
         );
         let faces = (0..maps.len())
@@ -142,35 +150,34 @@ impl LocalMaps {
         })
     }
 
-    /// With the weights of the faces multiplied by these numbers instead.
+    /// Replaces the stiffness factors of the faces.
     pub(super) fn stiffened(mut self, by: &[f64]) -> Self {
         let before = std::mem::replace(&mut self.stiffness, by.to_vec());
-        let factor = |of: &[f64], face: usize| of.get(face).copied().unwrap_or(1.0);
+        let factor = |stiffness: &[f64], face: usize| stiffness.get(face).copied().unwrap_or(1.0);
         for (k, face) in self.faces.iter_mut().enumerate() {
-            let times = factor(by, k) / factor(&before, k);
-            face.weighted *= times;
-            face.weights = face.weights.map(|weight| weight * times);
+            let ratio = factor(by, k) / factor(&before, k);
+            face.weighted *= ratio;
+            face.weights = face.weights.map(|weight| weight * ratio);
         }
         self
     }
 
-    /// With the angles of the film that is run backwards, turned the other
-    /// way, instead of angles chosen anew.
-    pub(super) fn turning_back(mut self, there: &Self) -> Self {
-        for (face, other) in self.faces.iter_mut().zip(&there.faces) {
+    /// Replaces the angles by the negated angles of the interpolation in the other direction.
+    pub(super) fn turning_back(mut self, forward: &Self) -> Self {
+        for (face, other) in self.faces.iter_mut().zip(&forward.faces) {
             face.map.angle = -other.map.angle;
         }
-        for (element, other) in self.elements.iter_mut().zip(&there.elements) {
+        for (element, other) in self.elements.iter_mut().zip(&forward.elements) {
             element.angle = -other.angle;
         }
-        self.whole_angle = -there.whole_angle;
+        self.whole_angle = -forward.whole_angle;
         self
     }
 
-    /// K, made regular by grounding one vertex of each connected component.
-    /// The right-hand sides add up to zero over a component, so that a
-    /// grounded vertex stays exactly where it is and the choice of the ground
-    /// has no influence.
+    /// Returns K with one vertex of each connected component grounded, which makes it regular.
+    ///
+    /// The right-hand sides sum to zero over a component. A grounded vertex therefore has zero
+    /// deviation, and the choice of the vertex only translates the component.
     pub(super) fn matrix(
         &self,
         mesh: &CompatibleMesh,
@@ -188,7 +195,7 @@ impl LocalMaps {
         matrix
     }
 
-    /// K, which does not know where connected components are.
+    /// Returns K without grounding, which is singular: components may translate freely.
     pub(super) fn free_matrix(
         &self,
         mesh: &CompatibleMesh,
@@ -199,10 +206,10 @@ impl LocalMaps {
         matrix
     }
 
-    /// What faces and bars give of K, and what of it stands on the diagonal.
+    /// Returns the contributions of faces and elements to K, and their diagonal.
     fn energy(&self, mesh: &CompatibleMesh) -> (SymmetricMatrix, Vec<f64>) {
         let n = mesh.source().len();
-        // Six entries a face; three a bar, and one for the ground.
+        // Six entries per face; three per element and one for grounding.
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
         let mut diagonal = vec![0.0; n];
         for (face, map) in mesh.faces().iter().zip(&self.faces) {
@@ -226,7 +233,7 @@ impl LocalMaps {
     }
 }
 
-/// The gradients or weighted gradients of all three vertices.
+/// Returns the gradients of all three vertices from those of the second and third.
 pub(super) fn with_first(of_second_and_third: DMat2) -> [DVec2; 3] {
     let (second, third) = (of_second_and_third.x_axis, of_second_and_third.y_axis);
     [-second - third, second, third]
@@ -236,21 +243,24 @@ fn corners(points: &[DVec2], face: [u32; 3]) -> [DVec2; 3] {
     face.map(|v| points[v as usize])
 }
 
+/// Returns the edge matrix, with the edges from the first corner as columns.
 fn edges([a, b, c]: [DVec2; 3]) -> DMat2 {
     DMat2::from_cols(b - a, c - a)
 }
 
-/// Columns: the gradients of the second and third hat function, which are the
-/// rows of the inverse edge matrix.
+/// Returns the gradients of the second and third hat function as columns.
+///
+/// They are the rows of the inverse edge matrix.
 fn gradients(corners: [DVec2; 3]) -> DMat2 {
     edges(corners).inverse().transpose()
 }
 
-/// M = D_Q D_P⁻¹.
+/// Returns the map M = D_Q D_P⁻¹ of a face, with its edge matrices D in source and target.
 fn local_map(mesh: &CompatibleMesh, face: [u32; 3]) -> DMat2 {
     edges(corners(mesh.target(), face)) * edges(corners(mesh.source(), face)).inverse()
 }
 
+/// Returns the local map of a bar.
 fn element_map(
     mesh: &CompatibleMesh,
     ends: [u32; 2],
@@ -261,8 +271,7 @@ fn element_map(
     let along = |points: &[DVec2]| points[ends[1] as usize] - points[ends[0] as usize];
     let (p, q) = (along(mesh.source()), along(mesh.target()));
     let (length_p, length_q) = (p.length_squared(), q.length_squared());
-    // The weight of a side is length²/2 or 1, and the element's |Δv − e|² is
-    // divided by that side's length².
+    // The weight in each design is length²/2 or 1, and |Δv − e|² is divided by length².
     let side = |length: f64| if by_area { 0.5 } else { 1.0 / length };
     let stiffness = if symmetric {
         0.5 * (side(length_p) + side(length_q))
@@ -278,7 +287,7 @@ fn element_map(
     }
 }
 
-/// Areas of faces and, as length²/2, of elements; source, then target.
+/// Areas of faces and elements in source and target; a bar counts as length²/2.
 struct MeshAreas {
     faces: [Vec<f64>; 2],
     elements: [Vec<f64>; 2],
@@ -308,13 +317,14 @@ impl MeshAreas {
         self.faces[side].iter().chain(&self.elements[side]).sum()
     }
 
-    /// The mean of both sides' shares of each face.
+    /// Returns the mass of each face: its fraction of the total area, averaged over both designs.
     fn face_masses(&self) -> Vec<f64> {
         let (a, b) = (self.total(0), self.total(1));
         let sides = self.faces[0].iter().zip(&self.faces[1]);
         sides.map(|(&p, &q)| 0.5 * (p / a + q / b)).collect()
     }
 
+    /// Returns the mass of each vertex, with faces and elements lumped to their corners.
     fn vertex_masses(&self, mesh: &CompatibleMesh) -> Vec<f64> {
         let (a, b) = (self.total(0), self.total(1));
         let mut masses = vec![0.0; mesh.source().len()];
@@ -330,28 +340,34 @@ impl MeshAreas {
     }
 }
 
-/// The masses without those of parts that are points in one of the designs:
-/// they say nothing of how it turns.
-fn counted(mesh: &CompatibleMesh, masses: &[f64], lives: &[Option<TimeWindow>]) -> Vec<f64> {
+/// Returns the masses with those of transient parts set to zero.
+///
+/// Parts that are points in one of the designs have no information about its rotation. If all
+/// parts are transient, the masses are unchanged.
+fn permanent_masses(
+    mesh: &CompatibleMesh,
+    masses: &[f64],
+    lives: &[Option<TimeWindow>],
+) -> Vec<f64> {
     if lives.iter().all(Option::is_none) {
         return masses.to_vec();
     }
     let is_point = |part: u32| lives.get(part as usize).is_some_and(Option::is_some);
     let parts = mesh.components();
-    let each = masses.iter().zip(&parts);
-    let counted: Vec<f64> = each
+    let vertices = masses.iter().zip(&parts);
+    let permanent: Vec<f64> = vertices
         .map(|(&m, &part)| if is_point(part) { 0.0 } else { m })
         .collect();
-    if counted.iter().all(|&m| m == 0.0) {
+    if permanent.iter().all(|&m| m == 0.0) {
         return masses.to_vec();
     }
-    counted
+    permanent
 }
 
-/// The rotation that best takes the source onto the target, in (−π, π].
+/// Returns the best-fit rotation from source to target in radians, in [−π, π].
 fn best_fit_angle(mesh: &CompatibleMesh, masses: &[f64]) -> f64 {
-    let places = mesh.source().iter().zip(mesh.target());
-    let places = places.map(|(&p, &q)| [p, q]);
-    let centroids = centroid(places.clone(), masses);
-    rotation(places.zip(masses.iter().copied()), centroids)
+    let vertices = mesh.source().iter().zip(mesh.target());
+    let pairs = vertices.map(|(&p, &q)| [p, q]);
+    let centroids = centroid(pairs.clone(), masses);
+    rotation(pairs.zip(masses.iter().copied()), centroids)
 }

@@ -1,22 +1,23 @@
-//! When the connected parts of a film are.
+//! The time at which each connected part is evaluated in a frame.
 
 use std::ops::Range;
 
-/// The time of everything.
+/// Evaluation times of all parts and vertices in one frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum EvaluationTimes<'a> {
-    /// One for all.
+    /// One time for all parts.
     Even(f64),
-    /// One for each connected part.
+    /// A separate time for each connected part.
     OfParts {
+        /// Time of each part.
         parts: &'a [f64],
-        /// The same for each vertex.
+        /// Time of the part of each vertex.
         vertices: &'a [f64],
     },
 }
 
 impl EvaluationTimes<'_> {
-    /// The time of a connected part.
+    /// Returns the time of a connected part.
     pub(super) fn of_part(self, part: usize) -> f64 {
         match self {
             Self::Even(t) => t,
@@ -24,7 +25,7 @@ impl EvaluationTimes<'_> {
         }
     }
 
-    /// The time of a vertex.
+    /// Returns the time of a vertex.
     pub(super) fn of_vertex(self, vertex: usize) -> f64 {
         match self {
             Self::Even(t) => t,
@@ -33,7 +34,7 @@ impl EvaluationTimes<'_> {
     }
 }
 
-/// Times that say themselves for each part.
+/// Memory for separate times of the parts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PartTimeBuffer {
     parts: Vec<f64>,
@@ -41,7 +42,10 @@ pub(super) struct PartTimeBuffer {
 }
 
 impl PartTimeBuffer {
-    /// Those of so many parts, whose vertices are in these ranges.
+    /// Sets the times of `count` parts.
+    ///
+    /// `time` returns the time of a part. `runs` are ranges of vertices with their parts, which
+    /// together cover every vertex.
     pub(super) fn set(
         &mut self,
         count: usize,

@@ -1,17 +1,14 @@
-//! The right-hand side of a frame: Σ (M(t) − M_linear(t)) W g.
+//! Vectorised right-hand sides of a frame: Σ (M(t) − M_linear(t)) W g.
 //!
-//! M_linear(t) is (1−t) M(0) + t M(1), so that its sum over the faces of a
-//! vertex is on the straight line between the sums of M(0) and of M(1), which
-//! are kept. They were computed by the operations of every other frame, so
-//! that the difference is exactly zero at both ends.
+//! M_linear(t) = (1−t) M(0) + t M(1), so its sum at a vertex is interpolated between the sums for
+//! M(0) and M(1), which are precomputed. They are computed with the same operations as any other
+//! frame, so that the difference is exactly zero at both ends.
 //!
-//! Many faces at a time, in the layout that the loop reads; what can be
-//! computed from little is not stored, since a frame of a large mesh is bound
-//! by memory. The loop is compiled for several widths of vectors and one is
-//! chosen at run time; the results are the same for all of them.
-//! [`crate::warp::homotopy::Homotopy::at`] is the plain form of the same formulas,
-//! and the tests hold the two together. Maps that are not each on its own come from
-//! [`Bounded`].
+//! Faces are processed in blocks whose layout matches the loop. Quantities that are cheap to
+//! compute are not stored, because frames of large meshes are limited by memory bandwidth. The loop
+//! is compiled for several vector widths, with identical results, and one is chosen at run time.
+//! [`crate::warp::homotopy::Homotopy::at`] is the scalar form of the same formulas; the tests
+//! compare the two. Maps with bounded distortion depend on all faces and come from [`Bounded`].
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
 use super::bounded::{Bounded, Memory};
@@ -24,49 +21,49 @@ use pulp::{Arch, Simd, WithSimd};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// How many faces there are in a block: a row is a line of the cache, and
-/// blocks are read from memory faster than those of 16.
+/// Number of faces in a block (derived: a row of eight numbers is one cache line).
 const LANES: usize = 8;
 
-/// What an element may be as a share of its even length. An edge of an outline that points
-/// backwards opens a fan the other way: area runs up and down by 0.19 in a shoe that becomes
-/// a fly.
-const SHARES: RangeInclusive<f64> = 0.1..=2.0;
+/// Permitted length of a boundary edge relative to its linearly interpolated length (heuristic).
+/// The lower bound is positive because an edge of negative length points backwards and spreads the
+/// outline.
+const LENGTH_RATIOS: RangeInclusive<f64> = 0.1..=2.0;
 
-/// A number of each face of a block; zero where there is no face.
+/// One number per face of a block; zero beyond the last face.
 type FaceLanes = [f64; LANES];
 
-/// Everything that a right-hand side needs, prepared.
+/// Precomputed data of the right-hand sides.
 #[derive(Clone, Debug)]
 pub(super) struct ForceAssembly {
     homotopy: Homotopy,
     arch: Arch,
     faces: Arc<[[u32; 3]]>,
     blocks: Vec<FaceBlock>,
-    /// Exponential only: the logarithms of both stretches of each block.
+    /// Logarithms of the larger and smaller stretch; empty unless the homotopy is exponential.
     logs: Vec<[FaceLanes; 2]>,
     elements: Vec<ElementMap>,
-    /// How long each of them is halfway, as a share of its even length.
+    /// Length of each element at t = ½, relative to its linearly interpolated length.
     halfway: Vec<f64>,
-    /// Bounded only: what gives the maps of all faces together.
+    /// Computation of the maps with bounded distortion, if the homotopy requires it.
     bounded: Option<Arc<Bounded>>,
     /// Σ M(0) W g and Σ M(1) W g of each vertex.
     ends: Vec<[DVec2; 2]>,
 }
 
-/// The local maps of so many faces.
+/// Local maps of [`LANES`] faces.
 #[derive(Clone, Debug)]
 struct FaceBlock {
+    /// Rotation angle in radians.
     angle: FaceLanes,
-    /// W g for the second and third corner, column by column.
+    /// W g of the second and third corner, column by column.
     weighted: [FaceLanes; 4],
-    /// A matrix that acts on W g, column by column. Polar: the stretch.
-    /// Exponential: the projection onto its larger axis.
+    /// Matrix applied to W g, column by column: the projection onto the larger axis of the stretch
+    /// for the exponential homotopy, and the stretch otherwise.
     middle: [FaceLanes; 4],
 }
 
-/// A map on its path: the rotation by its sine and cosine, and the stretch as
-/// `one` I + `middle` times the middle matrix.
+/// Coefficients of M(t): a rotation by its sine and cosine, applied after the stretch
+/// `one` · I + `middle` · (middle matrix).
 #[derive(Clone, Copy)]
 struct MapCoefficients {
     sin: f64,
@@ -76,7 +73,7 @@ struct MapCoefficients {
 }
 
 impl MapCoefficients {
-    /// R(tθ) ((1−t) I + t S).
+    /// Polar homotopy R(tθ) ((1−t) I + t S).
     #[inline(always)]
     fn polar(t: f64, angle: f64) -> Self {
         let (sin, cos) = sin_cos(t * angle);
@@ -88,7 +85,7 @@ impl MapCoefficients {
         }
     }
 
-    /// ((1−t) I + t R(θ)) ((1−t) I + t S).
+    /// Linear interpolation of both polar factors, ((1−t) I + t R(θ)) ((1−t) I + t S).
     #[inline(always)]
     fn linear_after_polar(t: f64, angle: f64) -> Self {
         let (sin, cos) = sin_cos(angle);
@@ -100,8 +97,8 @@ impl MapCoefficients {
         }
     }
 
-    /// R(tθ) exp(t log S), which is λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ with u the larger
-    /// axis.
+    /// Exponential homotopy R(tθ) exp(t log S), with exp(t log S) = λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ for
+    /// the larger axis u.
     #[inline(always)]
     fn exponential(t: f64, angle: f64, [large, small]: [f64; 2]) -> Self {
         let (sin, cos) = sin_cos(t * angle);
@@ -114,7 +111,7 @@ impl MapCoefficients {
         }
     }
 
-    /// The map of a vector, given the middle matrix.
+    /// Applies the map to a vector, given the middle matrix.
     #[inline(always)]
     fn apply(self, [xx, yx, xy, yy]: [f64; 4], x: f64, y: f64) -> DVec2 {
         let stretched_x = self.one * x + self.middle * (xx * x + xy * y);
@@ -127,11 +124,12 @@ impl MapCoefficients {
 }
 
 impl ForceAssembly {
+    /// Precomputes the blocks and both ends.
     pub(super) fn new(mesh: &CompatibleMesh, maps: &LocalMaps, homotopy: Homotopy) -> Self {
         let blocks = maps.faces.chunks(LANES);
         let logs = if homotopy == Homotopy::Exponential {
-            let of = |face: &FaceMap| SymmetricEigen::of(face.map.stretch).values.map(f64::ln);
-            blocks.clone().map(|faces| rows(faces, of)).collect()
+            let logs = |face: &FaceMap| SymmetricEigen::of(face.map.stretch).values.map(f64::ln);
+            blocks.clone().map(|faces| rows(faces, logs)).collect()
         } else {
             Vec::new()
         };
@@ -149,7 +147,7 @@ impl ForceAssembly {
             ends: Vec::new(),
         };
         let mut memory = stresses.memory();
-        // By the very operations of a frame: see above.
+        // Uses the operations of a frame, so that both ends cancel exactly.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
             stresses.forces(EvaluationTimes::Even(t), &mut memory, &mut forces);
@@ -159,29 +157,30 @@ impl ForceAssembly {
         stresses
     }
 
-    /// Bars, then edges of outlines.
+    /// Returns the elements: bars, then boundary edges.
     pub(super) fn elements(&self) -> &[ElementMap] {
         &self.elements
     }
 
-    /// Makes an element so long halfway, as a share of its even length.
-    pub(super) fn set_halfway(&mut self, element: usize, share: f64) {
-        self.halfway[element] = share.clamp(*SHARES.start(), *SHARES.end());
+    /// Sets the length of an element at t = ½, relative to its linearly interpolated length.
+    pub(super) fn set_halfway(&mut self, element: usize, ratio: f64) {
+        self.halfway[element] = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
     }
 
-    /// What a frame takes to work in.
+    /// Returns the memory needed for a frame.
     pub(super) fn memory(&self) -> Memory {
         let bounded = self.bounded.as_deref();
         bounded.map_or_else(Memory::default, Bounded::memory)
     }
 
-    /// What gives the maps of all faces together, where they are not each on its own.
+    /// Returns the computation of maps with bounded distortion, if the homotopy requires it.
     pub(super) fn bounded(&self) -> Option<&Bounded> {
         self.bounded.as_deref()
     }
 
-    /// Writes both right-hand sides, all x and then all y, with vertex v at
-    /// `place[v]`. `forces`, one for each vertex, is memory to work in.
+    /// Writes both right-hand sides to `rhs`, all x and then all y, with vertex v at `place[v]`.
+    ///
+    /// `forces` is working memory with one entry per vertex.
     pub(super) fn right_hand_sides(
         &self,
         times: EvaluationTimes,
@@ -200,15 +199,16 @@ impl ForceAssembly {
         }
     }
 
-    /// Σ M(t) W g of each vertex; zero for the linear path, which deviates
-    /// from no straight line.
+    /// Computes Σ M(t) W g of each vertex.
+    ///
+    /// It is zero for the linear homotopy, which has no deviation from the straight paths.
     fn forces(&self, times: EvaluationTimes, memory: &mut Memory, forces: &mut [DVec2]) {
         forces.fill(DVec2::ZERO);
         match &self.bounded {
             Some(bounded) => bounded.add(times, memory, forces),
             None => self.arch.dispatch(FacePass(self, times, &mut *forces)),
         }
-        // Bars and edges are few beside faces, and take the plain form.
+        // There are few elements compared to faces, so the scalar form is sufficient.
         if self.homotopy != Homotopy::Linear {
             for (element, &halfway) in self.elements.iter().zip(&self.halfway) {
                 let t = times.of_vertex(element.ends[0] as usize);
@@ -217,24 +217,27 @@ impl ForceAssembly {
         }
     }
 
-    /// Adds the forces of all faces, with more of each block for its pose. `time`
-    /// says when each lane of a block is.
+    /// Adds the forces of all faces.
+    ///
+    /// `time` returns the times of a block's faces, and `pose(t, angle, extra, lane)` the
+    /// coefficients of M(t). `extra` yields additional data for each block.
     #[inline(always)]
-    fn add<More>(
+    fn add<Extra>(
         &self,
         forces: &mut [DVec2],
-        more: impl Iterator<Item = More>,
+        extra: impl Iterator<Item = Extra>,
         time: impl Fn(&[[u32; 3]]) -> FaceLanes,
-        pose: impl Fn(f64, f64, &More, usize) -> MapCoefficients,
+        pose: impl Fn(f64, f64, &Extra, usize) -> MapCoefficients,
     ) {
         let faces = self.faces.chunks(LANES);
-        for ((block, more), faces) in self.blocks.iter().zip(more).zip(faces) {
+        for ((block, extra), faces) in self.blocks.iter().zip(extra).zip(faces) {
             let times = time(faces);
-            let posed = block.posed(|lane| pose(times[lane], block.angle[lane], &more, lane));
-            scatter(&posed, faces, forces);
+            let mapped = block.mapped(|lane| pose(times[lane], block.angle[lane], &extra, lane));
+            scatter(&mapped, faces, forces);
         }
     }
 
+    /// Adds the forces of all faces for the chosen homotopy.
     #[inline(always)]
     fn pass(&self, forces: &mut [DVec2], time: impl Fn(&[[u32; 3]]) -> FaceLanes) {
         let none = std::iter::repeat(());
@@ -257,8 +260,7 @@ impl ForceAssembly {
     }
 }
 
-/// One pass over all faces that adds their forces, to be compiled for several
-/// widths of vectors.
+/// One pass over all faces, compiled once for each vector width.
 struct FacePass<'a>(&'a ForceAssembly, EvaluationTimes<'a>, &'a mut [DVec2]);
 
 impl WithSimd for FacePass<'_> {
@@ -269,7 +271,7 @@ impl WithSimd for FacePass<'_> {
         let Self(stresses, times, forces) = self;
         match times {
             EvaluationTimes::Even(t) => stresses.pass(forces, |_| [t; LANES]),
-            // A face is all in one part.
+            // All corners of a face belong to one part and have the same time.
             EvaluationTimes::OfParts { vertices, .. } => stresses.pass(forces, |faces| {
                 let mut row = [0.0; LANES];
                 for (t, face) in row.iter_mut().zip(faces) {
@@ -288,7 +290,7 @@ impl FaceBlock {
             angle,
             weighted: rows(faces, |face| face.weighted.to_cols_array()),
             middle: rows(faces, |face| {
-                // u uᵀ of the larger axis u: exp(t log S) is a sum of it and I.
+                // exp(t log S) is a linear combination of I and u uᵀ for the larger axis u.
                 let axis = SymmetricEigen::of(face.map.stretch).axis;
                 match homotopy {
                     Homotopy::Exponential => DMat2::from_cols(axis * axis.x, axis * axis.y),
@@ -299,27 +301,26 @@ impl FaceBlock {
         }
     }
 
-    /// M(t) W g for the second and third corner, column by column.
+    /// Returns M(t) W g of the second and third corner, column by column.
     #[inline(always)]
-    fn posed(&self, pose: impl Fn(usize) -> MapCoefficients) -> [FaceLanes; 4] {
-        let mut posed = [[0.0; LANES]; 4];
+    fn mapped(&self, pose: impl Fn(usize) -> MapCoefficients) -> [FaceLanes; 4] {
+        let mut mapped = [[0.0; LANES]; 4];
         (0..LANES).for_each(|lane| {
             let pose = pose(lane);
             let middle = self.middle.each_ref().map(|row| row[lane]);
             let [x2, y2, x3, y3] = self.weighted.each_ref().map(|row| row[lane]);
             let second = pose.apply(middle, x2, y2);
             let third = pose.apply(middle, x3, y3);
-            posed[0][lane] = second.x;
-            posed[1][lane] = second.y;
-            posed[2][lane] = third.x;
-            posed[3][lane] = third.y;
+            mapped[0][lane] = second.x;
+            mapped[1][lane] = second.y;
+            mapped[2][lane] = third.x;
+            mapped[3][lane] = third.y;
         });
-        posed
+        mapped
     }
 }
 
-/// Adds what was computed for the second and third corner to them, and takes
-/// it from the first.
+/// Adds the forces of the second and third corner, and their negative sum to the first.
 #[inline(always)]
 fn scatter([x2, y2, x3, y3]: &[FaceLanes; 4], faces: &[[u32; 3]], forces: &mut [DVec2]) {
     for (lane, face) in (0..LANES).zip(faces) {
@@ -332,7 +333,7 @@ fn scatter([x2, y2, x3, y3]: &[FaceLanes; 4], faces: &[[u32; 3]], forces: &mut [
     }
 }
 
-/// Numbers of the faces of a block side by side.
+/// Transposes N numbers of each face of a block into rows.
 fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) -> [FaceLanes; N] {
     let mut rows = [[0.0; LANES]; N];
     for (lane, face) in faces.iter().enumerate() {
@@ -344,7 +345,7 @@ fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) ->
 }
 
 impl ElementMap {
-    /// Its vector at t where it turns and grows evenly.
+    /// Returns the element's vector at t if it followed the homotopy without length correction.
     pub(super) fn even(&self, homotopy: Homotopy, t: f64) -> DVec2 {
         let map = PolarDecomposition {
             angle: self.angle,
@@ -353,12 +354,12 @@ impl ElementMap {
         homotopy.at(&map, t) * self.vector
     }
 
-    /// Adds the pull of its vector at t, given its length halfway.
+    /// Adds the element's forces at t, given its relative length at t = ½.
     fn add(&self, homotopy: Homotopy, (t, halfway): (f64, f64), forces: &mut [DVec2]) {
-        // By a parabola that is zero at both ends, and goes on beyond them.
-        let share = 1.0 + (halfway - 1.0) * (4.0 * t * (1.0 - t));
-        let share = share.clamp(*SHARES.start(), *SHARES.end());
-        let pull = self.even(homotopy, t) * (self.stiffness * share);
+        // The length correction is a parabola that vanishes at both ends.
+        let ratio = 1.0 + (halfway - 1.0) * (4.0 * t * (1.0 - t));
+        let ratio = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
+        let pull = self.even(homotopy, t) * (self.stiffness * ratio);
         let [from, to] = self.ends.map(|v| v as usize);
         forces[from] -= pull;
         forces[to] += pull;
@@ -371,7 +372,7 @@ mod tests {
     use crate::warp::ArapOptions;
 
     #[test]
-    fn every_width_of_vectors_gives_the_same_bits() -> Result<(), Box<dyn std::error::Error>> {
+    fn every_vector_width_gives_identical_bits() -> Result<(), Box<dyn std::error::Error>> {
         let source: Vec<_> = (0..30)
             .map(|i| DVec2::new(f64::from(i / 2), f64::from(i % 2)))
             .collect();
@@ -379,7 +380,7 @@ mod tests {
         let target = source.iter().map(bent).collect();
         let faces = (0..14_u32).flat_map(|i| {
             let v = 2 * i;
-            [[v, v + 2, v + 3], [v, v + 3, v + 1]] // 28: three blocks and a half
+            [[v, v + 2, v + 3], [v, v + 3, v + 1]] // 28 faces: three and a half blocks
         });
         let mesh = CompatibleMesh::new(faces.collect(), source, target, vec![])?;
         let maps = LocalMaps::new(&mesh, &ArapOptions::default(), &[])?;

@@ -1,4 +1,4 @@
-//! What a film is made of, and a frame of it: right-hand sides, solve, placement.
+//! Evaluation of a frame of the rigid interpolation: right-hand sides, solve and placement.
 
 use super::assembly::LocalMaps;
 use super::bounded::Memory;
@@ -18,42 +18,45 @@ use crate::warp::Placement;
 use crate::warp::homotopy::Homotopy;
 use std::sync::Arc;
 
-/// All that a film is made of, factored.
+/// The rigid interpolation of a mesh with its factored matrix.
 #[derive(Debug)]
 pub(super) struct FactoredArap {
     pub mesh: CompatibleMesh,
-    /// Shared by films that differ by their guards.
+    /// Factorisation, shared by interpolations that differ only in their guards.
     pub cholesky: Arc<Cholesky>,
+    /// Ridge that the factorisation needed.
     pub ridge: Option<Ridge>,
+    /// Right-hand sides of a frame.
     pub stresses: ForceAssembly,
     pub drift: PartTranslations,
     pub maps: LocalMaps,
-    /// Options of the mesh as it is: nothing left to subdivide.
+    /// Options for the already subdivided mesh; `subdivisions` is 0.
     pub options: ArapOptions,
     pub outlined: OutlineConstraints,
     pub guard: Option<Arc<Guard>>,
 }
 
-/// A film with the memory that a frame takes.
+/// Evaluator of an interpolation, with the memory for one frame.
 pub(super) struct FrameSolver {
     arap: Arc<FactoredArap>,
-    /// Right-hand sides, then the deviation U: all x, all y, in elimination order.
+    /// Right-hand sides and then the deviation U: all x, then all y, in elimination order.
     deviation: Vec<f64>,
     workspace: CholeskyWorkspace,
     memory: Memory,
-    /// Bounded only: what is added to the deviation.
-    more: Vec<f64>,
-    /// Of each connected part.
+    /// Correction of the deviation in the same layout; empty unless distortion is bounded.
+    correction: Vec<f64>,
+    /// Translation of each connected part.
     shifts: Vec<DVec2>,
 }
 
 impl FrameSolver {
+    /// Allocates the memory for evaluating `prepared`.
     pub(super) fn of(prepared: &Arc<FactoredArap>) -> Self {
         Self {
             deviation: vec![0.0; 2 * prepared.mesh.source().len()],
             workspace: prepared.cholesky.workspace(2),
             memory: prepared.stresses.memory(),
-            more: match prepared.stresses.bounded() {
+            correction: match prepared.stresses.bounded() {
                 Some(_) => vec![0.0; 2 * prepared.mesh.source().len()],
                 None => Vec::new(),
             },
@@ -62,13 +65,14 @@ impl FrameSolver {
         }
     }
 
+    /// Moves the placement to the given times.
     pub(super) fn place(&mut self, times: EvaluationTimes, placement: &mut Placement) {
         let Self {
             arap,
             deviation,
             workspace,
             memory,
-            more,
+            correction,
             shifts,
         } = self;
         let place = arap.cholesky.place_in_order();
@@ -78,14 +82,14 @@ impl FrameSolver {
             in_target,
             ..
         } = placement;
-        // The linear path needs no solve: its deviation is zero.
+        // The linear homotopy has zero deviation and needs no solve.
         if arap.options.homotopy != Homotopy::Linear {
-            // The forces stand where the positions will stand.
+            // `in_frame` serves as memory for the forces before it receives the positions.
             arap.stresses
                 .right_hand_sides(times, place, (memory, in_frame), deviation);
             arap.cholesky.solve_ordered(deviation, workspace);
             if let Some(bounded) = arap.stresses.bounded() {
-                let solver = DeviationSolver::new(&arap.cholesky, in_frame, more, workspace);
+                let solver = DeviationSolver::new(&arap.cholesky, in_frame, correction, workspace);
                 strain_limiting::put_back((bounded, times), deviation, memory, solver);
             }
             arap.drift.shifts(times, deviation, shifts);
@@ -93,18 +97,18 @@ impl FrameSolver {
         let (dx, dy) = deviation.split_at(place.len());
         for (run, part) in arap.drift.runs() {
             let (shift, t) = (shifts[part], times.of_part(part));
-            // Of what only changes its size every map is that change: it
-            // deviates by nothing but rounding.
+            // All maps of a transient part are the same scaling, so its deviation is only rounding
+            // and is ignored.
             let (t, weight) = match arap.drift.life(part) {
-                Some(life) => (life.share(t), 0.0),
+                Some(window) => (window.share(t), 0.0),
                 None => (t, 1.0),
             };
             let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
-            let rest = in_frame[run.clone()].iter_mut().zip(&place[run]);
-            for ((&p, &q), (out, &at)) in ends.zip(rest) {
-                let u = DVec2::new(dx[at as usize], dy[at as usize]);
-                // What is exactly 0 at an end is added last, so that the
-                // end is met to the last bit.
+            let vertices = in_frame[run.clone()].iter_mut().zip(&place[run]);
+            for ((&p, &q), (out, &unknown)) in ends.zip(vertices) {
+                let u = DVec2::new(dx[unknown as usize], dy[unknown as usize]);
+                // The deviation and shift are exactly 0 at both ends and are added last, which
+                // keeps the ends exact.
                 *out = (p * (1.0 - t) + q * t) + (u * weight + shift);
             }
         }

@@ -1,4 +1,4 @@
-//! How rigid parts move: options, and what may be wrong with them.
+//! Options of the rigidity-preserving interpolation, their validation and its errors.
 
 use super::angles::AngleError;
 use crate::geometry::{ApproxPoint, DVec2};
@@ -8,26 +8,26 @@ use crate::warp::homotopy::Homotopy;
 use crate::work::progress::Cancelled;
 use serde::{Deserialize, Serialize};
 
-/// How faces are weighted in the energy.
+/// Weights of the faces in the energy.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FaceWeights {
-    /// By area: the result does not depend on how the inside is divided.
+    /// Area, so that the result hardly depends on the triangulation.
     #[default]
     Area,
-    /// All alike, as the paper does: small faces count as much as large ones.
+    /// Equal weights, so that small faces count as much as large ones. "Design-Space Representation
+    /// through Blended Transitions", §3.2, uses these.
     Uniform,
-    /// One positive number for each face, before subdivision; a stiff part
-    /// gets a large one.
+    /// One positive weight for each face before subdivision; larger weights make a face stiffer.
     PerFace(Vec<f64>),
 }
 
 impl FaceWeights {
-    /// The weights after every face was split into four so many times.
+    /// Returns the weights after splitting every face into four `rounds` times.
     ///
     /// # Errors
-    /// [`ArapError`] unless they are one positive number for each face.
+    /// [`ArapError`] unless there is one positive weight for each face.
     pub(super) fn subdivided(&self, faces: usize, rounds: u32) -> Result<Self, ArapError> {
         let Self::PerFace(each) = self else {
             return Ok(self.clone());
@@ -39,18 +39,18 @@ impl FaceWeights {
         if let Some(bad) = each.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
             return wrong(format!("number {} is {}", bad + 1, each[bad]));
         }
-        // Saturating: rounds come from a file, and 4³² would overflow.
+        // Saturates because `rounds` may come from a file, and 4³² would overflow.
         let children = 4_usize.saturating_pow(rounds);
         if each.len().saturating_mul(children) > 4 * crate::mesh::MAX_VERTICES {
             return Err(TooManyVertices { rounds }.into());
         }
-        // Subdivision lists the children of a face one after the other.
+        // Subdivision lists the children of each face one after the other.
         let repeated = each.iter().flat_map(|&w| std::iter::repeat_n(w, children));
         Ok(Self::PerFace(repeated.collect()))
     }
 }
 
-/// Where the whole design is at t, which the energy leaves open.
+/// Path of the whole design, which the energy leaves undetermined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -58,18 +58,20 @@ pub enum ArapPath {
     /// The centroid moves on a straight line.
     #[default]
     Centroid,
-    /// The whole turns about its pole, the point that its rotation and its travel
-    /// leave where it is: the planar screw motion, which dual quaternions interpolate
-    /// (Kavan, Collins, Žára and O'Sullivan 2008). The centroid moves on an arc. Where the whole hardly turns the pole is far away, and the arc is
-    /// straight.
+    /// The design rotates about its pole, the fixed point of its rigid motion, and the centroid
+    /// moves on an arc. This is the planar screw motion that dual quaternions interpolate (Kavan,
+    /// Collins, Žára and O'Sullivan 2008). If the design hardly rotates, the pole is far away and
+    /// the arc nearly straight.
     Pole,
-    /// The vertex of this number, from 0, moves on a straight line.
+    /// The vertex with this index moves on a straight line.
     Anchor(u32),
 }
 
 impl ArapPath {
+    /// Checks that an anchor is one of `vertices` vertices.
+    ///
     /// # Errors
-    /// [`ArapError::Anchor`] if the anchor is none of so many vertices.
+    /// [`ArapError::Anchor`] if it is not.
     pub(super) fn check(self, vertices: usize) -> Result<(), ArapError> {
         match self {
             Self::Anchor(anchor) if anchor as usize >= vertices => Err(ArapError::Anchor {
@@ -85,18 +87,19 @@ impl ArapPath {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ArapOptions {
-    /// How each local map moves.
+    /// Path of the local maps.
     pub homotopy: Homotopy,
-    /// How faces are weighted.
+    /// Weights of the faces.
     pub weights: FaceWeights,
-    /// Both directions in one energy, or the paper's one-sided one.
+    /// Whether the energy includes both directions. Otherwise it is the one-sided energy of
+    /// "Design-Space Representation through Blended Transitions", §3.2.
     pub symmetric: bool,
-    /// Whole turns added: a single number for everything, or one for each
-    /// part whose panels share edges, in the order of its first face.
+    /// Additional whole turns: one number for all parts, or one for each edge-connected component
+    /// in the order of its first face.
     pub extra_turns: Vec<i32>,
-    /// Where the whole design is at t.
+    /// Path of the whole design.
     pub path: ArapPath,
-    /// How often every face is split into four before solving.
+    /// Number of times that every face is split into four before solving.
     pub subdivisions: u32,
 }
 
@@ -114,10 +117,10 @@ impl Default for ArapOptions {
 }
 
 impl ArapOptions {
-    /// Checks what is wrong with them for whatever mesh.
+    /// Checks the options as far as this is possible without a mesh.
     ///
     /// # Errors
-    /// [`TooManyVertices`] for more subdivisions than a single face bears.
+    /// [`TooManyVertices`] if even a single face would get too many vertices.
     pub fn check(&self) -> Result<(), TooManyVertices> {
         match self.subdivisions {
             rounds if rounds > MAX_ROUNDS => Err(TooManyVertices { rounds }),
@@ -126,43 +129,43 @@ impl ArapOptions {
     }
 }
 
-/// Why a rigidity-preserving interpolation could not be built.
+/// Reason why a rigidity-preserving interpolation cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArapError {
-    /// The rotation angles of the faces do not fit together.
+    /// The rotation angles of the faces are inconsistent.
     #[error(transparent)]
     Angles(#[from] AngleError),
-    /// The weights are not one positive number for each face.
+    /// There is not one positive weight for each face.
     #[error("weights must be one positive number for each of the {faces} faces; {problem}")]
     Weights {
-        /// How many faces there are.
+        /// Number of faces.
         faces: usize,
-        /// What is wrong.
+        /// Description of the first wrong weight.
         problem: String,
     },
-    /// The anchor is no vertex.
-    #[error("the anchor is vertex {anchor}, but the last one is {last}; choose another")]
+    /// The anchor is not a vertex.
+    #[error("anchor vertex {anchor} does not exist; choose one from 0 to {last}")]
     Anchor {
-        /// The number given.
+        /// Index of the requested vertex.
         anchor: u32,
-        /// The largest possible one.
+        /// Largest valid index.
         last: usize,
     },
     /// The mesh would become too large.
     #[error(transparent)]
     TooManyVertices(#[from] TooManyVertices),
-    /// Faces that are too thin, or too unlike their neighbours, for the
-    /// equations: a place of them in the source and in the target.
+    /// Faces are too thin, or too different from their neighbours, for the equations; with a
+    /// position in the source and in the target.
     #[error(
-        "the equations have no solution: what lies {} in the source and {} in the target is too thin to move; thicken it, match it otherwise, or choose another method",
+        "the shape {} in the source and {} in the target is too thin to compute its motion; thicken it, change its match, or choose another method",
         ApproxPoint(.0[0]), ApproxPoint(.0[1])
     )]
     Thin([DVec2; 2]),
     /// The matrix could not be factored.
     #[error(transparent)]
     Factor(FactorError),
-    /// Nobody wants the result.
+    /// The job was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

@@ -1,7 +1,7 @@
-//! Where the connected parts are as a whole, which the energy leaves open.
+//! Translations of the connected parts, which the energy leaves undetermined.
 //!
-//! Parts move as [`PartPath`] says. Centroids use fixed vertex masses: an area
-//! centroid is 0/0 where a path collapses.
+//! The centroid of each part follows its [`PartPath`]. Centroids use vertex masses that do not
+//! depend on t, because an area centroid would be 0/0 where a part collapses.
 
 use super::assembly::LocalMaps;
 use super::evaluation_times::EvaluationTimes;
@@ -12,34 +12,35 @@ use crate::geometry::{DMat2, DVec2};
 use crate::warp::part_path::{PartPath, centroid};
 use std::ops::Range;
 
-/// The connected parts and how they drift.
+/// The connected parts with their paths.
 #[derive(Clone, Debug)]
 pub(super) struct PartTranslations {
     parts: Vec<PartPath>,
-    /// Of parts that are points in one of the designs.
+    /// Time windows of the parts that are points in one of the designs.
     lives: Vec<Option<TimeWindow>>,
-    /// The centroids of each part in source and target.
+    /// Centroid of each part in source and target.
     centres: Vec<[DVec2; 2]>,
-    /// The design's centroid in source and target.
+    /// Centroid of the design in source and target.
     centroid: [DVec2; 2],
-    /// Vertices by part.
+    /// Ranges of consecutive vertices of one part.
     vertices: Vec<PartRun>,
-    /// Unknowns in elimination order by part.
+    /// Ranges of consecutive unknowns, in elimination order, of one part.
     unknowns: Vec<PartRun>,
-    /// For each unknown in elimination order its share of its part's mass.
+    /// Fraction of the part's mass of each unknown in elimination order.
     shares: Vec<f64>,
+    /// Rotation of the design in radians.
     whole_angle: f64,
-    /// The anchor's place in elimination order and its part.
+    /// Index of the anchor in elimination order, and its part.
     anchor: Option<(u32, u32)>,
-    /// The whole turns about its pole.
-    about_pole: bool,
+    /// Whether the design rotates about its pole instead of its centroid.
+    is_about_pole: bool,
 }
 
-/// Where half the turn of the whole has a smaller sine, the pole is a hundred times as
-/// far away as the whole travels, or there is none: the way is straight.
+/// Sine of half the rotation below which the path is taken as straight (tolerance: the pole is
+/// farther away than a hundred times the translation, or does not exist).
 const NO_POLE: f64 = 5e-3;
 
-/// Neighbours in some order that belong to the same part.
+/// Range of consecutive items that belong to one part.
 #[derive(Clone, Debug)]
 struct PartRun {
     range: Range<usize>,
@@ -47,7 +48,7 @@ struct PartRun {
 }
 
 impl PartRun {
-    /// All runs, given the part of each member of the order.
+    /// Returns all runs, given the part of each item.
     fn all(part_of: &[u32]) -> Vec<Self> {
         let mut end = 0;
         let runs = part_of.chunk_by(|a, b| a == b).map(|run| {
@@ -88,11 +89,11 @@ impl PartTranslations {
             ArapPath::Centroid | ArapPath::Pole => None,
             ArapPath::Anchor(v) => Some((place[v as usize], component[v as usize])),
         };
-        // Where the whole is does not depend on where points are put.
-        let counted = |part: usize| lives.get(part).is_none_or(Option::is_none);
-        if (0..count).any(counted) {
-            let points = (0..count).filter(|&part| !counted(part));
-            points.for_each(|part| mass[part] = 0.0);
+        // Transient parts must not affect the position of the whole.
+        let is_permanent = |part: usize| lives.get(part).is_none_or(Option::is_none);
+        if (0..count).any(is_permanent) {
+            let transient = (0..count).filter(|&part| !is_permanent(part));
+            transient.for_each(|part| mass[part] = 0.0);
         }
         Self {
             parts: PartPath::all(&centres, &mass, maps.whole_angle),
@@ -104,54 +105,57 @@ impl PartTranslations {
             shares,
             whole_angle: maps.whole_angle,
             anchor,
-            about_pole: path == ArapPath::Pole,
+            is_about_pole: path == ArapPath::Pole,
         }
     }
 
-    /// How far the whole is beside the straight line of its centroid; exactly 0 at both
+    /// Returns the deviation of the design's centroid from its straight path; exactly 0 at both
     /// ends.
     ///
-    /// A rotation by θ about the pole takes the centroid along an arc whose chord d is
-    /// its travel: after tθ it has gone R((t − 1) θ/2) d · sin(tθ/2) / sin(θ/2).
+    /// A rotation by θ about the pole moves the centroid along an arc with chord d. At t it has
+    /// moved by R((t − 1) θ/2) d · sin(tθ/2) / sin(θ/2).
     fn bend(&self, t: f64) -> DVec2 {
         let half = 0.5 * self.whole_angle;
-        if !self.about_pole || half.sin().abs() < NO_POLE {
+        if !self.is_about_pole || half.sin().abs() < NO_POLE {
             return DVec2::ZERO;
         }
-        let travel = self.centroid[1] - self.centroid[0];
-        let along = (t * half).sin() / half.sin();
-        DMat2::from_angle((t - 1.0) * half) * travel * along - travel * t
+        let chord = self.centroid[1] - self.centroid[0];
+        let ratio = (t * half).sin() / half.sin();
+        DMat2::from_angle((t - 1.0) * half) * chord * ratio - chord * t
     }
 
-    /// Where the centroid of the whole is.
+    /// Returns the design's centroid at t.
     fn centre(&self, t: f64) -> DVec2 {
         let [from, to] = self.centroid;
         from * (1.0 - t) + to * t + self.bend(t)
     }
 
-    /// How many connected parts there are.
+    /// Returns the number of connected parts.
     pub(super) fn part_count(&self) -> usize {
         self.parts.len()
     }
 
-    /// The time in which a part changes its size, if it is a point in one of
-    /// the designs.
+    /// Returns the time window of a part that is a point in one of the designs.
     pub(super) fn life(&self, part: usize) -> Option<TimeWindow> {
         self.lives.get(part).copied().flatten()
     }
 
+    /// Returns the time windows of all parts; the list may be shorter than the number of parts.
     pub(super) fn lives(&self) -> &[Option<TimeWindow>] {
         &self.lives
     }
 
-    /// Where a part with these centroids is at t, when so much of its own way
-    /// is done.
+    /// Returns the position at t of a part that moves with the design.
+    ///
+    /// `ends` are its positions in source and target and `share` is the completed fraction of its
+    /// own motion.
     pub(super) fn carried(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
         let path = PartPath::of(ends, self.centroid, self.whole_angle);
         self.centre(t) + path.at_share(t, share, self.whole_angle)
     }
 
-    /// The places in source and target that the whole carries to one at t.
+    /// Returns the positions in source and target that the motion of the design carries to `place`
+    /// at t.
     pub(super) fn carried_back(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         let [from, to] = self.centroid;
         let offset = place - self.centre(t);
@@ -159,19 +163,20 @@ impl PartTranslations {
         [from + turned(-t), to + turned(1.0 - t)]
     }
 
-    /// Ranges that hold every vertex once, and the part of each range.
+    /// Returns ranges that cover every vertex once, each with its part.
     pub(super) fn runs(&self) -> impl Iterator<Item = (Range<usize>, usize)> {
         self.vertices
             .iter()
             .map(|run| (run.range.clone(), run.part))
     }
 
-    /// What has to be added to the deviations (all x, all y, in elimination
-    /// order) of each part.
+    /// Computes the translation to add to the deviations of each part.
+    ///
+    /// `deviation` holds all x and then all y in elimination order.
     pub(super) fn shifts(&self, times: EvaluationTimes, deviation: &[f64], shifts: &mut [DVec2]) {
         let (dx, dy) = deviation.split_at(deviation.len() / 2);
         shifts.fill(DVec2::ZERO);
-        // By runs, so that `dot` reads rows of numbers and no part for each.
+        // Runs let `dot` read contiguous numbers without looking up the part of each.
         for PartRun { range, part } in &self.unknowns {
             let [shares, dx, dy] = [&self.shares, dx, dy].map(|all| &all[range.clone()]);
             shifts[*part] -= DVec2::new(dot(shares, dx), dot(shares, dy));
@@ -179,10 +184,10 @@ impl PartTranslations {
         for (part, shift) in shifts.iter_mut().enumerate() {
             let t = times.of_part(part);
             match self.life(part) {
-                // The ends are met to the last bit.
+                // Exact ends.
                 Some(_) if t == 0.0 || t == 1.0 => *shift = DVec2::ZERO,
-                Some(life) => {
-                    let ([from, to], share) = (self.centres[part], life.share(t));
+                Some(window) => {
+                    let ([from, to], share) = (self.centres[part], window.share(t));
                     let straight = from * (1.0 - share) + to * share;
                     *shift = self.carried([from, to], share, t) - straight;
                 }
@@ -190,14 +195,14 @@ impl PartTranslations {
             }
         }
         if let Some((at, part)) = self.anchor {
-            // All parts move along, or those without the anchor would tear away.
-            let of_anchor = DVec2::new(dx[at as usize], dy[at as usize]) + shifts[part as usize];
-            shifts.iter_mut().for_each(|shift| *shift -= of_anchor);
+            // All parts are shifted alike; otherwise those without the anchor would separate.
+            let anchor_shift = DVec2::new(dx[at as usize], dy[at as usize]) + shifts[part as usize];
+            shifts.iter_mut().for_each(|shift| *shift -= anchor_shift);
         }
     }
 }
 
-/// Σ aᵢ bᵢ, in several sums at once that do not wait for each other.
+/// Returns Σ aᵢ bᵢ, computed as eight independent sums for instruction-level parallelism.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
     let mut sums = [0.0; 8];

@@ -1,34 +1,34 @@
-//! What is added to a matrix that rounding has eaten at.
+//! Cholesky factorisation with a ridge for numerically singular matrices.
 //!
-//! The matrix of the energy is positive definite, but not to the last digits
-//! where stiffnesses differ by more than a number has digits. Then the least
-//! of a few shares of the diagonal is added with which it can be factored, and
-//! that is told.
+//! The matrix of the energy is positive definite, but rounding can destroy this if stiffnesses
+//! differ by more orders of magnitude than a number has digits. In that case the smallest
+//! sufficient fraction of the diagonal is added, and the caller is informed.
 
 use crate::numerics::{Cholesky, FactorError, SymmetricMatrix};
 use crate::work::progress::{Cancelled, Progress};
 
-/// Shares of the diagonal that are added where rounding has eaten a pivot.
-/// Faces a ten-thousandth as large as their neighbours, about a hole that
-/// closes to a point, leave pivots of the size of the last digits; where a whole part is
-/// as thin as that against another, as in two drawings of hairlines, so do sums of them.
-const STIFFER: [f64; 5] = [1e-13, 1e-11, 1e-9, 1e-7, 1e-5];
+/// Ridges tried in turn, as fractions of the diagonal (tolerance: from the rounding error of a
+/// pivot upwards).
+///
+/// Faces around a hole that closes to a point can be 10⁻⁴ times as large as their neighbours and
+/// leave pivots of the size of the rounding error. If whole parts are that thin, the errors of
+/// many pivots add up and need a larger ridge.
+const RIDGES: [f64; 5] = [1e-13, 1e-11, 1e-9, 1e-7, 1e-5];
 
-/// A ridge: what was added to a matrix, and why.
+/// A ridge that was added to the diagonal of a matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ridge {
-    /// By which share of itself each entry of the diagonal was made larger.
+    /// Relative increase of each diagonal entry.
     pub share: f64,
-    /// The first vertex, from 0, whose pivot was not positive without it: of
-    /// the mesh that is interpolated.
+    /// Index of the first vertex of the interpolated mesh whose pivot was not positive without it.
     pub vertex: usize,
 }
 
-/// Factors a matrix, with a ridge where it needs one.
+/// Factors a matrix, with the smallest ridge of [`RIDGES`] if necessary.
 ///
 /// # Errors
-/// [`Cancelled`] if nobody wants the result any more; within, [`FactorError`]
-/// if it cannot be factored with the largest ridge either.
+/// [`Cancelled`] if the job is cancelled. The inner result is a [`FactorError`] if even the largest
+/// ridge does not suffice.
 pub(super) fn factor_with_ridge(
     mut matrix: SymmetricMatrix,
     progress: &dyn Progress,
@@ -37,12 +37,12 @@ pub(super) fn factor_with_ridge(
     let Err(FactorError::NotPositiveDefinite { index: vertex }) = first else {
         return Ok(first.map(|cholesky| (cholesky, None)));
     };
-    for share in STIFFER {
-        // What was added before is a hundredth of it.
+    for share in RIDGES {
+        // Ridges accumulate, but the previous one is only a hundredth of this one.
         matrix.stiffen(share);
         match Cholesky::factor_if_wanted(&matrix, progress)? {
             Err(FactorError::NotPositiveDefinite { .. }) => {}
-            done => return Ok(done.map(|cholesky| (cholesky, Some(Ridge { share, vertex })))),
+            result => return Ok(result.map(|cholesky| (cholesky, Some(Ridge { share, vertex })))),
         }
     }
     Ok(Err(FactorError::NotPositiveDefinite { index: vertex }))

@@ -1,27 +1,27 @@
-//! Straight sides: stretches of outline that are straight in both designs, and
-//! stay so on the way.
+//! Constraints that keep sides straight which are straight in both designs.
 //!
-//! A vertex that lies at the same share between two others in both designs
-//! lies there on the straight line between the designs too, so that only the
-//! deviation U has to be held: |U_v − (1−s) U_a − s U_b|², at a price at which
-//! nothing else has a say, is added to the energy. It is zero at both ends and
-//! constant in t.
+//! A vertex that divides a side in the same ratio s in both designs also does so on its straight
+//! path. It is therefore enough to constrain the deviation U: the energy is augmented by
+//! |U_v − (1−s) U_a − s U_b|² with a large stiffness, where a and b are the ends of the side. This
+//! term is zero at both ends of the motion, and its matrix does not depend on t.
 
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 use crate::numerics::SymmetricMatrix;
 use crate::warp::homotopy::Homotopy;
 
-/// How much a vertex is held to its side, in units of what holds it to its
-/// neighbours.
+/// Stiffness of the constraint, relative to the vertex's diagonal entry of K (tolerance: large
+/// enough to dominate, small enough for an accurate factorisation).
 const STIFFNESS: f64 = 1e4;
 
-/// The sine of a bend, and the difference of two shares, that are rounding.
-/// Points are made along sides to the last digits; files have seven of them.
+/// Sine of an angle, and difference of two ratios, below which a vertex is on a straight side
+/// (tolerance: coordinates in files have about seven digits).
 const STRAIGHT: f64 = 1e-6;
 
-/// Whether a mesh is of drawn outlines, whose straight sides stay straight, or
-/// is played as it was given: where it is stiff is said by weights.
+/// Whether a mesh has the constraints of drawn outlines.
+///
+/// With `Yes`, straight sides stay straight and boundary edges are elements of the energy. With
+/// `No`, the mesh is interpolated as given and only its weights determine its stiffness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum OutlineConstraints {
     Yes,
@@ -29,19 +29,21 @@ pub(super) enum OutlineConstraints {
     No,
 }
 
-/// A vertex of a straight side.
+/// A vertex inside a straight side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SideVertex {
     vertex: u32,
-    /// The ends of the side.
+    /// Vertices at both ends of the side.
     ends: [u32; 2],
-    /// How far it is from the first end, as a share of the side.
+    /// Distance from the first end as a fraction of the side's length.
     share: f64,
 }
 
 impl OutlineConstraints {
-    /// What is held along this homotopy: faces that are not to be sheared further
-    /// fit together with sides that bend.
+    /// Returns the constraints for a homotopy.
+    ///
+    /// Bounded distortion has none, because faces that must not be sheared further only fit
+    /// together if sides may bend.
     pub(super) fn of(self, homotopy: Homotopy) -> Self {
         match homotopy {
             Homotopy::Bounded => Self::No,
@@ -49,7 +51,7 @@ impl OutlineConstraints {
         }
     }
 
-    /// Holds each vertex of a straight side to it, where that is asked for.
+    /// Adds the constraints to a matrix with the given diagonal, if they are enabled.
     pub(super) fn hold(
         self,
         mesh: &CompatibleMesh,
@@ -57,14 +59,13 @@ impl OutlineConstraints {
         matrix: &mut SymmetricMatrix,
     ) {
         if self == Self::Yes {
-            hold(mesh, diagonal, matrix);
+            add_constraints(mesh, diagonal, matrix);
         }
     }
 }
 
-/// Holds each vertex of a straight side to it; `diagonal` is what holds each
-/// to its neighbours.
-fn hold(mesh: &CompatibleMesh, diagonal: &[f64], matrix: &mut SymmetricMatrix) {
+/// Adds the constraint of each vertex of a straight side, relative to its diagonal entry.
+fn add_constraints(mesh: &CompatibleMesh, diagonal: &[f64], matrix: &mut SymmetricMatrix) {
     for SideVertex {
         vertex,
         ends: [a, b],
@@ -73,25 +74,26 @@ fn hold(mesh: &CompatibleMesh, diagonal: &[f64], matrix: &mut SymmetricMatrix) {
     {
         let stiffness = STIFFNESS * diagonal[vertex as usize];
         let terms = [(vertex, 1.0), (a, share - 1.0), (b, -share)];
-        for (k, &(i, by)) in terms.iter().enumerate() {
+        for (k, &(i, factor)) in terms.iter().enumerate() {
             for &(j, other) in &terms[..=k] {
-                matrix.add(i, j, stiffness * by * other);
+                matrix.add(i, j, stiffness * factor * other);
             }
         }
     }
 }
 
+/// Returns all vertices inside straight sides of the boundary.
 fn on_sides(mesh: &CompatibleMesh) -> Vec<SideVertex> {
-    let mut found = Vec::new();
-    for walk in mesh.boundary_loops() {
-        let n = walk.len();
-        let is_end = |k: usize| !is_straight(mesh, [k + n - 1, k, k + 1].map(|k| walk[k % n]));
+    let mut side_vertices = Vec::new();
+    for outline in mesh.boundary_loops() {
+        let n = outline.len();
+        let is_end = |k: usize| !is_straight(mesh, [k + n - 1, k, k + 1].map(|k| outline[k % n]));
         let ends: Vec<usize> = (0..n).filter(|&k| is_end(k)).collect();
         for (k, &from) in ends.iter().enumerate() {
             let to = ends.get(k + 1).copied().unwrap_or(ends[0] + n);
-            let [a, b] = [from, to].map(|k| walk[k % n]);
-            found.extend((from + 1..to).map(|k| {
-                let vertex = walk[k % n];
+            let [a, b] = [from, to].map(|k| outline[k % n]);
+            side_vertices.extend((from + 1..to).map(|k| {
+                let vertex = outline[k % n];
                 let share = |points: &[DVec2]| {
                     let [p, a, b] = [vertex, a, b].map(|v| points[v as usize]);
                     p.distance(a) / b.distance(a)
@@ -104,18 +106,19 @@ fn on_sides(mesh: &CompatibleMesh) -> Vec<SideVertex> {
             }));
         }
     }
-    found
+    side_vertices
 }
 
-/// Whether the middle one of three vertices lies straight between the others,
-/// at the same share in both designs.
+/// Returns whether the middle one of three vertices lies straight between the others, with the
+/// same ratio in both designs.
 fn is_straight(mesh: &CompatibleMesh, vertices: [u32; 3]) -> bool {
     let share = |points: &[DVec2]| {
         let [a, p, b] = vertices.map(|v| points[v as usize]);
-        let (come, go) = (p - a, b - p);
-        let (before, after) = (come.length(), go.length());
-        let is_ahead = come.dot(go) > 0.0;
-        let is_straight = is_ahead && come.perp_dot(go).abs() <= STRAIGHT * before * after;
+        let (incoming, outgoing) = (p - a, b - p);
+        let (before, after) = (incoming.length(), outgoing.length());
+        let is_ahead = incoming.dot(outgoing) > 0.0;
+        let is_straight =
+            is_ahead && incoming.perp_dot(outgoing).abs() <= STRAIGHT * before * after;
         is_straight.then_some(before / (before + after))
     };
     match (share(mesh.source()), share(mesh.target())) {
@@ -131,8 +134,8 @@ mod tests {
     use crate::warp::{Arap, ArapOptions, Warp};
     use crate::work::progress::Silent;
 
-    /// A bar whose upper side is divided in five, and one bent at its middle
-    /// below that side.
+    /// Returns a mesh from a straight bar to a bent one; the upper side stays straight and has five
+    /// segments.
     fn bent() -> CompatibleMesh {
         let upper = |from: DVec2, to: DVec2| (0..5).map(move |k| from.lerp(to, f64::from(k) / 5.0));
         let ring = |middle: DVec2, left: DVec2, right: DVec2| -> Vec<DVec2> {
@@ -146,29 +149,31 @@ mod tests {
         CompatibleMesh::from_piece(&[a], &[b], &PolygonOptions::default(), &Silent).expect("a mesh")
     }
 
-    /// How far the upper side, vertices 3 to 7, is from straight halfway, as a share of it.
-    fn off(arap: &Arap) -> f64 {
+    /// Returns the largest distance of the upper side (vertices 3 to 7) from a straight line
+    /// halfway, relative to its length.
+    fn deviation(arap: &Arap) -> f64 {
         let mut placer = arap.placer();
         placer.place(0.5);
         let at = &placer.placement().in_frame;
         let along = at[7] - at[3];
-        let off = |p: &DVec2| (along.perp_dot(*p - at[3]) / along.length_squared()).abs();
-        at[4..7].iter().map(off).fold(0.0, f64::max)
+        let distance = |p: &DVec2| (along.perp_dot(*p - at[3]) / along.length_squared()).abs();
+        at[4..7].iter().map(distance).fold(0.0, f64::max)
     }
 
     #[test]
-    fn the_vertices_of_a_side_are_found() {
-        let found = on_sides(&bent());
-        let vertices: Vec<u32> = found.iter().map(|on| on.vertex).collect();
-        assert_eq!(vertices, [4, 5, 6], "{found:?}");
+    fn the_inner_vertices_of_a_straight_side_are_detected() {
+        let side_vertices = on_sides(&bent());
+        let vertices: Vec<u32> = side_vertices.iter().map(|side| side.vertex).collect();
+        assert_eq!(vertices, [4, 5, 6], "{side_vertices:?}");
     }
 
     #[test]
     fn a_straight_side_stays_straight() {
         let (mesh, options) = (bent(), ArapOptions::default());
         let free = Arap::build(&mesh, &options, &Silent).expect("a film");
-        let held = Arap::of_outlines(&mesh, &options, &[], &Silent).expect("a film");
-        assert!(off(&held) < 1e-3, "{}", off(&held));
-        assert!(off(&free) > 5.0 * off(&held), "{} free", off(&free));
+        let constrained = Arap::of_outlines(&mesh, &options, &[], &Silent).expect("a film");
+        let [free, constrained] = [&free, &constrained].map(deviation);
+        assert!(constrained < 1e-3, "{constrained}");
+        assert!(free > 5.0 * constrained, "{free} free");
     }
 }

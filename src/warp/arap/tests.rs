@@ -1,4 +1,5 @@
-//! The identities of the rigidity-preserving interpolation.
+//! Tests of the rigidity-preserving interpolation: exact identities and comparison with the
+//! definition of the energy.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
@@ -7,9 +8,10 @@ use crate::warp::homotopy::Homotopy;
 use crate::work::progress::Silent;
 use std::f64::consts::{PI, TAU};
 
+/// Times inside and outside [0, 1].
 const TIMES: [f64; 7] = [-0.3, 0.1, 0.25, 0.5, 0.77, 0.9, 1.4];
 
-/// A strip of `2 * n` faces along (0, 0) to (length, width).
+/// Returns a strip of `2 * n` faces over the rectangle from (0, 0) to (length, width).
 fn strip(n: usize, length: f64, width: f64) -> (Vec<[u32; 3]>, Vec<DVec2>) {
     let points = (0..=n)
         .flat_map(|i| {
@@ -26,7 +28,7 @@ fn strip(n: usize, length: f64, width: f64) -> (Vec<[u32; 3]>, Vec<DVec2>) {
     (faces, points)
 }
 
-/// A strip and its bent, stretched, sheared image: nothing special about it.
+/// Returns a generic mesh: a strip and its bent, stretched and sheared image.
 fn bent_pair() -> CompatibleMesh {
     let (faces, source) = strip(12, 6.0, 1.0);
     let target = source
@@ -36,7 +38,7 @@ fn bent_pair() -> CompatibleMesh {
             let radius = 3.0 + 1.3 * p.y + 0.1 * p.x;
             DVec2::new(radius * angle.cos() + 5.0, radius * angle.sin() - 2.0)
         })
-        .map(|p| DVec2::new(-p.y, p.x)) // counter-clockwise again
+        .map(|p| DVec2::new(-p.y, p.x))
         .collect::<Vec<_>>();
     let target: Vec<_> = target.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
     match CompatibleMesh::new(faces.clone(), source.clone(), target.clone(), vec![]) {
@@ -48,19 +50,20 @@ fn bent_pair() -> CompatibleMesh {
     }
 }
 
-/// Two strips that share nothing, and a bar that hangs on the first.
+/// Returns a mesh of two separate strips, with a bar attached to the first.
 fn parts(target_of: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     let (mut faces, mut source) = strip(3, 3.0, 1.0);
     let first = source.len() as u32;
-    let (more, points) = strip(2, 2.0, 1.0);
-    faces.extend(more.iter().map(|f| f.map(|v| v + first)));
+    let (second_faces, points) = strip(2, 2.0, 1.0);
+    faces.extend(second_faces.iter().map(|f| f.map(|v| v + first)));
     source.extend(points.iter().map(|p| *p + DVec2::new(5.0, 2.0)));
     source.push(DVec2::new(-1.5, 0.5));
-    let hanging = source.len() as u32 - 1;
+    let bar_end = source.len() as u32 - 1;
     let target = source.iter().map(|&p| target_of(p)).collect();
-    CompatibleMesh::new(faces, source, target, vec![[0, hanging]]).unwrap()
+    CompatibleMesh::new(faces, source, target, vec![[0, bar_end]]).unwrap()
 }
 
+/// Returns the function from t to the vertex positions.
 fn film(mesh: &CompatibleMesh, options: &ArapOptions) -> impl FnMut(f64) -> Vec<DVec2> + use<> {
     let mut placer = Arap::build(mesh, options, &Silent).unwrap().placer();
     move |t| {
@@ -84,6 +87,7 @@ fn with(homotopy: Homotopy) -> ArapOptions {
     }
 }
 
+/// Returns all combinations of homotopy, symmetry and weights.
 fn all_options() -> Vec<ArapOptions> {
     let mut all = Vec::new();
     for homotopy in Homotopy::ALL {
@@ -102,13 +106,13 @@ fn all_options() -> Vec<ArapOptions> {
 }
 
 #[test]
-fn ends_are_met_to_the_last_bit() {
+fn ends_are_exact_bit_for_bit() {
     for mesh in [bent_pair(), parts(|p| DMat2::from_angle(2.0) * p + p * 0.3)] {
         for mut options in all_options() {
             for path in [ArapPath::Centroid, ArapPath::Pole, ArapPath::Anchor(3)] {
                 options.path = path;
                 let mut at = film(&mesh, &options);
-                at(0.4); // whatever was shown before leaves no trace
+                at(0.4); // An earlier frame must have no effect on later ones.
                 assert_eq!(at(0.0), mesh.source(), "{options:?}");
                 assert_eq!(at(1.0), mesh.target(), "{options:?}");
             }
@@ -117,32 +121,33 @@ fn ends_are_met_to_the_last_bit() {
 }
 
 #[test]
-fn a_rigid_target_moves_rigidly_also_in_several_parts() {
+fn a_rigid_target_of_several_parts_moves_rigidly() {
     let (angle, offset) = (2.5, DVec2::new(3.0, -7.0));
     let rigid = |t: f64| move |p: DVec2| DMat2::from_angle(t * angle) * p + offset * t;
     let mesh = parts(rigid(1.0));
     for homotopy in [Homotopy::Polar, Homotopy::Exponential, Homotopy::Bounded] {
         let mut at = film(&mesh, &with(homotopy));
         for t in TIMES {
-            let now = at(t);
+            let positions = at(t);
             for (i, p) in mesh.source().iter().enumerate() {
                 for (j, q) in mesh.source().iter().enumerate().skip(i) {
-                    let error = now[i].distance(now[j]) - p.distance(*q);
+                    let error = positions[i].distance(positions[j]) - p.distance(*q);
                     assert!(
                         error.abs() < 1e-12 * mesh.diameter(),
                         "{i} {j} at {t}: {error}"
                     );
                 }
             }
-            let turned = (now[1] - now[0]).perp_dot(mesh.source()[1] - mesh.source()[0]);
+            let edge = positions[1] - positions[0];
+            let sine = edge.perp_dot(mesh.source()[1] - mesh.source()[0]);
             let expected = -(t * angle).sin();
-            assert!((turned - expected).abs() < 1e-11);
+            assert!((sine - expected).abs() < 1e-11);
         }
     }
 }
 
 #[test]
-fn source_equal_to_target_stands_still() {
+fn equal_designs_do_not_move() {
     let (faces, points) = strip(5, 4.0, 0.7);
     let mesh = CompatibleMesh::new(faces, points.clone(), points.clone(), vec![]).unwrap();
     for options in all_options() {
@@ -154,7 +159,7 @@ fn source_equal_to_target_stands_still() {
 }
 
 #[test]
-fn swapping_plays_the_film_backwards_under_the_symmetric_energy() {
+fn exchanged_designs_reverse_the_motion_under_the_symmetric_energy() {
     for mesh in [
         bent_pair(),
         parts(|p| DMat2::from_angle(1.0) * p * 1.2 + DVec2::new(p.y, p.x) * 0.2),
@@ -166,11 +171,12 @@ fn swapping_plays_the_film_backwards_under_the_symmetric_energy() {
         let symmetric = all_options().into_iter().filter(|o| o.symmetric);
         for options in symmetric.chain([about_pole]) {
             if options.homotopy == Homotopy::LinearAfterPolar {
-                continue; // not its own reverse, see the homotopies' identity
+                continue; // This homotopy is not reversible.
             }
-            let (mut there, mut back) = (film(&mesh, &options), film(&mesh.swapped(), &options));
+            let mut forward = film(&mesh, &options);
+            let mut backward = film(&mesh.swapped(), &options);
             for t in TIMES {
-                let error = largest_distance(&there(t), &back(1.0 - t)) / mesh.diameter();
+                let error = largest_distance(&forward(t), &backward(1.0 - t)) / mesh.diameter();
                 assert!(error < 1e-12, "{options:?} at {t}: {error:e}");
             }
         }
@@ -184,12 +190,12 @@ fn the_one_sided_energy_is_not_symmetric() {
         ..ArapOptions::default()
     };
     let mesh = bent_pair();
-    let (mut there, mut back) = (film(&mesh, &options), film(&mesh.swapped(), &options));
-    let error = largest_distance(&there(0.5), &back(0.5)) / mesh.diameter();
-    assert!(error > 1e-6, "the test above could not fail: {error:e}");
+    let (mut forward, mut backward) = (film(&mesh, &options), film(&mesh.swapped(), &options));
+    let error = largest_distance(&forward(0.5), &backward(0.5)) / mesh.diameter();
+    assert!(error > 1e-6, "the symmetry test could not fail: {error:e}");
 }
 
-/// E(A→B, t), straight from its definition, with w the source areas.
+/// Evaluates E(A→B, t) by its definition, with the source areas as weights.
 fn one_sided_energy(
     mesh: &CompatibleMesh,
     angles: &[f64],
@@ -221,7 +227,7 @@ fn one_sided_energy(
 }
 
 #[test]
-fn one_matrix_is_the_two_sided_sum() {
+fn the_symmetric_solution_minimises_the_sum_of_both_energies() {
     let mesh = bent_pair();
     let back = mesh.swapped();
     for homotopy in [Homotopy::Polar, Homotopy::Exponential, Homotopy::Linear] {
@@ -236,34 +242,34 @@ fn one_matrix_is_the_two_sided_sum() {
         let mut at = film(&mesh, &with(homotopy));
         for t in [0.2, 0.5, 0.9] {
             let v = at(t);
-            let least = two_sided(t, &v);
-            // A minimum of the sum: its directional derivatives vanish. For a
-            // quadratic they are exact differences.
+            let minimum = two_sided(t, &v);
+            // At the minimum all directional derivatives vanish. Central differences are exact
+            // for a quadratic function.
             for i in 0..v.len() {
                 for step in [DVec2::X, DVec2::Y] {
-                    let (mut more, mut less) = (v.clone(), v.clone());
-                    more[i] += step;
-                    less[i] -= step;
-                    let (up, down) = (two_sided(t, &more), two_sided(t, &less));
+                    let (mut plus, mut minus) = (v.clone(), v.clone());
+                    plus[i] += step;
+                    minus[i] -= step;
+                    let (up, down) = (two_sided(t, &plus), two_sided(t, &minus));
                     assert!(
                         (up - down).abs() < 1e-9 * (up + down),
                         "{homotopy:?} {t} {i}"
                     );
-                    assert!(up > least && down > least);
+                    assert!(up > minimum && down > minimum);
                 }
             }
         }
     }
 }
 
-/// A strip rolled up by so many turns, and straight.
+/// Returns a mesh from a strip rolled up by `turns` turns to the straight strip.
 fn spiral(turns: f64) -> CompatibleMesh {
     let n = 240;
     let (faces, straight) = strip(n, 60.0, 0.5);
     let rolled = straight
         .iter()
         .map(|p| {
-            // An Archimedean spiral that never touches itself.
+            // Archimedean spiral with a gap between its windings.
             let angle = turns * TAU * (p.x / 60.0);
             DVec2::from_angle(angle) * (1.0 + 1.0 * angle / TAU - p.y + 0.5)
         })
@@ -293,9 +299,9 @@ fn a_spiral_uncoils_by_three_turns_without_a_fold() {
 }
 
 #[test]
-fn a_ring_wound_twice_around_its_hole_is_named() {
-    // An annulus whose target winds twice as fast: positive faces, and no
-    // consistent angles.
+fn a_ring_wound_twice_around_its_hole_is_rejected() {
+    // The target of this annulus winds twice around the hole. All faces are positive, but there
+    // are no consistent angles.
     let n = 24_u32;
     let ring = |speed: f64| -> Vec<DVec2> {
         (0..n)
@@ -320,7 +326,7 @@ fn a_ring_wound_twice_around_its_hole_is_named() {
 }
 
 #[test]
-fn extra_turns_turn_further_and_keep_the_ends() {
+fn extra_turns_add_rotation_and_keep_the_ends() {
     let (faces, source) = strip(4, 4.0, 1.0);
     let target = source.iter().map(|&p| DMat2::from_angle(1.0) * p).collect();
     let mesh = CompatibleMesh::new(faces, source, target, vec![]).unwrap();
@@ -332,7 +338,7 @@ fn extra_turns_turn_further_and_keep_the_ends() {
     assert_eq!(at(1.0), mesh.target());
     let v = at(0.5);
     let angle = (v[2] - v[0]).to_angle();
-    let expected = 0.5 * (1.0 + TAU); // 3.64…, seen as 3.64 − 2π
+    let expected = 0.5 * (1.0 + TAU); // 3.64…, which `to_angle` returns as 3.64 − 2π
     assert!((angle - (expected - TAU)).abs() < 1e-9, "{angle}");
     for (p, q) in [(0, 1), (0, 8), (3, 6)] {
         let rigid = v[p].distance(v[q]) - mesh.source()[p].distance(mesh.source()[q]);
@@ -341,7 +347,7 @@ fn extra_turns_turn_further_and_keep_the_ends() {
 }
 
 #[test]
-fn parts_turned_by_half_a_turn_do_not_meet() {
+fn parts_rotated_by_half_a_turn_do_not_collide() {
     let mesh = parts(|p| DMat2::from_angle(PI - 1e-9) * p);
     let mut at = film(&mesh, &ArapOptions::default());
     let v = at(0.5);
@@ -350,7 +356,7 @@ fn parts_turned_by_half_a_turn_do_not_meet() {
 }
 
 #[test]
-fn an_anchor_runs_straight() {
+fn an_anchor_moves_on_a_straight_line() {
     let mesh = bent_pair();
     let options = ArapOptions {
         path: ArapPath::Anchor(5),
@@ -375,7 +381,7 @@ fn an_anchor_runs_straight() {
 }
 
 #[test]
-fn a_rigid_motion_about_its_pole_leaves_the_pole_where_it_is() {
+fn the_pole_path_reproduces_a_rotation_about_a_fixed_point() {
     let pole = DVec2::new(-4.0, 9.0);
     for angle in [2.5, -0.8, 0.05] {
         let rigid = |t: f64| move |p: DVec2| DMat2::from_angle(t * angle) * (p - pole) + pole;
@@ -391,7 +397,7 @@ fn a_rigid_motion_about_its_pole_leaves_the_pole_where_it_is() {
             assert!(error < 1e-12, "{angle} at {t}: {error:e}");
         }
     }
-    // What does not turn has no pole: it slides.
+    // A pure translation has no pole and follows the straight path.
     let mesh = parts(|p| p + DVec2::X);
     let [mut straight, mut about] = [ArapPath::Centroid, ArapPath::Pole].map(|path| {
         let options = ArapOptions {
@@ -404,7 +410,7 @@ fn a_rigid_motion_about_its_pole_leaves_the_pole_where_it_is() {
 }
 
 #[test]
-fn the_centroid_of_fixed_masses_runs_straight() {
+fn the_centroid_of_fixed_masses_moves_on_a_straight_line() {
     let mesh = bent_pair();
     let masses = LocalMaps::new(&mesh, &ArapOptions::default(), &[])
         .unwrap()
@@ -418,8 +424,8 @@ fn the_centroid_of_fixed_masses_runs_straight() {
 }
 
 #[test]
-fn many_faces_at_a_time_equal_the_plain_homotopies() {
-    // One face alone has J = M(t) exactly, whatever the weights.
+fn vectorised_homotopies_equal_the_scalar_ones() {
+    // A single face has J = M(t) exactly, for any weights.
     let source = vec![DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.3, 1.0)];
     let target = vec![
         DVec2::new(1.0, 1.0),
@@ -433,9 +439,9 @@ fn many_faces_at_a_time_equal_the_plain_homotopies() {
     for homotopy in Homotopy::ALL {
         let mut at = film(&mesh, &with(homotopy));
         for t in TIMES {
-            let found = edges(&at(t)) * edges(&source).inverse();
+            let jacobian = edges(&at(t)) * edges(&source).inverse();
             assert!(
-                found.abs_diff_eq(homotopy.at(&map, t), 1e-13),
+                jacobian.abs_diff_eq(homotopy.at(&map, t), 1e-13),
                 "{homotopy:?} {t}"
             );
         }
@@ -443,7 +449,7 @@ fn many_faces_at_a_time_equal_the_plain_homotopies() {
 }
 
 #[test]
-fn weights_are_checked() {
+fn weights_are_validated() {
     let mesh = bent_pair();
     for bad in [vec![1.0; 3], vec![0.0; 24], vec![f64::NAN; 24]] {
         let options = ArapOptions {
@@ -464,17 +470,17 @@ fn weights_are_checked() {
         };
         film(&mesh, &options)(0.5)
     };
-    let same = largest_distance(
+    let difference = largest_distance(
         &uniform(FaceWeights::PerFace(vec![7.0; 24])),
         &uniform(FaceWeights::Uniform),
     );
-    assert!(same < 1e-12);
+    assert!(difference < 1e-12);
 }
 
 #[test]
-fn a_stiff_part_keeps_its_shape_better() {
+fn a_heavier_face_follows_its_local_map_more_closely() {
     let mesh = bent_pair();
-    let stiff_at = |face: usize, weight: f64| {
+    let error_of = |face: usize, weight: f64| {
         let mut weights = vec![1.0; 24];
         weights[face] = weight;
         let options = ArapOptions {
@@ -482,20 +488,20 @@ fn a_stiff_part_keeps_its_shape_better() {
             ..ArapOptions::default()
         };
         let arap = Arap::build(&mesh, &options, &Silent).unwrap();
-        let wanted = Homotopy::Polar.at(&arap.0.maps.faces[face].map, 0.5);
+        let expected = Homotopy::Polar.at(&arap.0.maps.faces[face].map, 0.5);
         let v = film(&mesh, &options)(0.5);
         let edges = |points: &[DVec2]| {
             let [a, b, c] = mesh.faces()[face].map(|i| points[i as usize]);
             DMat2::from_cols(b - a, c - a)
         };
-        let gap = edges(&v) * edges(mesh.source()).inverse() - wanted;
+        let gap = edges(&v) * edges(mesh.source()).inverse() - expected;
         gap.x_axis.length() + gap.y_axis.length()
     };
-    assert!(stiff_at(9, 100.0) < 0.5 * stiff_at(9, 1.0));
+    assert!(error_of(9, 100.0) < 0.5 * error_of(9, 1.0));
 }
 
-/// Two triangles of one size, and a bar from one to the other.
-fn on_a_thread(length: f64) -> CompatibleMesh {
+/// Returns two triangles of the same size, connected by a bar.
+fn triangles_with_bar(length: f64) -> CompatibleMesh {
     let corners = |x: f64| [(x, 0.0), (x + 1.0, 0.0), (x, 1.0)].map(DVec2::from);
     let source = [corners(0.0), corners(length)].concat();
     let faces = vec![[0, 1, 2], [3, 4, 5]];
@@ -503,36 +509,40 @@ fn on_a_thread(length: f64) -> CompatibleMesh {
 }
 
 #[test]
-fn what_is_added_to_a_matrix_is_told() {
+fn a_ridge_is_reported() {
     let options = ArapOptions {
         weights: FaceWeights::Uniform,
         ..ArapOptions::default()
     };
     let ridge = |mesh| Arap::build(&mesh, &options, &Silent).unwrap().ridge();
     assert_eq!(ridge(bent_pair()), None);
-    assert_eq!(ridge(on_a_thread(10.0)), None);
-    // The bar's stiffness is lost beside that of the second triangle.
+    assert_eq!(ridge(triangles_with_bar(10.0)), None);
+    // Rounding loses the bar's stiffness next to that of the second triangle.
     let (share, vertex) = (1e-13, 3);
-    assert_eq!(ridge(on_a_thread(1e10)), Some(Ridge { share, vertex }));
+    assert_eq!(
+        ridge(triangles_with_bar(1e10)),
+        Some(Ridge { share, vertex })
+    );
 }
 
 #[test]
-fn a_part_that_is_a_point_waits_and_moves_with_the_whole() {
-    // The second strip is a speck in the source, and grows in the last quarter.
+fn a_transient_part_waits_and_moves_with_the_whole() {
+    // The second strip is tiny in the source and grows in the last quarter.
     let turn = DMat2::from_angle(1.0);
     let whole = parts(|p| turn * p);
     let components = whole.components();
-    let (speck, middle) = (components[8], DVec2::new(6.0, 2.5));
-    let places = || whole.source().iter().zip(&components);
-    let small = |(&p, &part): (&DVec2, &u32)| match part == speck {
+    let (transient, middle) = (components[8], DVec2::new(6.0, 2.5));
+    let vertices = || whole.source().iter().zip(&components);
+    let small = |(&p, &part): (&DVec2, &u32)| match part == transient {
         true => middle + (p - middle) * 1e-4,
         false => p,
     };
-    let moved = |(&p, &part): (&DVec2, &u32)| match part == speck {
+    let moved = |(&p, &part): (&DVec2, &u32)| match part == transient {
         true => p + DVec2::X,
         false => turn * p,
     };
-    let (source, target) = (places().map(small).collect(), places().map(moved).collect());
+    let source = vertices().map(small).collect();
+    let target = vertices().map(moved).collect();
     let faces = whole.faces().to_vec();
     let mesh = CompatibleMesh::new(faces, source, target, whole.elements().to_vec()).unwrap();
     let late = TimeWindow {
@@ -549,22 +559,22 @@ fn a_part_that_is_a_point_waits_and_moves_with_the_whole() {
     };
     assert_eq!(at(&arap, 0.0), mesh.source());
     assert_eq!(at(&arap, 1.0), mesh.target());
-    let length = |places: &[DVec2]| places[8].distance(places[12]);
+    let length = |positions: &[DVec2]| positions[8].distance(positions[12]);
     assert!(length(&at(&arap, 0.75)) < 3e-4);
-    // Half as large after a third of its time.
+    // The part has half its size after a third of its window.
     assert!((length(&at(&arap, 5.0 / 6.0)) - 1.0).abs() < 1e-3);
-    // What waits turns about the others' centroid as they do.
-    let from_the_first = |places: &[DVec2]| places[8].distance(places[0]);
-    let waiting = from_the_first(&at(&arap, 0.5));
-    assert!((waiting - from_the_first(mesh.source())).abs() < 1e-3);
+    // While it waits, the part rotates with the others about their centroid.
+    let from_first_part = |positions: &[DVec2]| positions[8].distance(positions[0]);
+    let waiting = from_first_part(&at(&arap, 0.5));
+    assert!((waiting - from_first_part(mesh.source())).abs() < 1e-3);
     for t in TIMES {
         assert!(largest_distance(&at(&arap, t), &at(&back, 1.0 - t)) < 1e-9);
     }
 }
 
 #[test]
-fn faces_all_but_flat_keep_their_stiffness() {
-    // A fan over a line, which in the source is bent by some last digits alone.
+fn nearly_degenerate_faces_keep_their_stiffness() {
+    // A fan over a nearly straight line; in the source its curvature is close to rounding.
     let along = DVec2::new(0.31, 0.17);
     let fan = |bend: f64| -> Vec<DVec2> {
         let at = |i: u32| along * f64::from(i) - along.perp() * (bend * f64::from(i * (8 - i)));
@@ -574,7 +584,7 @@ fn faces_all_but_flat_keep_their_stiffness() {
     let mesh = CompatibleMesh::new(faces, fan(1e-13), fan(0.1), vec![]).unwrap();
     let arap = Arap::build(&mesh, &ArapOptions::default(), &Silent).unwrap();
     assert_eq!(arap.ridge(), None);
-    // What both designs say of the middle vertex: ½ (A |∇φ|² + B |∇φ|²), face by face.
+    // Diagonal entry of the middle vertex: Σ ½ (A |∇φ_A|² + B |∇φ_B|²) over its faces.
     let expected: f64 = [mesh.source(), mesh.target()]
         .iter()
         .flat_map(|at| {
@@ -591,7 +601,7 @@ fn faces_all_but_flat_keep_their_stiffness() {
     let system = arap.system();
     let at = system.entries().filter(|(i, j, _)| (*i, *j) == (4, 4));
     let diagonal: f64 = at.map(|(_, _, value)| value).sum();
-    // The areas of the flat faces are known to three digits.
+    // Rounding leaves three correct digits in the areas of the nearly degenerate faces.
     assert!(
         (diagonal / expected - 1.0).abs() < 0.01,
         "{diagonal} {expected}"

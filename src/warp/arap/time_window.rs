@@ -1,39 +1,36 @@
-//! When a part grows from a point, or shrinks to one.
+//! Time window in which a transient part grows from a point or shrinks to one.
 //!
-//! A part that one design has alone is a speck in the other. It moves with the
-//! whole from the first frame to the last like every other part, but grows and
-//! goes its own way within a time of its own: what is born waits until its
-//! place is free, and what dies is gone before others come. Beyond the film it
-//! is as it is at its end.
+//! A part that exists in only one design is a tiny seed shape in the other. It moves with the whole
+//! design from the first frame to the last, like every other part, but changes its size and its
+//! relative position only within its time window. A part that appears can thus wait until its place
+//! is free, and one that disappears can make room in time. Outside [0, 1] it keeps the size of the
+//! nearer end.
 
 use crate::geometry::Side;
 use serde::{Deserialize, Serialize};
 
-/// How much sooner than evenly it grows, from 0 to 1. With more, what lies against
-/// something at its end nears it more slowly than that does, and they meet: as a quarter of a
-/// sine one of 60 pairs of icons was not proved. Of those, and of 60 random other ones, the
-/// worst tenth of the area up and down is 0.62 and 0.64 by 0, 0.51 and 0.40 by 0.5, 0.45 and
-/// 0.39 by this; that of turning 0.32 and 0.42, 0.31 and 0.40, 0.33 and 0.35.
-const SOONER: f64 = 0.75;
+/// Curvature of the size over time, from 0 (constant speed) to 1 (parabola that ends at rest)
+/// (heuristic).
+const GROWTH_CURVATURE: f64 = 0.75;
 
-/// When what one design has alone changes its size and place from one end to the other,
-/// within [0, 1]. Before and after it keeps those of that end.
+/// Time window within [0, 1] in which a transient part changes its size and relative position.
 ///
-/// It grows fast at first and slowly at last, and goes the same way backwards, so that its
-/// area changes about as evenly as time: of two alike of which one goes as the other comes
-/// both together enclose 0.95 of one halfway. By a size that changes evenly it would be half.
+/// Before and after the window the part has the size of the respective end. It grows fast at first
+/// and slowly at last, and disappears in reverse, so that its area changes almost linearly: if one
+/// part disappears while an equal one appears, both together have 0.95 of the area of one halfway.
+/// With a linear size it would be 0.5.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TimeWindow {
-    /// The design that has it.
+    /// Design in which the part exists.
     pub side: Side,
-    /// When it begins to change.
+    /// Start of the change.
     pub from: f64,
-    /// When it has changed, later than that.
+    /// End of the change, later than `from`.
     pub to: f64,
 }
 
 impl TimeWindow {
-    /// All of the film.
+    /// Returns the window [0, 1] for a part of the given design.
     #[must_use]
     pub fn whole(side: Side) -> Self {
         Self {
@@ -43,19 +40,21 @@ impl TimeWindow {
         }
     }
 
-    /// Whether it is a time within the film.
+    /// Returns whether the window is a nonempty interval within [0, 1].
     pub(crate) fn is_sound(&self) -> bool {
         0.0 <= self.from && self.from < self.to && self.to <= 1.0
     }
 
-    /// How large it is at `t`, across, as a share of what it is in its design: exactly 0 and
-    /// 1 at the ends, and beyond them, so that nothing turns over there.
+    /// Returns the diameter at `t` relative to the diameter in the part's own design.
+    ///
+    /// It is exactly 0 or 1 outside the window, so that extrapolation cannot turn the part inside
+    /// out.
     ///
     /// ```
-    /// use morphospace::{geometry::Side, warp::Life};
-    /// let late = Life { from: 0.5, ..Life::whole(Side::Target) };
+    /// use morphospace::{geometry::Side, warp::TimeWindow};
+    /// let late = TimeWindow { from: 0.5, ..TimeWindow::whole(Side::Target) };
     /// assert_eq!([0.0, 0.4, 1.0, 1.2].map(|t| late.size(t)), [0.0, 0.0, 1.0, 1.0]);
-    /// // Its area at half time.
+    /// // The area in the middle of the window.
     /// assert!((0.45..0.5).contains(&late.size(0.75).powi(2)));
     /// assert!((late.backwards().size(0.2) - late.size(0.8)).abs() < 1e-12);
     /// ```
@@ -66,10 +65,10 @@ impl TimeWindow {
             Side::Source => 1.0 - time,
             Side::Target => time,
         };
-        grown * (1.0 + SOONER * (1.0 - grown))
+        grown * (1.0 + GROWTH_CURVATURE * (1.0 - grown))
     }
 
-    /// How much of the change is done at `t`, as exactly.
+    /// Returns the completed fraction of the change at `t`; exactly 0 or 1 outside the window.
     #[must_use]
     pub fn share(self, t: f64) -> f64 {
         match self.side {
@@ -78,8 +77,9 @@ impl TimeWindow {
         }
     }
 
-    /// From when to when within the film there is something of it, where a clock shows t
-    /// `when` it says.
+    /// Returns the interval of frame times in which the part is visible.
+    ///
+    /// `when` maps a time of the part's clock to the frame time.
     pub(crate) fn there(self, when: impl Fn(f64) -> f64) -> [f64; 2] {
         match self.side {
             Side::Source => [0.0, when(self.to)],
@@ -87,13 +87,13 @@ impl TimeWindow {
         }
     }
 
-    /// Whether there is nothing of it at `t`.
+    /// Returns whether the part has zero size at `t`.
     #[must_use]
     pub fn is_gone(self, t: f64) -> bool {
         self.size(t) == 0.0
     }
 
-    /// The same in the film that is run backwards.
+    /// Returns the window for the reversed motion.
     #[must_use]
     pub fn backwards(self) -> Self {
         Self {

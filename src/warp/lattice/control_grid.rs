@@ -1,34 +1,39 @@
-//! Control points of a lattice, most of which are zero.
+//! Sparse storage of a lattice's control points.
 //!
-//! They are kept in blocks of 8 × 8, of which only those are made that a
-//! feature touches: fine layers stay small.
+//! Most control points are zero. They are stored in blocks of 8 × 8, and only blocks touched by a
+//! feature are allocated, so that fine layers stay small.
 
 use crate::geometry::DVec2;
 
-/// Control points along a block's side: 2 to this power.
+/// Binary logarithm of [`SIDE`].
 const SHIFT: usize = 3;
+/// Number of control points along the side of a block (derived: at least 4, so that a 4 × 4
+/// stencil touches at most four blocks).
 const SIDE: usize = 1 << SHIFT;
 
-/// Control points, in blocks.
+/// Grid of control points with allocated and empty blocks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ControlGrid {
-    /// Blocks from left to right.
+    /// Number of blocks in a row.
     columns: usize,
-    /// The number of each block, from 1; 0 where there is none.
+    /// Number of each block, from 1; 0 for an empty block.
     directory: Vec<u32>,
-    /// Which entries of the directory are not 0.
+    /// Indices of the nonzero entries of the directory.
     made: Vec<usize>,
     blocks: Vec<ControlBlock>,
 }
 
+/// 8 × 8 control points.
 #[derive(Clone, Debug)]
 struct ControlBlock {
-    /// Sums of what was asked for, then the displacements.
+    /// Weighted sums of requested displacements; after [`ControlGrid::divide`] the displacements.
     controls: [[DVec2; SIDE]; SIDE],
+    /// Sums of the weights.
     weights: [[f64; SIDE]; SIDE],
 }
 
 impl ControlBlock {
+    /// Block of zeros.
     const EMPTY: Self = Self {
         controls: [[DVec2::ZERO; SIDE]; SIDE],
         weights: [[0.0; SIDE]; SIDE],
@@ -36,9 +41,9 @@ impl ControlBlock {
 }
 
 impl ControlGrid {
-    /// Room for so many columns and rows of control points, all of them zero.
+    /// Resizes the grid to `[columns, rows]` control points and sets all of them to zero.
     pub(super) fn reset(&mut self, size: [usize; 2]) {
-        // Only what was made is undone: the directory of a fine layer is long.
+        // Clears only the used entries, because the directory of a fine layer is long.
         for entry in self.made.drain(..) {
             self.directory[entry] = 0;
         }
@@ -48,20 +53,21 @@ impl ControlGrid {
         self.directory.resize(columns * rows, 0);
     }
 
-    /// Columns and rows of control points that there is room for.
+    /// Returns the number of columns and rows, rounded up to whole blocks.
     #[inline(always)]
     pub(super) fn size(&self) -> [usize; 2] {
         let rows = self.directory.len() / self.columns.max(1);
         [self.columns * SIDE, rows * SIDE]
     }
 
-    /// Adds to the sums of the control point in a column and a row.
-    pub(super) fn ask(&mut self, [column, row]: [usize; 2], asked: DVec2, weight: f64) {
+    /// Adds a weighted displacement and its weight to the sums of one control point.
+    pub(super) fn ask(&mut self, [column, row]: [usize; 2], weighted: DVec2, weight: f64) {
         let block = self.block(column >> SHIFT, row >> SHIFT);
-        block.controls[row % SIDE][column % SIDE] += asked;
+        block.controls[row % SIDE][column % SIDE] += weighted;
         block.weights[row % SIDE][column % SIDE] += weight;
     }
 
+    /// Returns a block, allocating it if it is empty.
     fn block(&mut self, column: usize, row: usize) -> &mut ControlBlock {
         let entry = row * self.columns + column;
         if self.directory[entry] == 0 {
@@ -72,26 +78,26 @@ impl ControlGrid {
         &mut self.blocks[self.directory[entry] as usize - 1]
     }
 
-    /// Makes means of sums, each coordinate within ±`most`.
-    pub(super) fn divide(&mut self, most: f64) {
+    /// Divides the sums by their weights and clamps each coordinate to ±`bound`.
+    pub(super) fn divide(&mut self, bound: f64) {
         for block in &mut self.blocks {
             let rows = block.controls.iter_mut().zip(&block.weights);
             for (control, &weight) in rows.flat_map(|(c, w)| c.iter_mut().zip(w)) {
                 if weight > 0.0 {
-                    *control = (*control / weight).clamp(DVec2::splat(-most), DVec2::splat(most));
+                    *control = (*control / weight).clamp(DVec2::splat(-bound), DVec2::splat(bound));
                 }
             }
         }
     }
 
-    /// Σ control point · basis, by columns and rows.
+    /// Evaluates Σ bx[i] by[j] · control point (i0 + i, j0 + j) over the 4 × 4 stencil.
     #[inline(always)]
     pub(super) fn sum(&self, [i0, j0]: [usize; 2], bx: &[f64; 4], by: &[f64; 4]) -> DVec2 {
         let number =
             |i: usize, j: usize| self.directory[(j >> SHIFT) * self.columns + (i >> SHIFT)];
-        // Four by four controls reach into the blocks of their corners, no others.
+        // The stencil only touches the blocks of its four corners.
         let corners = [(0, 0), (3, 0), (0, 3), (3, 3)].map(|(i, j)| number(i0 + i, j0 + j));
-        // Most of a fine layer is empty, and most places leave here.
+        // Fast path: in fine layers most points lie in empty blocks.
         if corners == [0; 4] {
             return DVec2::ZERO;
         }
@@ -99,7 +105,7 @@ impl ControlGrid {
             let number = (corners[corner] as usize).checked_sub(1)?;
             Some(&self.blocks[number].controls)
         };
-        // So many of the four columns are in the left blocks.
+        // `split` of the four columns lie in the left blocks.
         let (i, split) = (i0 % SIDE, (SIDE - i0 % SIDE).min(4));
         let (left, right) = bx.split_at(split);
         let dot = |controls: &[DVec2], basis: &[f64]| -> DVec2 {
@@ -107,11 +113,11 @@ impl ControlGrid {
         };
         let mut sum = DVec2::ZERO;
         for (j, &by) in (j0..).zip(by) {
-            let half = if j >> SHIFT == j0 >> SHIFT { 0 } else { 2 };
-            if let Some(controls) = block(half) {
+            let left_corner = if j >> SHIFT == j0 >> SHIFT { 0 } else { 2 };
+            if let Some(controls) = block(left_corner) {
                 sum += dot(&controls[j % SIDE][i..], left) * by;
             }
-            if let (false, Some(controls)) = (right.is_empty(), block(half + 1)) {
+            if let (false, Some(controls)) = (right.is_empty(), block(left_corner + 1)) {
                 sum += dot(&controls[j % SIDE], right) * by;
             }
         }

@@ -1,45 +1,44 @@
-//! One layer of a lattice: displacements by a uniform cubic B-spline, whose
-//! control points are zero but near the features.
+//! One displacement layer: a uniform cubic B-spline fitted to the features.
 //!
-//! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel
-//! B-splines" (1997), §3.1: each feature asks its 16 control points for the
-//! least displacements that meet it, and a control point takes the mean of
-//! what it is asked for, weighted by how much it matters there.
+//! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel B-splines" (1997), §3.1: each
+//! feature requests the smallest displacements of its 16 control points that interpolate it. A
+//! control point takes the mean of the requests, weighted by its influence on each feature.
 //!
-//! Where a layer has no control points it is zero, and it is twice
-//! continuously differentiable.
+//! The layer is twice continuously differentiable and zero away from the features.
 
 use super::control_grid::ControlGrid;
 use crate::geometry::{Bounds, DVec2};
 
-/// How a feature counts in a fit.
+/// A feature with its requested displacement.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FeaturePull {
-    /// Where it is.
+    /// Position of the feature.
     pub(super) at: DVec2,
-    /// How far it should go.
+    /// Requested displacement.
     pub(super) by: DVec2,
-    /// How much it counts beside others.
+    /// Weight relative to other features.
     pub(super) weight: f64,
 }
 
-/// Displacements of the plane.
+/// Displacement field on one lattice.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SplineLayer {
+    /// Distance of neighbouring control points.
     spacing: f64,
-    /// Where the first control point's own cell begins.
+    /// Lower left corner of the cell of the first control point.
     origin: DVec2,
     controls: ControlGrid,
 }
 
-/// The first of the four control points along each axis, and the values of
-/// their basis functions.
+/// The 4 × 4 control points that affect a point.
 struct SplineStencil {
+    /// Column and row of the first control point.
     first: [usize; 2],
+    /// Values of the four basis functions along x and y.
     basis: [[f64; 4]; 2],
 }
 
-/// The four cubic B-splines that do not vanish at `s` in [0, 1).
+/// Returns the values of the four cubic B-splines that do not vanish at `s` in [0, 1).
 #[inline(always)]
 fn basis(s: f64) -> [f64; 4] {
     let r = 1.0 - s;
@@ -53,18 +52,18 @@ fn basis(s: f64) -> [f64; 4] {
 }
 
 impl SplineLayer {
-    /// Makes the layer one of `spacing` over `domain`, with nothing moved.
+    /// Resets the layer to zero displacements with `spacing` over `domain`.
     fn reset(&mut self, domain: &Bounds, spacing: f64) {
         let cells = (domain.size() / spacing).ceil();
         self.controls
-            // A cell has its own control point and three more; a place on the far
-            // side is in one cell more.
+            // A stencil needs three control points beyond its cell, and a point on the upper
+            // boundary lies in one more cell.
             .reset(cells.to_array().map(|c| c as usize + 4));
         self.spacing = spacing;
         self.origin = domain.min;
     }
 
-    /// `None` where all four columns or rows of control points are outside.
+    /// Returns the stencil of a point, or `None` if it is not completely inside the lattice.
     #[inline(always)]
     fn stencil(&self, p: DVec2) -> Option<SplineStencil> {
         let at = (p - self.origin) / self.spacing;
@@ -83,25 +82,25 @@ impl SplineLayer {
         })
     }
 
-    /// Fits the layer to what features ask for, each coordinate of a control
-    /// point within ±`most`.
+    /// Fits the layer to the requested displacements.
+    ///
+    /// Each coordinate of a control point's displacement is clamped to ±`bound`.
     pub(super) fn fit(
         &mut self,
         domain: &Bounds,
         spacing: f64,
         pulls: impl Iterator<Item = FeaturePull>,
-        most: f64,
+        bound: f64,
     ) {
         self.reset(domain, spacing);
         for pull in pulls {
-            self.ask(&pull);
+            self.add(&pull);
         }
-        self.controls.divide(most);
+        self.controls.divide(bound);
     }
 
-    /// Adds one feature to the sums: w² φ and w² with φ = w z / Σ w² (eqs. 3
-    /// to 5).
-    fn ask(&mut self, pull: &FeaturePull) {
+    /// Adds one feature to the sums: w² φ and w² with φ = w z / Σ w² (eqs. 3 to 5).
+    fn add(&mut self, pull: &FeaturePull) {
         let Some(SplineStencil { first, basis }) = self.stencil(pull.at) else {
             return;
         };
@@ -111,14 +110,14 @@ impl SplineLayer {
             for (i, bx) in basis[0].iter().enumerate() {
                 let w = bx * by;
                 let weight = pull.weight * w * w;
-                let asked = pull.by * (weight * w / total);
+                let weighted = pull.by * (weight * w / total);
                 self.controls
-                    .ask([first[0] + i, first[1] + j], asked, weight);
+                    .ask([first[0] + i, first[1] + j], weighted, weight);
             }
         }
     }
 
-    /// By how much a place is displaced.
+    /// Returns the displacement of a point, zero outside the lattice.
     #[inline]
     pub(super) fn at(&self, p: DVec2) -> DVec2 {
         let Some(SplineStencil { first, basis }) = self.stencil(p) else {
@@ -133,7 +132,7 @@ mod tests {
     use super::*;
 
     impl SplineLayer {
-        /// The derivatives of the displacement by x and by y.
+        /// Returns the derivatives of the displacement with respect to x and y.
         pub(in crate::warp::lattice) fn gradient(&self, p: DVec2) -> [DVec2; 2] {
             let Some(SplineStencil { first, basis }) = self.stencil(p) else {
                 return [DVec2::ZERO; 2];
@@ -162,7 +161,7 @@ mod tests {
         max: DVec2::new(7.0, 9.0),
     };
 
-    fn one(at: DVec2, by: DVec2) -> FeaturePull {
+    fn unit_pull(at: DVec2, by: DVec2) -> FeaturePull {
         FeaturePull {
             at,
             by,
@@ -171,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn splines_are_a_partition_of_one() {
+    fn splines_are_a_partition_of_unity() {
         for k in 0..100 {
             let sum: f64 = basis(f64::from(k) / 100.0).iter().sum();
             assert!((sum - 1.0).abs() < 1e-15);
@@ -179,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_feature_alone_is_met_wherever_it_is() {
+    fn a_single_feature_is_interpolated_at_any_position() {
         let mut layer = SplineLayer::default();
         for spacing in [3.0, 0.7, 0.1] {
             for k in 0..50 {
@@ -188,7 +187,7 @@ mod tests {
                 layer.fit(
                     &DOMAIN,
                     spacing,
-                    std::iter::once(one(at, by)),
+                    std::iter::once(unit_pull(at, by)),
                     f64::INFINITY,
                 );
                 assert!(layer.at(at).distance(by) < 1e-14);
@@ -198,19 +197,19 @@ mod tests {
     }
 
     #[test]
-    fn the_gradient_is_that_of_the_displacement() {
+    fn the_gradient_equals_the_difference_quotient() {
         let mut layer = SplineLayer::default();
         let pulls = [(1.0, 2.0), (1.3, 2.5), (4.0, 0.0)].map(|(x, y)| {
             let at = DVec2::new(x, y);
-            one(at, at.perp())
+            unit_pull(at, at.perp())
         });
         layer.fit(&DOMAIN, 0.5, pulls.into_iter(), f64::INFINITY);
         for k in 0..200 {
             let p = DVec2::new(0.021 * f64::from(k), 0.017 * f64::from(k));
             for (axis, slope) in [DVec2::X, DVec2::Y].into_iter().zip(layer.gradient(p)) {
                 let step = 1e-5 * axis;
-                let wanted = (layer.at(p + step) - layer.at(p - step)) / 2e-5;
-                assert!(slope.distance(wanted) < 1e-7, "{p}: {slope} {wanted}");
+                let expected = (layer.at(p + step) - layer.at(p - step)) / 2e-5;
+                assert!(slope.distance(expected) < 1e-7, "{p}: {slope} {expected}");
             }
         }
     }

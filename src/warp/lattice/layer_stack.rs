@@ -1,47 +1,51 @@
-//! Layers upon layers, from coarse to fine, that lead features where they
-//! belong.
+//! A sequence of displacement layers from coarse to fine that moves the features to their goals.
 
 use super::layer::{FeaturePull, SplineLayer};
 use super::options::LatticeOptions;
 use crate::geometry::{Bounds, DVec2};
 
-/// The largest coordinate of a control point's displacement, in spacings.
-/// Below 1 / 2.046392675 = 0.4886 a layer is injective (Choi, Lee,
-/// "Injectivity conditions of 2D and 3D uniform cubic B-spline functions",
-/// 2000).
+/// Bound of each coordinate of a control point's displacement, in lattice spacings.
+///
+/// Cited: below 1 / 2.046392675 = 0.4886 a layer is injective (Choi, Lee, "Injectivity conditions
+/// of 2D and 3D uniform cubic B-spline functions", 2000).
 const BOUND: f64 = 0.48;
 
-/// Layers of the first level, of the others that are asked for, and of those
-/// that follow: ten of spacings ¼ lead a feature across the frame.
-const COMPOSED: [u32; 3] = [16, 4, 8];
+/// Maximum number of composed layers in the first level, in each other requested level, and in
+/// each added level.
+///
+/// With a bound of about half a spacing, ten layers with a spacing of ¼ move a feature across the
+/// frame (resource limit).
+const MAX_LAYERS: [u32; 3] = [16, 4, 8];
 
-/// Layers end where what is left is this share of the tolerance, so that one
-/// layer more or less is no jump in a film.
-const AIM: f64 = 0.1;
+/// Residual at which no further layers are added, as a fraction of the tolerance (tolerance: one
+/// layer more or less must not cause a visible jump between frames).
+const TARGET_RESIDUAL: f64 = 0.1;
 
-/// How far from the frame features begin to count less, and where they do not
-/// count at all, in longer sides of the frame.
+/// Distances from the frame at which the influence of features starts to fade and at which it
+/// vanishes, in lengths of the frame's longer side (heuristic).
 const FADE: [f64; 2] = [0.5, 1.0];
 
-/// The lattices' place in the plane, and their sizes.
+/// Extent and resolution of the lattices.
 #[derive(Clone, Debug)]
 pub(super) struct LatticeDomain {
     frame: Bounds,
+    /// Area covered by the lattices.
     domain: Bounds,
-    /// The longer side of the frame.
+    /// Length of the frame's longer side.
     side: f64,
-    /// Lengths, where the options have shares of the diameter.
+    /// Tolerance as a length; the options hold it as a fraction of the diameter.
     pub(super) tolerance: f64,
     pub(super) options: LatticeOptions,
 }
 
 impl LatticeDomain {
+    /// Creates the domain around `frame`; `unit` replaces the side of a frame of zero size.
     pub(super) fn new(frame: &Bounds, unit: f64, options: LatticeOptions) -> Self {
         let side = frame.size().max_element();
         let side = if side > 0.0 { side } else { unit };
         Self {
             frame: *frame,
-            // Control points of features at the rim reach farther than them.
+            // The control points of a feature at the margin extend beyond it.
             domain: frame.padded((FADE[1] + 2.0 / f64::from(options.coarsest)) * side),
             side,
             tolerance: options.tolerance * unit,
@@ -49,7 +53,7 @@ impl LatticeDomain {
         }
     }
 
-    /// How much a feature counts that is there.
+    /// Returns the weight of a feature at a point: 1 near the frame, fading to 0 outside.
     fn weight(&self, p: DVec2) -> f64 {
         let outside = (p - p.clamp(self.frame.min, self.frame.max)).length() / self.side;
         let s = ((FADE[1] - outside) / (FADE[1] - FADE[0])).clamp(0.0, 1.0);
@@ -57,121 +61,128 @@ impl LatticeDomain {
     }
 }
 
-/// A map from the plane to the plane.
+/// Map of the plane, the composition or the sum of displacement layers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LayerStack {
+    /// Allocated layers, reused from frame to frame.
     layers: Vec<SplineLayer>,
-    /// How many of the layers are in use.
+    /// Number of layers in use.
     height: usize,
-    composed: bool,
+    /// Whether layers are composed; otherwise they are summed.
+    is_composed: bool,
     features: Vec<LatticeFeature>,
 }
 
+/// A feature with its current and its final position.
 #[derive(Clone, Copy, Debug)]
 struct LatticeFeature {
     weight: f64,
+    /// Position in the frame.
     from: DVec2,
-    /// Where it was led.
+    /// Position after the layers built so far.
     now: DVec2,
-    /// Where it should be led, were it not for its weight, and with it.
-    wanted: DVec2,
+    /// Position in the design.
+    expected: DVec2,
+    /// Position to reach: the displacement to `expected` times the weight.
     goal: DVec2,
 }
 
 impl LayerStack {
-    /// Builds the layers that lead features from their places by their looks.
+    /// Builds layers that move each feature `(position, displacement)` by its displacement.
     pub(super) fn build(
         &mut self,
         ground: &LatticeDomain,
         features: impl Iterator<Item = (DVec2, DVec2)>,
     ) {
         self.height = 0;
-        self.composed = ground.options.fold_free;
+        self.is_composed = ground.options.fold_free;
         self.features.clear();
-        self.features.extend(features.map(|(from, look)| {
+        self.features.extend(features.map(|(from, displacement)| {
             let weight = ground.weight(from);
             LatticeFeature {
                 weight,
                 from,
                 now: from,
-                wanted: from + look,
-                goal: from + look * weight,
+                expected: from + displacement,
+                goal: from + displacement * weight,
             }
         }));
         let levels = ground.options.levels;
         for level in 0..ground.options.most_levels() {
-            let left = self.left();
-            let enough = if level < levels { AIM } else { 1.0 };
-            if left <= enough * ground.tolerance {
+            let residual = self.max_residual();
+            // Added levels are only built while a feature is missed by the full tolerance.
+            let target = if level < levels { TARGET_RESIDUAL } else { 1.0 };
+            if residual <= target * ground.tolerance {
                 return;
             }
-            self.level(ground, level);
+            self.add_level(ground, level);
         }
     }
 
-    /// All layers of one level.
-    fn level(&mut self, ground: &LatticeDomain, level: u32) {
+    /// Adds all layers of one level.
+    fn add_level(&mut self, ground: &LatticeDomain, level: u32) {
         let cells = f64::from(ground.options.coarsest) * f64::from(level).exp2();
         let spacing = ground.side / cells;
-        let layers = match (self.composed, level) {
+        let layers = match (self.is_composed, level) {
             (false, _) => 1,
-            // So many steps of half a spacing lead across the frame.
-            (true, 0) => COMPOSED[0].min(2 * ground.options.coarsest + 2),
-            (true, _) if level < ground.options.levels => COMPOSED[1],
-            (true, _) => COMPOSED[2],
+            // Twice the number of cells suffices: each layer moves by up to half a spacing.
+            (true, 0) => MAX_LAYERS[0].min(2 * ground.options.coarsest + 2),
+            (true, _) if level < ground.options.levels => MAX_LAYERS[1],
+            (true, _) => MAX_LAYERS[2],
         };
-        let most = if self.composed {
+        let bound = if self.is_composed {
             BOUND * spacing
         } else {
             f64::INFINITY
         };
         for _ in 0..layers {
-            if self.left() <= AIM * ground.tolerance {
+            if self.max_residual() <= TARGET_RESIDUAL * ground.tolerance {
                 return;
             }
-            self.layer(ground, spacing, most);
+            self.add_layer(ground, spacing, bound);
         }
     }
 
-    fn layer(&mut self, ground: &LatticeDomain, spacing: f64, most: f64) {
-        // Layers are kept from frame to frame, with their memory.
+    /// Fits one more layer to the remaining displacements.
+    fn add_layer(&mut self, ground: &LatticeDomain, spacing: f64, bound: f64) {
+        // Layers are reused from frame to frame to avoid allocation.
         if self.layers.len() == self.height {
             self.layers.push(SplineLayer::default());
         }
         let layer = &mut self.layers[self.height];
-        let composed = self.composed;
-        // Composed, a layer moves what the layers below have moved; summed, each
-        // moves the plane as it was.
-        let on = |f: &LatticeFeature| if composed { f.now } else { f.from };
-        let pulls = self.features.iter().filter(|f| f.weight > 0.0);
-        let pulls = pulls.map(|f| FeaturePull {
-            at: on(f),
+        let is_composed = self.is_composed;
+        // A composed layer acts on the result of the previous layers, a summed one on the
+        // original plane.
+        let argument = |f: &LatticeFeature| if is_composed { f.now } else { f.from };
+        let features = self.features.iter().filter(|f| f.weight > 0.0);
+        let pulls = features.map(|f| FeaturePull {
+            at: argument(f),
             by: f.goal - f.now,
             weight: f.weight,
         });
-        layer.fit(&ground.domain, spacing, pulls, most);
+        layer.fit(&ground.domain, spacing, pulls, bound);
         for feature in &mut self.features {
-            feature.now += layer.at(on(feature));
+            feature.now += layer.at(argument(feature));
         }
         self.height += 1;
     }
 
-    /// The farthest that a feature is from its goal.
-    fn left(&self) -> f64 {
-        let left = self.features.iter().map(|f| f.now.distance(f.goal));
-        left.fold(0.0, f64::max)
+    /// Returns the largest distance of a feature from its goal.
+    fn max_residual(&self) -> f64 {
+        let distances = self.features.iter().map(|f| f.now.distance(f.goal));
+        distances.fold(0.0, f64::max)
     }
 
-    /// How far each feature is from where it should be led.
+    /// Returns the distance of each feature from its position in the design.
     pub(super) fn residuals(&self) -> impl Iterator<Item = f64> + '_ {
-        self.features.iter().map(|f| f.now.distance(f.wanted))
+        self.features.iter().map(|f| f.now.distance(f.expected))
     }
 
-    /// Where the map leads each place.
+    /// Maps each point.
     pub(super) fn lead(&self, places: &[DVec2], out: &mut [DVec2]) {
         out.copy_from_slice(places);
         for layer in &self.layers[..self.height] {
-            if self.composed {
+            if self.is_composed {
                 out.iter_mut().for_each(|p| *p += layer.at(*p));
             } else {
                 let places = places.iter().zip(&mut *out);
@@ -187,25 +198,25 @@ mod tests {
     use crate::geometry::DMat2;
 
     impl LayerStack {
-        /// The determinant of the derivative at a place: composed, the product of
-        /// the layers'; of these also the least.
+        /// Returns the Jacobian determinant of the map at a point and the smallest determinant of
+        /// a composed layer.
         pub(in crate::warp::lattice) fn determinants(&self, place: DVec2) -> [f64; 2] {
             let mut at = place;
             let mut total = DMat2::IDENTITY;
-            let mut least = f64::INFINITY;
+            let mut smallest = f64::INFINITY;
             for layer in &self.layers[..self.height] {
                 let [x, y] = layer.gradient(at);
                 let slope = DMat2::from_cols(x, y);
-                if self.composed {
+                if self.is_composed {
                     let step = DMat2::IDENTITY + slope;
-                    least = least.min(step.determinant());
+                    smallest = smallest.min(step.determinant());
                     total = step * total;
                     at += layer.at(at);
                 } else {
                     total += slope;
                 }
             }
-            [total.determinant(), least]
+            [total.determinant(), smallest]
         }
     }
 }

@@ -1,28 +1,28 @@
-//! How fine lattices are, and what may be wrong with that.
+//! Options of the lattice warp and their validation.
 
 use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
-/// Levels that may follow those asked for where a feature is not met.
+/// Maximum number of levels added beyond the requested ones while features are missed (resource
+/// limit: each level doubles the resolution).
 pub const MAX_EXTRA_LEVELS: u32 = 3;
 
-/// Cells of the finest lattice along the longer side of the frame.
+/// Maximum number of cells along the longer side of the frame (resource limit).
 pub const MAX_LATTICE_CELLS: u32 = 1024;
 
-/// Options of the warp by lattices.
+/// Options of the lattice warp.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LatticeOptions {
-    /// How many lattices, each twice as fine as the one before; 1 to 9. Up to
-    /// [`MAX_EXTRA_LEVELS`] follow while a feature is not met.
+    /// Number of lattices, 1 to 9; each has half the spacing of the previous one. Up to
+    /// [`MAX_EXTRA_LEVELS`] are added while a feature is missed.
     pub levels: u32,
-    /// Cells of the first lattice along the longer side of the frame; 1 to
-    /// 32. Fewer move more of the plane with a feature.
+    /// Number of cells of the first lattice along the longer side of the frame, 1 to 32. With
+    /// fewer cells a feature affects more of the plane.
     pub coarsest: u32,
-    /// How far features may be missed, as a fraction of the frame's diameter;
-    /// above 0 and at most 1.
+    /// Permitted error of features as a fraction of the frame's diameter, above 0 and at most 1.
     pub tolerance: f64,
-    /// Compose bounded layers, so that the plane never folds; else layers are
+    /// Whether bounded layers are composed, so that the plane never folds; otherwise layers are
     /// summed.
     pub fold_free: bool,
 }
@@ -38,34 +38,34 @@ impl Default for LatticeOptions {
     }
 }
 
-/// Why a warp by lattices is none.
+/// Reason why the lattice warp cannot be created.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LatticeError {
-    /// The features cannot be moved by.
+    /// The features are invalid.
     #[error(transparent)]
     Features(#[from] FeatureError),
-    /// Too few or too many levels.
-    #[error("{0} levels: there must be 1 to 9; 5 are usual")]
+    /// The number of levels is out of range.
+    #[error("the lattice has {0} levels, but must have 1 to 9; the default is 5")]
     Levels(u32),
-    /// The first lattice is none, or too fine.
-    #[error("the coarsest lattice has {0} cells: it must have 1 to 32; 4 are usual")]
+    /// The number of cells of the first lattice is out of range.
+    #[error("the coarsest lattice has {0} cells, but must have 1 to 32; the default is 4")]
     Coarsest(u32),
     /// The last lattice is too fine.
     #[error(
-        "the finest lattice would have {0} cells along a side: at most {MAX_LATTICE_CELLS}; use fewer levels or a coarser first lattice"
+        "the finest lattice would have {0} cells along a side, but at most {MAX_LATTICE_CELLS} are possible; use fewer levels or a coarser first lattice"
     )]
     Finest(u32),
     /// The tolerance is out of range.
-    #[error("the tolerance is {0}: it must be above 0 and at most 1 of the frame's diameters")]
+    #[error("the tolerance is {0}, but must be above 0 and at most 1 frame diameter")]
     Tolerance(f64),
 }
 
 impl LatticeOptions {
-    /// That all numbers are in range.
+    /// Checks that all options are in range.
     ///
     /// # Errors
-    /// Names the number that is not.
+    /// [`LatticeError`] for the first option out of range.
     pub fn check(&self) -> Result<(), LatticeError> {
         if !(1..=9).contains(&self.levels) {
             return Err(LatticeError::Levels(self.levels));
@@ -83,7 +83,7 @@ impl LatticeOptions {
         Ok(())
     }
 
-    /// How many levels there may be in the end.
+    /// Returns the maximum number of levels, including added ones.
     pub(super) fn most_levels(&self) -> u32 {
         let finer = MAX_LATTICE_CELLS / (self.coarsest << (self.levels - 1));
         self.levels + MAX_EXTRA_LEVELS.min(finer.ilog2())

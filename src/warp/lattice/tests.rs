@@ -1,3 +1,5 @@
+//! Tests of the lattice warp: interpolation, exact ends, absence of folds, invalid input.
+
 use super::*;
 use crate::warp::FeatureError;
 use proptest::prelude::*;
@@ -16,14 +18,14 @@ fn pair(source: impl Into<DVec2>, target: impl Into<DVec2>) -> PointPair {
     }
 }
 
-/// Points of the additive recurrence by the plastic number, in the frame.
+/// Returns well-spread points of the frame (additive recurrence of the plastic number).
 fn spread(count: usize, shift: f64) -> Vec<DVec2> {
     let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
     let point = |k| FRAME.min + FRAME.size() * ((k as f64 + shift) * step).fract();
     (1..=count).map(point).collect()
 }
 
-fn looks(warp: &Lattice, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
+fn lookups(warp: &Lattice, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     let [mut source, mut target] = [(); 2].map(|()| vec![DVec2::NAN; places.len()]);
     warp.clone().look_up(t, places, &mut source, &mut target);
     [source, target]
@@ -36,7 +38,7 @@ fn summed() -> LatticeOptions {
     }
 }
 
-/// Features that move by up to a tenth of the frame.
+/// Returns features that move by up to a tenth of the frame.
 fn moderate(count: usize) -> Vec<PointPair> {
     let ends = spread(count, 0.0).into_iter().zip(spread(count, 0.3));
     ends.map(|(p, by)| pair(p, p + 0.1 * (by - FRAME.centre())))
@@ -44,27 +46,27 @@ fn moderate(count: usize) -> Vec<PointPair> {
 }
 
 #[test]
-fn features_are_met_to_the_tolerance() -> LatticeTestResult {
+fn features_are_interpolated_within_the_tolerance() -> LatticeTestResult {
     for options in [LatticeOptions::default(), summed()] {
         for count in [1, 2, 10, 40] {
             let pairs = moderate(count);
             let warp = Lattice::new(&FRAME, &pairs, &[], options)?;
             for t in [0.0, 0.3, 0.5, 1.0] {
                 let at: Vec<DVec2> = pairs.iter().map(|f| f.source.lerp(f.target, t)).collect();
-                let [source, target] = looks(&warp, t, &at);
+                let [source, target] = lookups(&warp, t, &at);
                 let residuals = warp.residuals(t);
                 for (k, pair) in pairs.iter().enumerate() {
-                    let missed = [
+                    let errors = [
                         source[k].distance(pair.source),
                         target[k].distance(pair.target),
                     ];
-                    let most = missed[0].max(missed[1]);
+                    let larger = errors[0].max(errors[1]);
                     assert!(
-                        most <= warp.tolerance(),
-                        "{options:?} {count} {t}: {most:e}"
+                        larger <= warp.tolerance(),
+                        "{options:?} {count} {t}: {larger:e}"
                     );
-                    assert!((missed[0] - residuals[k][0]).abs() < 1e-12);
-                    assert!((missed[1] - residuals[k][1]).abs() < 1e-12);
+                    assert!((errors[0] - residuals[k][0]).abs() < 1e-12);
+                    assert!((errors[1] - residuals[k][1]).abs() < 1e-12);
                 }
             }
         }
@@ -89,25 +91,28 @@ fn a_feature_crosses_the_frame() -> LatticeTestResult {
 }
 
 #[test]
-fn ends_are_met_to_the_last_bit_and_nothing_moves_nothing() -> LatticeTestResult {
+fn ends_are_exact_and_without_features_nothing_moves() -> LatticeTestResult {
     let places = spread(200, 0.5);
     for options in [LatticeOptions::default(), summed()] {
         let warp = Lattice::new(&FRAME, &moderate(30), &[], options)?;
-        assert_eq!(looks(&warp, 0.0, &places)[0], places);
-        assert_eq!(looks(&warp, 1.0, &places)[1], places);
+        assert_eq!(lookups(&warp, 0.0, &places)[0], places);
+        assert_eq!(lookups(&warp, 1.0, &places)[1], places);
         let none = Lattice::new(&FRAME, &[], &[], options)?;
-        assert_eq!(looks(&none, 0.4, &places), [places.clone(), places.clone()]);
+        assert_eq!(
+            lookups(&none, 0.4, &places),
+            [places.clone(), places.clone()]
+        );
         assert!(none.residuals(0.4).is_empty());
     }
     Ok(())
 }
 
 #[test]
-fn what_is_far_from_the_frame_moves_nothing_there() -> LatticeTestResult {
+fn features_far_from_the_frame_have_no_effect_in_it() -> LatticeTestResult {
     let places = spread(200, 0.5);
     let far = pair((40.0, 3.0), (41.0, 3.0));
     let warp = Lattice::new(&FRAME, &[far], &[], LatticeOptions::default())?;
-    assert_eq!(looks(&warp, 0.5, &places)[0], places);
+    assert_eq!(lookups(&warp, 0.5, &places)[0], places);
     assert_eq!(warp.residuals(0.5)[0][0], 0.5);
     Ok(())
 }
@@ -123,7 +128,7 @@ fn features_fade_out_without_a_jump() -> LatticeTestResult {
             ..LatticeOptions::default()
         };
         let warp = Lattice::new(&FRAME, &[leaving, staying], &[], options)?;
-        Ok(looks(&warp, 0.5, &places)[0].clone())
+        Ok(lookups(&warp, 0.5, &places)[0].clone())
     };
     let mut last = at(3.0)?;
     for step in 1..=500 {
@@ -140,52 +145,54 @@ fn features_fade_out_without_a_jump() -> LatticeTestResult {
     Ok(())
 }
 
-/// The determinants of both maps on a fine grid that reaches beyond the frame.
-fn least_determinant(warp: &Lattice, t: f64, steps: u32) -> f64 {
+/// Returns the smallest Jacobian determinant on a fine grid that extends beyond the frame.
+///
+/// In fold-free mode the determinants of the individual layers count as well.
+fn smallest_determinant(warp: &Lattice, t: f64, steps: u32) -> f64 {
     let mut warp = warp.clone();
     warp.build(t);
     let steps = f64::from(steps);
     let (low, size) = (FRAME.min - 2.0, FRAME.size() + 4.0);
-    let mut least = f64::INFINITY;
+    let mut smallest = f64::INFINITY;
     for k in 0..(steps * steps) as u32 {
         let (i, j) = (f64::from(k) % steps, (f64::from(k) / steps).floor());
         let place = low + size * DVec2::new(i, j) / steps;
         for tower in &warp.towers {
             let [total, step] = tower.determinants(place);
-            least = least.min(total).min(if warp.ground.options.fold_free {
+            smallest = smallest.min(total).min(if warp.ground.options.fold_free {
                 step
             } else {
                 total
             });
         }
     }
-    least
+    smallest
 }
 
 #[test]
 fn summed_layers_fold_where_composed_ones_do_not() -> LatticeTestResult {
     let pairs = [pair((0.5, 3.5), (1.5, 3.5)), pair((1.2, 3.5), (0.8, 3.5))];
     let folding = Lattice::new(&FRAME, &pairs, &[], summed())?;
-    assert!(least_determinant(&folding, 0.0, 150) < 0.0);
+    assert!(smallest_determinant(&folding, 0.0, 150) < 0.0);
     let composed = Lattice::new(&FRAME, &pairs, &[], LatticeOptions::default())?;
-    assert!(least_determinant(&composed, 0.0, 150) > 0.0);
+    assert!(smallest_determinant(&composed, 0.0, 150) > 0.0);
     Ok(())
 }
 
 #[test]
-fn features_that_meet_report_what_is_left() -> LatticeTestResult {
+fn features_that_meet_report_their_residuals() -> LatticeTestResult {
     let pairs = [pair((0.0, 3.0), (2.0, 4.0)), pair((2.0, 4.0), (0.0, 3.0))];
     let warp = Lattice::new(&FRAME, &pairs, &[], LatticeOptions::default())?;
     let half = 0.5 * 5.0_f64.sqrt();
-    for missed in warp.residuals(0.5) {
-        assert!((missed[0] - half).abs() < 1e-9, "{missed:?}");
-        assert!((missed[1] - half).abs() < 1e-9, "{missed:?}");
+    for residual in warp.residuals(0.5) {
+        assert!((residual[0] - half).abs() < 1e-9, "{residual:?}");
+        assert!((residual[1] - half).abs() < 1e-9, "{residual:?}");
     }
     Ok(())
 }
 
 #[test]
-fn what_is_out_of_range_is_refused() {
+fn options_out_of_range_are_rejected() {
     let new = |options| Lattice::new(&FRAME, &[], &[], options).map(|_| ());
     let default = LatticeOptions::default();
     assert_eq!(new(default), Ok(()));
@@ -257,16 +264,16 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
     #[test]
-    fn composed_layers_never_fold_nor_fail(
+    fn composed_layers_never_fold_and_stay_finite(
         ends in prop::collection::vec((any_place(), any_place()), 0..12),
         options in any_options(),
         t in prop_oneof![Just(0.5), -0.5f64..1.5, Just(1e300), Just(f64::NAN)],
     ) {
         let pairs: Vec<_> = ends.iter().map(|&(p, q)| pair(p, q)).collect();
         let warp = Lattice::new(&FRAME, &pairs, &[], options)?;
-        let least = least_determinant(&warp, t, 60);
-        prop_assert!(least > 0.0, "{least:e}");
-        for place in looks(&warp, t, &spread(30, 0.0)).into_iter().flatten() {
+        let smallest = smallest_determinant(&warp, t, 60);
+        prop_assert!(smallest > 0.0, "{smallest:e}");
+        for place in lookups(&warp, t, &spread(30, 0.0)).into_iter().flatten() {
             prop_assert!(place.is_finite());
         }
         prop_assert!(warp.residuals(t).iter().all(|r| r[0].is_finite()));
@@ -281,13 +288,13 @@ proptest! {
         let pairs: Vec<_> = ends.iter().map(|&(p, q)| pair(p, q)).collect();
         let options = LatticeOptions { fold_free: false, ..options };
         let warp = Lattice::new(&FRAME, &pairs, &[], options)?;
-        for place in looks(&warp, t, &spread(30, 0.0)).into_iter().flatten() {
+        for place in lookups(&warp, t, &spread(30, 0.0)).into_iter().flatten() {
             prop_assert!(place.is_finite());
         }
     }
 
     #[test]
-    fn swapping_plays_the_film_backwards(
+    fn exchanged_designs_reverse_the_motion(
         ends in prop::collection::vec((0.0f64..4.0, 2.0f64..5.0), 0..12),
         fold_free in any::<bool>(),
         t in -0.2f64..1.2,
@@ -299,8 +306,8 @@ proptest! {
         let warp = Lattice::new(&FRAME, &pairs, &[], options)?;
         let back = Lattice::new(&FRAME, &swapped, &[], options)?;
         let places = spread(20, 0.0);
-        let [source, target] = looks(&warp, t, &places);
-        let [back_source, back_target] = looks(&back, 1.0 - t, &places);
+        let [source, target] = lookups(&warp, t, &places);
+        let [back_source, back_target] = lookups(&back, 1.0 - t, &places);
         for (a, b) in source.iter().zip(&back_target).chain(target.iter().zip(&back_source)) {
             prop_assert!(a.distance(*b) < 1e-6, "{a} {b}");
         }

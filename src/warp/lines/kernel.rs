@@ -1,11 +1,10 @@
-//! Σ w D / Σ w over lines, for many places at a time.
+//! Vectorised evaluation of Σ w D / Σ w over the lines at many points.
 //!
-//! The width of the vectors is chosen at run time; results differ between
-//! widths in the last digits at most.
+//! The vector width is chosen at run time; results for different widths agree up to the last
+//! digits.
 //!
-//! Guaranteed: a weight is a positive finite number, and so are all numbers
-//! on the way to it, if places are no farther than [`FARTHEST`] and a is from
-//! [`LEAST_A`] to [`LARGEST_A`].
+//! Guaranteed: weights and all intermediate results are positive and finite for points within
+//! [`FARTHEST`] and a between [`LEAST_A`] and [`LARGEST_A`].
 
 use super::line::{AffineFunction, FieldLine};
 use super::scaled_plane::ScaledPlane;
@@ -13,52 +12,53 @@ use crate::geometry::DVec2;
 use crate::warp::elementary::{exp, ln};
 use pulp::{Arch, Simd, WithSimd, bytemuck};
 
-/// How many vectors share a division. Four would share it as well, but more
-/// of their numbers than there are registers for.
+/// Number of vectors that share one division (resource limit: four exceed the registers).
 const GROUP: usize = 2;
 
-/// Vectors that are handled together.
+/// Vectors that are processed together.
 type VectorGroup<S> = [<S as Simd>::f64s; GROUP];
 
-/// How many places there are in a block.
+/// Number of points in a block (resource limit: fits into the first-level cache).
 const BLOCK: usize = 128;
 
-/// How many groups of vectors are taken through the lines together: a block,
-/// if vectors have four numbers.
+/// Number of groups that pass through the lines together (derived: one block for vectors of
+/// four numbers).
 const CELLS: usize = BLOCK / GROUP / 4;
 
-/// The farthest place, scaled.
+/// Limit of scaled point coordinates (tolerance: weights must not underflow).
 const FARTHEST: f64 = 1e36;
 
-/// The least a, scaled: below what coordinates can tell.
+/// Smallest a in scaled units (tolerance: far below the resolution of the coordinates).
 pub(super) const LEAST_A: f64 = 1e-30;
 
-/// The largest a, scaled: to all features it makes no difference any more.
+/// Largest a in scaled units (tolerance: beyond it all distances are negligible).
 pub(super) const LARGEST_A: f64 = 1e30;
 
-/// The least Σ w that is one: that of no lines is 0, and no other is below.
+/// Lower bound of Σ w, which replaces the zero sum of an empty set of lines (derived: every
+/// other sum is larger).
 const LEAST_WEIGHT: f64 = 1e-300;
 
-/// A number of each place of a block.
+/// One number per point of a block.
 type PlaceLanes = [f64; BLOCK];
 
-/// How weight falls with q = a + dist: strength / q^b. Places come in pairs of
-/// vectors: one division does for both weights, as 1/q = (the other q) /
-/// (product of both).
+/// Decrease of the weight, strength / q^b, with q = a + dist.
+///
+/// Points come in pairs of vectors, and one division serves both weights:
+/// 1/q₁ = q₂ / (q₁ q₂) and 1/q₂ = q₁ / (q₁ q₂).
 trait WeightFalloff: Copy {
-    /// `strength` / q^b.
+    /// Returns `strength` / q^b for both vectors.
     fn weights<S: Simd>(self, simd: S, strength: S::f64s, q: VectorGroup<S>) -> VectorGroup<S>;
 }
 
-/// b = 1.
+/// Falloff with b = 1.
 #[derive(Clone, Copy)]
 struct InverseFalloff;
 
-/// b = 2.
+/// Falloff with b = 2.
 #[derive(Clone, Copy)]
 struct InverseSquareFalloff;
 
-/// Any b.
+/// Falloff with arbitrary b.
 #[derive(Clone, Copy)]
 struct InversePowerFalloff(f64);
 
@@ -98,20 +98,21 @@ impl WeightFalloff for InversePowerFalloff {
     }
 }
 
-/// Lines to be summed over.
+/// All lines of a frame with the constants of their weights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScaledLines<'a> {
     pub(super) lines: &'a [FieldLine],
-    /// What they are scaled by.
+    /// Transformation to the lines' coordinates.
     pub(super) plane: ScaledPlane,
-    /// The paper's a, scaled.
+    /// The paper's constant a in scaled units.
     pub(super) a: f64,
-    /// The paper's b.
+    /// The paper's exponent b.
     pub(super) b: f64,
 }
 
-/// Where each place is looked up in both designs: moved by Σ w D / Σ w, and
-/// not at all where there are no lines.
+/// Displaces each point by Σ w D / Σ w, into both designs.
+///
+/// Without lines the points stay where they are.
 pub(super) fn look_up(
     arch: Arch,
     lines: ScaledLines<'_>,
@@ -129,7 +130,7 @@ pub(super) fn look_up(
     }
 }
 
-/// The work, to be compiled for several widths of vectors.
+/// Evaluation of all points, compiled once for each vector width.
 struct LinePass<'a, F>(F, (ScaledLines<'a>, &'a [DVec2], [&'a mut [DVec2]; 2]));
 
 impl<F: WeightFalloff> WithSimd for LinePass<'_, F> {
@@ -142,7 +143,7 @@ impl<F: WeightFalloff> WithSimd for LinePass<'_, F> {
         let designs = source.chunks_mut(BLOCK).zip(target.chunks_mut(BLOCK));
         for (places, designs) in places.chunks(BLOCK).zip(designs) {
             let mut block = PlaceBlock::of(places);
-            // The last block may be short; what is behind it is not computed.
+            // The last block may be short; groups beyond its end are skipped.
             let used = places.len().div_ceil(GROUP * S::F64_LANES);
             for start in (0..used).step_by(CELLS) {
                 let cells = &mut cells[..CELLS.min(used - start)];
@@ -159,11 +160,12 @@ impl<F: WeightFalloff> WithSimd for LinePass<'_, F> {
     }
 }
 
-/// A block of places, and how far each is moved in both designs.
+/// A block of points and their displacements in both designs.
 struct PlaceBlock {
-    /// x and y. Behind the last place stands that place again, and what is
-    /// computed there is computed in vain.
+    /// x and y coordinates. A short block is padded with its last point; the results of the
+    /// padding are not used.
     places: [PlaceLanes; 2],
+    /// Displacements by design and axis.
     moved: [[PlaceLanes; 2]; 2],
 }
 
@@ -183,7 +185,7 @@ impl PlaceBlock {
         block
     }
 
-    /// The places of a group, with no line added.
+    /// Loads group `at` in scaled coordinates, with empty sums.
     #[inline(always)]
     fn cell<S: Simd>(&self, simd: S, at: usize, plane: &ScaledPlane) -> LaneCell<S> {
         let [x, y] = self.places.each_ref().map(|row| groups::<S>(row)[at]);
@@ -194,10 +196,10 @@ impl PlaceBlock {
         }
     }
 
-    /// `unit` Σ w D / Σ w of a group.
+    /// Stores the displacements `unit` · Σ w D / Σ w of group `at`.
     #[inline(always)]
     fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &LaneCell<S>, unit: f64) {
-        // Without lines Σ w and the sums are 0, and 0 / 10⁻³⁰⁰ is no movement.
+        // Without lines all sums are 0, and 0 / 10⁻³⁰⁰ gives zero displacement.
         let [one, unit, least] = [1.0, unit, LEAST_WEIGHT].map(|x| simd.splat_f64s(x));
         let mut factors = cell.weight;
         for factor in &mut factors {
@@ -212,6 +214,7 @@ impl PlaceBlock {
         }
     }
 
+    /// Writes the displaced points into both designs.
     #[inline(always)]
     fn write(&self, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
         for (design, [dx, dy]) in designs.into_iter().zip(&self.moved) {
@@ -224,8 +227,8 @@ impl PlaceBlock {
 
 /// Sums over all lines.
 ///
-/// A line's weights wait long for its roots: so these are begun one line
-/// ahead, for all cells, and no processor needs to look far.
+/// Square roots have a long latency. They are therefore computed one line ahead for all cells,
+/// so that the processor does not have to look far ahead to hide it.
 #[inline(always)]
 fn sum<S: Simd>(
     simd: S,
@@ -252,16 +255,19 @@ fn sum<S: Simd>(
     }
 }
 
-/// A group of places, and what is known of them. Aligned, because vectors
-/// that lie across lines of the cache are slow.
+/// A group of points with its running sums.
+///
+/// Aligned to cache lines, because vectors that straddle two of them are slow.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 struct LaneCell<S: Simd> {
     x: VectorGroup<S>,
     y: VectorGroup<S>,
-    /// a + dist, of the line that comes next.
+    /// q = a + dist of the next line.
     q: VectorGroup<S>,
+    /// Σ w.
     weight: VectorGroup<S>,
+    /// Σ w D by design and axis.
     moved: [[VectorGroup<S>; 2]; 2],
 }
 
@@ -278,7 +284,7 @@ impl<S: Simd> LaneCell<S> {
         }
     }
 
-    /// a + dist.
+    /// Returns q = a + dist for a line.
     #[inline(always)]
     fn reach(&self, simd: S, a: f64, line: &FieldLine) -> VectorGroup<S> {
         let all = |value| simd.splat_f64s(value);
@@ -296,7 +302,7 @@ impl<S: Simd> LaneCell<S> {
         q
     }
 
-    /// Adds w and w D of a line, whose q is known.
+    /// Adds w and w D of a line; `self.q` must already hold its q.
     #[inline(always)]
     fn add(&mut self, simd: S, falloff: impl WeightFalloff, line: &FieldLine) {
         let w = falloff.weights(simd, simd.splat_f64s(line.strength), self.q);
@@ -314,7 +320,7 @@ impl<S: Simd> LaneCell<S> {
     }
 }
 
-/// Coordinates as the lines know them, none farther than [`FARTHEST`].
+/// Converts coordinates to scaled units and clamps them to ±[`FARTHEST`].
 #[inline(always)]
 fn scaled<S: Simd>(
     simd: S,
@@ -329,26 +335,26 @@ fn scaled<S: Simd>(
     ];
     for value in &mut group {
         *value = simd.sub_f64s(simd.mul_f64s(*value, per_unit), centre);
-        // In this order what is no number becomes one, lest its neighbours suffer.
+        // In this order max and min turn NaN into a number, which protects the other lanes.
         *value = simd.max_f64s(*value, simd.neg_f64s(farthest));
         *value = simd.min_f64s(*value, farthest);
     }
     group
 }
 
-/// The numbers of a row in groups of vectors.
+/// Views a row as groups of vectors.
 #[inline(always)]
 fn groups<S: Simd>(row: &PlaceLanes) -> &[VectorGroup<S>] {
     S::as_simd_f64s(row).0.as_chunks().0
 }
 
-/// The same to write to.
+/// Views a row as groups of vectors, mutably.
 #[inline(always)]
 fn groups_mut<S: Simd>(row: &mut PlaceLanes) -> &mut [VectorGroup<S>] {
     S::as_mut_simd_f64s(row).0.as_chunks_mut().0
 }
 
-/// c + a x + b y.
+/// Evaluates c + a x + b y.
 #[inline(always)]
 fn affine<S: Simd>(simd: S, [c, a, b]: AffineFunction, x: S::f64s, y: S::f64s) -> S::f64s {
     let [c, a, b] = [simd.splat_f64s(c), simd.splat_f64s(a), simd.splat_f64s(b)];

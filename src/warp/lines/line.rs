@@ -1,66 +1,66 @@
-//! A line of the frame with its fellows in both designs, and what a place
-//! needs of it.
+//! A line as affine functions of the frame point, the form that the kernel evaluates.
 //!
-//! How far along and across a place is, and its displacement D, are affine in
-//! the place: with e the line's direction, n its normal and those of its
-//! fellow e′ and n′, D = m′ − m + ((|P′Q′| e′ / |PQ| − e) eᵀ + (n′ − n) nᵀ)
-//! (X − m) about the middles m and m′.
+//! The coordinates along and across the line and the displacement D are affine in the point X.
+//! With direction e and normal n of the frame's line, e′ and n′ of the design's line, and the
+//! midpoints m and m′,
+//! D = m′ − m + ((|P′Q′| e′ / |PQ| − e) eᵀ + (n′ − n) nᵀ) (X − m).
 //!
-//! Guaranteed: D of a line that is its own fellow is exactly 0; all numbers are
-//! finite. Beyond the paper: a line that is short against its fellow, or long,
-//! turns into a point.
+//! Guaranteed: D is exactly 0 if both lines are equal, and all numbers are finite. Extension of
+//! the paper: a line whose length differs extremely between frame and design turns into a point.
 
 use crate::geometry::{DMat2, DVec2};
 
-/// A line from end to end.
+/// The end points of a line.
 pub(super) type LineEnds = [DVec2; 2];
 
-/// A line, or its fellow, shorter than this part of the other becomes a point
-/// by and by.
+/// Ratio of the two lengths below which a line turns gradually into a point (heuristic).
 const POINTLIKE: f64 = 1e-3;
 
-/// Scaled lengths below this are none: the squares of larger ones are normal.
+/// Scaled length below which a line is a point (tolerance: squares of larger lengths are normal
+/// numbers).
 const NO_LENGTH: f64 = 1e-150;
 
-/// A line of the frame and its fellows.
+/// A line in the frame and its counterparts in both designs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LineFeature {
     pub(super) in_frame: LineEnds,
     pub(super) in_designs: [LineEnds; 2],
-    /// The length by which it is weighed, if not by that of the line.
+    /// Length that determines the weight, if not the line's own length.
     pub(super) nominal: Option<f64>,
 }
 
-/// c, a and b of c + a x + b y for a place (x, y), scaled.
+/// Coefficients [c, a, b] of c + a x + b y at a scaled point (x, y).
 pub(super) type AffineFunction = [f64; 3];
 
-/// A line as the kernel reads it.
+/// A line in scaled coordinates as the kernel evaluates it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FieldLine {
-    /// How far along the line a place is, from its middle.
+    /// Signed distance from the midpoint along the line.
     pub(super) along: AffineFunction,
-    /// How far to the left of the line it is.
+    /// Signed distance to the left of the line.
     pub(super) across: AffineFunction,
     /// Half the length.
     pub(super) half: f64,
     /// (length / greatest length)^(b p).
     pub(super) strength: f64,
-    /// The displacement D into each design, x and y.
+    /// Displacement D into each design, as x and y.
     pub(super) carries: [[AffineFunction; 2]; 2],
 }
 
 impl LineFeature {
+    /// Returns the end points in the frame and in both designs.
     pub(super) fn points(&self) -> impl Iterator<Item = DVec2> + Clone + use<> {
         let designs = self.in_designs.into_iter().flatten();
         self.in_frame.into_iter().chain(designs)
     }
 
+    /// Returns whether all end points are finite.
     pub(super) fn is_finite(&self) -> bool {
         self.points().all(DVec2::is_finite)
     }
 }
 
-/// A segment by its middle, the vector from end to end, and its length.
+/// A segment as its midpoint, the vector between its ends, and its length.
 #[derive(Clone, Copy)]
 struct MidpointLine {
     middle: DVec2,
@@ -80,14 +80,17 @@ impl MidpointLine {
 }
 
 impl FieldLine {
-    /// The line of a scaled feature, its strength being its length still, at
-    /// least so long as its fellows make it; `a` where none has any.
+    /// Creates the line of a feature in scaled coordinates.
+    ///
+    /// `strength` initially holds the length that determines the weight. This is the nominal
+    /// length, if there is one. Otherwise it is the line's own length, but at least [`POINTLIKE`]
+    /// times the longest of the three lines, or `a` if all three are points.
     pub(super) fn new(feature: &LineFeature, a: f64) -> Self {
         let frame = MidpointLine::new(feature.in_frame);
         let designs = feature.in_designs.map(MidpointLine::new);
         let lengths = designs.iter().map(|design| design.length);
         let longest = lengths.fold(frame.length, f64::max);
-        let own = if longest > 0.0 {
+        let own_length = if longest > 0.0 {
             frame.length.max(POINTLIKE * longest)
         } else {
             a
@@ -98,19 +101,21 @@ impl FieldLine {
         } else {
             DVec2::X
         };
-        let seen = |by: DVec2| [-by.dot(frame.middle), by.x, by.y];
+        // The coordinate of a point along `axis`, relative to the midpoint.
+        let coordinate = |axis: DVec2| [-axis.dot(frame.middle), axis.x, axis.y];
         Self {
-            along: seen(direction),
-            across: seen(direction.perp()),
+            along: coordinate(direction),
+            across: coordinate(direction.perp()),
             half: 0.5 * frame.length,
-            strength: feature.nominal.unwrap_or(own).max(f64::MIN_POSITIVE),
+            strength: feature.nominal.unwrap_or(own_length).max(f64::MIN_POSITIVE),
             carries: designs.map(|design| carry(&frame, &design)),
         }
     }
 }
 
-/// D of a place as seen from a line and its fellow. All of it vanishes exactly
-/// if the two are the same.
+/// Returns the displacement D from the frame's line to a design's line.
+///
+/// All coefficients are exactly zero if the two lines are equal.
 fn carry(frame: &MidpointLine, design: &MidpointLine) -> [AffineFunction; 2] {
     let shift = design.middle - frame.middle;
     let [shorter, longer] = [

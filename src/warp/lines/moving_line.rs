@@ -1,35 +1,35 @@
-//! Where a line is at t, between its two.
+//! Interpolation of a line pair at t: by its end points, or by midpoint, angle and length.
 //!
-//! Beier, Neely (1992), §3.3, by the ends or by middle, angle and length.
+//! Both variants are in Beier, Neely (1992), §3.3.
 //!
-//! Guaranteed: at t = 0 and t = 1 the line of the design to the last bit; the
-//! pair exchanged is at 1 − t where the pair is at t, to rounding. A turn by π
-//! goes the way on which the line halfway points to one fixed side, so that
-//! neither rounding nor an exchange chooses. Beyond [0, 1] a line that shrinks
-//! stays a point when it has become one (by middle, angle and length).
+//! Guaranteed: at t = 0 and t = 1 the line of the design, bit for bit. Exchanging the designs
+//! mirrors the motion in time, up to rounding. For a rotation by π the direction is chosen such
+//! that the line points to a fixed side halfway, so that neither rounding nor an exchange of the
+//! designs changes it. Outside [0, 1] a length that has reached zero stays zero.
 
 use super::line::LineEnds;
 use super::options::LineInterpolation;
 use crate::geometry::DVec2;
 use std::f64::consts::TAU;
 
-/// How far from π, as the sine, a turn is still one by π. Lines drawn against
-/// each other and then laid into the frame by a similarity are off by 1e-15.
-const NEARLY_HALF_A_TURN: f64 = 1e-9;
+/// Sine below which an angle near ±π counts as π (tolerance: antiparallel lines transformed by a
+/// similarity are off by about 1e-15).
+const HALF_TURN_TOLERANCE: f64 = 1e-9;
 
-/// Where a line points halfway on a turn by π: up, and for lines that stand
-/// upright, to the right. No usual direction is at right angles to it.
-const HALFWAY: DVec2 = DVec2::new(0.123, 1.0);
+/// Direction to which a line points halfway through a rotation by π: up, and for upright lines
+/// to the right. Slightly tilted, so that no common direction is perpendicular to it.
+const HALFWAY_DIRECTION: DVec2 = DVec2::new(0.123, 1.0);
 
-/// A line on its way.
+/// A line pair prepared for interpolation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MovingLine {
     pub(super) source: LineEnds,
     pub(super) target: LineEnds,
-    /// The direction in the source, or that in the target if it has none.
+    /// Unit direction in the source, or in the target if the source line is a point.
     direction: DVec2,
+    /// Length in source and target.
     lengths: [f64; 2],
-    /// From source to target, in radians, counter-clockwise.
+    /// Rotation from source to target in radians, counter-clockwise.
     turn: f64,
 }
 
@@ -49,25 +49,26 @@ impl MovingLine {
         }
     }
 
-    /// Whether it has no length in either design.
+    /// Returns whether the line has zero length in both designs.
     pub(super) fn is_point(&self) -> bool {
         self.lengths == [0.0; 2]
     }
 
+    /// Returns the line's end points at t.
     pub(super) fn at(&self, t: f64, between: LineInterpolation) -> LineEnds {
-        // By middle, angle and length the ends would be met to rounding only.
+        // Interpolating midpoint, angle and length would reproduce the ends only up to rounding.
         if t == 0.0 {
             return self.source;
         }
         if t == 1.0 {
             return self.target;
         }
-        let between_points = |a: DVec2, b: DVec2| a * (1.0 - t) + b * t;
+        let lerp = |a: DVec2, b: DVec2| a * (1.0 - t) + b * t;
         let ([a, b], [c, d]) = (self.source, self.target);
         match between {
-            LineInterpolation::Ends => [between_points(a, c), between_points(b, d)],
+            LineInterpolation::Ends => [lerp(a, c), lerp(b, d)],
             LineInterpolation::MiddleAndAngle => {
-                let middle = between_points(a.midpoint(b), c.midpoint(d));
+                let middle = lerp(a.midpoint(b), c.midpoint(d));
                 let length = (self.lengths[0] * (1.0 - t) + self.lengths[1] * t).max(0.0);
                 let turned = DVec2::from_angle(t * self.turn).rotate(self.direction);
                 let half = turned * (0.5 * length);
@@ -77,7 +78,7 @@ impl MovingLine {
     }
 }
 
-/// Direction, if there is one, and length.
+/// Returns the unit direction, or `None` for a point, and the length.
 fn polar([from, to]: LineEnds) -> (Option<DVec2>, f64) {
     let along = to - from;
     let length = along.x.hypot(along.y);
@@ -86,18 +87,18 @@ fn polar([from, to]: LineEnds) -> (Option<DVec2>, f64) {
     (direction.filter(|d| d.is_finite()), length)
 }
 
-/// The angle from one direction to another, the shorter way.
+/// Returns the smaller rotation from one direction to another, in radians.
 fn turn(first: DVec2, last: DVec2) -> f64 {
     let (sine, cosine) = (first.perp_dot(last), first.dot(last));
     let turn = sine.atan2(cosine);
-    // A turn by nearly ±π has a sign that rounding chose.
-    if cosine > 0.0 || sine.abs() > NEARLY_HALF_A_TURN {
+    // Near ±π the sign depends on rounding and is chosen below.
+    if cosine > 0.0 || sine.abs() > HALF_TURN_TOLERANCE {
         return turn;
     }
-    // Turning counter-clockwise, the line points this way halfway.
+    // The direction halfway through a counter-clockwise rotation.
     let halfway = (first - last).perp();
-    let counter_clockwise = halfway.dot(HALFWAY) > 0.0;
-    match (counter_clockwise, turn > 0.0) {
+    let is_counter_clockwise = halfway.dot(HALFWAY_DIRECTION) > 0.0;
+    match (is_counter_clockwise, turn > 0.0) {
         (true, false) => turn + TAU,
         (false, true) => turn - TAU,
         _ => turn,

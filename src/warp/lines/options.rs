@@ -1,38 +1,37 @@
-//! The constants of the weights, and what may be wrong with the input.
+//! Options of the line warp and their validation.
 //!
-//! Beier, Neely (1992), §3.2: with a near 0 lines are followed to the pixel,
-//! large ones are smooth; with b large, each place follows its nearest line;
-//! with p = 0 all lines are alike, with p = 1 long ones outweigh short ones.
-//! The paper's useful ranges are b in [0.5, 2] and p in [0, 1].
+//! Weight constants after Beier, Neely (1992), §3.2. With a near 0, points on a line follow it
+//! exactly; a larger a gives a smoother map. With a large b, each point follows its nearest
+//! line. With p = 0 all lines weigh the same, with p = 1 long lines outweigh short ones. The
+//! paper recommends b in [0.5, 2] and p in [0, 1].
 
-use crate::settings::choice::named;
+use crate::settings::named;
 use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
-/// The largest b: weights of the nearest and of the farthest place that can be
-/// told apart are then still normal numbers.
+/// Largest b (derived: the weights at the nearest and at the farthest distinguishable point are
+/// still normal numbers).
 const MAX_FALLOFF: f64 = 8.0;
 
-/// How a line at t lies between its two.
+/// Interpolation of a line between the designs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum LineInterpolation {
-    /// Both ends move on straight lines. A line that turns by π shrinks to a
-    /// point on the way.
+    /// Both ends move on straight lines. A line that rotates by π shrinks to a point halfway.
     Ends,
-    /// Mid-point and length move straight, the direction turns the shorter
-    /// way; one that turns by π keeps its length.
+    /// Midpoint and length are interpolated linearly and the direction rotates by the smaller
+    /// angle. A line that rotates keeps its length.
     #[default]
     MiddleAndAngle,
 }
 
 named! { LineInterpolation {
-    MiddleAndAngle: "middle-and-angle", "Turn",
-        "Its middle moves straight, its direction turns the shorter way";
-    Ends: "ends", "Ends", "Both ends move straight: a line that turns shrinks on the way";
+    MiddleAndAngle: "middle-and-angle", "Rotate",
+        "The midpoint moves straight and the direction rotates by the smaller angle";
+    Ends: "ends", "Ends", "Both ends move straight; a line that rotates shrinks on the way";
 } }
 
-/// How lines move what is around them.
+/// Options of the line warp.
 ///
 /// ```
 /// use morphospace::warp::LineOptions;
@@ -42,14 +41,14 @@ named! { LineInterpolation {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LineOptions {
-    /// a > 0, as a fraction of the frame's diameter: within this distance of
-    /// a line, it is followed.
+    /// Constant a > 0 as a fraction of the frame's diameter. Points closer to a line than this
+    /// mainly follow it.
     pub smoothness: f64,
-    /// b in (0, 8]: how fast weight falls with distance.
+    /// Exponent b in (0, 8] with which the weight falls off with distance.
     pub falloff: f64,
-    /// p ≥ 0: how much more long lines weigh.
+    /// Exponent p ≥ 0 of the line's length in the weight.
     pub length_exponent: f64,
-    /// How lines lie between their two.
+    /// Interpolation of lines between the designs.
     pub between: LineInterpolation,
 }
 
@@ -64,25 +63,25 @@ impl Default for LineOptions {
     }
 }
 
-/// Why there is no warp by these lines.
+/// Reason why the line warp cannot be created.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinesError {
     /// a is not a positive finite number.
-    #[error("the smoothness of the lines is {0}: it must be above 0; 0.01 is usual")]
+    #[error("the smoothness of the lines is {0}, but must be above 0; the default is 0.01")]
     Smoothness(f64),
     /// b is out of range.
-    #[error("the falloff of the lines is {0}: it must be above 0 and at most 8; 2 is usual")]
+    #[error("the falloff of the lines is {0}, but must be above 0 and at most 8; the default is 2")]
     Falloff(f64),
-    /// p is not a finite number from 0.
-    #[error("the length exponent of the lines is {0}: it must be at least 0; 0.5 is usual")]
+    /// p is negative or not finite.
+    #[error("the length exponent of the lines is {0}, but must be at least 0; the default is 0.5")]
     LengthExponent(f64),
-    /// The features cannot be moved by.
+    /// The features are invalid.
     #[error(transparent)]
     Features(#[from] FeatureError),
 }
 
-/// a, b and p, checked; a in units of the plane.
+/// Validated constants a, b and p of Beier and Neely; a is a length in plane units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BeierNeelyConstants {
     pub(super) a: f64,
@@ -91,7 +90,7 @@ pub(super) struct BeierNeelyConstants {
 }
 
 impl LineOptions {
-    /// The constants in a frame of this diameter.
+    /// Validates the constants and converts a to a length in a frame of this diameter.
     pub(super) fn constants(&self, diameter: f64) -> Result<BeierNeelyConstants, LinesError> {
         let (a, b, p) = (self.smoothness, self.falloff, self.length_exponent);
         if !(a > 0.0 && a.is_finite()) {

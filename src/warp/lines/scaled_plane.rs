@@ -1,17 +1,19 @@
-//! The plane scaled by one power of two, so that the largest coordinate of any
-//! feature is about 1. That changes no digit, and leaves exponents to spare
-//! for products of many.
+//! Coordinates scaled by a power of two so that feature coordinates are at most about 1.
+//!
+//! Scaling by a power of two is exact, and products of several coordinates neither overflow nor
+//! underflow.
 
 use super::line::{LineEnds, LineFeature};
 use crate::geometry::{Bounds, DVec2};
 
-/// The plane with features about its origin, none much beyond 1.
+/// Transformation to scaled coordinates, in which the features surround the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScaledPlane {
-    /// Units of the plane in one of the scaled plane, and its reciprocal.
+    /// Length of one scaled unit in plane units, a power of two.
     pub(super) unit: f64,
+    /// Reciprocal of `unit`.
     pub(super) per_unit: f64,
-    /// What lies at the origin, in scaled coordinates.
+    /// Point that becomes the origin, in plane units times `per_unit`.
     pub(super) centre: DVec2,
 }
 
@@ -26,6 +28,7 @@ impl Default for ScaledPlane {
 }
 
 impl ScaledPlane {
+    /// Chooses scale and origin from the bounding box of all features.
     pub(super) fn around(features: impl Iterator<Item = LineFeature> + Clone) -> Self {
         let points = features.flat_map(|feature| feature.points());
         let extent = points.clone().map(|p| p.abs().max_element());
@@ -39,6 +42,7 @@ impl ScaledPlane {
         }
     }
 
+    /// Transforms a feature to scaled coordinates.
     pub(super) fn feature(&self, feature: &LineFeature) -> LineFeature {
         let segment = |segment: LineEnds| segment.map(|p| p * self.per_unit - self.centre);
         LineFeature {
@@ -49,13 +53,14 @@ impl ScaledPlane {
     }
 }
 
-/// The power of two at or below a magnitude; both it and its reciprocal are
-/// normal. 1 for 0.
+/// Returns the power of two at or below a magnitude, or 1 for 0.
+///
+/// The exponent is clamped so that the result and its reciprocal are normal numbers.
 fn power_of_two_at(magnitude: f64) -> f64 {
     if magnitude == 0.0 {
         return 1.0;
     }
-    // The sign is 0: only the exponent is left, and a power of two has no more.
+    // The magnitude is positive, so the shift leaves only the exponent bits.
     let exponent = magnitude.to_bits() >> 52;
     f64::from_bits(exponent.clamp(2, 2044) << 52)
 }

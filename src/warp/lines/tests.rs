@@ -1,5 +1,5 @@
-//! The identities of the warp, the formula as the paper has it as an oracle,
-//! and features that meet.
+//! Tests of the line warp: exact identities, the paper's formula as an oracle, and features that
+//! meet.
 
 use super::line::LineEnds;
 use super::*;
@@ -34,34 +34,34 @@ fn swapped(lines: &[LinePair]) -> Vec<LinePair> {
     lines.iter().map(swap).collect()
 }
 
-/// Places all over the frame, and beyond.
+/// Returns a grid of points that covers the frame and its surroundings.
 fn places() -> Vec<DVec2> {
     (0..15 * 15)
         .map(|i| DVec2::new(f64::from(i % 15), f64::from(i / 15)) - 7.0)
         .collect()
 }
 
-/// In the source and in the target.
+/// Returns the source and target points shown at `places`.
 fn looked_up(lines: &LineWarp, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
-    let mut found = [places.to_vec(), places.to_vec()];
-    let [source, target] = &mut found;
+    let mut actual = [places.to_vec(), places.to_vec()];
+    let [source, target] = &mut actual;
     lines.clone().look_up(t, places, source, target);
-    found
+    actual
 }
 
-/// The map by one set of pairs, each in the frame and in a design, with a in
-/// units of the plane.
+/// Map from the frame into one design, given line pairs `[in_frame, in_design]` and a in plane
+/// units.
 struct OneWayMap(LinesAtTime);
 
 impl OneWayMap {
     fn new(pairs: &[[LineEnds; 2]], a: f64, b: f64, p: f64) -> Self {
-        let mut bundle = LinesAtTime::new(BeierNeelyConstants { a, b, p });
-        bundle.fill(pairs.iter().map(|&[in_frame, in_design]| LineFeature {
+        let mut lines = LinesAtTime::new(BeierNeelyConstants { a, b, p });
+        lines.fill(pairs.iter().map(|&[in_frame, in_design]| LineFeature {
             in_frame,
             in_designs: [in_design; 2],
             nominal: None,
         }));
-        Self(bundle)
+        Self(lines)
     }
 
     fn map(&self, place: DVec2) -> DVec2 {
@@ -81,8 +81,8 @@ impl OneWayMap {
     }
 }
 
-/// The paper's formula, written as the paper has it.
-fn plain(pairs: &[[LineEnds; 2]], a: f64, b: f64, p: f64, x: DVec2) -> DVec2 {
+/// Evaluates the paper's formula literally.
+fn reference_map(pairs: &[[LineEnds; 2]], a: f64, b: f64, p: f64, x: DVec2) -> DVec2 {
     let (mut sum, mut total) = (DVec2::ZERO, 0.0);
     for &[[start, end], [other_start, other_end]] in pairs {
         let (along, other) = (end - start, other_end - other_start);
@@ -116,7 +116,7 @@ fn pairs() -> impl Strategy<Value = Vec<[LineEnds; 2]>> {
     prop::collection::vec([segment(), segment()], 1..20)
 }
 
-/// Points that often coincide, and lie on lines.
+/// Points of a 3 × 3 grid, which often coincide or are collinear.
 fn corner() -> impl Strategy<Value = DVec2> {
     (-1..2, -1..2).prop_map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)))
 }
@@ -161,7 +161,7 @@ fn a_pair_of_one_length_is_a_rigid_motion() {
 }
 
 #[test]
-fn a_longer_fellow_stretches_along_and_not_across() {
+fn a_longer_counterpart_stretches_along_the_line_only() {
     let [from, to] = [[DVec2::ZERO, DVec2::X], [DVec2::ZERO, 3.0 * DVec2::X]];
     let map = OneWayMap::new(&[[from, to]], 0.1, 2.0, 0.5);
     for p in places() {
@@ -170,7 +170,7 @@ fn a_longer_fellow_stretches_along_and_not_across() {
 }
 
 #[test]
-fn a_pin_moves_everything_as_it_moves() -> LinesTestResult {
+fn a_single_pin_translates_the_plane() -> LinesTestResult {
     let pins = [pin(DVec2::ONE, DVec2::new(3.0, 2.0))];
     let lines = LineWarp::new(&FRAME, &[], &pins, &LineOptions::default())?;
     let [source, target] = looked_up(&lines, 0.25, &places());
@@ -182,8 +182,8 @@ fn a_pin_moves_everything_as_it_moves() -> LinesTestResult {
 }
 
 #[test]
-fn a_pin_weighs_as_a_tenth_of_the_diameter() -> LinesTestResult {
-    // Both at a distance of 1: a mean by lengths, since b p = 1.
+fn a_pin_weighs_as_much_as_a_line_of_a_tenth_of_the_diameter() -> LinesTestResult {
+    // Both features are at distance 1, and b p = 1, so the weights are the lengths.
     let far = DVec2::X;
     let standing = line([-far, DVec2::new(-5.0, 0.0), -far, DVec2::new(-5.0, 0.0)]);
     let options = LineOptions::default();
@@ -195,15 +195,15 @@ fn a_pin_weighs_as_a_tenth_of_the_diameter() -> LinesTestResult {
 }
 
 #[test]
-fn a_half_turn_goes_one_way_and_keeps_its_length() {
+fn a_half_turn_has_a_fixed_direction_and_keeps_its_length() {
     for angle in [0.0, 0.5 * PI, 0.3, 2.9] {
         let half = DVec2::from_angle(angle);
         for noise in [0.0, 1e-13, -1e-13] {
             let back = DVec2::from_angle(noise).rotate(half);
-            let there = MovingLine::new([-half, half], [back, -back]);
-            let again = MovingLine::new([back, -back], [-half, half]);
+            let forward = MovingLine::new([-half, half], [back, -back]);
+            let backward = MovingLine::new([back, -back], [-half, half]);
             let [middle, reversed] =
-                [&there, &again].map(|m| m.at(0.5, LineInterpolation::MiddleAndAngle));
+                [&forward, &backward].map(|m| m.at(0.5, LineInterpolation::MiddleAndAngle));
             let [a, b] = middle;
             assert!((a.distance(b) - 2.0).abs() < 1e-12);
             assert!((b - a).dot(DVec2::new(0.123, 1.0)) > 0.0 || angle == 0.0 && b.y > a.y);
@@ -213,8 +213,8 @@ fn a_half_turn_goes_one_way_and_keeps_its_length() {
 }
 
 #[test]
-fn a_line_passes_through_a_point_without_a_jump() -> LinesTestResult {
-    // Turned by π, its ends meet halfway; two others hold the plane.
+fn a_line_that_shrinks_to_a_point_causes_no_jump() -> LinesTestResult {
+    // The ends of the rotating line meet halfway; two other lines fix the plane.
     let turning = line([-DVec2::X, DVec2::X, DVec2::X, -DVec2::X]);
     let other = |y: f64| {
         let [a, b] = [DVec2::new(-2.0, y), DVec2::new(2.0, y)];
@@ -234,7 +234,7 @@ fn a_line_passes_through_a_point_without_a_jump() -> LinesTestResult {
 }
 
 #[test]
-fn what_is_wrong_is_told() {
+fn invalid_input_is_reported() {
     let frame = &FRAME;
     let good = line([DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE]);
     let mut bad = good;
@@ -243,17 +243,17 @@ fn what_is_wrong_is_told() {
     let error = |lines: &[LinePair], pins: &[PointPair], options: LineOptions| {
         LineWarp::new(frame, lines, pins, &options).err()
     };
-    let found = error(&[good, bad], &[], usual);
-    assert_eq!(found, Some(FeatureError::Line(2).into()));
-    let found = error(&[good], &[pin(DVec2::INFINITY, DVec2::X)], usual);
-    assert_eq!(found, Some(FeatureError::Point(1).into()));
+    let actual = error(&[good, bad], &[], usual);
+    assert_eq!(actual, Some(FeatureError::Line(2).into()));
+    let actual = error(&[good], &[pin(DVec2::INFINITY, DVec2::X)], usual);
+    assert_eq!(actual, Some(FeatureError::Point(1).into()));
     for smoothness in [0.0, -1.0, f64::INFINITY] {
         let options = LineOptions {
             smoothness,
             ..usual
         };
-        let found = error(&[], &[], options);
-        assert_eq!(found, Some(LinesError::Smoothness(smoothness)));
+        let actual = error(&[], &[], options);
+        assert_eq!(actual, Some(LinesError::Smoothness(smoothness)));
     }
     for falloff in [0.0, 8.5, f64::INFINITY] {
         let options = LineOptions { falloff, ..usual };
@@ -270,7 +270,7 @@ fn what_is_wrong_is_told() {
 }
 
 #[test]
-fn options_are_written_and_read() -> LinesTestResult {
+fn options_survive_a_round_trip_through_toml() -> LinesTestResult {
     let options = LineOptions {
         between: LineInterpolation::Ends,
         falloff: 1.25,
@@ -285,7 +285,7 @@ fn options_are_written_and_read() -> LinesTestResult {
 }
 
 #[test]
-fn exponents_of_coordinates_do_not_matter() {
+fn the_map_is_independent_of_the_coordinates_scale() {
     let pairs = [
         [[DVec2::ZERO, DVec2::X], [DVec2::Y, DVec2::ONE * 1.25]],
         [[DVec2::Y, DVec2::NEG_X], [DVec2::Y, DVec2::NEG_ONE]],
@@ -296,14 +296,14 @@ fn exponents_of_coordinates_do_not_matter() {
         let scaled = pairs.map(|pair| pair.map(|segment| segment.map(|p| p * scale)));
         let map = OneWayMap::new(&scaled, 0.125 * scale, 2.0, 0.5);
         for p in places() {
-            let (found, expected) = (map.map(p * scale) / scale, usual.map(p));
-            assert!(found.distance(expected) < 1e-13, "{exponent}");
+            let (actual, expected) = (map.map(p * scale) / scale, usual.map(p));
+            assert!(actual.distance(expected) < 1e-13, "{exponent}");
         }
     }
 }
 
 #[test]
-fn extreme_numbers_do_no_harm() -> LinesTestResult {
+fn extreme_coordinates_neither_panic_nor_overflow() -> LinesTestResult {
     let numbers = [0.0, 1.0, 1e-300, 1e-100, 1e100, -1e100, 1e300, -f64::MAX];
     let points: Vec<_> = (0..64)
         .map(|i| DVec2::new(numbers[i % 8], numbers[i / 8]))
@@ -321,7 +321,7 @@ fn extreme_numbers_do_no_harm() -> LinesTestResult {
                 looked_up(&lines, t, &points);
             }
         }
-        // Ordinary features, extreme places.
+        // Ordinary features with extreme frame points.
         let lines = LineWarp::new(
             &FRAME,
             &[],
@@ -332,14 +332,14 @@ fn extreme_numbers_do_no_harm() -> LinesTestResult {
             .iter()
             .map(|p| p.clamp(-DVec2::splat(1e300), DVec2::splat(1e300)))
             .collect();
-        let found = looked_up(&lines, 0.5, &moderate);
-        assert!(found.iter().flatten().all(|p| p.is_finite()));
+        let actual = looked_up(&lines, 0.5, &moderate);
+        assert!(actual.iter().flatten().all(|p| p.is_finite()));
     }
     Ok(())
 }
 
 #[test]
-fn a_place_that_is_no_number_leaves_its_neighbours_alone() {
+fn a_nan_point_does_not_affect_its_neighbours() {
     let map = OneWayMap::new(
         &[[[DVec2::ZERO, DVec2::X], [DVec2::Y, DVec2::ONE]]],
         1.0,
@@ -349,14 +349,14 @@ fn a_place_that_is_no_number_leaves_its_neighbours_alone() {
     let mut places = places();
     let expected: Vec<_> = places.iter().map(|&p| map.map(p)).collect();
     places[8] = DVec2::NAN;
-    let found = map.map_all(&places);
-    for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
-        assert!(i == 8 || found == expected);
+    let actual = map.map_all(&places);
+    for (i, (actual, expected)) in actual.iter().zip(&expected).enumerate() {
+        assert!(i == 8 || actual == expected);
     }
 }
 
 #[test]
-fn blocks_of_every_length_are_like_single_places() {
+fn blocks_of_every_length_give_the_same_results_as_single_points() {
     let map = OneWayMap::new(
         &[[[DVec2::ZERO, DVec2::X], [DVec2::Y, DVec2::ONE]]],
         1.0,
@@ -365,14 +365,14 @@ fn blocks_of_every_length_are_like_single_places() {
     );
     let places: Vec<_> = places().into_iter().cycle().take(300).collect();
     for count in [0, 1, 7, 127, 128, 129, 256, 300] {
-        for (found, &place) in map.map_all(&places[..count]).iter().zip(&places) {
-            assert_eq!(*found, map.map(place));
+        for (actual, &place) in map.map_all(&places[..count]).iter().zip(&places) {
+            assert_eq!(*actual, map.map(place));
         }
     }
 }
 
 #[test]
-fn slices_of_several_lengths_are_filled_as_far_as_they_go() {
+fn slices_of_different_lengths_are_filled_up_to_the_shortest() {
     let map = OneWayMap::new(&[[[DVec2::ZERO; 2], [DVec2::ONE; 2]]], 1.0, 2.0, 0.5);
     let [mut source, mut target] = [[DVec2::ZERO; 3]; 2];
     map.0.map_into(&[DVec2::X], [&mut source, &mut target]);
@@ -385,49 +385,49 @@ fn slices_of_several_lengths_are_filled_as_far_as_they_go() {
 
 proptest! {
     #[test]
-    fn the_map_is_the_papers_formula(
+    fn the_map_equals_the_papers_formula(
         pairs in pairs(), a in 1e-3..1.0, b in prop_oneof![Just(1.0), Just(2.0), 0.5..3.0],
         p in 0.0..1.0,
     ) {
         let mut map = OneWayMap::new(&pairs, a, b, p);
         for arch in [map.0.arch, Arch::Scalar] {
             map.0.arch = arch;
-            for (found, place) in map.map_all(&places()).into_iter().zip(places()) {
-                let expected = plain(&pairs, a, b, p, place);
-                // A short line with a long fellow stretches a hundredfold.
-                prop_assert!(found.distance(expected) < 1e-10, "{place}: {found} {expected}");
-                prop_assert!(map.map(place).distance(found) < 1e-12);
+            for (actual, place) in map.map_all(&places()).into_iter().zip(places()) {
+                let expected = reference_map(&pairs, a, b, p, place);
+                // The tolerance allows for short lines that stretch a hundredfold.
+                prop_assert!(actual.distance(expected) < 1e-10, "{place}: {actual} {expected}");
+                prop_assert!(map.map(place).distance(actual) < 1e-12);
             }
         }
     }
 
     #[test]
-    fn designs_stand_still_at_their_ends((lines, pins) in corners(), options in options()) {
+    fn designs_are_unchanged_at_their_own_ends((lines, pins) in corners(), options in options()) {
         let lines = LineWarp::new(&FRAME, &lines, &pins, &options)?;
         prop_assert_eq!(&looked_up(&lines, 0.0, &places())[0], &places());
         prop_assert_eq!(&looked_up(&lines, 1.0, &places())[1], &places());
     }
 
     #[test]
-    fn swapping_plays_the_film_backwards(
+    fn exchanged_designs_reverse_the_motion(
         pairs in pairs(), pins in prop::collection::vec((point(), point()), 0..4),
         options in options(), t in -0.2..1.2,
     ) {
         let lines: Vec<_> = pairs.iter().map(|&[source, target]| LinePair { source, target }).collect();
-        let there: Vec<_> = pins.iter().map(|&(a, b)| pin(a, b)).collect();
-        let back: Vec<_> = pins.iter().map(|&(a, b)| pin(b, a)).collect();
-        let forward = LineWarp::new(&FRAME, &lines, &there, &options)?;
-        let backward = LineWarp::new(&FRAME, &swapped(&lines), &back, &options)?;
+        let forward_pins: Vec<_> = pins.iter().map(|&(a, b)| pin(a, b)).collect();
+        let backward_pins: Vec<_> = pins.iter().map(|&(a, b)| pin(b, a)).collect();
+        let forward = LineWarp::new(&FRAME, &lines, &forward_pins, &options)?;
+        let backward = LineWarp::new(&FRAME, &swapped(&lines), &backward_pins, &options)?;
         let [source, target] = looked_up(&forward, t, &places());
         let [other_source, other_target] = looked_up(&backward, 1.0 - t, &places());
         for (a, b) in source.iter().zip(&other_target).chain(target.iter().zip(&other_source)) {
-            // Lines that almost vanish on their way lose digits.
+            // Lines that nearly vanish on the way lose digits.
             prop_assert!(a.distance(*b) < 1e-7 * (1.0 + a.length()), "{a} {b}");
         }
     }
 
     #[test]
-    fn features_that_meet_give_finite_places(
+    fn features_that_meet_give_finite_points(
         (lines, pins) in corners(), options in options(), t in -2.0..3.0,
     ) {
         let lines = LineWarp::new(&FRAME, &lines, &pins, &options)?;

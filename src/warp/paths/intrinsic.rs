@@ -1,9 +1,9 @@
-//! All parts of a design on intrinsic paths.
+//! Intrinsic paths of all parts of a design.
 //!
-//! The centroid of the design runs straight and its parts move with it
-//! ([`crate::warp::part_path`]). Parts weigh by their area, the vertices of a part
-//! by the edges that they end: fixed masses, since an area centroid is 0/0
-//! where a ring collapses on its way.
+//! The design's centroid moves on a straight line and the parts move with the design
+//! ([`crate::warp::part_path`]). The mass of a part is its area; within a part the mass of a
+//! vertex is half the length of its two edges. Masses do not depend on t, because an area
+//! centroid would be 0/0 where a ring collapses on the way.
 
 use super::options::RingPair;
 use super::part;
@@ -13,19 +13,19 @@ use super::turning;
 use crate::geometry::DVec2;
 use crate::warp::part_path::{PartPath, centroid, rotation};
 
-/// What intrinsic paths need.
+/// The parts of a design with their edges and the paths of their centroids.
 #[derive(Debug)]
 pub(super) struct IntrinsicPaths {
-    /// Each with the path of its centroid.
+    /// Each part with the path of its centroid.
     parts: Vec<(IntrinsicPart, PartPath)>,
-    /// The design's centroid in source and target.
+    /// Centroid of the design in source and target.
     centroid: [DVec2; 2],
-    /// The rotation that fits the designs best, in radians in (−π, π].
+    /// Best-fit rotation of the design in radians, in [−π, π].
     whole_angle: f64,
 }
 
 impl IntrinsicPaths {
-    /// Takes parts apart, each an outer ring and its holes.
+    /// Prepares parts, each an outer ring followed by its holes.
     pub(super) fn new(parts: &[Vec<RingPair>]) -> Self {
         let outer: Vec<&RingPair> = parts.iter().filter_map(|rings| rings.first()).collect();
         let rings: Vec<IntrinsicRing> = outer
@@ -40,16 +40,17 @@ impl IntrinsicPaths {
         let masses = masses(&outer);
         let whole = centroid(centres.iter().copied(), &masses);
         let parts_with_masses = outer.iter().zip(&rings).zip(&masses);
-        let places = parts_with_masses.flat_map(|((pair, ring), mass)| {
-            let places = pair.source.iter().zip(&pair.target).map(|(&p, &q)| [p, q]);
-            places.zip(ring.masses().map(move |share| mass * share))
+        let weighted_vertices = parts_with_masses.flat_map(|((pair, ring), mass)| {
+            let vertices = pair.source.iter().zip(&pair.target).map(|(&p, &q)| [p, q]);
+            vertices.zip(ring.masses().map(move |share| mass * share))
         });
-        let whole_angle = rotation(places, whole);
+        let whole_angle = rotation(weighted_vertices, whole);
         let paths = PartPath::all(&centres, &masses, whole_angle);
-        let parts = parts.iter();
-        let parts = parts.filter_map(|rings| IntrinsicPart::new(rings, whole_angle));
+        let edge_parts = parts
+            .iter()
+            .filter_map(|rings| IntrinsicPart::new(rings, whole_angle));
         Self {
-            parts: parts.zip(paths).collect(),
+            parts: edge_parts.zip(paths).collect(),
             centroid: whole,
             whole_angle,
         }
@@ -60,17 +61,18 @@ impl IntrinsicPaths {
         let [from, to] = self.centroid;
         let mut rest = out;
         for (edges, path) in &self.parts {
-            let at = from * (1.0 - t) + to * t + path.at(t, self.whole_angle);
+            let centre = from * (1.0 - t) + to * t + path.at(t, self.whole_angle);
             let (vertices, after) = rest.split_at_mut(edges.len());
             edges.write(t, vertices);
-            vertices.iter_mut().for_each(|p| *p += at);
+            vertices.iter_mut().for_each(|p| *p += centre);
             rest = after;
         }
     }
 }
 
-/// The mean share of each part in the areas of both designs; even where there
-/// is no area.
+/// Returns the sum of each part's fractions of the area of both designs.
+///
+/// If a design has no area, all parts have the same mass.
 fn masses(outer: &[&RingPair]) -> Vec<f64> {
     let area = |ring: &[DVec2]| -> f64 {
         let edges = turning::edges(ring).zip(ring);
@@ -86,7 +88,7 @@ fn masses(outer: &[&RingPair]) -> Vec<f64> {
     let totals = [0, 1].map(|side| areas.iter().map(|a| a[side]).sum::<f64>());
     let shares = areas.iter().map(|a| a[0] / totals[0] + a[1] / totals[1]);
     let shares: Vec<f64> = shares.collect();
-    // Rings without any area have no share of it: 0 / 0.
+    // A design without area gives 0 / 0.
     if shares.iter().all(|share| share.is_finite()) {
         shares
     } else {

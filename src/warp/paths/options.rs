@@ -1,84 +1,89 @@
-//! What boundary paths are made of, and what may be wrong with it.
+//! Input of the boundary paths: options, ring pairs and their validation.
 
 use crate::geometry::DVec2;
-use crate::settings::choice::named;
+use crate::settings::named;
 use serde::{Deserialize, Serialize};
 
-/// No coordinate is larger: products of a few of them are still numbers.
+/// Largest absolute value of a coordinate (tolerance: products of four coordinates are finite).
 const FARTHEST: f64 = 1e75;
 
-/// On which paths the vertices move.
+/// Kind of path on which the vertices move.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum VertexPath {
-    /// Straight lines: what turns is shortened on the way.
+    /// Straight lines, on which rotating shapes shrink.
     Straight,
-    /// Those that lengths and directions of the edges leave.
+    /// Paths that result from interpolating the lengths and directions of the edges.
     #[default]
     Intrinsic,
 }
 
 named! { VertexPath {
-    Straight: "straight", "Straight", "On straight lines: what turns shrinks on the way";
+    Straight: "straight", "Straight",
+        "Vertices move on straight lines; rotating shapes shrink on the way";
     Intrinsic: "intrinsic", "Intrinsic",
-        "Edges turn and change their lengths evenly: what turns keeps its form";
+        "Edge lengths and directions change evenly; rotating shapes keep their form";
 } }
 
 /// Options of the boundary paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PathOptions {
-    /// On which paths the vertices move.
+    /// Kind of path on which the vertices move.
     pub course: VertexPath,
 }
 
-/// A closed polygon in both designs, vertex by vertex. Vertices may coincide:
-/// a ring is born from, or dies into, one that is a point.
+/// A closed polygon in both designs with corresponding vertices.
+///
+/// Vertices may coincide. A ring that appears or disappears is a single repeated point in one of
+/// the designs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RingPair {
     /// Vertices in the source, in order.
     pub source: Vec<DVec2>,
-    /// As many vertices in the target.
+    /// The same number of vertices in the target.
     pub target: Vec<DVec2>,
 }
 
-/// Why polygons have no paths. Parts and rings are counted from 0.
+/// Reason why boundary paths cannot be created. Parts and rings are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathsError {
-    /// There is nothing that could move.
-    #[error("the match has no boundaries; give two designs with an area")]
+    /// There are no rings.
+    #[error("the match has no outlines; choose designs with filled areas")]
     NoRings,
     /// A ring has no vertices.
-    #[error("ring {} of part {} has no points; leave it out", ring + 1, part + 1)]
+    #[error("ring {} of part {} has no points; remove it", ring + 1, part + 1)]
     Empty {
-        /// Which part.
+        /// Index of the part.
         part: usize,
-        /// Which of its rings.
+        /// Index of the ring in its part.
         ring: usize,
     },
-    /// A ring's two polygons do not correspond.
-    #[error("ring {} of part {} has {} points in the source and {} in the target; they must be as many", ring + 1, part + 1, .counts[0], .counts[1])]
+    /// A ring has different numbers of vertices in the two designs.
+    #[error("ring {} of part {} has {} points in the source but {} in the target; the numbers must be equal", ring + 1, part + 1, .counts[0], .counts[1])]
     Counts {
-        /// Which part.
+        /// Index of the part.
         part: usize,
-        /// Which of its rings.
+        /// Index of the ring in its part.
         ring: usize,
-        /// How many vertices there are in source and target.
+        /// Number of vertices in source and target.
         counts: [usize; 2],
     },
-    /// A coordinate is NaN, infinite or beyond 1e75.
-    #[error("ring {} of part {} has a point that is no number up to {FARTHEST:e}; correct its coordinates", ring + 1, part + 1)]
+    /// A coordinate is NaN, infinite or larger than 1e75.
+    #[error("ring {} of part {} has a coordinate that is not finite or larger than {FARTHEST:e}; correct it", ring + 1, part + 1)]
     OutOfRange {
-        /// Which part.
+        /// Index of the part.
         part: usize,
-        /// Which of its rings.
+        /// Index of the ring in its part.
         ring: usize,
     },
 }
 
+/// Validates the rings of all parts.
+///
 /// # Errors
-/// [`PathsError`] names the first ring that has no paths.
+/// [`PathsError`] for the first invalid ring.
 pub(super) fn check(parts: &[Vec<RingPair>]) -> Result<(), PathsError> {
     if parts.iter().all(Vec::is_empty) {
         return Err(PathsError::NoRings);

@@ -1,38 +1,39 @@
-//! A part: an outer ring and the holes that hang on it.
+//! Intrinsic interpolation of a part: an outer ring with its holes.
 //!
-//! A hole keeps to the place of the outer ring that is nearest to it in both
-//! designs: a bridge runs from there to the hole's centroid, and its length
-//! and its direction are interpolated like those of an edge of the ring. So a
-//! hole in a limb goes where the limb goes.
+//! Each hole is attached to the vertex of the outer ring that is nearest to it in both designs. A
+//! bridge leads from that vertex to the hole's centroid, and its length and direction are
+//! interpolated like those of a ring edge. A hole in a limb therefore moves with the limb.
 
 use super::options::RingPair;
 use super::ring::IntrinsicRing;
 use super::turning::whole_turns;
 use crate::geometry::{Bounds, DVec2};
 
-/// A part in source and target, as edges.
+/// A part as edge lengths and directions in source and target.
 #[derive(Clone, Debug)]
 pub(super) struct IntrinsicPart {
     outer: IntrinsicRing,
     holes: Vec<BridgedHole>,
 }
 
-/// A hole, and the bridge from a vertex of the outer ring to its centroid.
+/// A hole with its bridge from a vertex of the outer ring to the hole's centroid.
 #[derive(Clone, Debug)]
 struct BridgedHole {
     ring: IntrinsicRing,
+    /// Index of the vertex in the outer ring.
     vertex: usize,
-    /// In source and target.
+    /// Length of the bridge in source and target.
     lengths: [f64; 2],
-    /// Direction in the source, in radians.
+    /// Direction of the bridge in the source, in radians.
     angle: f64,
-    /// By how much it turns, in radians.
+    /// Rotation of the bridge from source to target, in radians.
     turn: f64,
 }
 
 impl IntrinsicPart {
-    /// The outer ring first. The part turns the way that is nearest to
-    /// `whole_angle`, in radians.
+    /// Creates a part from its rings, the outer ring first; `None` if there are no rings.
+    ///
+    /// Of all equivalent rotations the part takes the one nearest to `whole_angle` in radians.
     pub(super) fn new(rings: &[RingPair], whole_angle: f64) -> Option<Self> {
         let (first, rest) = rings.split_first()?;
         let mut outer = IntrinsicRing::new(&first.source, &first.target, whole_angle);
@@ -44,14 +45,13 @@ impl IntrinsicPart {
         })
     }
 
-    /// How many vertices all rings have.
+    /// Returns the total number of vertices.
     pub(super) fn len(&self) -> usize {
         let holes = self.holes.iter().map(|hole| hole.ring.len());
         self.outer.len() + holes.sum::<usize>()
     }
 
-    /// Writes the vertices of all rings at t, the outer ring's centroid in
-    /// the origin.
+    /// Writes the vertices of all rings at t, with the outer ring's centroid at the origin.
     pub(super) fn write(&self, t: f64, out: &mut [DVec2]) {
         let (outer, mut rest) = out.split_at_mut(self.outer.len());
         self.outer.write(t, outer);
@@ -68,22 +68,24 @@ impl IntrinsicPart {
 }
 
 impl BridgedHole {
+    /// Attaches the hole `pair` to the outer ring `around`, whose edges are `outer`.
     fn new(outer: &IntrinsicRing, around: &RingPair, pair: &RingPair) -> Self {
         let mut ring = IntrinsicRing::new(&pair.source, &pair.target, 0.0);
         let [a, b] = centres(pair, &ring);
         let vertex = nearest(around, [a, b]);
-        let spans = [a - around.source[vertex], b - around.target[vertex]];
-        let near = outer.turn_at(vertex);
-        let [angle, end] = spans.map(DVec2::to_angle);
-        // A hole whose centroid is on the boundary in one design has a bridge
-        // without a direction there: it turns as the boundary does.
-        let has_direction = spans.iter().all(|span| span.length_squared() > 0.0);
+        let bridges = [a - around.source[vertex], b - around.target[vertex]];
+        let boundary_turn = outer.turn_at(vertex);
+        let [angle, end] = bridges.map(DVec2::to_angle);
+        // If the hole's centroid is at the vertex in one design, the bridge has no direction
+        // there and rotates like the boundary.
+        let has_direction = bridges.iter().all(|bridge| bridge.length_squared() > 0.0);
         let turn = if has_direction {
-            end - angle + whole_turns(end - angle, near)
+            end - angle + whole_turns(end - angle, boundary_turn)
         } else {
-            near
+            boundary_turn
         };
-        // A point has no directions of its own to turn from.
+        // A hole that is a point in one design has no edge directions of its own there and
+        // rotates with its bridge.
         let is_point = |ring: &[DVec2]| ring.iter().all(|p| *p == ring[0]);
         if is_point(&pair.source) || is_point(&pair.target) {
             ring = IntrinsicRing::new(&pair.source, &pair.target, turn);
@@ -92,9 +94,9 @@ impl BridgedHole {
         Self {
             ring,
             vertex,
-            lengths: spans.map(DVec2::length),
-            // Where the source has no direction, that of the target tells.
-            angle: if spans[0] == DVec2::ZERO {
+            lengths: bridges.map(DVec2::length),
+            // Without a direction in the source, it follows from the target's.
+            angle: if bridges[0] == DVec2::ZERO {
                 end - turn
             } else {
                 angle
@@ -104,8 +106,9 @@ impl BridgedHole {
     }
 }
 
-/// The centroids of a ring by its fixed masses. (An area centroid is 0/0 where
-/// a ring collapses on its way.)
+/// Returns the centroids of a ring in source and target, with fixed vertex masses.
+///
+/// An area centroid would be 0/0 where a ring collapses on the way.
 pub(super) fn centres(pair: &RingPair, ring: &IntrinsicRing) -> [DVec2; 2] {
     [&pair.source, &pair.target].map(|points| {
         let origin = points[0];
@@ -114,17 +117,19 @@ pub(super) fn centres(pair: &RingPair, ring: &IntrinsicRing) -> [DVec2; 2] {
     })
 }
 
-/// The vertex that is nearest to a place in both designs, in diameters.
-fn nearest(ring: &RingPair, places: [DVec2; 2]) -> usize {
+/// Returns the vertex with the smallest sum of distances to a point in both designs.
+///
+/// Distances are relative to the ring's diameter in each design.
+fn nearest(ring: &RingPair, points: [DVec2; 2]) -> usize {
     let scale = [&ring.source, &ring.target].map(|points| {
         let diameter = Bounds::of(points.iter().copied()).map_or(0.0, |b| b.diameter());
         if diameter > 0.0 { 1.0 / diameter } else { 0.0 }
     });
-    let far = |k: usize| {
-        ring.source[k].distance(places[0]) * scale[0]
-            + ring.target[k].distance(places[1]) * scale[1]
+    let distance = |k: usize| {
+        ring.source[k].distance(points[0]) * scale[0]
+            + ring.target[k].distance(points[1]) * scale[1]
     };
     (0..ring.source.len())
-        .min_by(|&a, &b| far(a).total_cmp(&far(b)))
+        .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
         .unwrap_or(0)
 }

@@ -1,63 +1,64 @@
-//! One ring between two, by its edges.
+//! Intrinsic interpolation of one ring.
 //!
-//! Sederberg, Gao, Wang, Mu, "2-D shape blending: an intrinsic solution to the
-//! vertex path problem" (1993), §3 and §4: lengths and directions of the edges
-//! are interpolated, and the gap that is left is closed by changes S of the
-//! lengths with least Σ (S/w)², w = max(|L_A − L_B|, a tolerance), with two
-//! Lagrange multipliers and thus a 2×2 system.
+//! Sederberg, Gao, Wang, Mu, "2-D shape blending: an intrinsic solution to the vertex path
+//! problem" (1993), §3 and §4: the lengths and directions of the edges are interpolated. The
+//! resulting polygon has a gap, which is closed by length changes S that minimise Σ (S/w)² with
+//! w = max(|L_A − L_B|, tolerance). Two Lagrange multipliers make this a 2×2 system.
 //!
-//! Guaranteed: a closed, finite ring at every finite t; rings that are
-//! similar stay so; the rings exchanged give the same at 1 − t. Not
-//! guaranteed: that the ring does not cross itself.
+//! Guaranteed: a closed, finite ring at every finite t. Similar rings stay similar. Exchanging
+//! the rings mirrors the motion in time. Not guaranteed: that the ring does not cross itself.
 
 use super::turning::{self, edges};
 use crate::geometry::{DMat2, DVec2};
 
-/// An edge may change its length by at least this share of its mean. The
-/// paper's tolerance, 1e-4 of the largest change, lets the edges of an arm
-/// that bends shrink to nothing sooner than it lets the arm's flat end, as
-/// wide in both designs, take up a gap across the arm.
-const LEAST_CHANGE: f64 = 0.1;
+/// Minimum of an edge's weight w, as a fraction of its mean length.
+///
+/// The paper uses 1e-4 of the largest length change. With so small a value the edges of a bending
+/// arm would shrink to nothing before its end edge, equally long in both designs, could close a
+/// gap across the arm (heuristic).
+const MIN_RELATIVE_CHANGE: f64 = 0.1;
 
-/// Added to the system, as a share of its trace. Edges that all run in one
-/// direction cannot close a gap across it.
+/// Regularisation of the 2×2 system, as a fraction of its trace (tolerance: parallel edges make
+/// the system singular, as they cannot close a gap across their direction).
 const RIDGE: f64 = 1e-12;
 
-/// A ring in source and target, as edges.
+/// A ring as edge lengths and directions in source and target.
 #[derive(Clone, Debug)]
 pub(super) struct IntrinsicRing {
     edges: Vec<IntrinsicEdge>,
 }
 
-/// An edge and the vertex that it begins at.
+/// An edge and its start vertex.
 #[derive(Clone, Copy, Debug)]
 struct IntrinsicEdge {
-    /// In source and target.
+    /// Length in source and target.
     lengths: [f64; 2],
     /// Direction in the source, in radians.
     angle: f64,
-    /// By how much it turns, in radians.
+    /// Rotation from source to target, in radians.
     turn: f64,
-    /// How freely its length changes: w², 1 for the freest edge.
+    /// Compliance of the length, w² relative to the largest.
     freedom: f64,
-    /// The vertex's share of the ring's mass: the half of either edge that it
-    /// ends, in both designs.
+    /// Mass of the start vertex as a fraction of the ring's mass: half of the two adjacent
+    /// edges, averaged over both designs.
     mass: f64,
-    /// The share of the ring's length that lies before the vertex.
+    /// Fraction of the ring's length before the start vertex.
     before: f64,
 }
 
 impl IntrinsicRing {
-    /// Takes the rings apart; `otherwise` is the turn of rings of which one is
-    /// a point.
-    pub(super) fn new(source: &[DVec2], target: &[DVec2], otherwise: f64) -> Self {
+    /// Computes edge lengths and directions.
+    ///
+    /// `default_turn` is the rotation, in radians, of all edges if no edge has a direction in
+    /// both designs.
+    pub(super) fn new(source: &[DVec2], target: &[DVec2], default_turn: f64) -> Self {
         let lengths: Vec<[f64; 2]> = edges(source)
             .zip(edges(target))
             .map(|(a, b)| [a.length(), b.length()])
             .collect();
         let shares = shares(&lengths);
         let freedoms = freedoms(&lengths);
-        let turns = turning::turns(source, target, otherwise);
+        let turns = turning::turns(source, target, default_turn);
         let last = shares.len() - 1;
         let mut before = 0.0;
         let edge = |k: usize| {
@@ -77,17 +78,17 @@ impl IntrinsicRing {
         }
     }
 
-    /// How many vertices there are.
+    /// Returns the number of vertices.
     pub(super) fn len(&self) -> usize {
         self.edges.len()
     }
 
-    /// The fixed masses of the vertices; their sum is 1.
+    /// Returns the masses of the vertices, which do not depend on t and sum to 1.
     pub(super) fn masses(&self) -> impl Iterator<Item = f64> + '_ {
         self.edges.iter().map(|edge| edge.mass)
     }
 
-    /// The mean turn of the edges, by their share of the length, in radians.
+    /// Returns the length-weighted mean rotation of the edges in radians.
     fn mean_turn(&self) -> f64 {
         let ends = self
             .edges
@@ -101,22 +102,21 @@ impl IntrinsicRing {
             .sum()
     }
 
-    /// Adds the whole turns to all edges that bring their mean nearest to an
-    /// angle, in radians.
+    /// Adds whole turns to all edges so that the mean rotation is nearest to `angle` in radians.
     pub(super) fn turn_near(&mut self, angle: f64) {
-        let more = turning::whole_turns(self.mean_turn(), angle);
-        self.edges.iter_mut().for_each(|edge| edge.turn += more);
+        let added = turning::whole_turns(self.mean_turn(), angle);
+        self.edges.iter_mut().for_each(|edge| edge.turn += added);
     }
 
-    /// The turn about a vertex: the mean of its two edges', in radians.
+    /// Returns the rotation at a vertex, the mean of its two edges, in radians.
     pub(super) fn turn_at(&self, vertex: usize) -> f64 {
         let before = vertex.checked_sub(1).unwrap_or(self.len() - 1);
         self.edges[before].turn.midpoint(self.edges[vertex].turn)
     }
 
-    /// Writes the vertices at t, their centroid in the origin.
+    /// Writes the vertices at t, with their centroid at the origin.
     pub(super) fn write(&self, t: f64, out: &mut [DVec2]) {
-        // Directions first stand where the vertices will.
+        // `out` first holds the edge directions, which saves an allocation.
         let (mut gap, mut xx, mut xy, mut yy) = (DVec2::ZERO, 0.0, 0.0, 0.0);
         for (edge, out) in self.edges.iter().zip(&mut *out) {
             let along = DVec2::from_angle(edge.angle + t * edge.turn);
@@ -126,17 +126,17 @@ impl IntrinsicRing {
             yy += edge.freedom * along.y * along.y;
             *out = along;
         }
-        let multiplier = solved([xx, xy, yy], gap);
-        let (mut at, mut centre) = (DVec2::ZERO, DVec2::ZERO);
+        let multiplier = multipliers([xx, xy, yy], gap);
+        let (mut end, mut centre) = (DVec2::ZERO, DVec2::ZERO);
         for (edge, out) in self.edges.iter().zip(&mut *out) {
             let along = *out;
-            *out = at;
-            at += (edge.length(t) - edge.freedom * multiplier.dot(along)) * along;
+            *out = end;
+            end += (edge.length(t) - edge.freedom * multiplier.dot(along)) * along;
         }
-        // What is left of the gap, by rounding or because all edges run one
-        // way, is shared out along the ring.
+        // Rounding, or edges that are all parallel, leave a gap `end`, which is distributed
+        // along the ring.
         for (edge, out) in self.edges.iter().zip(&mut *out) {
-            *out -= edge.before * at;
+            *out -= edge.before * end;
             centre += edge.mass * *out;
         }
         out.iter_mut().for_each(|p| *p -= centre);
@@ -144,51 +144,56 @@ impl IntrinsicRing {
 }
 
 impl IntrinsicEdge {
+    /// Returns the linearly interpolated length, before the gap is closed.
     fn length(&self, t: f64) -> f64 {
         self.lengths[0] * (1.0 - t) + self.lengths[1] * t
     }
 }
 
-/// The multipliers that close a gap as far as the edges' directions can.
-fn solved([xx, xy, yy]: [f64; 3], gap: DVec2) -> DVec2 {
+/// Returns the Lagrange multipliers that close a gap, as far as the edge directions permit.
+fn multipliers([xx, xy, yy]: [f64; 3], gap: DVec2) -> DVec2 {
     let ridge = RIDGE * (xx + yy);
     if ridge <= 0.0 {
         return DVec2::ZERO;
     }
     let (xx, yy) = (xx + ridge, yy + ridge);
     let adjugate = DMat2::from_cols(DVec2::new(yy, -xy), DVec2::new(-xy, xx));
-    // With the ridge the determinant is at least ridge · trace.
+    // The ridge bounds the determinant from below by ridge · trace.
     adjugate * gap / (xx * yy - xy * xy).max(ridge * (xx + yy))
 }
 
-/// Each edge's share of the length, the mean of both designs'; even where
-/// there is no length.
+/// Returns each edge's fraction of the ring's length, averaged over both designs.
+///
+/// A design in which the ring is a point is ignored; if it is a point in both, all edges have
+/// equal fractions.
 fn shares(lengths: &[[f64; 2]]) -> Vec<f64> {
     let totals = [0, 1].map(|side| lengths.iter().map(|l| l[side]).sum::<f64>());
-    let even = 1.0 / lengths.len() as f64;
-    let share = |l: &[f64; 2]| {
-        let of = |side: usize| {
+    let equal_share = 1.0 / lengths.len() as f64;
+    let mean_share = |l: &[f64; 2]| {
+        let share_in = |side: usize| {
             let share = l[side] / totals[side];
             share.is_finite().then_some(share)
         };
-        match [of(0), of(1)] {
+        match [share_in(0), share_in(1)] {
             [Some(a), Some(b)] => a.midpoint(b),
-            [a, b] => a.or(b).unwrap_or(even),
+            [a, b] => a.or(b).unwrap_or(equal_share),
         }
     };
-    lengths.iter().map(share).collect()
+    lengths.iter().map(mean_share).collect()
 }
 
-/// How freely each edge changes its length. What has none stays so.
+/// Returns the compliance w² of each edge, relative to the largest.
+///
+/// An edge that has no length in either design keeps length zero.
 fn freedoms(lengths: &[[f64; 2]]) -> Vec<f64> {
-    let change = |[a, b]: &[f64; 2]| (a - b).abs().max(LEAST_CHANGE * a.midpoint(*b));
-    let most = lengths.iter().map(change).fold(0.0, f64::max);
-    let of = |l: &[f64; 2]| {
-        if most > 0.0 {
-            (change(l) / most).powi(2)
+    let change = |[a, b]: &[f64; 2]| (a - b).abs().max(MIN_RELATIVE_CHANGE * a.midpoint(*b));
+    let max_change = lengths.iter().map(change).fold(0.0, f64::max);
+    let freedom = |l: &[f64; 2]| {
+        if max_change > 0.0 {
+            (change(l) / max_change).powi(2)
         } else {
             0.0
         }
     };
-    lengths.iter().map(of).collect()
+    lengths.iter().map(freedom).collect()
 }

@@ -1,16 +1,17 @@
-//! The identities of the boundary paths.
+//! Tests of the boundary paths: exact identities, rigid and similar copies, degenerate rings.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
 use proptest::prelude::*;
 
+/// Times inside and outside [0, 1].
 const TIMES: [f64; 7] = [-0.4, 0.1, 0.25, 0.5, 0.77, 0.9, 1.4];
 
 fn points(list: &[(f64, f64)]) -> Vec<DVec2> {
     list.iter().copied().map(DVec2::from).collect()
 }
 
-/// An arm of a given number of straight pieces, bent by an angle at each.
+/// Returns the outline of an arm of eight unit segments, bent by `bend` radians at each joint.
 fn arm(bend: f64) -> Vec<DVec2> {
     let (mut at, mut middle) = (DVec2::ZERO, Vec::new());
     for k in 0..9 {
@@ -31,7 +32,7 @@ fn intrinsic(parts: &[Vec<RingPair>]) -> BoundaryPaths {
     BoundaryPaths::new(parts, PathOptions::default()).unwrap()
 }
 
-fn at(paths: &BoundaryPaths, t: f64) -> Vec<DVec2> {
+fn positions(paths: &BoundaryPaths, t: f64) -> Vec<DVec2> {
     let mut placer = paths.placer();
     placer.place(t);
     placer.placement().in_frame.clone()
@@ -42,7 +43,7 @@ fn moved(ring: &[DVec2], angle: f64, by: DVec2) -> Vec<DVec2> {
     ring.iter().map(|&p| turn.rotate(p) + by).collect()
 }
 
-/// A plate with two holes and a part beside it.
+/// Returns a plate with two holes and a second part next to it.
 fn plate() -> [Vec<Vec<DVec2>>; 2] {
     let square = |x: f64, y: f64, s: f64| points(&[(x, y), (x + s, y), (x + s, y + s), (x, y + s)]);
     let hole = |x: f64, y: f64, s: f64| square(x, y, s).into_iter().rev().collect();
@@ -79,8 +80,8 @@ fn worst_gap(a: &[DVec2], b: &[DVec2]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Largest change of a distance between two vertices, from `scale` times
-/// their distance in the source.
+/// Returns the largest difference between a vertex distance and `scale` times that distance in
+/// the source, over all vertex pairs.
 fn worst_stretch(source: &[DVec2], now: &[DVec2], scale: f64) -> f64 {
     let indices = 0..source.len();
     let all = indices
@@ -91,7 +92,7 @@ fn worst_stretch(source: &[DVec2], now: &[DVec2], scale: f64) -> f64 {
 }
 
 #[test]
-fn the_ends_are_the_designs_to_the_last_bit() {
+fn the_ends_are_the_designs_bit_for_bit() {
     let parts = vec![vec![ring(arm(-0.0), arm(0.35))]];
     for course in [VertexPath::Straight, VertexPath::Intrinsic] {
         let paths = BoundaryPaths::new(&parts, PathOptions { course }).unwrap();
@@ -101,14 +102,14 @@ fn the_ends_are_the_designs_to_the_last_bit() {
                 .map(|p| p.to_array().map(f64::to_bits))
                 .collect()
         };
-        assert_eq!(bits(&at(&paths, 0.0)), bits(&parts[0][0].source));
-        assert_eq!(bits(&at(&paths, 1.0)), bits(&parts[0][0].target));
-        // And nothing jumps there.
+        assert_eq!(bits(&positions(&paths, 0.0)), bits(&parts[0][0].source));
+        assert_eq!(bits(&positions(&paths, 1.0)), bits(&parts[0][0].target));
+        // The motion is continuous at both ends.
         for (t, end) in [
             (1e-9, &parts[0][0].source),
             (1.0 - 1e-9, &parts[0][0].target),
         ] {
-            assert!(worst_gap(&at(&paths, t), end) < 1e-7, "{course:?}");
+            assert!(worst_gap(&positions(&paths, t), end) < 1e-7, "{course:?}");
         }
     }
 }
@@ -119,7 +120,7 @@ fn straight_paths_are_straight() {
     let straight = PathOptions {
         course: VertexPath::Straight,
     };
-    let middle = at(&BoundaryPaths::new(&parts, straight).unwrap(), 0.5);
+    let middle = positions(&BoundaryPaths::new(&parts, straight).unwrap(), 0.5);
     let pair = &parts[0][0];
     let expected: Vec<DVec2> = pair
         .source
@@ -131,17 +132,17 @@ fn straight_paths_are_straight() {
 }
 
 #[test]
-fn a_moved_copy_moves_rigidly_with_holes_and_parts() {
+fn a_rigid_copy_moves_rigidly_with_holes_and_parts() {
     for degrees in [-179.0, -90.0, 1.0, 60.0, 135.0, 179.0_f64] {
         let by = DVec2::new(7.0, -30.0);
         let parts = pairs(&plate(), |r| moved(r, degrees.to_radians(), by));
         let paths = intrinsic(&parts);
-        let source = at(&paths, 0.0);
+        let source = positions(&paths, 0.0);
         for t in TIMES {
-            let stretch = worst_stretch(&source, &at(&paths, t), 1.0);
+            let stretch = worst_stretch(&source, &positions(&paths, t), 1.0);
             assert!(stretch < 1e-9, "{degrees}° at {t}: {stretch}");
         }
-        let quarter = at(&paths, 0.25);
+        let quarter = positions(&paths, 0.25);
         let turned = (source[1] - source[0]).angle_to(quarter[1] - quarter[0]);
         assert!((turned - 0.25 * degrees.to_radians()).abs() < 1e-9);
     }
@@ -153,9 +154,9 @@ fn a_larger_copy_stays_similar() {
         moved(r, 2.0, DVec2::ONE).iter().map(|&p| 3.0 * p).collect()
     });
     let paths = intrinsic(&parts);
-    let source = at(&paths, 0.0);
+    let source = positions(&paths, 0.0);
     for t in TIMES {
-        let stretch = worst_stretch(&source, &at(&paths, t), 1.0 + 2.0 * t);
+        let stretch = worst_stretch(&source, &positions(&paths, t), 1.0 + 2.0 * t);
         assert!(stretch < 1e-9, "at {t}: {stretch}");
     }
 }
@@ -163,23 +164,23 @@ fn a_larger_copy_stays_similar() {
 #[test]
 fn an_arm_that_bends_keeps_its_length() {
     let parts = vec![vec![ring(arm(-0.25), arm(0.25))]];
-    let middle = at(&intrinsic(&parts), 0.5);
+    let middle = positions(&intrinsic(&parts), 0.5);
     let straight = arm(0.0);
     let stretch = worst_stretch(&straight, &middle, 1.0);
     assert!(stretch < 0.2, "of a length of 8: {stretch}");
 }
 
 #[test]
-fn a_hole_goes_where_its_limb_goes() {
+fn a_hole_moves_with_its_limb() {
     let hole: Vec<DVec2> = points(&[(7.9, 0.1), (8.0, 0.1), (8.0, -0.1), (7.9, -0.1)]);
     let tip = |bend: f64| {
         let ring = arm(bend);
         (ring[8], ring[8] - ring[7])
     };
     let (from, along) = tip(0.0);
-    let (to, turned) = tip(0.35);
-    let turn = along.angle_to(turned)
-        + if along.angle_to(turned) < 0.0 {
+    let (to, along_target) = tip(0.35);
+    let turn = along.angle_to(along_target)
+        + if along.angle_to(along_target) < 0.0 {
             std::f64::consts::TAU
         } else {
             0.0
@@ -189,7 +190,7 @@ fn a_hole_goes_where_its_limb_goes() {
         .map(|&p| to + DVec2::from_angle(turn).rotate(p - from))
         .collect();
     let parts = vec![vec![ring(arm(0.0), arm(0.35)), ring(hole.clone(), carried)]];
-    let now = at(&intrinsic(&parts), 0.5);
+    let now = positions(&intrinsic(&parts), 0.5);
     let distance = |ring: &[DVec2], hole: &[DVec2]| ring[8].distance(hole[0]);
     let expected = distance(&parts[0][0].source, &hole);
     assert!((distance(&now, &now[18..]) - expected).abs() < 0.05);
@@ -197,7 +198,7 @@ fn a_hole_goes_where_its_limb_goes() {
 }
 
 #[test]
-fn the_designs_exchanged_play_the_film_backwards() {
+fn exchanged_designs_reverse_the_motion() {
     let bent = vec![vec![ring(arm(-0.1), moved(&arm(0.35), 2.5, DVec2::X))]];
     let shear = |r: &[DVec2]| {
         r.iter()
@@ -205,52 +206,52 @@ fn the_designs_exchanged_play_the_film_backwards() {
             .collect()
     };
     for parts in [bent, pairs(&plate(), shear)] {
-        let (there, back) = (intrinsic(&parts), intrinsic(&swapped(&parts)));
+        let (forward, backward) = (intrinsic(&parts), intrinsic(&swapped(&parts)));
         for t in TIMES {
-            let gap = worst_gap(&at(&there, t), &at(&back, 1.0 - t));
+            let gap = worst_gap(&positions(&forward, t), &positions(&backward, 1.0 - t));
             assert!(gap < 1e-9, "at {t}: {gap}");
         }
     }
 }
 
 #[test]
-fn a_hole_and_a_part_are_born_from_points() {
+fn a_hole_and_a_part_appear_from_points() {
     let mut parts = pairs(&plate(), |r| moved(r, 1.0, DVec2::X));
     let hole = &mut parts[0][1];
     hole.source = vec![DVec2::new(1.5, 1.5); 4];
     let other = &mut parts[1][0];
     other.target = vec![DVec2::new(-3.0, 9.0); 4];
     let paths = intrinsic(&parts);
-    let half = at(&paths, 0.5);
+    let half = positions(&paths, 0.5);
     let side = |k: usize| half[k].distance(half[k + 1]);
     assert!((side(4) - 0.5).abs() < 1e-9, "the hole has half its size");
     assert!((side(12) - 1.0).abs() < 1e-9, "the part has half its size");
 }
 
 #[test]
-fn what_does_not_correspond_is_refused() {
-    let of = |source: usize, target: usize| {
+fn invalid_rings_are_rejected() {
+    let build = |source: usize, target: usize| {
         let pair = ring(vec![DVec2::ONE; source], vec![DVec2::ONE; target]);
         BoundaryPaths::new(&[vec![pair]], PathOptions::default()).map(|_| ())
     };
     let counts = [3, 4];
     assert_eq!(
-        of(3, 4),
+        build(3, 4),
         Err(PathsError::Counts {
             part: 0,
             ring: 0,
             counts
         })
     );
-    assert_eq!(of(0, 0), Err(PathsError::Empty { part: 0, ring: 0 }));
-    assert_eq!(of(1, 1), Ok(()));
-    let none = BoundaryPaths::new(&[], PathOptions::default()).map(|_| ());
-    assert_eq!(none, Err(PathsError::NoRings));
-    let beyond = [f64::NAN, f64::NEG_INFINITY, 1e76];
-    for bad in beyond.map(|x| DVec2::new(x, 1.0)) {
-        let bad = ring(vec![DVec2::ONE, bad], vec![DVec2::ONE; 2]);
-        let bad = BoundaryPaths::new(&[vec![bad]], PathOptions::default()).map(|_| ());
-        assert_eq!(bad, Err(PathsError::OutOfRange { part: 0, ring: 0 }));
+    assert_eq!(build(0, 0), Err(PathsError::Empty { part: 0, ring: 0 }));
+    assert_eq!(build(1, 1), Ok(()));
+    let empty = BoundaryPaths::new(&[], PathOptions::default()).map(|_| ());
+    assert_eq!(empty, Err(PathsError::NoRings));
+    let out_of_range = [f64::NAN, f64::NEG_INFINITY, 1e76];
+    for point in out_of_range.map(|x| DVec2::new(x, 1.0)) {
+        let bad_ring = ring(vec![DVec2::ONE, point], vec![DVec2::ONE; 2]);
+        let result = BoundaryPaths::new(&[vec![bad_ring]], PathOptions::default()).map(|_| ());
+        assert_eq!(result, Err(PathsError::OutOfRange { part: 0, ring: 0 }));
     }
 }
 
@@ -278,7 +279,7 @@ fn any_parts() -> impl Strategy<Value = Vec<Vec<RingPair>>> {
 
 proptest! {
     #[test]
-    fn nothing_is_ever_nan(parts in any_parts(), t in -1.0..2.0, size in -290i32..145) {
+    fn vertices_are_always_finite(parts in any_parts(), t in -1.0..2.0, size in -290i32..145) {
         let scale = 10f64.powi(size / 2);
         let scaled = |r: &Vec<DVec2>| r.iter().map(|&p| scale * p).collect();
         let parts: Vec<Vec<RingPair>> = parts
@@ -287,22 +288,22 @@ proptest! {
             .collect();
         for course in [VertexPath::Straight, VertexPath::Intrinsic] {
             let paths = BoundaryPaths::new(&parts, PathOptions { course }).unwrap();
-            prop_assert!(at(&paths, t).iter().all(|p| p.is_finite()));
+            prop_assert!(positions(&paths, t).iter().all(|p| p.is_finite()));
         }
     }
 
     #[test]
-    fn any_moved_copy_moves_rigidly(
+    fn any_rigid_copy_moves_rigidly(
         source in prop::collection::vec((-9.0..9.0, -9.0..9.0).prop_map(DVec2::from), 3..20),
         degrees in -179.0..179.0, x in -50.0..50.0, t in -1.0..2.0,
     ) {
         let target = moved(&source, f64::to_radians(degrees), DVec2::new(x, -x));
         let paths = intrinsic(&[vec![ring(source.clone(), target)]]);
-        prop_assert!(worst_stretch(&source, &at(&paths, t), 1.0) < 1e-9);
+        prop_assert!(worst_stretch(&source, &positions(&paths, t), 1.0) < 1e-9);
     }
 
     #[test]
-    fn any_film_runs_backwards(
+    fn any_exchanged_designs_reverse_the_motion(
         corners in prop::collection::vec((0.5..9.0, 0.5..9.0), 4..16),
         angle in -2.9..2.9, t in -1.0..2.0,
     ) {
@@ -313,8 +314,8 @@ proptest! {
         };
         let (source, target) = (star(&|c| c.0), moved(&star(&|c| c.1), angle, DVec2::X));
         let parts = [vec![ring(source, target)]];
-        let (there, back) = (intrinsic(&parts), intrinsic(&swapped(&parts)));
-        let gap = worst_gap(&at(&there, t), &at(&back, 1.0 - t));
+        let (forward, backward) = (intrinsic(&parts), intrinsic(&swapped(&parts)));
+        let gap = worst_gap(&positions(&forward, t), &positions(&backward, 1.0 - t));
         prop_assert!(gap < 1e-9, "{}", gap);
     }
 }

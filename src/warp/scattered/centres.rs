@@ -1,50 +1,57 @@
-//! Places and values made ready: those that coincide are one, those that come
-//! near to each other give way, all are in coordinates of their own, and what
-//! a similarity explains is taken off.
+//! Preparation of the features for the linear system.
 //!
-//! Two features at distance d whose looks differ by D make the plane D / d
-//! times as steep between them. Up to a limit K nothing is changed. Beyond it
-//! their difference is shrunk by (K d / D)², so that the slope returns to zero
-//! instead of growing without bound, which would tear the plane just before
-//! they meet. What the two say of the slope between them also has to be heard
-//! less and less, or it would be lost with a jump when they are one: that is
-//! done by the system, for the pairs that are too near.
+//! Coincident centres are merged, slopes between close centres are limited, coordinates are
+//! normalised, and the best-fit similarity is subtracted from the displacements.
+//!
+//! Slope limit: two features at distance d whose displacements differ by D require a slope of
+//! D / d between them. Up to a limit K nothing is changed. Above it, the difference is multiplied
+//! by (K d / D)², so that the slope returns to zero as the features meet. Without this, the slope
+//! would grow without bound and tear the plane. The system additionally couples the coefficients
+//! of such a pair more and more; otherwise the map would jump at the moment the two merge.
 
 use super::kernel::{KernelCentres, RadialSum};
 use crate::geometry::DVec2;
 
-/// Places nearer than this share of the unit are one: a thousandth of a pixel.
-const MERGED: f64 = 1e-6;
+/// Distance below which features are merged, as a fraction of the frame's diameter (tolerance: a
+/// thousandth of a pixel).
+const MERGE_DISTANCE: f64 = 1e-6;
 
-/// How many times steeper than the frame a look-up may be between two
-/// features before they give way. At 20, two features a hundredth of the
-/// frame apart may be a fifth of it apart in a design, and both are met.
+/// Maximum slope K of the displacement between two features (heuristic).
+///
+/// With 20, two features a hundredth of the frame apart can lie a fifth of the frame apart in a
+/// design and still be interpolated exactly.
 pub(super) const STEEPEST: f64 = 20.0;
 
-/// Two features that are too near for what they want.
+/// Two features whose displacements exceed the slope limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ClosePair {
+    /// Indices of the two centres, in increasing order.
     pub(super) pair: [usize; 2],
-    /// (K d / D)², below 1.
+    /// Factor (K d / D)² < 1 by which the difference is multiplied.
     pub(super) shrunk: f64,
-    /// μ of the system; 0 until it is known.
+    /// Coupling μ of the two coefficients; 0 until the system computes it.
     pub(super) tie: f64,
 }
 
-/// Places and values, and memory to make them ready in.
+/// Centres and displacements of one frame, with reusable memory.
 #[derive(Debug, Default)]
 pub(super) struct CentreData {
+    /// Positions of the centres; normalised by [`Self::centre`].
     pub(super) at: Vec<DVec2>,
+    /// Displacements to the source and to the target.
     pub(super) values: Vec<[DVec2; 2]>,
+    /// Pairs that exceed the slope limit, in lexicographic order.
     pub(super) too_near: Vec<ClosePair>,
+    /// Displacements before the slopes are limited.
     memory: Vec<[DVec2; 2]>,
-    /// How many are merged in each.
+    /// Number of features merged into each centre.
     counts: Vec<f64>,
 }
 
 impl CentreData {
-    /// Each place joins the first one that is near enough; near is a share of
-    /// the unit.
+    /// Loads features and merges each into the first centre within the merge distance.
+    ///
+    /// `unit` is the frame's diameter. A merged centre has the mean position and displacement.
     pub(super) fn merge(
         &mut self,
         features: impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone,
@@ -54,19 +61,20 @@ impl CentreData {
         self.values.clear();
         self.counts.clear();
         let first = features.clone().next().map_or(DVec2::ZERO, |(p, _)| p);
-        let far = features.clone().map(|(p, _)| p.distance_squared(first));
-        let extent = far.fold(0.0, f64::max).sqrt();
-        let near = MERGED * unit.max(1e-3 * extent);
+        let distances = features.clone().map(|(p, _)| p.distance_squared(first));
+        let extent = distances.fold(0.0, f64::max).sqrt();
+        // Features far outside the frame have coarser coordinates.
+        let near = MERGE_DISTANCE * unit.max(1e-3 * extent);
         for (place, value) in features {
-            let mut known = self.at.iter();
-            match known.position(|p| p.distance_squared(place) <= near * near) {
+            let mut centres = self.at.iter();
+            match centres.position(|p| p.distance_squared(place) <= near * near) {
                 Some(at) => {
                     self.counts[at] += 1.0;
                     for (sum, value) in self.values[at].iter_mut().zip(value) {
                         *sum += value;
                     }
+                    // Running mean of the merged positions.
                     let mean = self.at[at];
-                    // The mean of all that joined so far.
                     self.at[at] = mean + (place - mean) / self.counts[at];
                 }
                 None => {
@@ -81,35 +89,34 @@ impl CentreData {
         }
     }
 
-    /// Shrinks differences of values that are steeper than [`STEEPEST`], and
-    /// notes whose.
+    /// Shrinks displacement differences with slopes above [`STEEPEST`] and records the pairs.
     pub(super) fn ease(&mut self) {
         let Self { at, memory, .. } = self;
         self.too_near.clear();
         memory.clear();
-        // From the values as they were, or the order of the features would count.
+        // Uses the original displacements, so that the result is independent of the order.
         memory.extend_from_slice(&self.values);
         for (i, value) in self.values.iter_mut().enumerate() {
             let (mut sums, mut weights) = (memory[i], [1.0; 2]);
             for (j, &other) in at.iter().enumerate() {
                 let allowed = STEEPEST * STEEPEST * at[i].distance_squared(other);
-                let mut least = 1.0_f64;
+                let mut min_factor = 1.0_f64;
                 for k in 0..2 {
                     let difference = memory[i][k].distance_squared(memory[j][k]);
-                    // False for two places with the same look, whatever their distance.
+                    // Strict comparison: equal displacements never need shrinking.
                     if allowed < difference {
                         let shrunk = allowed / difference;
-                        // With w at both, a difference shrinks by (1 − w) / (1 + w).
+                        // A mutual weight w shrinks the difference by (1 − w) / (1 + w).
                         let weight = (1.0 - shrunk) / (1.0 + shrunk);
                         sums[k] += weight * memory[j][k];
                         weights[k] += weight;
-                        least = least.min(shrunk);
+                        min_factor = min_factor.min(shrunk);
                     }
                 }
-                if least < 1.0 && i < j {
+                if min_factor < 1.0 && i < j {
                     self.too_near.push(ClosePair {
                         pair: [i, j],
-                        shrunk: least,
+                        shrunk: min_factor,
                         tie: 0.0,
                     });
                 }
@@ -120,12 +127,15 @@ impl CentreData {
         }
     }
 
-    /// Origin and scale, the centres in these coordinates and their radii.
+    /// Normalises the centres and computes their radii rᵢ².
+    ///
+    /// The origin is the mean of the centres and the scale their largest distance from it, or
+    /// `unit` if all centres coincide.
     pub(super) fn centre(&mut self, unit: f64, sum: &mut RadialSum) {
         let n = self.at.len();
         sum.origin = self.at.iter().sum::<DVec2>() / n.max(1) as f64;
-        let far = self.at.iter().map(|p| p.distance_squared(sum.origin));
-        let radius = far.fold(0.0, f64::max).sqrt();
+        let distances = self.at.iter().map(|p| p.distance_squared(sum.origin));
+        let radius = distances.fold(0.0, f64::max).sqrt();
         sum.scale = if radius > 0.0 { radius } else { unit };
         let KernelCentres { x, y, own } = &mut sum.centres;
         x.clear();
@@ -137,25 +147,26 @@ impl CentreData {
             y.push(place.y);
         }
         own.resize(n, f64::INFINITY);
-        // Pairs that are too near are listed in the order of these loops.
+        // The recorded pairs have the same order as these loops.
         let mut too_near = self.too_near.iter().peekable();
         for i in 0..n {
             for j in i + 1..n {
-                let mut apart = self.at[i].distance_squared(self.at[j]);
+                let mut squared = self.at[i].distance_squared(self.at[j]);
                 if let Some(near) = too_near.next_if(|near| near.pair == [i, j]) {
-                    // When they are one, there is no such neighbour.
-                    apart /= near.shrunk * near.shrunk;
+                    // A neighbour about to merge with this centre gradually stops counting.
+                    squared /= near.shrunk * near.shrunk;
                 }
-                own[i] = own[i].min(apart);
-                own[j] = own[j].min(apart);
+                own[i] = own[i].min(squared);
+                own[j] = own[j].min(squared);
             }
         }
-        // A centre alone, or as good as alone with one that it meets, has no
-        // neighbour: the extent of all will do.
+        // A centre without neighbours uses the extent of all centres, at most 2.
         own.iter_mut().for_each(|own| *own = own.min(4.0));
     }
 
-    /// Takes the similarity that fits the values best from them.
+    /// Subtracts the best-fit similarity from the displacements and returns it.
+    ///
+    /// For each design the result is the constant and the factors of x and y, each as [x, y].
     pub(super) fn take_similarity(&mut self) -> [[[f64; 2]; 3]; 2] {
         let n = self.at.len().max(1) as f64;
         let spread: f64 = self.at.iter().map(|p| p.length_squared()).sum();

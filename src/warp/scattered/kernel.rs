@@ -1,39 +1,40 @@
-//! The radial functions, many distances at a time.
+//! Vectorised evaluation of the radial functions and their sums.
 //!
-//! All take the *squared* distance, which spares a root. Each loop is
-//! compiled for several widths of vectors and one is chosen at run time; the
-//! results are the same for all.
+//! The functions take the *squared* distance, which saves a square root. Each loop is compiled
+//! for several vector widths and one is chosen at run time; the results are identical.
 
 use crate::geometry::DVec2;
 use crate::warp::elementary::{exp, ln};
 use pulp::{Simd, WithSimd};
 
-/// How many places are worked on at a time: their sums stay in the nearest
-/// cache. Loops over eight, known beforehand, would be unrolled before they
-/// are made into vectors.
+/// Number of points evaluated together (resource limit: their sums fit into the first-level
+/// cache).
+///
+/// Loops over only eight points would be unrolled by the compiler before it vectorises them.
 const LANES: usize = 64;
 
+/// One number per point of a block.
 type SumLanes = [f64; LANES];
 
-/// A radial function φ of r² and of the centre's own radius squared.
+/// Radial function φ of the squared distance r² and the centre's squared radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum RadialKernel {
     /// r² log r.
     ThinPlate,
     /// exp(−rate r²).
     Gaussian {
-        /// One over the radius squared.
+        /// Reciprocal of the squared radius.
         rate: f64,
     },
-    /// (r² + r_i²)^exponent.
+    /// (r² + rᵢ²)^exponent.
     Multiquadric {
-        /// μ.
+        /// Exponent μ.
         exponent: f64,
     },
 }
 
 impl RadialKernel {
-    /// With this sign it is positive definite, if conditionally.
+    /// Returns the sign with which the function is (conditionally) positive definite.
     pub(super) fn sign(self) -> f64 {
         match self {
             Self::Multiquadric { exponent } if exponent > 0.0 => -1.0,
@@ -42,24 +43,29 @@ impl RadialKernel {
     }
 }
 
-/// One of the functions, to compile a loop for.
+/// A radial function as a type, so that loops are compiled for each function separately.
 trait RadialFunction: Copy {
+    /// Returns φ for a squared distance `r2` and the centre's squared radius `own`.
     fn of(self, r2: f64, own: f64) -> f64;
 }
 
+/// r² log r.
 #[derive(Clone, Copy)]
 struct ThinPlate;
+/// exp(−rate r²).
 #[derive(Clone, Copy)]
 struct Gaussian(f64);
+/// √(r² + rᵢ²).
 #[derive(Clone, Copy)]
 struct RootKernel;
+/// (r² + rᵢ²)^μ.
 #[derive(Clone, Copy)]
 struct PowerKernel(f64);
 
-// Methods that are inlined always, not closures: what stays a call is compiled
-// for no vectors.
+// These are methods with forced inlining, because a closure that remains a call is not
+// vectorised.
 impl RadialFunction for ThinPlate {
-    /// 0 at 0, since the logarithm is finite there.
+    /// Returns 0 at 0, because `ln` is finite there.
     #[inline(always)]
     fn of(self, r2: f64, _: f64) -> f64 {
         0.5 * r2 * ln(r2)
@@ -87,12 +93,13 @@ impl RadialFunction for PowerKernel {
     }
 }
 
-/// What is done with a function once it is known.
+/// A computation that is generic over the radial function.
 trait KernelWork {
+    /// Runs the computation with one radial function.
     fn run<P: RadialFunction>(self, phi: P);
 }
 
-/// A work and its function, to be compiled for several widths of vectors.
+/// A computation with its radial function, compiled once for each vector width.
 pub(super) struct KernelDispatch<W>(pub(super) RadialKernel, pub(super) W);
 
 impl<W: KernelWork> WithSimd for KernelDispatch<W> {
@@ -103,23 +110,23 @@ impl<W: KernelWork> WithSimd for KernelDispatch<W> {
         match self.0 {
             RadialKernel::ThinPlate => self.1.run(ThinPlate),
             RadialKernel::Gaussian { rate } => self.1.run(Gaussian(rate)),
-            // The exponent of Ruprecht and Müller: a root is cheaper.
+            // The default exponent, for which a square root is cheaper than a power.
             RadialKernel::Multiquadric { exponent: 0.5 } => self.1.run(RootKernel),
             RadialKernel::Multiquadric { exponent } => self.1.run(PowerKernel(exponent)),
         }
     }
 }
 
-/// Where the functions sit, in coordinates of their own.
+/// Centres of the radial functions, in normalised coordinates.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KernelCentres {
     pub(super) x: Vec<f64>,
     pub(super) y: Vec<f64>,
-    /// Each centre's own radius squared.
+    /// Squared radius rᵢ² of each centre.
     pub(super) own: Vec<f64>,
 }
 
-/// φ of one centre at all centres, times `sign`.
+/// Matrix column: `sign` · φ of one centre, evaluated at all centres.
 pub(super) struct KernelColumn<'a> {
     pub(super) centres: &'a KernelCentres,
     pub(super) of: usize,
@@ -139,22 +146,23 @@ impl KernelWork for KernelColumn<'_> {
     }
 }
 
-/// A sum of functions and an affine map, into both designs at once.
+/// Displacement fields into both designs: a sum of radial functions plus an affine function.
 #[derive(Clone, Debug)]
 pub(super) struct RadialSum {
     pub(super) kernel: RadialKernel,
-    /// The centres' coordinates are (place − origin) / scale.
+    /// Origin of the normalised coordinates (point − origin) / scale.
     pub(super) origin: DVec2,
+    /// Scale of the normalised coordinates.
     pub(super) scale: f64,
     pub(super) centres: KernelCentres,
-    /// Of each centre, as [x, y] into each design.
+    /// Coefficients of each centre, as [x, y] for each design.
     pub(super) coefficients: Vec<[[f64; 2]; 2]>,
-    /// Constant, and factors of both coordinates, as [x, y] of each.
+    /// For each design the constant and the factors of both coordinates, each as [x, y].
     pub(super) affine: [[[f64; 2]; 3]; 2],
 }
 
 impl RadialSum {
-    /// Each place, moved by the sum there.
+    /// Writes each point plus its displacement, for both designs.
     pub(super) fn evaluate(&self, arch: pulp::Arch, places: &[DVec2], out: [&mut [DVec2]; 2]) {
         arch.dispatch(KernelDispatch(
             self.kernel,
@@ -162,7 +170,7 @@ impl RadialSum {
         ));
     }
 
-    /// The sums at a few places, in the centres' coordinates.
+    /// Computes the displacements at up to [`LANES`] points in normalised coordinates.
     #[inline(always)]
     fn block<P: RadialFunction>(
         &self,
@@ -200,7 +208,7 @@ impl RadialSum {
     }
 }
 
-/// A sum at places, to be written into both designs.
+/// Evaluation of a sum at all points.
 struct SumEvaluation<'a>(&'a RadialSum, &'a [DVec2], [&'a mut [DVec2]; 2]);
 
 impl KernelWork for SumEvaluation<'_> {

@@ -1,52 +1,50 @@
-//! The choice of the function and its numbers, and what may be wrong with
-//! them.
+//! Options of the scattered-point warp: the radial function, its parameters and their validation.
 
-use crate::settings::choice::named;
+use crate::settings::named;
 use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
-/// The radial function φ.
+/// Radial basis function φ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum RadialBasis {
-    /// r² log r: bends least; moves the whole plane.
+    /// r² log r: minimal bending energy, global influence.
     #[default]
     ThinPlate,
-    /// exp(−(r / width)²): moves what is near.
+    /// exp(−(r / width)²): local influence.
     Gaussian,
-    /// (r² + rᵢ²)^μ with rᵢ the distance from centre i to its nearest other
-    /// (Ruprecht, Müller 1995): tight where features are dense.
+    /// (r² + rᵢ²)^μ with rᵢ the distance from centre i to its nearest neighbour (Ruprecht, Müller
+    /// 1995): narrow where features are dense.
     Multiquadric,
 }
 
 named! { RadialBasis {
-    ThinPlate: "thin-plate", "Thin plate", "Bends least; moves the whole plane.";
-    Gaussian: "gaussian", "Gaussian", "Moves what is near a pin.";
+    ThinPlate: "thin-plate", "Thin plate",
+        "Smoothest interpolation; each pin affects the whole plane.";
+    Gaussian: "gaussian", "Gaussian", "Each pin affects only its neighbourhood.";
     Multiquadric: "multiquadric", "Multiquadric",
-        "Tight where pins are dense, wide where they are sparse.";
+        "Influence is narrow where pins are dense and wide where they are sparse.";
 } }
 
-/// Options of the warp by scattered points.
+/// Options of the scattered-point warp.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ScatteredOptions {
-    /// Which function.
+    /// Radial function.
     pub basis: RadialBasis,
-    /// The Gaussian's radius as a fraction of the frame's diameter, above 0
-    /// and at most 10. Far wider than the features are apart, it costs
-    /// digits.
+    /// Radius of the Gaussian as a fraction of the frame's diameter, above 0 and at most 10. A
+    /// radius much larger than the distances of the features loses accuracy.
     pub width: f64,
-    /// μ of the multiquadric, from −1 to below 1 and not 0; ½ is Ruprecht and
-    /// Müller's.
+    /// Exponent μ of the multiquadric in [−1, 1) without 0; Ruprecht and Müller use ½.
     pub exponent: f64,
-    /// λ, at least 0: how much features may be missed for a smoother map, in
-    /// units of the frame's diameter. For thin plates λ times the diameter
-    /// squared is SciPy's `smoothing`; 0.001 is little and 0.1 much.
+    /// Smoothing parameter λ ≥ 0, which trades accuracy at the features for a smoother map. It is
+    /// relative to the frame's diameter: for thin plates, λ times the squared diameter equals
+    /// SciPy's `smoothing`. 0.001 has a slight and 0.1 a strong effect.
     pub smoothing: f64,
 }
 
 impl Default for ScatteredOptions {
-    /// Thin plates without smoothing.
+    /// Returns thin plates without smoothing.
     fn default() -> Self {
         Self {
             basis: RadialBasis::ThinPlate,
@@ -57,29 +55,29 @@ impl Default for ScatteredOptions {
     }
 }
 
-/// Why a warp by scattered points is none.
+/// Reason why the scattered-point warp cannot be created.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScatteredError {
-    /// The features cannot be moved by.
+    /// The features are invalid.
     #[error(transparent)]
     Features(#[from] FeatureError),
     /// The Gaussian's radius is out of range.
-    #[error("the width is {0}: it must be above 0 and at most 10 of the frame's diameters")]
+    #[error("the width is {0}, but must be above 0 and at most 10 frame diameters")]
     Width(f64),
     /// μ is out of range.
-    #[error("the exponent is {0}: it must be at least -1, below 1 and not 0; 0.5 is usual")]
+    #[error("the exponent is {0}, but must be in [-1, 1) and not 0; the default is 0.5")]
     Exponent(f64),
     /// λ is out of range.
-    #[error("the smoothing is {0}: it must be at least 0 and finite; 0 meets every feature")]
+    #[error("the smoothing is {0}, but must be at least 0 and finite; 0 follows every pin exactly")]
     Smoothing(f64),
 }
 
 impl ScatteredOptions {
-    /// That all numbers are in range.
+    /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// Names the number that is not.
+    /// [`ScatteredError`] for the first parameter out of range.
     pub fn check(&self) -> Result<(), ScatteredError> {
         if !(self.width > 0.0 && self.width <= 10.0) {
             return Err(ScatteredError::Width(self.width));

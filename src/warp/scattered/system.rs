@@ -1,28 +1,22 @@
-//! What is solved for: coefficients and an affine part from places and values.
+//! Linear system for the coefficients of the radial functions and the affine part.
 //!
-//! In coordinates that are centred on the places and scaled by their extent,
-//! the best similarity is taken off first. What it leaves of the values, r, is
-//! interpolated by (Wahba, "Spline Models for Observational Data", 1990,
-//! §2.4)
+//! In normalised coordinates the best-fit similarity is subtracted first. The remaining
+//! displacements r are interpolated (Wahba, "Spline Models for Observational Data", 1990, §2.4):
 //!
 //! ⎡ ±Φ + λI   P ⎤ ⎡c⎤   ⎡r⎤
 //! ⎣ Pᵀ       −E ⎦ ⎣a⎦ = ⎣0⎦
 //!
-//! with Φ the radial functions at the places, signed so that it is positive
-//! definite on the null space of Pᵀ, and P the columns 1, x, y. E is 0 but for
-//! a trifle: where the places leave a slope undetermined, since there are
-//! fewer than three or all on a line, that slope is 0 beyond the similarity's.
-//! So two points give a similarity and one a translation, with no case of
-//! their own. Where places come near a line that the values have nothing to do
-//! with, E grows, and the slope across stays below a limit without a jump.
+//! Φ holds the radial functions at the centres, with the sign that makes it positive definite on
+//! the null space of Pᵀ; P has the columns 1, x, y. E is a tiny regularisation: slopes that the
+//! centres leave undetermined, because there are fewer than three or all are collinear, become
+//! those of the similarity. Two points thus give a similarity and one a translation without any
+//! special case. If the centres nearly lie on a line and their displacements require a steep
+//! slope across it, E grows and limits that slope continuously.
 //!
-//! Where two places come too near for what their values are (`places`), μ is
-//! added to Φ at both and taken from it between them. A large μ leaves the sum
-//! of their coefficients free and their difference 0, as if they were one.
-//!
-//! Places that coincide are one, at their mean and with the mean of their
-//! values. Where the matrix is singular to the last digits, as it is for
-//! Gaussians far wider than their distances, a ridge is added.
+//! For each pair of close centres (`centres`), a coupling μ is added to both diagonal entries of Φ
+//! and subtracted from the entries between them. A large μ forces equal coefficients, as if the
+//! two centres were one. If the matrix is numerically singular, as for Gaussians much wider than
+//! the distances of the centres, a ridge is added to the diagonal.
 
 use super::centres::{CentreData, STEEPEST};
 use super::kernel::{KernelCentres, KernelColumn, KernelDispatch, RadialKernel, RadialSum};
@@ -31,35 +25,39 @@ use crate::geometry::DVec2;
 use crate::numerics::DenseLu;
 use pulp::Arch;
 
-/// The least of E: at 1e-13 an affine map is met to 1e-12 by places whose
-/// spread across is a tenth of that along.
-const LEAST: f64 = 1e-13;
+/// Minimum of E (tolerance: affine maps are reproduced to 1e-12 by centres whose spread in one
+/// direction is a tenth of that in the other).
+const MIN_SLACK: f64 = 1e-13;
 
-/// The most of E: for places in a circle of radius 1, r² log r is positive
-/// definite beside it (Williams and Fitzgibbon, "Gaussian process implicit
-/// surfaces", 2006, eq. 9 with R = 2: E ≤ 1 / (1 + 2 log 2)).
-const MOST: f64 = 0.4;
+/// Maximum of E.
+///
+/// Derived: for centres within a unit circle the system of r² log r stays positive definite
+/// (Williams and Fitzgibbon, "Gaussian process implicit surfaces", 2006, eq. 9 with R = 2:
+/// E ≤ 1 / (1 + 2 log 2)).
+const MAX_SLACK: f64 = 0.4;
 
-/// What is added to the diagonal, from attempt to attempt.
+/// Ridges tried on the diagonal in turn (tolerance: from rounding to the largest acceptable
+/// error).
 const RIDGES: [f64; 7] = [0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4];
 
-/// The share of the values that a solution may miss before a ridge is added.
-const MISSED: f64 = 1e-9;
+/// Maximum residual relative to the largest displacement before a larger ridge is tried
+/// (tolerance).
+const MAX_RESIDUAL: f64 = 1e-9;
 
-/// Solves again and again in the same memory.
+/// Solver for one frame after another, with reusable memory.
 #[derive(Debug)]
 pub(super) struct RadialSolver {
     pub(super) arch: Arch,
     options: ScatteredOptions,
-    /// What width, smoothing and merging are relative to.
+    /// Frame diameter, the unit of width, smoothing and merge distance.
     unit: f64,
     places: CentreData,
     system: RidgedSystem,
-    /// The last solution.
+    /// Most recent solution.
     pub(super) sum: RadialSum,
 }
 
-/// Memory of its own, as empty as that of a new one.
+/// A clone has its own, empty memory.
 impl Clone for RadialSolver {
     fn clone(&self) -> Self {
         Self::new(self.options, self.unit)
@@ -85,7 +83,7 @@ impl RadialSolver {
         }
     }
 
-    /// Solves for finite places and values; cannot fail.
+    /// Solves for finite positions and displacements of the features; cannot fail.
     pub(super) fn solve(&mut self, features: impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone) {
         self.places.merge(features, self.unit);
         self.places.ease();
@@ -95,19 +93,19 @@ impl RadialSolver {
         let n = self.places.at.len();
         self.sum.coefficients.clear();
         self.sum.coefficients.resize(n, [[0.0; 2]; 2]);
-        // Of one feature nothing is left; a solve for zeros is spared.
-        let mut looks = self.places.values.iter().flatten();
-        if looks.any(|r| *r != DVec2::ZERO) {
+        // The similarity may explain everything, as for one feature; then nothing is solved.
+        let mut remainders = self.places.values.iter().flatten();
+        if remainders.any(|r| *r != DVec2::ZERO) {
             self.assemble();
-            self.system.ask(&self.places.values);
-            // Where nothing helps, the similarity alone is left.
+            self.system.set_right_hand_sides(&self.places.values);
+            // If no ridge helps, the similarity alone remains.
             if self.system.solve(n) {
-                self.keep();
+                self.store_solution();
             }
         }
     }
 
-    /// The function in the coordinates that are scaled.
+    /// Returns the radial function in normalised coordinates.
     fn kernel(&self) -> RadialKernel {
         match self.options.basis {
             RadialBasis::ThinPlate => RadialKernel::ThinPlate,
@@ -123,20 +121,25 @@ impl RadialSolver {
         }
     }
 
-    /// λ in the coordinates that are scaled: the functions there are those of
-    /// the unit but for a factor, and polynomials that the affine part takes.
+    /// Returns λ in normalised coordinates.
+    ///
+    /// Normalisation multiplies the radial functions by a constant factor, apart from polynomials
+    /// that the affine part absorbs.
     fn smoothing(&self) -> f64 {
-        let shrunk = self.unit / self.sum.scale;
+        let ratio = self.unit / self.sum.scale;
         let factor = match self.options.basis {
-            RadialBasis::ThinPlate => shrunk * shrunk,
+            RadialBasis::ThinPlate => ratio * ratio,
             RadialBasis::Gaussian => 1.0,
-            RadialBasis::Multiquadric => shrunk.powf(2.0 * self.options.exponent),
+            RadialBasis::Multiquadric => ratio.powf(2.0 * self.options.exponent),
         };
+        // Capped so that the matrix entries stay well within range.
         (self.options.smoothing * factor).min(1e12)
     }
 
-    /// E as xx, xy, yy: [`LEAST`], and more across a line that places are
-    /// nearer to than the values allow.
+    /// Returns E as [xx, xy, yy].
+    ///
+    /// It is [`MIN_SLACK`], and larger across a line to which the centres are too close for their
+    /// displacements.
     fn slack(&self) -> [f64; 3] {
         let n = self.places.at.len().max(1) as f64;
         let [mut xx, mut xy, mut yy] = [0.0; 3];
@@ -147,25 +150,25 @@ impl RadialSolver {
         }
         let half = 0.5 * (xx - yy);
         let across = (0.5 * (xx + yy) - half.hypot(xy)).max(0.0);
-        let left = (0..2).map(|k| {
+        let variances = (0..2).map(|k| {
             self.places
                 .values
                 .iter()
                 .map(|v| v[k].length_squared())
                 .sum()
         });
-        let left = left.fold(0.0, f64::max) / n;
+        let variance = variances.fold(0.0, f64::max) / n;
         let slope = STEEPEST * self.sum.scale;
-        let more = (left / (slope * slope) - across).clamp(0.0, MOST);
+        let added = (variance / (slope * slope) - across).clamp(0.0, MAX_SLACK);
         let axis = DVec2::from_angle(0.5 * xy.atan2(half)).perp();
         [
-            LEAST + more * axis.x * axis.x,
-            more * axis.x * axis.y,
-            LEAST + more * axis.y * axis.y,
+            MIN_SLACK + added * axis.x * axis.x,
+            added * axis.x * axis.y,
+            MIN_SLACK + added * axis.y * axis.y,
         ]
     }
 
-    /// The matrix column by column, with λ on the diagonal.
+    /// Assembles the matrix column by column.
     fn assemble(&mut self) {
         let n = self.places.at.len();
         let size = n + 3;
@@ -191,7 +194,7 @@ impl RadialSolver {
                 self.system.matrix[(n + k) * size + i] = value;
             }
         }
-        self.tie();
+        self.couple_close_pairs();
         let lambda = self.smoothing();
         for i in 0..n {
             self.system.matrix[i * size + i] += lambda;
@@ -202,17 +205,17 @@ impl RadialSolver {
         }
     }
 
-    /// Adds μ for places that are too near: (1 / shrunk − 1) times what two
-    /// opposite coefficients cost without it, or more where that may vanish.
-    fn tie(&mut self) {
+    /// Adds the coupling μ of close pairs: (1 / shrunk − 1) times the energy of two opposite
+    /// coefficients.
+    fn couple_close_pairs(&mut self) {
         let size = self.places.at.len() + 3;
         for near in &mut self.places.too_near {
             let [i, j] = near.pair;
             let entry = |i: usize, j: usize| self.system.matrix[j * size + i];
-            let cost = 0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i));
-            // What two opposite coefficients cost may vanish for wide Gaussians.
-            let cost = cost.abs() + self.places.at[i].distance_squared(self.places.at[j]);
-            near.tie = (cost * (1.0 / near.shrunk - 1.0)).min(1e12);
+            let energy = 0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i));
+            // The energy may vanish for wide Gaussians; the squared distance bounds it from below.
+            let bounded = energy.abs() + self.places.at[i].distance_squared(self.places.at[j]);
+            near.tie = (bounded * (1.0 / near.shrunk - 1.0)).min(1e12);
         }
         for near in &self.places.too_near {
             let [i, j] = near.pair;
@@ -222,8 +225,8 @@ impl RadialSolver {
         }
     }
 
-    /// Takes the solution over, the functions' sign included.
-    fn keep(&mut self) {
+    /// Copies the solution into `sum`, with the sign of the radial function.
+    fn store_solution(&mut self) {
         let n = self.places.at.len();
         let size = n + 3;
         let sign = self.sum.kernel.sign();
@@ -239,22 +242,23 @@ impl RadialSolver {
     }
 }
 
-/// A full system, solved with as small a ridge as does.
+/// Dense linear system, solved with the smallest sufficient ridge.
 #[derive(Debug, Default)]
 struct RidgedSystem {
-    /// Column by column.
+    /// Entries column by column.
     matrix: Vec<f64>,
+    /// Four right-hand sides one after the other: x and y for each design.
     rhs: Vec<f64>,
-    /// One column after the other: x and y into each design.
+    /// Four solutions in the same layout.
     solution: Vec<f64>,
-    missed: Vec<f64>,
+    /// Memory for the residual of one right-hand side.
+    residual: Vec<f64>,
     lu: DenseLu,
 }
 
 impl RidgedSystem {
-    /// Sets the right-hand sides: x and y into each design, and zeros where the
-    /// affine part has none.
-    fn ask(&mut self, values: &[[DVec2; 2]]) {
+    /// Sets the right-hand sides from the displacements, with zeros in the affine rows.
+    fn set_right_hand_sides(&mut self, values: &[[DVec2; 2]]) {
         let size = values.len() + 3;
         self.rhs.clear();
         self.rhs.resize(size * 4, 0.0);
@@ -266,8 +270,9 @@ impl RidgedSystem {
         }
     }
 
-    /// Solves for n coefficients and an affine part, with the least addition
-    /// to the diagonal of the coefficients; `false` where nothing helped.
+    /// Solves for n coefficients and an affine part, trying [`RIDGES`] in turn.
+    ///
+    /// Returns `false` if even the largest ridge leaves too large a residual.
     fn solve(&mut self, n: usize) -> bool {
         let size = n + 3;
         let mut before = 0.0;
@@ -280,26 +285,26 @@ impl RidgedSystem {
             self.solution.clear();
             self.solution.extend_from_slice(&self.rhs);
             self.lu.solve(&mut self.solution);
-            self.solves(size)
+            self.is_solved(size)
         })
     }
 
-    /// Whether the solution misses the values by little.
-    fn solves(&mut self, size: usize) -> bool {
-        let largest = self.rhs.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    /// Returns whether the residuals of the solution are within [`MAX_RESIDUAL`].
+    fn is_solved(&mut self, size: usize) -> bool {
+        let largest = self.rhs.iter().fold(0.0_f64, |max, v| max.max(v.abs()));
         let columns = self.rhs.chunks_exact(size);
         let mut columns = columns.zip(self.solution.chunks_exact(size));
         columns.all(|(rhs, solution)| {
-            let missed = &mut self.missed;
-            missed.clear();
-            missed.extend_from_slice(rhs);
+            let residual = &mut self.residual;
+            residual.clear();
+            residual.extend_from_slice(rhs);
             for (&x, entries) in solution.iter().zip(self.matrix.chunks_exact(size)) {
-                for (missed, entry) in missed.iter_mut().zip(entries) {
-                    *missed -= x * entry;
+                for (r, entry) in residual.iter_mut().zip(entries) {
+                    *r -= x * entry;
                 }
             }
-            // False for NaN as well.
-            missed.iter().all(|r| r.abs() <= MISSED * largest)
+            // The comparison is false for NaN too.
+            residual.iter().all(|r| r.abs() <= MAX_RESIDUAL * largest)
         })
     }
 }

@@ -1,3 +1,5 @@
+//! Tests of the scattered-point warp against SciPy, exact identities and degenerate features.
+
 use super::*;
 use crate::warp::{FeatureError, MAX_FEATURES};
 use proptest::prelude::*;
@@ -15,14 +17,14 @@ const FRAME: Bounds = Bounds {
     max: DVec2::new(3.0, 5.0),
 };
 
-/// Points of the additive recurrence by the plastic number, in a square.
+/// Returns well-spread points of the unit square (additive recurrence of the plastic number).
 fn spread(count: usize, shift: f64) -> Vec<DVec2> {
     let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
     let point = |k| ((k as f64 + shift) * step).fract();
     (1..=count).map(point).collect()
 }
 
-/// The values of `benches/scattered_scipy.py`.
+/// Returns the values that `benches/scattered_scipy.py` assigns to the points.
 fn values(points: &[DVec2]) -> Vec<DVec2> {
     let value = |p: &DVec2| DVec2::new((3.0 * p.x).sin() + p.y * p.y, p.x * (2.0 * p.y).cos());
     points.iter().map(value).collect()
@@ -42,15 +44,16 @@ fn pair(source: impl Into<DVec2>, target: impl Into<DVec2>) -> PointPair {
     }
 }
 
-/// Where a warp looks at t: in the source and in the target.
-fn looks(warp: &ScatteredWarp, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
+/// Returns the source and target points shown at `places` at t.
+fn lookups(warp: &ScatteredWarp, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     let [mut source, mut target] = [(); 2].map(|()| vec![DVec2::NAN; places.len()]);
     warp.clone().look_up(t, places, &mut source, &mut target);
     [source, target]
 }
 
-/// What a warp whose frame has a diameter of `unit` says at places of the
-/// target, where features lead from `centres` to `values`.
+/// Evaluates at `places` the map that takes `centres` to `values`, with a frame diameter of `unit`.
+///
+/// This is the map from the frame to the target at t = 0.
 fn mapped(
     centres: &[DVec2],
     values: &[DVec2],
@@ -64,7 +67,7 @@ fn mapped(
     };
     let ends = centres.iter().zip(values);
     let pairs: Vec<_> = ends.map(|(&c, &v)| pair(c, v)).collect();
-    let [_, target] = looks(
+    let [_, target] = lookups(
         &ScatteredWarp::new(&frame, &pairs, &[], options)?,
         0.0,
         places,
@@ -73,7 +76,7 @@ fn mapped(
 }
 
 #[test]
-fn values_are_those_of_scipy() -> ScatteredTestResult {
+fn values_equal_those_of_scipy() -> ScatteredTestResult {
     // python3 benches/scattered_scipy.py table, with SciPy 1.17.1
     let table = include_str!("scipy.csv");
     let kinds = [
@@ -82,13 +85,13 @@ fn values_are_those_of_scipy() -> ScatteredTestResult {
         (RadialBasis::Gaussian, 0.0),
         (RadialBasis::Gaussian, 0.1),
     ];
-    // The unit must make no difference but in what is relative to it.
+    // The unit only rescales the options that are relative to it.
     for unit in [1.0, 2.5] {
         for (column, (basis, smoothing)) in kinds.into_iter().enumerate() {
-            let plate = basis == RadialBasis::ThinPlate;
+            let is_plate = basis == RadialBasis::ThinPlate;
             let options = ScatteredOptions {
                 width: 0.25 / unit,
-                smoothing: if plate {
+                smoothing: if is_plate {
                     smoothing / (unit * unit)
                 } else {
                     smoothing
@@ -100,10 +103,10 @@ fn values_are_those_of_scipy() -> ScatteredTestResult {
             for line in table.lines().skip(1) {
                 let row: Vec<f64> = line.split(',').map(str::parse).collect::<Result<_, _>>()?;
                 let place = DVec2::new(row[0], row[1]);
-                let found = mapped(&centres, &values, options, unit, &[place])?[0];
-                let wanted = DVec2::new(row[2 + 2 * column], row[3 + 2 * column]);
-                let apart = found.distance(wanted);
-                assert!(apart < 1e-9, "{basis:?} {smoothing} {unit}: {apart:e}");
+                let actual = mapped(&centres, &values, options, unit, &[place])?[0];
+                let expected = DVec2::new(row[2 + 2 * column], row[3 + 2 * column]);
+                let error = actual.distance(expected);
+                assert!(error < 1e-9, "{basis:?} {smoothing} {unit}: {error:e}");
             }
         }
     }
@@ -111,7 +114,7 @@ fn values_are_those_of_scipy() -> ScatteredTestResult {
 }
 
 #[test]
-fn values_are_met_at_their_centres() -> ScatteredTestResult {
+fn values_are_interpolated_at_their_centres() -> ScatteredTestResult {
     for basis in BASES {
         for exponent in [0.5, 0.3, -0.5] {
             let options = ScatteredOptions {
@@ -121,10 +124,10 @@ fn values_are_met_at_their_centres() -> ScatteredTestResult {
             for count in [1, 2, 3, 4, 40, 300] {
                 let centres = spread(count, 0.0);
                 let values = values(&centres);
-                let found = mapped(&centres, &values, options, 1.0, &centres)?;
-                for (found, wanted) in found.iter().zip(&values) {
-                    let apart = found.distance(*wanted);
-                    assert!(apart < 1e-9, "{basis:?} {exponent} {count}: {apart:e}");
+                let actual = mapped(&centres, &values, options, 1.0, &centres)?;
+                for (actual, expected) in actual.iter().zip(&values) {
+                    let error = actual.distance(*expected);
+                    assert!(error < 1e-9, "{basis:?} {exponent} {count}: {error:e}");
                 }
             }
         }
@@ -145,10 +148,10 @@ fn affine_maps_are_reproduced() -> ScatteredTestResult {
                     ..with(basis)
                 };
                 let places: Vec<DVec2> = spread(50, 0.5).iter().map(|&p| 3.0 * p - 1.0).collect();
-                let found = mapped(&centres, &values, options, 1.0, &places)?;
-                for (found, &place) in found.iter().zip(&places) {
-                    let apart = found.distance(affine(place));
-                    assert!(apart < 1e-9, "{basis:?} {smoothing} {count}: {apart:e}");
+                let actual = mapped(&centres, &values, options, 1.0, &places)?;
+                for (actual, &place) in actual.iter().zip(&places) {
+                    let error = actual.distance(affine(place));
+                    assert!(error < 1e-9, "{basis:?} {smoothing} {count}: {error:e}");
                 }
             }
         }
@@ -157,29 +160,32 @@ fn affine_maps_are_reproduced() -> ScatteredTestResult {
 }
 
 #[test]
-fn few_features_are_no_case_of_their_own() -> ScatteredTestResult {
+fn few_features_give_identity_translation_and_similarity() -> ScatteredTestResult {
     let places = spread(30, 0.0);
     for basis in BASES {
         let none = ScatteredWarp::new(&FRAME, &[], &[], with(basis))?;
-        assert_eq!(looks(&none, 0.3, &places), [places.clone(), places.clone()]);
+        assert_eq!(
+            lookups(&none, 0.3, &places),
+            [places.clone(), places.clone()]
+        );
 
         let one = [pair((0.0, 3.0), (2.0, 3.5))];
         let one = ScatteredWarp::new(&FRAME, &one, &[], with(basis))?;
-        let [source, _] = looks(&one, 0.3, &places);
-        for (found, &place) in source.iter().zip(&places) {
-            assert!(found.distance(place - 0.3 * DVec2::new(2.0, 0.5)) < 1e-12);
+        let [source, _] = lookups(&one, 0.3, &places);
+        for (actual, &place) in source.iter().zip(&places) {
+            assert!(actual.distance(place - 0.3 * DVec2::new(2.0, 0.5)) < 1e-12);
         }
 
-        // A quarter turn about the first, twice as large; three of them on a
-        // line say the same.
+        // A quarter turn about the first point with a scale of 2; three collinear points
+        // determine the same similarity as two.
         let turned = |p: DVec2| DVec2::new(0.0, 3.0) + 2.0 * (p - DVec2::new(0.0, 3.0)).perp();
         let on_line = [0.0, 1.0, 2.5].map(|x| DVec2::new(x, 3.0 + x));
         for points in [&on_line[..2], &on_line] {
             let pairs: Vec<_> = points.iter().map(|&p| pair(p, turned(p))).collect();
             let warp = ScatteredWarp::new(&FRAME, &pairs, &[], with(basis))?;
-            let [_, target] = looks(&warp, 0.0, &places);
-            for (found, &place) in target.iter().zip(&places) {
-                assert!(found.distance(turned(place)) < 1e-9, "{basis:?}");
+            let [_, target] = lookups(&warp, 0.0, &places);
+            for (actual, &place) in target.iter().zip(&places) {
+                assert!(actual.distance(turned(place)) < 1e-9, "{basis:?}");
             }
         }
     }
@@ -187,20 +193,20 @@ fn few_features_are_no_case_of_their_own() -> ScatteredTestResult {
 }
 
 #[test]
-fn both_ends_are_met_to_the_last_bit() -> ScatteredTestResult {
+fn both_ends_are_exact_bit_for_bit() -> ScatteredTestResult {
     let places = spread(100, 0.0);
     let ends = spread(20, 7.0).into_iter().zip(spread(20, 1.5));
     let pairs: Vec<_> = ends.map(|(p, q)| pair(4.0 * p, 3.0 * q)).collect();
     for basis in BASES {
         let warp = ScatteredWarp::new(&FRAME, &pairs, &[], with(basis))?;
-        assert_eq!(looks(&warp, 0.0, &places)[0], places);
-        assert_eq!(looks(&warp, 1.0, &places)[1], places);
+        assert_eq!(lookups(&warp, 0.0, &places)[0], places);
+        assert_eq!(lookups(&warp, 1.0, &places)[1], places);
     }
     Ok(())
 }
 
 #[test]
-fn features_are_met_and_lines_count() -> ScatteredTestResult {
+fn points_and_line_samples_are_interpolated() -> ScatteredTestResult {
     let line = LinePair {
         source: [DVec2::new(-0.5, 2.5), DVec2::new(1.0, 2.5)],
         target: [DVec2::new(0.0, 4.5), DVec2::new(1.0, 4.0)],
@@ -212,7 +218,7 @@ fn features_are_met_and_lines_count() -> ScatteredTestResult {
         let features = [point, pair(on(line.source), on(line.target))];
         for t in [0.0, 0.4, 1.0, 1.3] {
             let at = features.map(|f| f.source * (1.0 - t) + f.target * t);
-            let [source, target] = looks(&warp, t, &at);
+            let [source, target] = lookups(&warp, t, &at);
             for (k, feature) in features.iter().enumerate() {
                 assert!(source[k].distance(feature.source) < 1e-9);
                 assert!(target[k].distance(feature.target) < 1e-9);
@@ -223,64 +229,64 @@ fn features_are_met_and_lines_count() -> ScatteredTestResult {
 }
 
 #[test]
-fn smoothing_misses_features_for_a_straighter_map() -> ScatteredTestResult {
+fn more_smoothing_misses_features_by_more() -> ScatteredTestResult {
     let centres = spread(40, 0.0);
     for basis in BASES {
-        let mut missed_less = 0.0;
+        let mut last_error = 0.0;
         for smoothing in [0.0, 1e-3, 1e-1, 1e1] {
             let options = ScatteredOptions {
                 smoothing,
                 ..with(basis)
             };
-            let wanted = values(&centres);
-            let found = mapped(&centres, &wanted, options, 1.0, &centres)?;
-            let missed = found.iter().zip(&wanted);
-            let missed: f64 = missed.map(|(v, w)| v.distance_squared(*w)).sum();
-            assert!(smoothing == 0.0 || missed > missed_less, "{basis:?}");
-            missed_less = missed;
+            let expected = values(&centres);
+            let actual = mapped(&centres, &expected, options, 1.0, &centres)?;
+            let pairs = actual.iter().zip(&expected);
+            let error: f64 = pairs.map(|(v, w)| v.distance_squared(*w)).sum();
+            assert!(smoothing == 0.0 || error > last_error, "{basis:?}");
+            last_error = error;
         }
     }
     Ok(())
 }
 
 #[test]
-fn centres_at_one_place_are_their_mean() -> ScatteredTestResult {
+fn coincident_centres_take_the_mean_value() -> ScatteredTestResult {
     let mut centres = spread(6, 0.0);
     let mut values = values(&centres);
     centres.extend([centres[2], centres[2]]);
     values.extend([values[2] + 3.0, values[2]]);
     for basis in BASES {
-        let found = mapped(&centres, &values, with(basis), 1.0, &centres)?;
-        assert!(found[2].distance(values[2] + 1.0) < 1e-9);
-        assert!(found[4].distance(values[4]) < 1e-9);
+        let actual = mapped(&centres, &values, with(basis), 1.0, &centres)?;
+        assert!(actual[2].distance(values[2] + 1.0) < 1e-9);
+        assert!(actual[4].distance(values[4]) < 1e-9);
     }
     Ok(())
 }
 
 #[test]
-fn gaussians_too_wide_for_the_last_digits_get_a_ridge() -> ScatteredTestResult {
+fn numerically_singular_gaussians_are_solved_with_a_ridge() -> ScatteredTestResult {
     let centres = spread(300, 0.0);
     let wide = ScatteredOptions {
         width: 2.0,
         ..with(RadialBasis::Gaussian)
     };
-    let wanted = values(&centres);
-    let found = mapped(&centres, &wanted, wide, 1.0, &centres)?;
-    for (found, wanted) in found.iter().zip(wanted) {
-        let missed = found.distance(wanted);
-        assert!(missed < 1e-3, "{missed:e}");
+    let expected = values(&centres);
+    let actual = mapped(&centres, &expected, wide, 1.0, &centres)?;
+    for (actual, expected) in actual.iter().zip(expected) {
+        let error = actual.distance(expected);
+        assert!(error < 1e-3, "{error:e}");
     }
     Ok(())
 }
 
-/// The farthest that a look goes from step to step between two times.
+/// Returns the largest change of a looked-up point from step to step between two times.
 fn farthest_step(warp: &ScatteredWarp, [from, to]: [f64; 2], steps: u32) -> f64 {
     let places: Vec<DVec2> = spread(200, 0.0).iter().map(|&p| 4.0 * p).collect();
-    let mut last = looks(warp, from, &places);
+    let mut last = lookups(warp, from, &places);
     let mut farthest = 0.0_f64;
     for step in 1..=steps {
         let t = from + (to - from) * f64::from(step) / f64::from(steps);
-        let now = looks(warp, t, &places);
+        let now = lookups(warp, t, &places);
         for (now, last) in now.iter().flatten().zip(last.iter().flatten()) {
             farthest = farthest.max(now.distance(*last));
         }
@@ -289,7 +295,7 @@ fn farthest_step(warp: &ScatteredWarp, [from, to]: [f64; 2], steps: u32) -> f64 
     farthest
 }
 
-/// A jump would stay as it is where steps get shorter.
+/// Asserts continuity: a jump would not shrink with the length of the steps.
 fn assert_no_jump(pairs: &[PointPair]) -> ScatteredTestResult {
     for basis in BASES {
         let warp = ScatteredWarp::new(&FRAME, pairs, &[], with(basis))?;
@@ -300,10 +306,10 @@ fn assert_no_jump(pairs: &[PointPair]) -> ScatteredTestResult {
     Ok(())
 }
 
-/// Three features of which one crosses the line of the others: an affine map
-/// alone would be infinitely steep there.
+/// One feature crosses the line through the other two, where an affine map would be infinitely
+/// steep.
 #[test]
-fn a_triangle_turns_over_without_a_jump() -> ScatteredTestResult {
+fn a_triangle_flips_without_a_jump() -> ScatteredTestResult {
     assert_no_jump(&[
         pair((0.0, 3.0), (0.0, 3.0)),
         pair((2.0, 3.0), (2.0, 3.0)),
@@ -312,7 +318,7 @@ fn a_triangle_turns_over_without_a_jump() -> ScatteredTestResult {
 }
 
 #[test]
-fn features_that_exchange_places_do_so_without_a_jump() -> ScatteredTestResult {
+fn features_that_swap_positions_cause_no_jump() -> ScatteredTestResult {
     let pairs = [
         pair((0.0, 3.0), (2.0, 3.5)),
         pair((2.0, 3.5), (0.0, 3.0)),
@@ -325,12 +331,12 @@ fn features_that_exchange_places_do_so_without_a_jump() -> ScatteredTestResult {
 }
 
 #[test]
-fn what_is_no_number_is_refused() {
-    let fine = pair((0.0, 0.0), (1.0, 1.0));
+fn invalid_input_is_rejected() {
+    let valid = pair((0.0, 0.0), (1.0, 1.0));
     let new = |points: &[PointPair], options| ScatteredWarp::new(&FRAME, points, &[], options);
     let bad = pair((0.0, f64::NAN), (1.0, 1.0));
     assert_eq!(
-        new(&[fine, bad], ScatteredOptions::default()).map(|_| ()),
+        new(&[valid, bad], ScatteredOptions::default()).map(|_| ()),
         Err(FeatureError::Point(2).into())
     );
     let line = LinePair {
@@ -342,11 +348,11 @@ fn what_is_no_number_is_refused() {
         Err(FeatureError::Line(1).into())
     );
     assert_eq!(
-        new(&[fine; MAX_FEATURES + 1], ScatteredOptions::default()).map(|_| ()),
+        new(&[valid; MAX_FEATURES + 1], ScatteredOptions::default()).map(|_| ()),
         Err(FeatureError::TooMany { found: 513 }.into())
     );
     let default = ScatteredOptions::default();
-    for wrong in [
+    for options in [
         ScatteredOptions {
             width: 0.0,
             ..default
@@ -372,7 +378,7 @@ fn what_is_no_number_is_refused() {
             ..default
         },
     ] {
-        assert!(new(&[fine], wrong).is_err());
+        assert!(new(&[valid], options).is_err());
     }
 }
 
@@ -414,13 +420,13 @@ proptest! {
         let frame = if point_frame { Bounds::at(DVec2::ONE) } else { FRAME };
         let warp = ScatteredWarp::new(&frame, &pairs, &[], options)?;
         let places: Vec<DVec2> = spread(20, 0.0).iter().map(|&p| 4.0 * p).collect();
-        for place in looks(&warp, t, &places).into_iter().flatten() {
+        for place in lookups(&warp, t, &places).into_iter().flatten() {
             prop_assert!(place.is_finite(), "{place}");
         }
     }
 
     #[test]
-    fn swapping_plays_the_film_backwards(
+    fn exchanged_designs_reverse_the_motion(
         basis in prop::sample::select(&BASES[..]),
         ends in prop::collection::vec((0.0f64..4.0, 2.0f64..5.0), 0..12),
         t in -0.2f64..1.2,
@@ -431,8 +437,8 @@ proptest! {
         let warp = ScatteredWarp::new(&FRAME, &pairs, &[], with(basis))?;
         let back = ScatteredWarp::new(&FRAME, &swapped, &[], with(basis))?;
         let places: Vec<DVec2> = spread(20, 0.0).iter().map(|&p| 4.0 * p).collect();
-        let [source, target] = looks(&warp, t, &places);
-        let [back_source, back_target] = looks(&back, 1.0 - t, &places);
+        let [source, target] = lookups(&warp, t, &places);
+        let [back_source, back_target] = lookups(&back, 1.0 - t, &places);
         for (a, b) in source.iter().zip(&back_target).chain(target.iter().zip(&back_source)) {
             prop_assert!(a.distance(*b) < 1e-6 * (1.0 + a.length()), "{a} {b}");
         }
