@@ -1,9 +1,8 @@
-//! Colours, paints, gradients and lines, and the way from one to another.
+//! Colours, flat paints, gradients and strokes, and interpolation between them.
 //!
-//! A [`Paint`] goes to another in OKLab (Ottosson 2020: a space in which equal
-//! steps look equal), its opacity premultiplied, so that what fades in has its
-//! own colour all the while. Blends in one colour by t are mixed in linear light,
-//! as light is.
+//! A [`Paint`] is interpolated in OKLab (Ottosson 2020), a space in which equal steps look equal.
+//! Its opacity is premultiplied, so a paint that fades in keeps its own colour. The colour of a
+//! design without paints of its own is mixed in linear light instead ([`Rgb::mixed`]).
 
 mod gradient;
 
@@ -11,7 +10,7 @@ pub use gradient::{Gradient, GradientGeometry, GradientSpread, GradientStop};
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// The curve of IEC 61966-2-1 (sRGB), undone; both in [0, 1].
+/// Decodes an sRGB value to linear light (IEC 61966-2-1); both in [0, 1].
 pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
     if encoded <= 0.04045 {
         encoded / 12.92
@@ -20,7 +19,7 @@ pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
     }
 }
 
-/// The curve of IEC 61966-2-1 (sRGB); both in [0, 1].
+/// Encodes linear light as an sRGB value (IEC 61966-2-1); both in [0, 1].
 pub(crate) fn srgb_from_linear(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         12.92 * linear
@@ -29,26 +28,26 @@ pub(crate) fn srgb_from_linear(linear: f64) -> f64 {
     }
 }
 
-/// An opaque sRGB colour, written as `#rrggbb`.
+/// An opaque sRGB colour: red, green, blue. Written as `#rrggbb`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Rgb(pub [u8; 3]);
 
-/// A text that is no colour.
+/// Error of parsing a colour. Holds the text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("\"{0}\" is no colour; write it as #rrggbb, for example #3b78c2")]
+#[error("\"{0}\" is not a colour; write it as #rrggbb, for example #3b78c2")]
 pub struct ColourError(String);
 
 impl std::str::FromStr for Rgb {
     type Err = ColourError;
 
     fn from_str(text: &str) -> Result<Self, ColourError> {
-        let wrong = || ColourError(text.to_owned());
-        let hex = text.strip_prefix('#').ok_or_else(wrong)?;
-        // `from_str_radix` alone would take "+f6fb3".
+        let error = || ColourError(text.to_owned());
+        let hex = text.strip_prefix('#').ok_or_else(error)?;
+        // `from_str_radix` alone would accept "+f6fb3".
         if hex.len() != 6 || !hex.bytes().all(|b| b.is_ascii_hexdigit()) {
-            return Err(wrong());
+            return Err(error());
         }
-        let value = u32::from_str_radix(hex, 16).map_err(|_| wrong())?;
+        let value = u32::from_str_radix(hex, 16).map_err(|_| error())?;
         let [_, r, g, b] = value.to_be_bytes();
         Ok(Self([r, g, b]))
     }
@@ -75,8 +74,7 @@ impl<'de> Deserialize<'de> for Rgb {
 }
 
 impl Rgb {
-    /// The colour at `t` in [0, 1] on the way to `other`, mixed in linear
-    /// light; beyond that range the nearer end.
+    /// Interpolates towards `other` in linear light. `t` is clamped to [0, 1].
     ///
     /// ```
     /// use morphospace::colour::Rgb;
@@ -99,22 +97,22 @@ impl Rgb {
     }
 }
 
-/// A channel in linear light, in [0, 1].
+/// Decodes an 8-bit channel to linear light in [0, 1].
 fn linear(channel: u8) -> f64 {
     linear_from_srgb(f64::from(channel) / 255.0)
 }
 
-/// A channel of linear light, from [0, 1].
+/// Encodes linear light as an 8-bit channel; clamps to the valid range.
 fn encoded(light: f64) -> u8 {
     (srgb_from_linear(light) * 255.0).round().clamp(0.0, 255.0) as u8
 }
 
-/// A flat paint: a colour, and how much it covers.
+/// A flat paint: a colour and its opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paint {
-    /// Its colour.
+    /// Colour of the paint.
     pub colour: Rgb,
-    /// 1 hides what is below, 0 shows nothing.
+    /// Opacity: 1 hides everything below, 0 is invisible.
     pub opacity: f64,
 }
 
@@ -128,8 +126,8 @@ impl From<Rgb> for Paint {
 }
 
 impl Paint {
-    /// The paint at `t` in [0, 1] on the way to `other`, in OKLab with opacity
-    /// premultiplied; beyond that range the nearer end. The ends are exact.
+    /// Interpolates towards `other` in OKLab with premultiplied opacity. `t` is clamped to [0, 1];
+    /// the ends are exact.
     ///
     /// ```
     /// use morphospace::colour::{Paint, Rgb};
@@ -159,16 +157,16 @@ impl Paint {
         }
     }
 
-    /// Whether nothing below it is seen.
+    /// Whether the paint hides everything below it.
     #[must_use]
     pub fn is_opaque(&self) -> bool {
         self.opacity >= 1.0
     }
 
-    /// How unlike two paints look: the distance in OKLab, opacity premultiplied,
-    /// between black and white 1.
+    /// Returns how different two paints look: their distance in OKLab with premultiplied opacity.
+    /// Black and white have distance 1.
     #[must_use]
-    pub fn unlike(&self, other: &Self) -> f64 {
+    pub fn difference(&self, other: &Self) -> f64 {
         let [a, b] = [self, other].map(|paint| {
             let [l, a, b] = paint.colour.to_oklab();
             [l, a, b, 1.0].map(|x| x * paint.opacity)
@@ -178,42 +176,41 @@ impl Paint {
     }
 }
 
-/// A line along an outline, half of it on either side.
+/// A stroke along an outline, centred on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrokeStyle {
-    /// What it is drawn with.
+    /// Paint of the stroke.
     pub paint: Paint,
-    /// How wide it is, in units of the design.
+    /// Width, in units of the design.
     pub width: f64,
-    /// What its corners look like.
+    /// Shape of its corners.
     pub join: StrokeJoin,
 }
 
-/// What the corners of a line look like.
+/// Shape of the corners of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StrokeJoin {
-    /// Pointed, unless the point is farther from the corner than this many half
-    /// widths: then cut off.
+    /// Pointed, if the point is at most this many half widths away from the corner; otherwise
+    /// bevelled.
     Mitre(f64),
-    /// A part of a disc.
+    /// Rounded by a sector of a disc.
     Round,
-    /// Cut off.
+    /// Cut off straight.
     Bevel,
 }
 
 impl StrokeStyle {
-    /// The line at `t` on the way from one to another: paint and width change
-    /// evenly, the corners in the middle. Where there is none at an end it has no
-    /// width there.
+    /// Interpolates between two strokes. Paint and width change linearly; the corner shape switches
+    /// at t = 0.5. An end without a stroke counts as a stroke of width 0. `t` is clamped to [0, 1].
     #[must_use]
-    pub fn between(ends: [Option<Self>; 2], t: f64) -> Option<Self> {
-        let thin = |line: Self| Self { width: 0.0, ..line };
+    pub fn interpolated(ends: [Option<Self>; 2], t: f64) -> Option<Self> {
+        let without_width = |line: Self| Self { width: 0.0, ..line };
         let (a, b) = match ends {
             [None, None] => return None,
             [Some(a), Some(b)] => (a, b),
-            [Some(a), None] => (a, thin(a)),
-            [None, Some(b)] => (thin(b), b),
+            [Some(a), None] => (a, without_width(a)),
+            [None, Some(b)] => (without_width(b), b),
         };
         let t = t.clamp(0.0, 1.0);
         Some(Self {
@@ -225,7 +222,7 @@ impl StrokeStyle {
 }
 
 impl Rgb {
-    /// Lightness in [0, 1], and the two axes of hue.
+    /// Converts to OKLab: lightness in [0, 1], and the green–red and blue–yellow axes.
     fn to_oklab(self) -> [f64; 3] {
         let [r, g, b] = self.0.map(linear);
         let cones = [
@@ -241,7 +238,7 @@ impl Rgb {
         ]
     }
 
-    /// The nearest colour that a screen has, channel by channel.
+    /// Converts from OKLab, clamping each channel to the range of sRGB.
     fn from_oklab([light, a, b]: [f64; 3]) -> Self {
         let cones = [
             light + 0.396_337_777_4 * a + 0.215_803_757_3 * b,
@@ -268,7 +265,7 @@ mod tests {
     fn colours_are_read_and_written() {
         assert_eq!("#2f6fb3".parse(), Ok(Rgb([0x2f, 0x6f, 0xb3])));
         assert_eq!(Rgb([1, 2, 255]).to_string(), "#0102ff");
-        for wrong in [
+        for text in [
             "2f6fb3",
             "#2f6fb",
             "#2f6fb3ff",
@@ -277,12 +274,12 @@ mod tests {
             "#é0000",
             "",
         ] {
-            assert!(wrong.parse::<Rgb>().is_err(), "{wrong}");
+            assert!(text.parse::<Rgb>().is_err(), "{text}");
         }
     }
 
     #[test]
-    fn every_channel_comes_back_from_light_and_from_oklab() {
+    fn linear_light_and_oklab_round_trip_every_channel() {
         for channel in 0..=255 {
             assert_eq!(encoded(linear(channel)), channel);
             let colour = Rgb([channel, 255 - channel, channel / 3]);
@@ -290,53 +287,59 @@ mod tests {
         }
     }
 
-    /// The values that Ottosson gives for the reference white and for a red.
+    /// Reference values of Ottosson for white and for a red.
     #[test]
-    fn oklab_is_that_of_its_author() {
+    fn oklab_matches_the_reference_values() {
         let [l, a, b] = Rgb([255; 3]).to_oklab();
         assert!((l - 1.0).abs() < 1e-6 && a.abs() < 1e-6 && b.abs() < 1e-6);
         let red = Rgb([255, 0, 0]).to_oklab();
-        for (found, wanted) in red.into_iter().zip([0.627_955, 0.224_863, 0.125_846]) {
-            assert!((found - wanted).abs() < 1e-5, "{found} is not {wanted}");
+        for (actual, expected) in red.into_iter().zip([0.627_955, 0.224_863, 0.125_846]) {
+            assert!(
+                (actual - expected).abs() < 1e-5,
+                "{actual} is not {expected}"
+            );
         }
     }
 
     #[test]
-    fn paints_meet_their_ends_and_keep_their_hue_as_they_fade() {
+    fn paints_are_exact_at_the_ends_and_keep_their_hue_while_fading() {
         let [red, blue] = [Rgb([200, 30, 20]), Rgb([10, 60, 220])].map(Paint::from);
-        let gone = Paint {
+        let transparent = Paint {
             opacity: 0.0,
             ..blue
         };
-        for (from, to) in [(red, blue), (red, gone), (gone, red)] {
+        for (from, to) in [(red, blue), (red, transparent), (transparent, red)] {
             assert_eq!(from.mixed(to, -1.0), from);
             assert_eq!(from.mixed(to, 1.0), to);
             let (there, back) = (from.mixed(to, 0.25), to.mixed(from, 0.75));
             assert_eq!(there.colour, back.colour);
         }
-        let faint = gone.mixed(red, 0.1);
+        let faint = transparent.mixed(red, 0.1);
         assert_eq!(faint.colour, red.colour);
         assert!((faint.opacity - 0.1).abs() < 1e-12);
-        assert!(red.unlike(&blue) > 0.3 && red.unlike(&red) == 0.0);
+        assert!(red.difference(&blue) > 0.3 && red.difference(&red) == 0.0);
     }
 
     #[test]
-    fn a_line_that_one_end_has_alone_grows_in_width() {
+    fn a_stroke_of_only_one_end_grows_in_width() {
         let line = StrokeStyle {
             paint: Rgb([1, 2, 3]).into(),
             width: 4.0,
             join: StrokeJoin::Round,
         };
-        assert_eq!(StrokeStyle::between([None, None], 0.5), None);
-        assert_eq!(StrokeStyle::between([None, Some(line)], 1.0), Some(line));
-        let quarter = StrokeStyle::between([None, Some(line)], 0.25).expect("a line");
+        assert_eq!(StrokeStyle::interpolated([None, None], 0.5), None);
+        assert_eq!(
+            StrokeStyle::interpolated([None, Some(line)], 1.0),
+            Some(line)
+        );
+        let quarter = StrokeStyle::interpolated([None, Some(line)], 0.25).expect("a line");
         assert_eq!((quarter.width, quarter.paint), (1.0, line.paint));
         let wide = StrokeStyle {
             width: 8.0,
             join: StrokeJoin::Bevel,
             ..line
         };
-        let half = StrokeStyle::between([Some(line), Some(wide)], 0.5).expect("a line");
+        let half = StrokeStyle::interpolated([Some(line), Some(wide)], 0.5).expect("a line");
         assert_eq!((half.width, half.join), (6.0, StrokeJoin::Bevel));
     }
 }

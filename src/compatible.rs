@@ -1,9 +1,9 @@
-//! Compatible triangulation: one list of faces, two embeddings; of a [`CompatibleFamily`] many.
+//! Compatible triangulation: one list of faces with an embedding in each design.
 //!
-//! [`CompatibleMesh`] guarantees that every face is positively oriented in
-//! both embeddings, by exact predicates, so that each local map has a
-//! positive determinant. It does not promise that faces do not overlap: a
-//! spiral may lie over itself.
+//! [`CompatibleMesh`] has two embeddings, source and target; a [`CompatibleFamily`] has one for
+//! each of many designs. Guaranteed: every face is positively oriented in all embeddings, by exact
+//! predicates, so that each local map has a positive determinant. Not guaranteed: that faces do not
+//! overlap; the mesh of a spiral may lie over itself.
 
 mod assembly;
 mod border;
@@ -32,25 +32,24 @@ use crate::mesh::{
 use crate::work::progress::Progress;
 use std::sync::Arc;
 
-/// One connectivity with its two embeddings.
+/// One connectivity with two embeddings, source and target.
 #[derive(Clone, Debug)]
 pub struct CompatibleMesh {
     faces: Arc<[[u32; 3]]>,
     source: Vec<DVec2>,
     target: Vec<DVec2>,
-    /// Two-point elements: bars that lie in no panel.
+    /// Bars that lie in no panel, as two-point elements.
     elements: Vec<BarElement>,
     connectivity: Connectivity,
 }
 
 impl CompatibleMesh {
-    /// Joins faces and two embeddings of their vertices, with bars that lie
-    /// in no face as further elements. Faces that are clockwise in both
-    /// embeddings are turned round.
+    /// Creates a mesh from faces, two embeddings of their vertices, and bars that lie in no face.
+    /// Faces that are clockwise in both embeddings are reversed.
     ///
     /// # Errors
-    /// [`CompatibleError`] if the embeddings differ in number, a face is not
-    /// positive in both, or a vertex is held by nothing.
+    /// [`CompatibleError`] if the embeddings have different lengths, a face is not positive in
+    /// both, or a vertex belongs to no face and no bar.
     ///
     /// ```
     /// use morphospace::{compatible::CompatibleMesh, geometry::DVec2};
@@ -69,7 +68,7 @@ impl CompatibleMesh {
         if source.len() != target.len() {
             return Err(CompatibleError::VertexCounts([source.len(), target.len()]));
         }
-        // In this order each check may rely on what those before it made sure of.
+        // Each check relies on the ones before it.
         validation::check_points(&source, Side::Source)?;
         validation::check_points(&target, Side::Target)?;
         check_faces(&faces, source.len())?;
@@ -86,11 +85,10 @@ impl CompatibleMesh {
         })
     }
 
-    /// Two meshes whose faces are the same, number by number.
+    /// Creates a mesh from two meshes that have the same faces in the same order.
     ///
     /// # Errors
-    /// [`CompatibleError`] names the first face that differs, or what
-    /// [`Self::new`] finds.
+    /// [`CompatibleError`] names the first face that differs; otherwise the error of [`Self::new`].
     pub fn from_meshes(
         source: &TriangleMesh,
         target: &TriangleMesh,
@@ -110,13 +108,12 @@ impl CompatibleMesh {
         )
     }
 
-    /// Two trusses with the same nodes and bars: the panels between the bars
-    /// are triangulated, bars in no panel become elements.
+    /// Creates a mesh from two trusses with the same nodes and bars. Panels between the bars are
+    /// triangulated; bars in no panel become elements.
     ///
     /// # Errors
-    /// [`CompatibleError::Truss`] names the first difference or the panel that
-    /// cannot be triangulated in both, or tells of a cancel; otherwise what
-    /// [`Self::new`] finds.
+    /// [`CompatibleError::Truss`] names the first difference or the panel that cannot be
+    /// triangulated in both designs, or reports a cancel. Otherwise the error of [`Self::new`].
     pub fn from_trusses(
         source: &Truss,
         target: &Truss,
@@ -127,19 +124,19 @@ impl CompatibleMesh {
         Self::new(faces, source, target, elements)
     }
 
-    /// Vertex indices, three a face, counter-clockwise in both embeddings.
+    /// Vertex indices of the faces, counter-clockwise in both embeddings.
     #[must_use]
     pub fn faces(&self) -> &Arc<[[u32; 3]]> {
         &self.faces
     }
 
-    /// The vertices in the source.
+    /// Vertex positions in the source.
     #[must_use]
     pub fn source(&self) -> &[DVec2] {
         &self.source
     }
 
-    /// The vertices in the target.
+    /// Vertex positions in the target.
     #[must_use]
     pub fn target(&self) -> &[DVec2] {
         &self.target
@@ -151,77 +148,80 @@ impl CompatibleMesh {
         &self.elements
     }
 
-    /// Which faces meet at which edges.
+    /// Incidence of faces and edges.
     #[must_use]
     pub fn connectivity(&self) -> &Connectivity {
         &self.connectivity
     }
 
-    /// The closed boundary walks of the faces, as vertex indices.
+    /// Closed boundary loops of the faces, as vertex indices.
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
         self.connectivity.boundary_loops(&self.faces)
     }
 
-    /// For each vertex the number of its connected part; faces join, and bars
-    /// do.
+    /// Index of the connected part of each vertex. Faces and bars connect vertices.
     #[must_use]
     pub fn components(&self) -> Vec<u32> {
-        // Two of a face's three edges join its corners.
+        // Two edges of a face are enough to connect its corners.
         let face_edges = self.faces.iter().flat_map(|&[a, b, c]| [[a, b], [a, c]]);
         let links = face_edges.chain(self.elements.iter().copied());
         components(self.source.len(), links)
     }
 
-    /// The smallest box around both embeddings.
+    /// Smallest box around both embeddings.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.source.iter().chain(&self.target).copied())
             .unwrap_or_else(|| unreachable!("a compatible mesh has vertices"))
     }
 
-    /// The larger of the two embeddings' diameters.
+    /// Larger of the two embeddings' diameters.
     #[must_use]
     pub fn diameter(&self) -> f64 {
         Bounds::diameter_of(&self.source).max(Bounds::diameter_of(&self.target))
     }
 
-    /// How much the map between the embeddings distorts shapes: the largest
-    /// σ₁/σ₂ of a face but for a share of the area, which is that of the source
-    /// and of the target in equal parts; 1 for a similarity. Without faces 1.
+    /// Conformal distortion of the map between the embeddings, as a high quantile of σ₁/σ₂ over the
+    /// faces; 1 for a similarity and for a mesh without faces.
+    ///
+    /// Each face is weighted by its area, half by its share of the source and half by its share of
+    /// the target. The worst faces, up to the fraction `ignored_area` of all area, do not count.
     #[must_use]
-    pub fn distortion(&self, but_for: f64) -> f64 {
+    pub fn distortion(&self, ignored_area: f64) -> f64 {
         let edges = |points: &[DVec2], face: &[u32; 3]| {
             let [a, b, c] = face.map(|v| points[v as usize]);
             DMat2::from_cols(b - a, c - a)
         };
-        let of = |face| {
+        let face_distortion = |face| {
             let [p, q] = [&self.source, &self.target].map(|points| edges(points, face));
-            // |J|² is σ₁² + σ₂², det J is σ₁σ₂; p has an inverse, its face being
-            // positive.
+            // For r = σ₁/σ₂ the mean of r and 1/r is |J|² / (2 det J), because |J|² = σ₁² + σ₂² and
+            // det J = σ₁σ₂. The inverse of p exists because its face is positive.
             let j = q * p.inverse();
             let square = j.x_axis.length_squared() + j.y_axis.length_squared();
             let mean = 0.5 * square / j.determinant();
             (mean, [p, q].map(|edges| edges.determinant()))
         };
-        let mut faces: Vec<(f64, [f64; 2])> = self.faces.iter().map(of).collect();
+        let mut faces: Vec<(f64, [f64; 2])> = self.faces.iter().map(face_distortion).collect();
+        // The worst faces come first, so that they can be skipped until their area reaches the
+        // fraction.
         faces.sort_by(|a, b| b.0.total_cmp(&a.0));
         let total = |side: usize| faces.iter().map(|face| face.1[side]).sum::<f64>();
         let totals = [total(0), total(1)];
         let mut share = 0.0;
         let mut is_beyond = |face: &&(f64, [f64; 2])| {
             share += 0.5 * (face.1[0] / totals[0] + face.1[1] / totals[1]);
-            share > but_for
+            share > ignored_area
         };
         let mean = faces
             .iter()
             .find(|face| is_beyond(face))
             .map_or(1.0, |face| face.0);
-        // Of r and 1/r: rounding may leave it below 1.
+        // Solves mean = (r + 1/r) / 2 for r; rounding may leave the mean slightly below 1.
         mean + (mean * mean - 1.0).max(0.0).sqrt()
     }
 
-    /// The designs exchanged.
+    /// Returns the mesh with source and target exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
         Self {
@@ -231,19 +231,19 @@ impl CompatibleMesh {
         }
     }
 
-    /// With each connected part moved in the source and in the target; none if
-    /// rounding turns a face over.
-    pub(crate) fn with_parts_moved(&self, by: &[[DVec2; 2]]) -> Option<Self> {
+    /// Returns the mesh with each connected part translated by `by[part]`, its offsets in source
+    /// and target; `None` if rounding turns a face over.
+    pub(crate) fn with_parts_translated(&self, by: &[[DVec2; 2]]) -> Option<Self> {
         let parts = self.components();
-        let moved = |side: Side, points: &[DVec2]| -> Vec<DVec2> {
+        let translated = |side: Side, points: &[DVec2]| -> Vec<DVec2> {
             let places = points.iter().zip(&parts);
             places
                 .map(|(&p, &part)| p + by[part as usize][side])
                 .collect()
         };
         let moved = Self {
-            source: moved(Side::Source, &self.source),
-            target: moved(Side::Target, &self.target),
+            source: translated(Side::Source, &self.source),
+            target: translated(Side::Target, &self.target),
             ..self.clone()
         };
         let is_positive = |points: &[DVec2]| {
@@ -253,11 +253,12 @@ impl CompatibleMesh {
                 .map(|face| face.map(|v| points[v as usize]));
             corners.into_iter().all(|[a, b, c]| orient2d(a, b, c) > 0.0)
         };
+        // Translations keep shapes, but their rounding may flip a face that is nearly flat.
         (is_positive(&moved.source) && is_positive(&moved.target)).then_some(moved)
     }
 
-    /// Every face split into four, `rounds` times; neither shape changes,
-    /// vertices keep their numbers and new ones follow.
+    /// Splits every face into four, `rounds` times. Neither shape changes; vertices keep their
+    /// indices and new ones follow.
     ///
     /// # Errors
     /// [`TooManyVertices`] beyond the limit.
@@ -268,7 +269,7 @@ impl CompatibleMesh {
         let fine = Subdivision::new(&self.faces, self.source.len(), rounds)?;
         let extend = |points: &[DVec2]| {
             let mut all = points.to_vec();
-            // In their order: a later round halves edges of an earlier one.
+            // In order, because a later round halves edges that an earlier one created.
             for &[a, b] in &fine.midpoints {
                 all.push(all[a as usize].midpoint(all[b as usize]));
             }
@@ -286,8 +287,8 @@ impl CompatibleMesh {
     }
 }
 
-/// The same vertices, run either way: which way round a face is listed is
-/// decided by its embeddings.
+/// Returns whether two faces have the same vertices. Their direction is ignored, because the
+/// embeddings decide the orientation.
 fn same_face(mut a: [u32; 3], mut b: [u32; 3]) -> bool {
     a.sort_unstable();
     b.sort_unstable();
@@ -304,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn clockwise_in_both_is_turned_round() {
+    fn faces_clockwise_in_both_are_reversed() {
         let (faces, points) = square();
         let clockwise = faces.iter().map(|&[a, b, c]| [a, c, b]).collect();
         let mesh = CompatibleMesh::new(clockwise, points.clone(), points, vec![]).expect("valid");
@@ -312,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn mirror_image_flipped_face_and_flat_face_are_told_apart() {
+    fn mirrored_flipped_and_flat_faces_give_different_errors() {
         let (faces, points) = square();
         let mirrored = points.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
         assert_eq!(
@@ -337,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn a_loose_vertex_is_named() {
+    fn a_loose_vertex_is_named_in_the_error() {
         let (faces, mut points) = square();
         points.push(DVec2::new(5.0, 5.0));
         assert_eq!(

@@ -1,5 +1,9 @@
-//! Contents: what is seen where a warp has put things. One file per column of
-//! the table of cells. Contents read placements and nothing else.
+//! Contents: the drawable data that a warp moves, one kind per column of the table in the crate
+//! documentation.
+//!
+//! There are three: filled regions and bars ([`SolidContent`]), blended distance fields
+//! ([`FieldContent`]) and cross-dissolved pictures ([`PicturePair`]). A content reads vertex
+//! positions from a [`Placement`] and depends on nothing else of the warp.
 
 mod colours;
 mod field;
@@ -23,69 +27,73 @@ pub use swelling::SwellingShape;
 pub(crate) use swelling::middle;
 pub use transient_hole::TransientHole;
 
-use crate::settings::choice::named;
+use crate::settings::named;
 use crate::warp::Placement;
 
-/// Which content: a column of the table.
+/// Kind of content: a column of the table of transitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ContentKind {
-    /// Regions and bars, filled.
+    /// Filled regions and bars.
     Solid,
-    /// The contour of two blended distance fields.
+    /// Contour of blended distance fields.
     Field,
-    /// Two pictures, cross-dissolved.
+    /// Two cross-dissolved pictures.
     Colours,
 }
 
 named! { ContentKind {
-    Solid: "solid", "Solid", "Regions and bars, filled";
-    Field: "field", "Field", "The contour of two blended distance fields";
-    Colours: "colours", "Colours", "Two pictures, cross-dissolved";
+    Solid: "solid", "Solid", "Filled regions and bars";
+    Field: "field", "Field", "Contour of two blended distance fields";
+    Colours: "colours", "Colours", "Two cross-dissolved pictures";
 } }
 
-/// A column of the table with its data.
+/// Data that is drawn at each t, by kind.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Content {
-    /// Regions and bars, filled.
+    /// Filled regions and bars.
     Solid(SolidContent),
-    /// The contours of blended distance fields.
+    /// Contours of blended distance fields.
     Field(FieldContent),
-    /// Two pictures, cross-dissolved.
+    /// Two cross-dissolved pictures.
     Colours(PicturePair),
 }
 
 impl Content {
-    /// How it is painted; none where it has one colour, or is pictures.
+    /// Returns the paint layers; `None` for a content in one colour and for pictures.
     #[must_use]
-    pub fn coating(&self) -> Option<&PaintLayerStack> {
+    pub fn paint_layers(&self) -> Option<&PaintLayerStack> {
         match self {
-            Self::Solid(solid) => solid.coating.as_ref(),
-            Self::Field(fields) => fields.painted().map(|painted| &painted.coating),
+            Self::Solid(solid) => solid.paint_layers.as_ref(),
+            Self::Field(fields) => fields.painted().map(|painted| &painted.paint_layers),
             Self::Colours(_) => None,
         }
     }
 
-    pub(crate) fn coating_mut(&mut self) -> Option<&mut PaintLayerStack> {
+    /// Mutable access to the paint layers; `None` for a content in one colour and for pictures.
+    pub(crate) fn paint_layers_mut(&mut self) -> Option<&mut PaintLayerStack> {
         match self {
-            Self::Solid(solid) => solid.coating.as_mut(),
-            Self::Field(fields) => fields.painted_mut().map(|painted| &mut painted.coating),
+            Self::Solid(solid) => solid.paint_layers.as_mut(),
+            Self::Field(fields) => fields
+                .painted_mut()
+                .map(|painted| &mut painted.paint_layers),
             Self::Colours(_) => None,
         }
     }
 
-    /// Its rings at `t`, when the placement is that of `t`: coat by coat as they lie
-    /// there, the lowest first, or all together where it has one colour. Of pictures
-    /// none.
+    /// Returns the rings at `t`, grouped by paint layer in drawing order, lowest first. A content
+    /// in one colour has a single group; pictures have none.
+    ///
+    /// `placement` must be the placement at the same `t`.
     ///
     /// # Panics
-    /// Where a vertex has no place.
+    /// Panics if a ring uses a vertex that `placement` does not have.
     #[must_use]
-    pub fn coated_at(&self, placement: &Placement, t: f64) -> Vec<InkedLayer> {
+    pub fn layers_at(&self, placement: &Placement, t: f64) -> Vec<InkedLayer> {
         match self {
-            Self::Solid(solid) => solid.coated_at(&placement.in_frame, t),
-            Self::Field(fields) => fields.coated_at(placement, t),
+            Self::Solid(solid) => solid.layers_at(&placement.in_frame, t),
+            Self::Field(fields) => fields.layers_at(placement, t),
             Self::Colours(_) => Vec::new(),
         }
     }

@@ -1,12 +1,11 @@
-//! Signed distance fields: grids, masks, distance transforms, contours.
+//! Signed distance fields: grids, masks, distance transforms and contours.
 //!
-//! A field is positive inside a design and negative outside, **in cells of its
-//! grid**: ε and the threshold of a blend mean nothing without the grid. Two
-//! ways lead to one: the exact distance to the edges of polygons
-//! ([`DistanceField::from_regions`]), and the distance transform of a binary
-//! image in one of four metrics ([`distance_transform`]).
+//! A field is positive inside a design and negative outside, **in cells of its grid**, so ε and the
+//! threshold of a blend depend on the grid. A field is computed in one of two ways: as the exact
+//! distance to the edges of polygons ([`DistanceField::from_regions`]), or by the distance
+//! transform of a binary image in one of four metrics ([`distance_transform`]).
 //!
-//! Row 0 is the lowest row throughout.
+//! Row 0 is the lowest row everywhere.
 
 mod chamfer;
 pub mod contour;

@@ -1,9 +1,7 @@
-//! Points, matrices, polygons and exact predicates: the plane everything
-//! else stands in.
+//! Geometry of the plane: points, matrices, polygons, regions and exact predicates.
 //!
-//! All coordinates are `f64` and **y points up**; images and SVG are flipped
-//! where they are read and written, nowhere else. Angles are radians,
-//! counter-clockwise positive.
+//! All coordinates are `f64` and **y points up**; images and SVG are flipped only where they are
+//! read and written. Angles are in radians, counter-clockwise positive.
 
 mod bounds;
 mod crossings;

@@ -1,14 +1,16 @@
-//! Sparse symmetric positive definite systems that are factored once and
-//! solved in every frame; in `pattern`, those whose values change while their
-//! entries stay where they are; in `dense`, small full ones that are factored in
-//! every frame, and in `eigen` their axes. The only place that names `faer`.
+//! Numerical methods: linear algebra, L-BFGS minimisation ([`lbfgs`]) and the assignment problem
+//! ([`assignment`]). The only module that uses `faer`.
 //!
-//! A [`Cholesky`] is made by a fill-reducing permutation (approximate minimum
-//! degree) and a simplicial LLᵀ factorisation, or a supernodal one where it is
-//! large. [`Cholesky::solve_ordered`] works in elimination
-//! order, allocates nothing and cannot fail, so that callers who assemble in
-//! that order pay for no permutation. Everything runs on the calling thread:
-//! triangular solves get slower, not faster, on several.
+//! [`Cholesky`] factors a sparse symmetric positive definite matrix once and solves with it in
+//! every frame. [`PatternCholesky`] is for sparse matrices whose values change while the pattern of
+//! their entries stays, [`DenseLu`] for small dense systems that are factored in every frame, and
+//! [`symmetric_eigen`] for the eigenvectors of small symmetric matrices.
+//!
+//! A [`Cholesky`] uses a fill-reducing permutation (approximate minimum degree) and a simplicial
+//! LLᵀ factorisation, or a supernodal one for large systems. [`Cholesky::solve_ordered`] works in
+//! elimination order, allocates nothing and cannot fail, so callers that assemble in that order pay
+//! for no permutation. Everything runs on the calling thread, because triangular solves get slower
+//! on several threads.
 
 pub(crate) mod assignment;
 mod dense_lu;
@@ -33,9 +35,10 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side};
 
-/// A symmetric matrix under assembly: entries at equal places add up.
+/// Symmetric matrix under assembly; entries at the same place add up.
 #[derive(Clone, Debug)]
 pub struct SymmetricMatrix {
+    /// Number of rows and columns.
     n: usize,
     /// (row, column, value) with row ≥ column.
     lower: Vec<Triplet<u32, u32, f64>>,
@@ -51,7 +54,7 @@ impl SymmetricMatrix {
         }
     }
 
-    /// How many rows and columns there are.
+    /// Number of rows and columns.
     #[must_use]
     pub fn size(&self) -> usize {
         self.n
@@ -59,18 +62,18 @@ impl SymmetricMatrix {
 
     /// Adds `value` at (i, j), and by symmetry at (j, i); once on the diagonal.
     pub fn add(&mut self, i: u32, j: u32, value: f64) {
-        // The lower triangle: it is what the factorisation is told to read.
+        // The factorisation reads only the lower triangle.
         self.lower.push(Triplet::new(i.max(j), i.min(j), value));
     }
 
-    /// What was added: row, column and value, the row at least the column.
+    /// Entries as added: row, column and value, with row ≥ column.
     pub fn entries(&self) -> impl Iterator<Item = (u32, u32, f64)> + '_ {
         self.lower
             .iter()
             .map(|entry| (entry.row, entry.col, entry.val))
     }
 
-    /// Makes each entry of the diagonal larger by this share of itself.
+    /// Increases each entry of the diagonal by the fraction `share` of itself.
     pub fn stiffen(&mut self, share: f64) {
         for entry in &mut self.lower {
             if entry.row == entry.col {
@@ -80,29 +83,24 @@ impl SymmetricMatrix {
     }
 }
 
-/// Unknowns from which on columns are factored in dense blocks. Of a sheet of
-/// 250,000 vertices that takes 0.45 s instead of 1.4 s, of a million 2.2 s
-/// instead of 12 s; two right-hand sides are then solved a third and a fifth
-/// slower on a busy machine (54 ms instead of 40, 237 instead of 200), and a whole
-/// frame of a million in 284 ms instead of 155 on a quiet one
-/// (`cargo bench --bench film`), which the few solves of a film repay. With 100,000 vertices what is saved (0.2 s) is no longer felt,
-/// and each solve takes half as long again.
-const BLOCKS_FROM: usize = 200_000;
+/// Minimum number of unknowns for which columns are factored in dense blocks: factoring becomes
+/// several times faster, each solve somewhat slower (heuristic).
+const SUPERNODAL_FROM: usize = 200_000;
 
-/// Whether the columns of so many unknowns are factored in dense blocks.
+/// Kind of factorisation for a system with this many unknowns.
 const fn in_blocks(unknowns: usize) -> SupernodalThreshold {
-    if unknowns >= BLOCKS_FROM {
+    if unknowns >= SUPERNODAL_FROM {
         SupernodalThreshold::FORCE_SUPERNODAL
     } else {
         SupernodalThreshold::FORCE_SIMPLICIAL
     }
 }
 
-/// Unknowns from which on a factorisation runs beside: a mesh of so many
-/// vertices takes some 50 ms.
-const BESIDE_FROM: usize = 20_000;
+/// Minimum number of unknowns for which a factorisation runs on another thread, so that a cancel is
+/// answered at once (heuristic: about 50 ms for a mesh of this size).
+const BACKGROUND_FROM: usize = 20_000;
 
-/// Why a matrix could not be factored.
+/// Reason why a matrix could not be factored.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FactorError {
@@ -111,23 +109,23 @@ pub enum FactorError {
         "the system is not positive definite at unknown {index}; some face is too thin to compute with"
     )]
     NotPositiveDefinite {
-        /// The unknown, in the caller's numbering.
+        /// Index of the unknown, in the caller's numbering.
         index: usize,
     },
-    /// The factor does not fit into memory.
+    /// The factorisation does not fit into memory.
     #[error("the factorisation does not fit into memory; use a coarser mesh")]
     OutOfMemory,
 }
 
-/// A factored matrix.
+/// Cholesky factorisation of a symmetric positive definite matrix.
 pub struct Cholesky {
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,
-    /// For each unknown its place in elimination order.
+    /// Position of each unknown in elimination order.
     place: Vec<u32>,
 }
 
-/// The memory that [`Cholesky::solve_ordered`] works in.
+/// Scratch memory for [`Cholesky::solve_ordered`].
 pub struct CholeskyWorkspace(MemBuffer);
 
 impl std::fmt::Debug for Cholesky {
@@ -146,7 +144,7 @@ impl std::fmt::Debug for CholeskyWorkspace {
 }
 
 impl Cholesky {
-    /// Factors the matrix: the expensive step.
+    /// Factors the matrix, which is the expensive step.
     ///
     /// # Errors
     /// [`FactorError`] if the matrix is not positive definite or too large.
@@ -165,23 +163,24 @@ impl Cholesky {
         Self::factored(matrix, in_blocks(matrix.size()))
     }
 
-    /// As [`Self::factor`], and a cancel is answered while it goes on.
+    /// As [`Self::factor`], but can be cancelled while it runs.
     ///
     /// # Errors
-    /// [`Cancelled`] if nobody wants the result any more; what
-    /// [`Self::factor`] finds is within.
-    pub fn factor_if_wanted(
+    /// [`Cancelled`] if the work was cancelled; the inner result is that of [`Self::factor`].
+    pub fn factor_cancellable(
         matrix: &SymmetricMatrix,
         progress: &dyn Progress,
     ) -> Result<Result<Self, FactorError>, Cancelled> {
         still_wanted(progress)?;
-        if matrix.size() < BESIDE_FROM {
+        if matrix.size() < BACKGROUND_FROM {
             return Ok(Self::factor(matrix));
         }
+        // The thread owns a copy, because on a cancel it outlives this call.
         let matrix = matrix.clone();
         beside(progress, move || Self::factor(&matrix))
     }
 
+    /// Factors the matrix with the given choice of algorithm.
     fn factored(
         matrix: &SymmetricMatrix,
         supernodal_from: SupernodalThreshold,
@@ -200,7 +199,8 @@ impl Cholesky {
             params,
         )
         .map_err(|_| FactorError::OutOfMemory)?;
-        // The ways back, from unknowns to places; no permutation is the identity.
+        // Inverse permutation, from unknowns to positions; without a permutation it is the
+        // identity.
         let place = match symbolic.perm() {
             Some(perm) => perm.arrays().1.to_vec(),
             None => (0..n as u32).collect(),
@@ -214,6 +214,7 @@ impl Cholesky {
         Ok(factored)
     }
 
+    /// Computes the values of the factor.
     fn factor_values(&mut self, lower: &SparseColMat<u32, f64>) -> Result<(), FactorError> {
         let request = self
             .symbolic
@@ -223,7 +224,7 @@ impl Cholesky {
             &mut self.values,
             lower.as_ref(),
             Side::Lower,
-            // None: who asks is told, and may stiffen the matrix.
+            // No regularisation: the caller gets the error and may stiffen the matrix.
             LltRegularization::default(),
             Par::Seq,
             MemStack::new(&mut memory),
@@ -241,20 +242,20 @@ impl Cholesky {
         }
     }
 
-    /// How many unknowns there are.
+    /// Number of unknowns.
     #[must_use]
     pub fn size(&self) -> usize {
         self.place.len()
     }
 
-    /// For each unknown its place in elimination order, as
-    /// [`Self::solve_ordered`] wants right-hand sides and leaves solutions.
+    /// Position of each unknown in elimination order, in which [`Self::solve_ordered`] takes
+    /// right-hand sides and returns solutions.
     #[must_use]
-    pub fn place_in_order(&self) -> &[u32] {
+    pub fn elimination_places(&self) -> &[u32] {
         &self.place
     }
 
-    /// Memory for [`Self::solve_ordered`] with so many right-hand sides.
+    /// Scratch memory for [`Self::solve_ordered`] with the given number of right-hand sides.
     #[must_use]
     pub fn workspace(&self, columns: usize) -> CholeskyWorkspace {
         let request = self
@@ -263,18 +264,18 @@ impl Cholesky {
         CholeskyWorkspace(MemBuffer::new(request))
     }
 
-    /// Solves in place for as many right-hand sides as fit into `rhs`, which
-    /// holds them one after the other, each in elimination order.
+    /// Solves in place for all right-hand sides in `rhs`, which are stored one after the other,
+    /// each in elimination order.
     ///
     /// # Panics
-    /// If the length of `rhs` is no multiple of [`Self::size`], or if the
-    /// workspace was made for fewer columns or for another matrix.
+    /// If the length of `rhs` is not a multiple of [`Self::size`], or if the workspace was made for
+    /// fewer columns or for another matrix.
     pub fn solve_ordered(&self, rhs: &mut [f64], workspace: &mut CholeskyWorkspace) {
         let Some(rhs) = self.columns(rhs) else {
             return;
         };
         let stack = MemStack::new(&mut workspace.0);
-        // The library's own solve would permute there and back.
+        // The library's own solve would permute to elimination order and back.
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(symbolic) => {
                 SimplicialLltRef::new(symbolic, &self.values).solve_in_place_with_conj(
@@ -295,8 +296,8 @@ impl Cholesky {
         }
     }
 
-    /// As [`Self::solve_ordered`], but right-hand sides and solutions are in
-    /// the caller's numbering.
+    /// As [`Self::solve_ordered`], but with right-hand sides and solutions in the caller's
+    /// numbering.
     ///
     /// # Panics
     /// As [`Self::solve_ordered`].
@@ -313,7 +314,7 @@ impl Cholesky {
         );
     }
 
-    /// Right-hand sides beside each other; none where there are no unknowns.
+    /// Right-hand sides as columns of a matrix; `None` if there are no unknowns.
     fn columns<'a>(&self, rhs: &'a mut [f64]) -> Option<MatMut<'a, f64>> {
         let n = self.size();
         let columns = rhs.len().checked_div(n)?;
@@ -321,7 +322,7 @@ impl Cholesky {
         Some(MatMut::from_column_major_slice_mut(rhs, n, columns))
     }
 
-    /// Solves for one right-hand side in the caller's numbering; allocates.
+    /// Solves for one right-hand side in the caller's numbering. Allocates.
     ///
     /// # Panics
     /// If the length of `rhs` is not [`Self::size`].
@@ -339,7 +340,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Gaussian elimination without any cleverness.
+    /// Oracle: plain Gaussian elimination.
     fn dense_solve(a: &SymmetricMatrix, rhs: &[f64]) -> Vec<f64> {
         let n = a.size();
         let mut columns = vec![vec![0.0; n]; n];
@@ -370,7 +371,7 @@ mod tests {
         x
     }
 
-    /// A grounded Laplacian of a random graph.
+    /// Grounded Laplacian of a random graph.
     fn laplacian(n: usize, edges: &[(usize, usize, f64)]) -> SymmetricMatrix {
         let mut a = SymmetricMatrix::zero(n, 4 * edges.len());
         for i in 0..n as u32 {

@@ -1,22 +1,23 @@
-//! The stage: transitions in a Bevy world.
+//! The stage: a Bevy plugin that builds and draws transitions.
 //!
-//! An entity is a transition on the stage: [`SourceMesh`], [`TargetMesh`],
-//! [`Blend`], and the [`Morph`] that was prefactored from them. Each frame,
-//! where `Blend` changed, one system solves and one draws by content: solids
-//! as render meshes, distance fields and pictures as meshes whose fragment
-//! shader samples both as textures. [`MorphPlugin`] brings just that, without
-//! window, keys or panels; [`MorphSystems`] says where in a frame its systems
-//! run, so that a program can order its own.
+//! A transition on the stage is an entity with [`SourceMesh`], [`TargetMesh`] and [`Blend`]; the
+//! plugin adds the [`Morph`] that it builds from them. Each frame, one system moves the morphs
+//! whose `Blend` changed to the new t, and another one draws them according to their content:
+//! solids as render meshes, distance fields and pictures as meshes whose fragment shader samples
+//! both designs as textures.
 //!
-//! A transition of solids whose film was recorded ([`Transition::record`](crate::transition::Transition::record)) is played
-//! from the graphics card: its reels are sent there once, faces and wires are summed
-//! in the vertex shader, and no vertex is written while t moves within [0, 1].
+//! [`MorphPlugin`] contains just that, without window, keys or panels. [`MorphSystems`] lists the
+//! system sets, so that a program can order its own systems among them.
 //!
-//! Guarantees: frames neither fail nor allocate what the last one had, but for
-//! boundaries without faces, which are triangulated as they move; builds
-//! run on a task pool, and a failed one is a [`BuildFailed`] on its entity;
-//! without a renderer everything but the drawing works. Does not guarantee
-//! order among several cameras or entities: those are Bevy's, as usual.
+//! A transition of solids that has been recorded
+//! ([`Transition::record`](crate::transition::Transition::record)) is played by the graphics card.
+//! Its recorded intervals are uploaded once, the vertex shader evaluates the positions of faces and
+//! wireframes, and no vertices are written while t moves within [0, 1].
+//!
+//! Guaranteed: frames cannot fail, and they reuse their memory, except that boundaries without
+//! faces are triangulated anew in each frame. Builds run on a task pool; a failed build triggers
+//! [`BuildFailed`] on its entity. Without a renderer everything except drawing works. Not
+//! guaranteed: the order of several cameras or entities, which is that of Bevy.
 //!
 //! ```
 //! use bevy::prelude::*;
@@ -87,17 +88,16 @@ pub use mesh_family::{BlendWeights, MeshFamily};
 pub use pipelines::PipelinesReady;
 pub use stage_view::StageView;
 
-/// Morphs every entity that has a [`SourceMesh`], a [`TargetMesh`] and a
-/// [`Blend`], a [`MeshFamily`] and [`BlendWeights`], [`MorphDesigns`], or a
-/// [`StageTransition`].
+/// Bevy plugin that morphs every entity with a [`SourceMesh`], a [`TargetMesh`] and a [`Blend`]; a
+/// [`MeshFamily`] and [`BlendWeights`]; [`MorphDesigns`]; or a [`StageTransition`].
 ///
-/// Add it after Bevy's own plugins: it draws if their renderer is there, and
-/// otherwise only builds and solves.
+/// Add it after Bevy's own plugins. It draws only if a renderer is present; otherwise it builds and
+/// solves.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MorphPlugin;
 
-/// What happens in a frame, in this order, in [`Update`]. What one does, the
-/// next one sees.
+/// System sets of the plugin, run in this order in [`Update`]. Commands of one set are applied
+/// before the next set runs.
 ///
 /// ```
 /// use bevy::prelude::*;
@@ -123,29 +123,27 @@ pub struct MorphPlugin;
 /// ```
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MorphSystems {
-    /// Programs turn input into intents. The plugin has nothing here.
+    /// For programs that translate input into intents. The plugin has no systems here.
     Input,
-    /// Programs move [`Blend`] and change meshes, options and styles; the
-    /// plugin has nothing here.
+    /// For programs that change [`Blend`], meshes, options and styles. The plugin has no systems
+    /// here.
     Playback,
-    /// Builds are started where meshes or options are new, those that are done
-    /// are taken in and [`BuildFailed`] is triggered for those that cannot be
-    /// had; a [`StageTransition`] becomes a [`Morph`].
+    /// Starts builds for new meshes or options, takes in finished ones, and triggers
+    /// [`BuildFailed`] for failed ones. Turns a [`StageTransition`] into a [`Morph`].
     Build,
-    /// Each [`Morph`] is sought to its [`Blend`]: afterwards its frame is that
-    /// of this update, placed already or, where the graphics card plays it, when
-    /// it is read.
+    /// Moves each [`Morph`] to its [`Blend`]. Afterwards its frame is that of this update; if the
+    /// graphics card plays it, its vertices are placed when they are read.
     Solve,
-    /// Render meshes, uniforms and cameras are written.
+    /// Writes render meshes, uniforms and cameras.
     Draw,
-    /// Pictures that were asked for by [`CaptureStage`] are taken.
+    /// Takes the pictures requested by [`CaptureStage`].
     Capture,
 }
 
 impl Plugin for MorphPlugin {
     fn build(&self, app: &mut App) {
         use MorphSystems::{Build, Capture, Draw, Input, Playback, Solve};
-        let builds = (
+        let build_systems = (
             (build::start_builds, build::start_families),
             build::finish_builds,
             build::adopt_transitions,
@@ -156,14 +154,13 @@ impl Plugin for MorphPlugin {
                 Update,
                 (Input, Playback, Build, Solve, Draw, Capture).chain(),
             )
-            .add_systems(Update, builds.chain().in_set(Build))
+            .add_systems(Update, build_systems.chain().in_set(Build))
             .add_systems(
                 Update,
                 (solve::solve_frames, mesh_family::solve_families).in_set(Solve),
             )
             .add_systems(Update, camera::apply_view.in_set(Draw));
-        // Without assets there are no meshes: such a program builds and solves
-        // alone.
+        // Without assets there are no meshes; such a program only builds and solves.
         if app.is_plugin_added::<AssetPlugin>() {
             add_drawing(app);
         }
@@ -171,14 +168,15 @@ impl Plugin for MorphPlugin {
     }
 }
 
+/// Adds materials, shaders, asset loaders and drawing systems.
 fn add_drawing(app: &mut App) {
     embedded_asset!(app, "stage/ink.wgsl");
     embedded_asset!(app, "stage/played.wgsl");
     embedded_asset!(app, "stage/field.wgsl");
     embedded_asset!(app, "stage/colours.wgsl");
     embedded_asset!(app, "stage/grid.wgsl");
-    for init in [init_asset::<Mesh>, init_asset::<Image>] {
-        init(app);
+    for init_asset_type in [init_asset::<Mesh>, init_asset::<Image>] {
+        init_asset_type(app);
     }
     let reads = designs::start_designs.before(build::finish_builds);
     app.init_asset::<DesignAsset>()
@@ -195,12 +193,12 @@ fn add_drawing(app: &mut App) {
         Startup,
         (recording_upload::find_card, warm_up::warm).chain(),
     )
-    // An observer, so that parts go whenever their frame is taken away.
+    // An observer, so that render parts are despawned whenever the morph is removed.
     .add_observer(part_assembly::undress)
     .add_systems(
         Update,
-        // Between systems of a chain commands are applied, so that parts are
-        // written and placed in the frame that spawns them.
+        // A chain applies commands between its systems, so parts are written and placed in the
+        // frame that spawns them.
         (
             part_assembly::dress,
             (recording_upload::take_films, recording_upload::send_films),
@@ -212,13 +210,14 @@ fn add_drawing(app: &mut App) {
     );
 }
 
-/// Bevy's renderer brings these; without it they are still wanted.
+/// Registers an asset type that Bevy's renderer would register, for programs without one.
 fn init_asset<A: Asset>(app: &mut App) {
     if !app.world().contains_resource::<Assets<A>>() {
         app.init_asset::<A>();
     }
 }
 
+/// Adds the systems that take pictures.
 fn add_capture(app: &mut App) {
     pipelines::watch_pipelines(app);
     app.init_resource::<capture::PendingCaptures>()

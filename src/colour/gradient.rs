@@ -1,89 +1,91 @@
-//! Gradients: paints that change along a line, or from a point outwards.
+//! Linear and radial gradients, and interpolation between them.
 //!
-//! Between two stops colours are mixed as drawings have it (SVG 2, section 14.2): in
-//! sRGB, opacity straight. From one gradient to another paints go as all paints do.
+//! Within a gradient, colours between two stops are mixed as in SVG 2, section 14.2: in sRGB with
+//! straight opacity. Between two gradients, paints are interpolated like all other paints, in
+//! OKLab.
 
 use super::{Paint, Rgb};
 use glam::{DAffine2, DVec2};
 
-/// A paint that changes from place to place.
+/// A linear or radial gradient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
-    /// Along what it changes.
-    pub course: GradientGeometry,
-    /// From the gradient's own space to the plane. A straight one runs from 0 to 1
-    /// along x, a round one from its focus to the unit circle.
+    /// Linear or radial.
+    pub geometry: GradientGeometry,
+    /// Map from the gradient's own space to the plane. In its own space a linear gradient runs from
+    /// x = 0 to x = 1, a radial one from its focus to the unit circle.
     pub frame: DAffine2,
-    /// Paints along the way, by ascending place; two at one place are an edge.
+    /// Stops in ascending order of offset. Two stops with the same offset form a hard edge.
     pub stops: Vec<GradientStop>,
-    /// What comes before the first stop's end of the way and after the last one's.
+    /// How the gradient continues beyond its ends.
     pub spread: GradientSpread,
 }
 
-/// The way of a gradient in its own space.
+/// Geometry of a gradient in its own space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GradientGeometry {
-    /// Along x.
-    Straight,
-    /// From a circle within the unit circle to that.
-    Round {
-        /// The middle of the inner circle.
+    /// Runs along x, from 0 to 1.
+    Linear,
+    /// Runs from an inner circle to the unit circle, which contains it.
+    Radial {
+        /// Centre of the inner circle.
         focus: DVec2,
-        /// Its radius.
+        /// Radius of the inner circle.
         inner: f64,
     },
 }
 
-/// A paint at a place of the way, from 0 to 1.
+/// A paint at an offset along the gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GradientStop {
-    /// The place.
-    pub at: f64,
-    /// The paint there.
+    /// Offset from 0 to 1.
+    pub offset: f64,
+    /// Paint at that offset.
     pub paint: Paint,
 }
 
-/// How a gradient goes on beyond its way.
+/// How a gradient continues beyond its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GradientSpread {
-    /// As it is at its ends.
+    /// Continues with the paints of its ends.
     Pad,
-    /// Back and forth.
+    /// Repeats, mirrored every other time.
     Reflect,
-    /// From the beginning.
+    /// Repeats from the start.
     Repeat,
 }
 
 impl Gradient {
-    /// The mean along its way.
+    /// Returns the mean paint over the offsets from 0 to 1; a transparent paint if there are no
+    /// stops.
     #[must_use]
     pub fn mean(&self) -> Paint {
         let (Some(first), Some(last)) = (self.stops.first(), self.stops.last()) else {
-            return NOTHING;
+            return TRANSPARENT;
         };
-        // The ends go on as they are.
-        let ends = [(first.paint, first.at), (last.paint, 1.0 - last.at)];
+        // Before the first and after the last stop their paints continue.
+        let ends = [(first.paint, first.offset), (last.paint, 1.0 - last.offset)];
         let between = self.stops.windows(2).map(|pair| {
             let paint = pair[0].paint.mixed(pair[1].paint, 0.5);
-            (paint, pair[1].at - pair[0].at)
+            (paint, pair[1].offset - pair[0].offset)
         });
         Paint::mean(ends.into_iter().chain(between))
     }
 
-    /// The same where the plane is moved.
+    /// Returns the gradient transformed by an affine map of the plane.
     #[must_use]
-    pub fn moved(&self, by: DAffine2) -> Self {
+    pub fn transformed(&self, by: DAffine2) -> Self {
         Self {
             frame: by * self.frame,
             ..self.clone()
         }
     }
 
-    /// The same with each paint as another.
+    /// Returns the gradient with each paint replaced by a function of it.
     #[must_use]
-    pub fn repainted(&self, paint: impl Fn(Paint) -> Paint) -> Self {
+    pub fn map_paints(&self, paint: impl Fn(Paint) -> Paint) -> Self {
         let stop = |stop: &GradientStop| GradientStop {
             paint: paint(stop.paint),
             ..*stop
@@ -94,17 +96,18 @@ impl Gradient {
         }
     }
 
-    /// The gradient at `t` in [0, 1] on the way to another. Two of one kind become each
-    /// other, place by place; of two kinds the first goes to the mean of both until the
-    /// middle, and from there the second comes. The ends are exact.
+    /// Interpolates towards another gradient. `t` is clamped to [0, 1]; the ends are exact.
+    ///
+    /// Gradients of the same geometry and spread are interpolated offset by offset. Otherwise the
+    /// first one fades to the mean of both until t = 0.5, and the second one emerges from there.
     #[must_use]
     pub fn mixed(&self, other: &Self, t: f64) -> Self {
         let t = t.clamp(0.0, 1.0);
-        match self.course.mixed(other.course, t) {
+        match self.geometry.mixed(other.geometry, t) {
             _ if t == 0.0 => self.clone(),
             _ if t == 1.0 => other.clone(),
             Some(course) if self.spread == other.spread => Self {
-                course,
+                geometry: course,
                 frame: DAffine2 {
                     matrix2: self.frame.matrix2 * (1.0 - t) + other.frame.matrix2 * t,
                     translation: self.frame.translation.lerp(other.frame.translation, t),
@@ -113,51 +116,52 @@ impl Gradient {
                 spread: self.spread,
             },
             _ => {
-                let middle = self.mean().mixed(other.mean(), 0.5);
-                let (near, share) = match t < 0.5 {
+                let mean_of_both = self.mean().mixed(other.mean(), 0.5);
+                let (nearer, share) = match t < 0.5 {
                     true => (self, 2.0 * t),
                     false => (other, 2.0 - 2.0 * t),
                 };
-                near.repainted(|paint| paint.mixed(middle, share))
+                nearer.map_paints(|paint| paint.mixed(mean_of_both, share))
             }
         }
     }
 
-    /// Stops at all places where either has one, on both sides of edges.
+    /// Interpolated stops at all offsets where either gradient has one, on both sides of hard
+    /// edges.
     fn mixed_stops(&self, other: &Self, t: f64) -> Vec<GradientStop> {
-        let all = self.stops.iter().chain(&other.stops);
-        let mut places: Vec<f64> = all.map(|stop| stop.at).collect();
-        places.sort_by(f64::total_cmp);
-        places.dedup();
-        let stops = places.into_iter().flat_map(|at| {
+        let stops = self.stops.iter().chain(&other.stops);
+        let mut offsets: Vec<f64> = stops.map(|stop| stop.offset).collect();
+        offsets.sort_by(f64::total_cmp);
+        offsets.dedup();
+        let mixed = offsets.into_iter().flat_map(|at| {
             let [a, b] = [self, other].map(|gradient| gradient.around(at));
             let [before, after] = [0, 1].map(|k| a[k].mixed(b[k], t));
             let paints = [Some(before), Some(after).filter(|after| *after != before)];
             paints
                 .into_iter()
                 .flatten()
-                .map(move |paint| GradientStop { at, paint })
+                .map(move |paint| GradientStop { offset: at, paint })
         });
-        stops.collect()
+        mixed.collect()
     }
 
-    /// The paints right before and right after a place of the way.
+    /// Paints just before and just after an offset.
     fn around(&self, at: f64) -> [Paint; 2] {
         let stops = &self.stops;
         let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
-            return [NOTHING; 2];
+            return [TRANSPARENT; 2];
         };
         let between = |next: usize| match (next.checked_sub(1), stops.get(next)) {
             (None, _) => first.paint,
             (_, None) => last.paint,
             (Some(k), Some(next)) => {
                 let here = stops[k];
-                let share = (at - here.at) / (next.at - here.at);
-                here.paint.in_srgb(next.paint, share)
+                let share = (at - here.offset) / (next.offset - here.offset);
+                here.paint.mixed_in_srgb(next.paint, share)
             }
         };
-        let before = stops.partition_point(|stop| stop.at < at);
-        let after = stops.partition_point(|stop| stop.at <= at);
+        let before = stops.partition_point(|stop| stop.offset < at);
+        let after = stops.partition_point(|stop| stop.offset <= at);
         if before == after {
             return [between(before); 2];
         }
@@ -166,12 +170,12 @@ impl Gradient {
 }
 
 impl GradientGeometry {
-    /// On the way to another of the same kind.
+    /// Interpolates towards the same kind of geometry; `None` for different kinds.
     fn mixed(self, other: Self, t: f64) -> Option<Self> {
         match (self, other) {
-            (Self::Straight, Self::Straight) => Some(Self::Straight),
-            (Self::Round { focus: f, inner: r }, Self::Round { focus: g, inner: s }) => {
-                Some(Self::Round {
+            (Self::Linear, Self::Linear) => Some(Self::Linear),
+            (Self::Radial { focus: f, inner: r }, Self::Radial { focus: g, inner: s }) => {
+                Some(Self::Radial {
                     focus: f.lerp(g, t),
                     inner: r * (1.0 - t) + s * t,
                 })
@@ -181,15 +185,16 @@ impl GradientGeometry {
     }
 }
 
-const NOTHING: Paint = Paint {
+/// A fully transparent paint.
+const TRANSPARENT: Paint = Paint {
     colour: Rgb([0; 3]),
     opacity: 0.0,
 };
 
 impl Paint {
-    /// The mean of paints by their weights; of none a paint that shows nothing.
+    /// Returns the weighted mean of paints; a transparent paint if there are none.
     pub(crate) fn mean(paints: impl Iterator<Item = (Self, f64)>) -> Self {
-        let (mean, _) = paints.fold((NOTHING, 0.0), |(mean, total), (paint, weight)| {
+        let (mean, _) = paints.fold((TRANSPARENT, 0.0), |(mean, total), (paint, weight)| {
             let sum = total + weight;
             let share = if sum > 0.0 { weight / sum } else { 0.0 };
             (mean.mixed(paint, share), sum)
@@ -197,8 +202,8 @@ impl Paint {
         mean
     }
 
-    /// A share of the way to another, as within a gradient.
-    fn in_srgb(self, other: Self, share: f64) -> Self {
+    /// Interpolates in sRGB with straight opacity, as within a gradient. `share` is in [0, 1].
+    fn mixed_in_srgb(self, other: Self, share: f64) -> Self {
         let mixed = |a: f64, b: f64| a * (1.0 - share) + b * share;
         let channel = |k: usize| {
             let [a, b] = [self, other].map(|paint| f64::from(paint.colour.0[k]));
@@ -217,11 +222,11 @@ mod tests {
 
     fn straight(stops: &[(f64, [u8; 3])]) -> Gradient {
         let stop = |&(at, colour): &(f64, [u8; 3])| GradientStop {
-            at,
+            offset: at,
             paint: Rgb(colour).into(),
         };
         Gradient {
-            course: GradientGeometry::Straight,
+            geometry: GradientGeometry::Linear,
             frame: DAffine2::IDENTITY,
             stops: stops.iter().map(stop).collect(),
             spread: GradientSpread::Pad,
@@ -232,16 +237,16 @@ mod tests {
     const WHITE: [u8; 3] = [255; 3];
 
     #[test]
-    fn gradients_of_one_kind_become_each_other_place_by_place() {
+    fn gradients_of_one_kind_are_mixed_offset_by_offset() {
         let a = straight(&[(0.0, BLACK), (1.0, WHITE)]);
         let b = straight(&[(0.0, WHITE), (0.5, BLACK), (0.5, WHITE), (1.0, WHITE)]);
-        let b = b.moved(DAffine2::from_translation(DVec2::new(4.0, 0.0)));
+        let b = b.transformed(DAffine2::from_translation(DVec2::new(4.0, 0.0)));
         assert_eq!(a.mixed(&b, 0.0), a);
         assert_eq!(a.mixed(&b, 1.0), b);
         let half = a.mixed(&b, 0.5);
         assert_eq!(half.frame.translation, DVec2::new(2.0, 0.0));
-        let at: Vec<f64> = half.stops.iter().map(|stop| stop.at).collect();
-        assert_eq!(at, [0.0, 0.5, 0.5, 1.0]);
+        let offsets: Vec<f64> = half.stops.iter().map(|stop| stop.offset).collect();
+        assert_eq!(offsets, [0.0, 0.5, 0.5, 1.0]);
         let grey = |k: usize| half.stops[k].paint.colour.0[0];
         assert!(grey(1) < grey(2), "the edge stays one");
     }
@@ -250,18 +255,18 @@ mod tests {
     fn gradients_of_two_kinds_meet_in_the_mean_of_both() {
         let a = straight(&[(0.0, BLACK), (1.0, BLACK)]);
         let mut b = straight(&[(0.0, WHITE), (1.0, WHITE)]);
-        b.course = GradientGeometry::Round {
+        b.geometry = GradientGeometry::Radial {
             focus: DVec2::ZERO,
             inner: 0.0,
         };
         let [near, far] = [0.5 - 1e-9, 0.5 + 1e-9].map(|t| a.mixed(&b, t));
-        assert_eq!([near.course, far.course], [a.course, b.course]);
+        assert_eq!([near.geometry, far.geometry], [a.geometry, b.geometry]);
         assert_eq!(near.stops[0].paint.colour, far.stops[0].paint.colour);
         assert_eq!(a.mean().colour, Rgb(BLACK));
     }
 
     #[test]
-    fn the_mean_goes_on_at_the_ends() {
+    fn the_mean_includes_the_padding_at_the_ends() {
         let late = straight(&[(0.8, BLACK), (1.0, WHITE)]);
         let early = straight(&[(0.0, BLACK), (0.2, WHITE)]);
         assert!(late.mean().colour.0[0] < 80 && early.mean().colour.0[0] > 180);

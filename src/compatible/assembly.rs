@@ -1,8 +1,8 @@
-//! Meshes in two designs put together into one.
+//! Assembles one mesh in two designs from smaller meshes that share vertices.
 
 use crate::geometry::DVec2;
 
-/// Vertices in source and target, and the faces between them.
+/// Mesh under assembly: vertices in source and target, and faces.
 #[derive(Default)]
 pub(super) struct MeshAssembly {
     pub(super) points: [Vec<DVec2>; 2],
@@ -10,23 +10,24 @@ pub(super) struct MeshAssembly {
 }
 
 impl MeshAssembly {
-    /// Adds a mesh. Its first vertices are there already, numbered as
-    /// `shared` says; the others follow those that there are.
+    /// Appends a mesh. Its first vertices are already present, with the indices `shared`; the
+    /// others get new indices.
     ///
     /// # Panics
-    /// If the mesh has fewer vertices than are shared.
-    pub(super) fn add(
+    /// If the mesh has fewer vertices than `shared`.
+    pub(super) fn append(
         &mut self,
         shared: &[u32],
         points: [&[DVec2]; 2],
         faces: impl Iterator<Item = [u32; 3]>,
     ) {
-        let own = self.points[0].len() as u32;
-        let number = |v: u32| match shared.get(v as usize) {
-            Some(&there) => there,
-            None => own + v - shared.len() as u32,
+        let offset = self.points[0].len() as u32;
+        // Vertices beyond the shared ones follow those that are already present.
+        let new_index = |v: u32| match shared.get(v as usize) {
+            Some(&existing) => existing,
+            None => offset + v - shared.len() as u32,
         };
-        self.faces.extend(faces.map(|face| face.map(number)));
+        self.faces.extend(faces.map(|face| face.map(new_index)));
         for (all, points) in self.points.iter_mut().zip(points) {
             all.extend_from_slice(&points[shared.len()..]);
         }

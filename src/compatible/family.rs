@@ -1,7 +1,7 @@
-//! One connectivity with an embedding for each of many designs.
+//! Compatible mesh of many designs: one list of faces with an embedding for each design.
 //!
-//! Guaranteed: any two designs of a family are a [`CompatibleMesh`]: every face is
-//! positive in all embeddings, by exact predicates.
+//! Guaranteed: any two designs of a family form a [`CompatibleMesh`], because every face is
+//! positively oriented in all embeddings, by exact predicates.
 
 mod outlines;
 mod shared_boundary;
@@ -14,112 +14,118 @@ use crate::work::budget::WorkloadTooLarge;
 use crate::work::progress::{Cancelled, Progress, still_wanted};
 use std::sync::Arc;
 
-/// One connectivity with its embeddings, at least two.
+/// One connectivity with two or more embeddings.
 #[derive(Clone, Debug)]
 pub struct CompatibleFamily {
     faces: Arc<[[u32; 3]]>,
-    /// For each design where its vertices are.
-    places: Vec<Vec<DVec2>>,
+    /// Vertices of each design.
+    embeddings: Vec<Vec<DVec2>>,
     elements: Vec<BarElement>,
     connectivity: Connectivity,
 }
 
-/// Why designs are no family. Designs are counted from 0, and from 1 in words.
+/// Reason why designs form no family. Fields count designs from 0, messages from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FamilyError {
     /// Fewer than two designs.
-    #[error("there are {0} designs; a family has at least two")]
+    #[error("at least two designs are needed, not {0}")]
     TooFew(usize),
-    /// A design does not share the connectivity of the first.
-    #[error("design {} does not go with the first: {error}", design + 1)]
-    Unlike {
-        /// Which design.
+    /// A design is not compatible with the first one.
+    #[error("design {} is not compatible with the first: {error}", design + 1)]
+    Incompatible {
+        /// Index of the design.
         design: usize,
-        /// What does not fit, with the first as the source.
+        /// Reason, with the first design as the source.
         error: CompatibleError,
     },
-    /// A design has parts or holes that another has not: there are points of the one
-    /// that are nowhere in the other.
-    #[error("design {} has not the parts and holes of design {}", design + 1, of + 1)]
-    Parts {
-        /// Which design.
+    /// A design has parts or holes that another one lacks, so some points have no counterpart.
+    #[error("design {} does not have the same parts and holes as design {}", design + 1, of + 1)]
+    PartsDiffer {
+        /// Index of the design.
         design: usize,
-        /// Of which other.
+        /// Index of the design it is compared with.
         of: usize,
     },
-    /// The outline of a design bounds no piece once it has the points of all.
+    /// With the points of all designs added, a design's outline bounds no valid piece.
     #[error("design {}: {error}", design + 1)]
     Outline {
-        /// Which design.
+        /// Index of the design.
         design: usize,
-        /// What is wrong, as of a source.
+        /// Reason; the design counts as a source in it.
         error: PieceMeshError,
     },
-    /// No triangulation of one outline was found that is one of all others.
-    #[error("no triangulation of one design was found that does not fold in another")]
-    Folds,
-    /// No panels of two trusses are panels of all.
-    #[error("the panels of no two trusses are panels of all")]
-    Panels,
-    /// To match the outlines would take very long, or very much memory.
+    /// No triangulation of one design was found that is valid in all others.
+    #[error(
+        "no triangulation without folds was found for all designs; make them more alike, or change the matches"
+    )]
+    NoCommonTriangulation,
+    /// No two trusses have panels whose triangulation is valid in all trusses.
+    #[error(
+        "no triangulation of the panels is valid in all trusses; add bars, or make them more alike"
+    )]
+    NoCommonPanels,
+    /// Matching the outlines would exceed the limits on time or memory.
     #[error(transparent)]
     TooMuch(#[from] WorkloadTooLarge),
-    /// Nobody wants the result.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
 impl CompatibleFamily {
-    /// Joins faces, bars that lie in no face, and the embeddings of their vertices.
-    /// Faces that are clockwise in all are turned round.
+    /// Creates a family from faces, embeddings of their vertices, and bars that lie in no face.
+    /// Faces that are clockwise in all embeddings are reversed.
     ///
     /// # Errors
-    /// [`FamilyError::TooFew`], or [`FamilyError::Unlike`] with what
-    /// [`CompatibleMesh::new`] finds.
+    /// [`FamilyError::TooFew`] for fewer than two embeddings; [`FamilyError::Incompatible`] with the
+    /// error of [`CompatibleMesh::new`] if a design is not compatible with the first.
     ///
     /// ```
-    /// use morphospace::{compatible::Family, geometry::DVec2};
+    /// use morphospace::{compatible::CompatibleFamily, geometry::DVec2};
     /// let first = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
     /// let places = [1.0, 2.0, 3.0].map(|by| first.iter().map(|&p| p * by).collect());
-    /// let family = Family::new(vec![[0, 1, 2]], places.to_vec(), vec![])?;
+    /// let family = CompatibleFamily::new(vec![[0, 1, 2]], places.to_vec(), vec![])?;
     /// assert_eq!(family.pair(2, 0).target(), first);
     /// # Ok::<(), morphospace::compatible::FamilyError>(())
     /// ```
     pub fn new(
         faces: Vec<[u32; 3]>,
-        places: Vec<Vec<DVec2>>,
+        embeddings: Vec<Vec<DVec2>>,
         elements: Vec<BarElement>,
     ) -> Result<Self, FamilyError> {
-        let [first, others @ ..] = places.as_slice() else {
+        let [first, others @ ..] = embeddings.as_slice() else {
             return Err(FamilyError::TooFew(0));
         };
-        let mut joined = None;
-        for (k, place) in others.iter().enumerate() {
-            let pair =
-                |faces| CompatibleMesh::new(faces, first.clone(), place.clone(), elements.clone());
-            let made = pair(faces.clone());
-            let unlike = |error| FamilyError::Unlike {
+        // A check of each design against the first is enough: orientation is a property of one
+        // embedding.
+        let mut first_mesh = None;
+        for (k, embedding) in others.iter().enumerate() {
+            let pair = |faces| {
+                CompatibleMesh::new(faces, first.clone(), embedding.clone(), elements.clone())
+            };
+            let mesh = pair(faces.clone());
+            let unlike = |error| FamilyError::Incompatible {
                 design: k + 1,
                 error,
             };
-            joined.get_or_insert(made.map_err(unlike)?);
+            first_mesh.get_or_insert(mesh.map_err(unlike)?);
         }
-        let Some(joined) = joined else {
+        let Some(first_mesh) = first_mesh else {
             return Err(FamilyError::TooFew(1));
         };
         Ok(Self {
-            faces: joined.faces,
-            connectivity: joined.connectivity,
+            faces: first_mesh.faces,
+            connectivity: first_mesh.connectivity,
             elements,
-            places,
+            embeddings,
         })
     }
 
-    /// Meshes whose faces are the same, number by number.
+    /// Creates a family of meshes that have the same faces in the same order.
     ///
     /// # Errors
-    /// As [`Self::new`], and where faces differ.
+    /// As [`Self::new`], and if the faces differ.
     pub fn from_meshes(meshes: &[&TriangleMesh]) -> Result<Self, FamilyError> {
         let Some((first, others)) = meshes.split_first() else {
             return Err(FamilyError::TooFew(0));
@@ -127,63 +133,66 @@ impl CompatibleFamily {
         for (k, other) in others.iter().enumerate() {
             let design = k + 1;
             CompatibleMesh::from_meshes(first, other)
-                .map_err(|error| FamilyError::Unlike { design, error })?;
+                .map_err(|error| FamilyError::Incompatible { design, error })?;
         }
         let places = meshes.iter().map(|mesh| mesh.positions().to_vec());
         Self::new(first.faces().to_vec(), places.collect(), Vec::new())
     }
 
-    /// Trusses with the same nodes and bars: the panels of two of them that are panels
-    /// of all, and the bars in none.
+    /// Creates a family of trusses with the same nodes and bars.
+    ///
+    /// The faces triangulate the panels of the first pair of trusses whose triangulation is valid
+    /// in all trusses. Bars in no panel become elements.
     ///
     /// # Errors
-    /// [`FamilyError`] names the first that differs, or says that there are no such
-    /// panels.
+    /// [`FamilyError`] names the first truss that differs from the first one, or reports that no
+    /// triangulation is valid in all.
     pub fn from_trusses(trusses: &[&Truss], progress: &dyn Progress) -> Result<Self, FamilyError> {
-        let places: Vec<_> = trusses.iter().map(|t| t.nodes().to_vec()).collect();
-        let mut found: Option<Self> = None;
+        let embeddings: Vec<_> = trusses.iter().map(|t| t.nodes().to_vec()).collect();
+        let mut family: Option<Self> = None;
         for (a, first) in trusses.iter().enumerate() {
-            // Those with the first alone say whether all are alike.
-            if a > 0 && found.is_some() {
+            // Pairs with the first truss also check that all trusses are compatible with it, so all
+            // of these are visited.
+            if a > 0 && family.is_some() {
                 break;
             }
             for (b, second) in trusses.iter().enumerate().skip(a + 1) {
                 still_wanted(progress)?;
-                let made = match CompatibleMesh::from_trusses(first, second, progress) {
-                    Ok(made) => made,
+                let mesh = match CompatibleMesh::from_trusses(first, second, progress) {
+                    Ok(mesh) => mesh,
                     Err(error) if a == 0 => {
-                        return Err(FamilyError::Unlike { design: b, error });
+                        return Err(FamilyError::Incompatible { design: b, error });
                     }
                     Err(_) => continue,
                 };
-                if found.is_none() {
-                    let elements = made.elements().to_vec();
-                    found = Self::new(made.faces().to_vec(), places.clone(), elements).ok();
+                if family.is_none() {
+                    let elements = mesh.elements().to_vec();
+                    family = Self::new(mesh.faces().to_vec(), embeddings.clone(), elements).ok();
                 }
             }
         }
-        found.ok_or(match trusses.len() {
+        family.ok_or(match trusses.len() {
             0 | 1 => FamilyError::TooFew(trusses.len()),
-            _ => FamilyError::Panels,
+            _ => FamilyError::NoCommonPanels,
         })
     }
 
-    /// How many designs there are.
+    /// Number of designs.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.places.len()
+        self.embeddings.len()
     }
 
-    /// Vertex indices, three a face, counter-clockwise in all embeddings.
+    /// Vertex indices of the faces, counter-clockwise in all embeddings.
     #[must_use]
     pub fn faces(&self) -> &Arc<[[u32; 3]]> {
         &self.faces
     }
 
-    /// For each design where its vertices are.
+    /// Vertices of each design.
     #[must_use]
-    pub fn places(&self) -> &[Vec<DVec2>] {
-        &self.places
+    pub fn embeddings(&self) -> &[Vec<DVec2>] {
+        &self.embeddings
     }
 
     /// Bars that lie in no face.
@@ -192,23 +201,24 @@ impl CompatibleFamily {
         &self.elements
     }
 
-    /// The closed boundary walks of the faces, as vertex indices.
+    /// Closed boundary loops of the faces, as vertex indices.
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
         self.connectivity.boundary_loops(&self.faces)
     }
 
-    /// Two of the designs.
+    /// Returns the compatible mesh of two of the designs.
     ///
     /// # Panics
-    /// If there are not so many.
+    /// If an index is not below [`Self::count`].
     #[must_use]
     pub fn pair(&self, source: usize, target: usize) -> CompatibleMesh {
-        self.between([source, target].map(|design| self.places[design].clone()))
+        self.with_embeddings([source, target].map(|design| self.embeddings[design].clone()))
     }
 
-    /// The mesh with other vertices, such as two blends of the designs, which may fold.
-    pub(crate) fn between(&self, [source, target]: [Vec<DVec2>; 2]) -> CompatibleMesh {
+    /// Returns the mesh with other embeddings, such as two blends of the designs. Its faces may
+    /// fold.
+    pub(crate) fn with_embeddings(&self, [source, target]: [Vec<DVec2>; 2]) -> CompatibleMesh {
         CompatibleMesh {
             faces: Arc::clone(&self.faces),
             source,
@@ -218,10 +228,13 @@ impl CompatibleFamily {
         }
     }
 
-    /// The largest diameter of a design.
+    /// Largest diameter of a design.
     #[must_use]
     pub fn diameter(&self) -> f64 {
-        let diameters = self.places.iter().map(|places| Bounds::diameter_of(places));
+        let diameters = self
+            .embeddings
+            .iter()
+            .map(|points| Bounds::diameter_of(points));
         diameters.fold(0.0, f64::max)
     }
 }

@@ -1,10 +1,9 @@
-//! A mesh of the whole frame in which matched outlines are edges.
+//! Mesh of the whole frame in which matched outlines are mesh edges.
 //!
-//! Inside and outside of the outlines are triangulated each on its own and
-//! sewn together along the outlines. So it exists for whatever is matched,
-//! where a mesh with pins alone may not, and carries boundaries exactly.
-//! Rings that close to a point or open from one are left out: what they bound
-//! is inside.
+//! The regions inside and outside the outlines are triangulated separately and joined along them.
+//! Such a mesh carries outlines exactly, and it exists for matches where a mesh around pins may
+//! not. Rings that close to a point or open from one are left out; the area they bound counts as
+//! inside.
 
 use super::assembly::MeshAssembly;
 use super::border::border_points;
@@ -14,37 +13,39 @@ use crate::geometry::{Bounds, DVec2, signed_area, winding};
 use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
-/// Points along the longer side of the frame: half as many as about pins, since
-/// outlines bring points of their own.
-const ALONG: f64 = 12.0;
+/// Number of points along the longer side of the frame: half as many as around pins, because
+/// outlines add points of their own (heuristic).
+const POINTS_ALONG: f64 = 12.0;
 
-/// Why there is no such mesh.
+/// Reason why the frame has no mesh around the outlines.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrameOutlinesError {
-    /// The outlines do not lie within each other alike in both designs, are
-    /// cut open, or reach beyond the frame.
-    #[error("the parts of the designs lie within each other in different ways")]
+    /// The outlines are nested differently in the two designs, are cut open, or reach beyond the
+    /// frame.
+    #[error(
+        "the outlines are nested differently in the two designs, are cut open, or reach beyond the frame"
+    )]
     Nesting,
     /// The cells do not fit together along the outlines.
     #[error("the cells between the outlines do not fit together: {0}")]
-    Sewn(#[from] CompatibleError),
-    /// A cell was not triangulated.
+    Assembly(#[from] CompatibleError),
+    /// A cell could not be triangulated.
     #[error(transparent)]
-    Polygons(#[from] PieceMeshError),
+    Cell(#[from] PieceMeshError),
 }
 
-/// A connected piece of the plane between outlines: the ring around it and
-/// those within it, each by its number and whether it is walked backwards.
+/// Connected region of the plane between outlines: the ring around it, then the rings inside it.
+/// Each is a ring index and whether the ring runs backwards.
 struct FrameCell(Vec<(usize, bool)>);
 
 impl CompatibleMesh {
-    /// Triangulates a rectangle about the outlines of a match, the same in
-    /// both designs.
+    /// Triangulates a rectangle around the outlines of a match. Its border is the same in both
+    /// designs.
     ///
     /// # Errors
-    /// [`FrameOutlinesError`] where outlines lie within each other in different
-    /// ways, or if the work is cancelled.
+    /// [`FrameOutlinesError`] if the outlines are nested differently in the two designs, or if the
+    /// work is cancelled.
     ///
     /// # Panics
     /// If an outline of the match has no points.
@@ -54,7 +55,7 @@ impl CompatibleMesh {
         options: &PolygonOptions,
         progress: &dyn Progress,
     ) -> Result<Self, FrameOutlinesError> {
-        let border = border_points(frame, frame.size().max_element() / ALONG);
+        let border = border_points(frame, frame.size().max_element() / POINTS_ALONG);
         let mut rings = vec![[border.clone(), border]];
         let cells = cells(&matched.pieces, &mut rings).ok_or(FrameOutlinesError::Nesting)?;
         // An outline on the border would leave cells without area.
@@ -65,27 +66,28 @@ impl CompatibleMesh {
         let shares = ProgressShares::new(progress, cells.len());
         let meshes = cells.par_iter().enumerate().map(|(k, cell)| {
             let side = |side: usize| -> Vec<Vec<DVec2>> {
-                let walked = |&(ring, backwards): &(usize, bool)| {
+                let ring_points = |&(ring, backwards): &(usize, bool)| {
                     let mut points = rings[ring][side].clone();
                     if backwards {
                         points.reverse();
                     }
                     points
                 };
-                cell.0.iter().map(walked).collect()
+                cell.0.iter().map(ring_points).collect()
             };
             Self::from_piece(&side(0), &side(1), options, &shares.part(k))
         });
         let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
-        Ok(sewn(&rings, &cells, &meshes)?)
+        Ok(join_cells(&rings, &cells, &meshes)?)
     }
 }
 
-/// The cells of the plane, and all rings, the frame's first. A part inside,
-/// then what is around it: the frame, or a hole of another part.
+/// Returns the cells of the plane and adds their rings to `rings`, which holds the frame's border.
+/// Parts come first, then the voids around them: inside the frame, and inside each hole. `None` if
+/// a piece is cut open or nested differently in the two designs.
 fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<FrameCell>> {
     let mut parts = Vec::new();
-    // What is outside: first the frame, then each hole, walked backwards.
+    // Voids are outside all parts: first the one inside the frame, then each hole, run backwards.
     let mut voids = vec![FrameCell(vec![(0, false)])];
     let mut outers = Vec::new();
     for piece in pieces {
@@ -95,7 +97,7 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
         if outer.kind != RingKind::Matched {
             continue;
         }
-        // A cut joins a hole with the outside, which here are cells of their own.
+        // A cut joins a hole with the outside, which are separate cells here.
         if !piece.cuts.is_empty() {
             return None;
         }
@@ -113,6 +115,7 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
         }
         parts.push(FrameCell(part));
     }
+    // A part must lie in the same void in both designs, or their cells do not correspond.
     for outer in outers {
         let around = [0, 1].map(|side| surrounding(&parts, &voids, rings, outer, side));
         match around {
@@ -124,8 +127,8 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
     Some(parts)
 }
 
-/// The void that a part lies in on one side: the hole around it with no other
-/// part between, or else the frame. None where it lies in a part.
+/// Returns the void that contains a part on one side: the smallest hole around it, or else the
+/// frame (index 0). `None` if it lies inside another part.
 fn surrounding(
     parts: &[FrameCell],
     voids: &[FrameCell],
@@ -133,24 +136,26 @@ fn surrounding(
     outer: usize,
     side: usize,
 ) -> Option<usize> {
-    // Outlines do not cross, so that one point tells for the whole.
+    // Outlines do not cross, so one point decides for the whole outline.
     let p = rings[outer][side][0];
     let encloses = |ring: usize| winding(&rings[ring][side], p) != 0;
+    // Counts the other parts around it.
     let around_it = parts.iter().map(|part| part.0[0].0);
     let depth = around_it
         .filter(|&own| own != outer && encloses(own))
         .count();
     let ring = |void: usize| voids[void].0[0].0;
     let holes: Vec<usize> = (1..voids.len()).filter(|&k| encloses(ring(k))).collect();
-    // The smallest hole around it; holes of one depth do not overlap.
+    // The smallest of the nested holes is the one directly around it.
     let area = |k: usize| signed_area(&rings[ring(k)][side]).abs();
     let smallest = (holes.iter().copied()).min_by(|&j, &k| area(j).total_cmp(&area(k)));
-    // Each part around it has a hole around it too, or it lies in the part.
+    // Each part around it must contribute a hole around it too, or it lies inside that part.
     (holes.len() == depth).then_some(smallest.unwrap_or(0))
 }
 
-/// The cells as one mesh: the rings' points once, then what is inside each.
-fn sewn(
+/// Joins the cells into one mesh: the points of all rings once, then the inner vertices of each
+/// cell.
+fn join_cells(
     rings: &[[Vec<DVec2>; 2]],
     cells: &[FrameCell],
     meshes: &[CompatibleMesh],
@@ -167,12 +172,13 @@ fn sewn(
         let mut shared = Vec::new();
         for &(ring, backwards) in &cell.0 {
             let count = rings[ring][0].len() as u32;
-            // As its cell has walked it: the outside of a part runs backwards.
-            let walk = (0..count).map(|k| first[ring] + if backwards { count - 1 - k } else { k });
-            shared.extend(walk);
+            // In the order in which the cell runs along the ring.
+            let vertices =
+                (0..count).map(|k| first[ring] + if backwards { count - 1 - k } else { k });
+            shared.extend(vertices);
         }
         let points = [mesh.source(), mesh.target()];
-        whole.add(&shared, points, mesh.faces().iter().copied());
+        whole.append(&shared, points, mesh.faces().iter().copied());
     }
     let [source, target] = whole.points;
     CompatibleMesh::new(whole.faces, source, target, Vec::new())
@@ -215,10 +221,10 @@ mod tests {
         CompatibleMesh::around_outlines(&FRAME, &matched, &PolygonOptions::default(), &Silent)
     }
 
-    /// Each design's faces fill the frame once, and outlines are edges: no
-    /// face has its corners on both sides of one.
-    fn assert_sewn(mesh: &CompatibleMesh, outlines: [&[Vec<DVec2>]; 2]) {
-        assert_eq!(mesh.boundary_loops().len(), 1, "sewn without a gap");
+    /// Checks that each design's faces fill the frame once and that outlines are mesh edges: no
+    /// face has corners on both sides of one.
+    fn assert_joined(mesh: &CompatibleMesh, outlines: [&[Vec<DVec2>]; 2]) {
+        assert_eq!(mesh.boundary_loops().len(), 1, "joined without a gap");
         for (points, rings) in [mesh.source(), mesh.target()].into_iter().zip(outlines) {
             let corners = |face: &[u32; 3]| face.map(|v| points[v as usize]);
             let area = |face: &[u32; 3]| {
@@ -240,28 +246,28 @@ mod tests {
     #[test]
     fn inside_and_outside_fill_the_frame() {
         let [a, b] = [[square(-3.0, 2.0)], [square(2.0, 3.0)]];
-        assert_sewn(&around(&a, &b).expect("a mesh"), [&a, &b]);
+        assert_joined(&around(&a, &b).expect("a mesh"), [&a, &b]);
     }
 
     #[test]
-    fn a_part_in_a_hole_of_another_is_sewn_in() {
+    fn a_part_in_a_hole_of_another_is_included() {
         let eye = |by: f64| [square(by, 6.0), square(by, 4.0), square(by, 2.0)];
         let [a, b] = [eye(0.0), eye(1.0)];
-        assert_sewn(&around(&a, &b).expect("a mesh"), [&a, &b]);
+        assert_joined(&around(&a, &b).expect("a mesh"), [&a, &b]);
     }
 
     #[test]
-    fn a_hole_that_closes_is_inside() {
+    fn a_hole_that_closes_counts_as_inside() {
         let [a, b] = [
             vec![square(0.0, 5.0), square(0.0, 1.0)],
             vec![square(0.0, 4.0)],
         ];
-        assert_sewn(&around(&a, &b).expect("a mesh"), [&a[..1], &b]);
+        assert_joined(&around(&a, &b).expect("a mesh"), [&a[..1], &b]);
     }
 
     #[test]
-    fn what_reaches_beyond_the_frame_is_refused() {
-        let found = around(&[square(0.0, 12.0)], &[square(0.0, 4.0)]);
-        assert_eq!(found.err(), Some(FrameOutlinesError::Nesting));
+    fn outlines_beyond_the_frame_are_refused() {
+        let result = around(&[square(0.0, 12.0)], &[square(0.0, 4.0)]);
+        assert_eq!(result.err(), Some(FrameOutlinesError::Nesting));
     }
 }

@@ -1,4 +1,4 @@
-//! A whole match triangulated: piece by piece, joined into one mesh.
+//! Compatible mesh of a whole match: its pieces are triangulated in parallel and merged.
 
 use super::assembly::MeshAssembly;
 use super::{CompatibleMesh, PieceMeshError, PolygonOptions};
@@ -6,20 +6,20 @@ use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
-/// A piece that was not triangulated.
+/// Error of a piece that could not be triangulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}{error}", self.place())]
 pub struct OutlineMeshError {
-    /// Its index.
+    /// Index of the piece.
     pub piece: usize,
-    /// How many there are.
+    /// Number of pieces.
     pub pieces: usize,
-    /// What is wrong with it.
+    /// Reason.
     pub error: PieceMeshError,
 }
 
 impl OutlineMeshError {
-    /// Which piece it is, where there are several and it is to blame.
+    /// Prefix that names the piece; empty for a single piece and for a cancel.
     fn place(&self) -> String {
         match self.error {
             PieceMeshError::Cancelled(_) => String::new(),
@@ -30,12 +30,11 @@ impl OutlineMeshError {
 }
 
 impl CompatibleMesh {
-    /// Triangulates all pieces of a match. The vertices of each piece follow
-    /// those of the one before, its rings' vertices first and in order.
+    /// Triangulates all pieces of a match. Vertices are ordered piece by piece; in each piece the
+    /// ring points come first, in order.
     ///
     /// # Errors
-    /// [`OutlineMeshError`] names the piece, or tells that the work was
-    /// cancelled.
+    /// [`OutlineMeshError`] names the piece that failed, or reports that the work was cancelled.
     ///
     /// ```
     /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
@@ -69,7 +68,7 @@ impl CompatibleMesh {
     }
 }
 
-/// The mesh of one piece.
+/// Returns the compatible mesh of one piece.
 pub(crate) fn mesh_of_piece(
     piece: &PieceMatch,
     options: &PolygonOptions,
@@ -80,14 +79,14 @@ pub(crate) fn mesh_of_piece(
     CompatibleMesh::from_piece(&source, &target, options, progress)
 }
 
-/// The meshes as one, in order.
+/// Merges meshes into one, in order.
 pub(crate) fn merged_meshes<'a>(
     meshes: impl IntoIterator<Item = &'a CompatibleMesh>,
 ) -> CompatibleMesh {
     let mut whole = MeshAssembly::default();
     for mesh in meshes {
-        // Pieces lie apart: no vertex is shared.
-        whole.add(
+        // Pieces lie apart, so no vertex is shared.
+        whole.append(
             &[],
             [&mesh.source, &mesh.target],
             mesh.faces.iter().copied(),

@@ -1,22 +1,20 @@
-//! Compatible triangulation of one connected piece with corresponding
-//! boundary vertices in two designs: a simple polygon, maybe with holes, maybe
-//! cut open along slits.
+//! Compatible triangulation of one connected piece with corresponding boundary points in two
+//! designs: a simple polygon, which may have holes or be cut open along slits.
 //!
-//! First the foldover-free transfer of either polygon's refined triangulation
-//! to the other ([`transfer`]): good angles, no guarantee. Where it fails in
-//! both directions, the guaranteed base ([`overlay`] of discs, [`bridges`] for
-//! holes), thinned out. Then quality in both designs at once ([`quality`]).
-//! What is triangulated may [`slide`]: the outlines' vertices then find places
-//! by which the two triangulations are more alike. Many designs at once: [`triangulate_many`].
+//! 1. The refined triangulation of either polygon is transferred to the other without folds
+//!    ([`transfer`]): good angles, no guarantee.
+//! 2. If both directions fail, the guaranteed base is built ([`overlay`] of discs, [`bridges`] for
+//!    holes) and thinned out.
+//! 3. Quality is improved in both designs at once ([`quality`]).
 //!
-//! Guaranteed: every face is positive in both designs by exact predicates;
-//! the polygons' vertices come first, in order and unmoved, and their edges
-//! are edges of the mesh; the same input gives the same mesh, and the designs
-//! exchanged give the mesh with its embeddings exchanged, bit by bit. Not guaranteed:
-//! any angle or any distortion, which the match between the two decides.
-//! Polygons thinner than the last digits of their coordinates may leave no
-//! room for the vertices that a common triangulation needs: an error, never a
-//! wrong mesh.
+//! Then boundary points may [`slide`] along the outlines to places where the two triangulations are
+//! more alike. [`triangulate_many`] handles many designs at once.
+//!
+//! Guaranteed: every face is positive in both designs by exact predicates; the ring points come
+//! first, in order and unmoved, and ring edges are mesh edges; the same input gives the same mesh,
+//! and exchanging the designs exchanges the embeddings, bit by bit. Not guaranteed: any angle or
+//! distortion, which depend on the match. A polygon thinner than floating-point precision may have
+//! no room for the vertices of a common triangulation; that is an error, never a wrong mesh.
 
 mod advancing_front;
 mod boundary_rings;

@@ -1,28 +1,23 @@
-//! A common triangulation of two trusses with the same nodes and bars.
+//! Common triangulation of two trusses with the same nodes and bars.
 //!
-//! Only what bars enclose carries faces; pockets of the outer contour stay
-//! open. The steps:
+//! Only areas enclosed by bars get faces; pockets of the outer contour stay open. The steps:
 //!
-//! 1. Bars that cross others without a node, in either design, are no
-//!    constraints. The bar with the most crossings is let go first, of equal
-//!    ones the one listed last, until no two cross. Where that does not lead
-//!    to a triangulation, all bars that cross any other are let go.
-//! 2. The remaining graph is taken apart where a single bar or a single node
-//!    holds it together. A piece of one bar is a bridge or a dangling end and
-//!    becomes a two-point element; in every other piece each face is a simple
-//!    polygon, a panel.
-//! 3. Panels are cut by diagonals so that all triangles are positive in both
-//!    designs, by exact predicates, and the smallest angle of both is as
-//!    large as can be: a dynamic program (Gilbert 1979, Klincsek 1980) in
-//!    O(n³) for a panel of n nodes.
-//! 4. Bars that were let go are carried along where panels that hang together
-//!    by bars hold both of their nodes; elsewhere they become two-point
-//!    elements.
+//! 1. Bars that cross others without a node, in either design, cannot all be edges. The bar with
+//!    the most crossings is removed first (ties: the one listed last), until no two cross. If this
+//!    leads to no triangulation, all bars that cross any other are removed.
+//! 2. The remaining plane graph is split into blocks at bridges and cut nodes. A block of one bar,
+//!    a bridge or dangling end, becomes a two-point element. In every other block each bounded face
+//!    is a simple polygon, a panel.
+//! 3. Panels are triangulated by diagonals so that all triangles are positive in both designs, by
+//!    exact predicates, and the smallest angle over both is maximal: dynamic programming (Gilbert
+//!    1979, Klincsek 1980) in O(n³) for a panel of n nodes.
+//! 4. A removed bar whose nodes both belong to one block with panels is carried along by these; any
+//!    other becomes a two-point element.
 //!
-//! Guaranteed: exchanging the designs gives the same triangles; every node is
-//! in a face or a two-point element. Not guaranteed: a triangulation where
-//! only further points inside a panel would make one possible, and that
-//! pieces which lie inside a panel without a bar to it move with it.
+//! Guaranteed: exchanging the designs gives the same triangles; every node is in a face or a
+//! two-point element. Not guaranteed: a triangulation where one is possible only with extra points
+//! inside a panel; and that a part that lies inside a panel, without a bar to it, moves with the
+//! panel.
 
 mod bar_conflicts;
 mod blocks;
@@ -39,15 +34,15 @@ pub use error::TrussError;
 pub(super) use error::list_first;
 use std::collections::HashSet;
 
-/// Faces, and bars that are two-point elements.
+/// Faces, and the bars that become two-point elements.
 pub(super) type PanelMesh = (Vec<[u32; 3]>, Vec<[u32; 2]>);
 
-/// Triangles between the bars, positive in both designs, and the bars that
-/// are in no panel.
+/// Triangulates the panels between the bars, with triangles that are positive in both designs, and
+/// returns the bars that are in no panel.
 ///
 /// # Errors
-/// [`TrussError`] names the first difference, or the nodes of a panel that
-/// cannot be triangulated, or tells that the work was cancelled.
+/// [`TrussError`] names the first difference, or the nodes of a panel that cannot be triangulated,
+/// or reports that the work was cancelled.
 pub(super) fn triangulate_panels(
     source: &Truss,
     target: &Truss,
@@ -60,77 +55,80 @@ pub(super) fn triangulate_panels(
     };
     let bars = source.bars();
     let conflicts = bar_conflicts::find_conflicts(bars, nodes, progress)?;
-    let thinned = bar_conflicts::remove_greedily(bars.len(), &conflicts, progress)?;
-    let first = with_kept(bars, nodes, &thinned, progress);
+    let kept = bar_conflicts::remove_greedily(bars.len(), &conflicts, progress)?;
+    let first = triangulate_kept(bars, nodes, &kept, progress);
     still_wanted(progress)?;
     if first.is_ok() || conflicts.is_empty() {
         return first;
     }
     let uncrossed = bar_conflicts::keep_uncrossed(bars.len(), &conflicts);
-    // Of two failures the first: it is about the bars that are there.
-    with_kept(bars, nodes, &uncrossed, progress).or(first)
+    // If both attempts fail, the first error is reported, because it concerns more of the bars.
+    triangulate_kept(bars, nodes, &uncrossed, progress).or(first)
 }
 
+/// Checks that both trusses have the same number of nodes and the same bars.
 fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
     let counts = [source.nodes().len(), target.nodes().len()];
     if counts[0] != counts[1] {
         return Err(TrussError::NodeCounts(counts));
     }
-    for (of, without, only_in) in [
+    for (truss, other, only_in) in [
         (source, target, Side::Source),
         (target, source, Side::Target),
     ] {
-        let others: HashSet<_> = without.bars().iter().map(|&b| undirected(b)).collect();
-        let missing = |bar: &&[u32; 2]| !others.contains(&undirected(**bar));
-        if let Some(&nodes) = of.bars().iter().find(missing) {
+        // Bars have no direction, so their nodes may be listed either way round.
+        let others: HashSet<_> = other.bars().iter().map(|&b| undirected(b)).collect();
+        let is_missing = |bar: &&[u32; 2]| !others.contains(&undirected(**bar));
+        if let Some(&nodes) = truss.bars().iter().find(is_missing) {
             return Err(TrussError::BarsDiffer { nodes, only_in });
         }
     }
     Ok(())
 }
 
-/// The panels between the bars that are kept, triangulated.
-fn with_kept(
+/// Triangulates the panels between the bars marked in `kept`.
+fn triangulate_kept(
     bars: &[[u32; 2]],
     nodes: SourceTarget<&[DVec2]>,
     kept: &[bool],
     progress: &dyn Progress,
 ) -> Result<PanelMesh, TrussError> {
-    let those = |are_kept: bool| {
-        let those = bars.iter().zip(kept).filter(move |(_, k)| **k == are_kept);
-        those.map(|(bar, _)| *bar)
+    let bars_where = |are_kept: bool| {
+        let selected = bars.iter().zip(kept).filter(move |(_, k)| **k == are_kept);
+        selected.map(|(bar, _)| *bar)
     };
-    let plane: Vec<[u32; 2]> = those(true).collect();
-    let pieces = PlanarBlocks::of(&plane, nodes.source);
-    check_sides(&pieces.panels, nodes)?;
+    let plane: Vec<[u32; 2]> = bars_where(true).collect();
+    let blocks = PlanarBlocks::of(&plane, nodes.source);
+    check_sides(&blocks.panels, nodes)?;
     let mut faces = Vec::new();
-    let count = pieces.panels.len() as f64;
-    for (k, panel) in pieces.panels.iter().enumerate() {
+    let count = blocks.panels.len() as f64;
+    for (k, panel) in blocks.panels.iter().enumerate() {
         checkpoint(progress, "triangulating", k as f64 / count)?;
         faces.extend(triangles(panel, nodes, progress)?);
     }
-    let mut elements = pieces.bridges.clone();
-    elements.extend(those(false).filter(|&bar| !pieces.hold(bar)));
+    let mut elements = blocks.bridges.clone();
+    elements.extend(bars_where(false).filter(|&bar| !blocks.contain_both_ends(bar)));
     Ok((faces, elements))
 }
 
-/// Panels run counter-clockwise in the source. Where none does in the target it
-/// is a mirror image; where some do not, the first is a fault.
+/// Checks that panels, which run counter-clockwise in the source, do so in the target. If none
+/// does, the target is a mirror image; otherwise the first that does not is reported.
 fn check_sides(cycles: &[Vec<u32>], nodes: SourceTarget<&[DVec2]>) -> Result<(), TrussError> {
-    let turned = |cycle: &Vec<u32>| {
+    let is_reversed = |cycle: &Vec<u32>| {
         let corners = cycle.iter().map(|&node| nodes.target[node as usize]);
-        // Where rounding errs the panel is flat, and gets no triangles either.
+        // Where rounding decides the sign, the panel is flat and gets no triangles anyway.
         signed_area(&corners.collect::<Vec<_>>()) < 0.0
     };
-    if !cycles.is_empty() && cycles.iter().all(turned) {
+    if !cycles.is_empty() && cycles.iter().all(is_reversed) {
         return Err(TrussError::Mirrored);
     }
-    match cycles.iter().find(|cycle| turned(cycle)) {
+    match cycles.iter().find(|cycle| is_reversed(cycle)) {
         Some(cycle) => Err(TrussError::Flipped(cycle.clone())),
         None => Ok(()),
     }
 }
 
+/// Triangulates one panel.
 fn triangles(
     cycle: &[u32],
     nodes: SourceTarget<&[DVec2]>,
@@ -139,8 +137,8 @@ fn triangles(
     if cycle.len() > MAX_PANEL_NODES {
         return Err(TrussError::TooLarge(cycle.to_vec()));
     }
-    let found = panel_triangulation::triangulate_panel(cycle, nodes, progress)?;
-    found.ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
+    let faces = panel_triangulation::triangulate_panel(cycle, nodes, progress)?;
+    faces.ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
 }
 
 #[cfg(test)]

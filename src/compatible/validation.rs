@@ -1,78 +1,79 @@
-//! What is checked before faces and bars become a compatible mesh, and the
-//! errors that say so.
+//! Checks faces, bars and vertices before they become a compatible mesh, and defines the errors for
+//! invalid ones.
 
 use super::truss::{TrussError, list_first};
 use crate::geometry::{DVec2, Side, orient2d};
 use crate::mesh::MeshError;
 
-/// A bar as a two-point element of the energy: its vertices.
+/// Bar as a two-point element of the energy, given by its two vertices.
 pub type BarElement = [u32; 2];
 
-/// Why two designs have no common triangulation as given. Numbers in messages
-/// start at 1, as in the files.
+/// Reason why two designs, as given, have no common triangulation. Messages count from 1, as the
+/// files do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompatibleError {
-    /// Different numbers of vertices.
+    /// The designs have different numbers of vertices.
     #[error("the source has {} vertices and the target {}; both need the same vertices in the same order", .0[0], .0[1])]
     VertexCounts([usize; 2]),
-    /// Different numbers of faces.
+    /// The designs have different numbers of faces.
     #[error("the source has {} faces and the target {}; both need the same faces in the same order", .0[0], .0[1])]
     FaceCounts([usize; 2]),
-    /// A face is not the same in both.
+    /// A face differs between the designs.
     #[error("face {} differs between source and target; both need the same faces in the same order", .0 + 1)]
     FacesDiffer(usize),
     /// A coordinate is NaN or infinite.
     #[error("vertex {} of the {side} is not a finite point; correct its coordinates", vertex + 1)]
     NotFinite {
-        /// In which design.
+        /// Design with the coordinate.
         side: Side,
-        /// The vertex.
+        /// Index of the vertex.
         vertex: usize,
     },
-    /// The faces themselves are wrong.
+    /// The faces form no valid mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// All faces change sides: one design is a mirror image of the other.
+    /// All faces have opposite orientation: one design is a mirror image of the other.
     #[error(
         "the target is a mirror image of the source; mirror one of them (placement, mirror = true)"
     )]
     Mirrored,
-    /// Some faces change sides.
-    #[error("{}; move their vertices in one design, or mirror it if nearly all are named", list(.0, "turned over between source and target"))]
+    /// Some faces have opposite orientation in the two designs.
+    #[error("{}; move their vertices in one design, or mirror it if nearly all faces are listed", list(.0, "turned over between source and target"))]
     Flipped(Vec<usize>),
-    /// Faces without area.
-    #[error("{}; move their vertices apart", list(faces, &format!("without area in the {side}")))]
+    /// Some faces have no area.
+    #[error("{}; move the vertices apart", list(faces, &format!("flat in the {side}")))]
     Flat {
-        /// In which design.
+        /// Design with the flat faces.
         side: Side,
-        /// The faces.
+        /// Indices of the faces.
         faces: Vec<usize>,
     },
-    /// A vertex in no face and no bar.
+    /// A vertex belongs to no face and no bar.
     #[error("vertex {} belongs to no face and no bar; remove it or connect it", .0 + 1)]
     LooseVertex(usize),
-    /// A bar that names no vertex, or one vertex twice, or has no length.
-    #[error("bar {} joins no two different points in both designs; correct or remove it", .0 + 1)]
+    /// A bar refers to a missing vertex, joins a vertex to itself, or has no length.
+    #[error("bar {} does not join two different points in both designs; correct or remove it", .0 + 1)]
     BadBar(usize),
-    /// Nothing to interpolate.
+    /// There are no faces and no bars.
     #[error("there are no faces and no bars; give at least one triangle or bar")]
     Empty,
-    /// Two trusses do not fit together, or a panel cannot be triangulated.
+    /// Two trusses are incompatible, or a panel cannot be triangulated.
     #[error(transparent)]
     Truss(#[from] TrussError),
 }
 
-/// "face 3 is …" or "faces 3, 4, 5 and 9 more are …".
+/// Formats face indices as "face 3 is …" or "faces 3, 4, 5 and 9 more are …".
 fn list(faces: &[usize], what: &str) -> String {
     let numbers: Vec<usize> = faces.iter().map(|f| f + 1).collect();
     match numbers[..] {
         [face] => format!("face {face} is {what}"),
-        // Five lead to the place; a fold of thousands would fill the screen.
+        // Five faces show the place; a fold of thousands would fill the screen.
         _ => format!("faces {} are {what}", list_first(&numbers, 5)),
     }
 }
 
+/// Checks that all coordinates are finite.
 pub(super) fn check_points(points: &[DVec2], side: Side) -> Result<(), CompatibleError> {
     let bad = points.iter().position(|p| !p.is_finite());
     bad.map_or(Ok(()), |vertex| {
@@ -80,20 +81,24 @@ pub(super) fn check_points(points: &[DVec2], side: Side) -> Result<(), Compatibl
     })
 }
 
+/// Checks that every bar joins two vertices that lie apart in both designs.
 pub(super) fn check_elements(
     elements: &[BarElement],
     source: &[DVec2],
     target: &[DVec2],
 ) -> Result<(), CompatibleError> {
-    let good = |&[a, b]: &BarElement| {
+    let is_valid = |&[a, b]: &BarElement| {
         let (a, b) = (a as usize, b as usize);
         a < source.len() && b < source.len() && source[a] != source[b] && target[a] != target[b]
     };
-    let bad = elements.iter().position(|bar| !good(bar));
+    let bad = elements.iter().position(|bar| !is_valid(bar));
     bad.map_or(Ok(()), |bar| Err(CompatibleError::BadBar(bar)))
 }
 
-/// The faces, counter-clockwise in the source and so in the target.
+/// Returns the faces with counter-clockwise orientation in the source, and therefore in the target.
+///
+/// # Errors
+/// [`CompatibleError`] for faces without area and for faces with opposite orientation.
 pub(super) fn oriented(
     mut faces: Vec<[u32; 3]>,
     source: &[DVec2],
@@ -103,13 +108,14 @@ pub(super) fn oriented(
         let [a, b, c] = face.map(|v| points[v as usize]);
         orient2d(a, b, c)
     };
-    // First: a face without area is of neither orientation.
+    // Checked first, because a flat face has no orientation.
     for (points, side) in [(source, Side::Source), (target, Side::Target)] {
         let flat = indices(&faces, |face| area(face, points) == 0.0);
         if !flat.is_empty() {
             return Err(CompatibleError::Flat { side, faces: flat });
         }
     }
+    // Counter-clockwise in the source, so that only the target can still disagree.
     for face in &mut faces {
         if area(face, source) < 0.0 {
             face.swap(1, 2);
@@ -125,10 +131,12 @@ pub(super) fn oriented(
     }
 }
 
+/// Returns the indices of the faces for which `bad` holds.
 fn indices(faces: &[[u32; 3]], bad: impl Fn(&[u32; 3]) -> bool) -> Vec<usize> {
     (0..faces.len()).filter(|&f| bad(&faces[f])).collect()
 }
 
+/// Checks that every vertex belongs to a face or a bar.
 pub(super) fn check_no_loose_vertex(
     faces: &[[u32; 3]],
     elements: &[BarElement],
@@ -137,10 +145,10 @@ pub(super) fn check_no_loose_vertex(
     if faces.is_empty() && elements.is_empty() {
         return Err(CompatibleError::Empty);
     }
-    let mut held = vec![false; vertices];
+    let mut is_used = vec![false; vertices];
     for &v in faces.iter().flatten().chain(elements.iter().flatten()) {
-        held[v as usize] = true;
+        is_used[v as usize] = true;
     }
-    let loose = held.iter().position(|h| !h);
+    let loose = is_used.iter().position(|h| !h);
     loose.map_or(Ok(()), |vertex| Err(CompatibleError::LooseVertex(vertex)))
 }

@@ -1,13 +1,13 @@
-//! Two pictures, cross-dissolved through a warp.
+//! Two pictures, cross-dissolved and carried by a warp: the content *colours*.
 //!
-//! Light adds up, sRGB values do not: pictures are mixed in linear light, with
-//! alpha premultiplied, so that what is transparent has no colour to bleed.
-//! The mix runs over t by a curve of its own, apart from the shape's.
+//! Pictures are mixed in linear light, because light is additive and sRGB values are not. Alpha is
+//! premultiplied, so the colour of transparent pixels does not bleed. The mix follows its own
+//! easing curve over t, independent of the motion.
 //!
-//! Guarantees: at t = 0 and t = 1, and where a pixel of the output lies on one
-//! of the picture, its value is the picture's. A picture goes on beyond its
-//! edge as its mirror image, where the edge's colours alone would smear; what
-//! is shown is cut to a rectangle on its way from the source's to the target's.
+//! Guaranteed: at t = 0 and t = 1, where an output pixel coincides with a pixel of the picture,
+//! both have the same value. Beyond its edges a picture continues as its mirror image; repeating
+//! the edge colours would smear. The output is cropped to a rectangle that moves from the bounds of
+//! the source to those of the target.
 
 mod layer;
 mod linear_light;
@@ -19,41 +19,43 @@ pub use many_designs::PictureSet;
 use super::placement_scan::{SourceFacet, scan};
 use crate::design::Picture;
 use crate::geometry::{Bounds, DVec2};
-use crate::time::easing::NamedEasing;
+use crate::time::NamedEasing;
 use crate::warp::Placement;
 use image::RgbaImage;
 use layer::PictureSampler;
 use linear_light::{LinearLight, SrgbEncoder, mixed};
 use serde::{Deserialize, Serialize};
 
-/// How the mix of two pictures runs over t.
+/// How the mix of two pictures changes over t.
 ///
 /// ```
 /// use morphospace::content::ColourMix;
 /// let late = ColourMix { from: 0.5, ..ColourMix::default() };
-/// assert_eq!([0.4, 0.75, 1.0].map(|t| late.share(t)), [0.0, 0.5, 1.0]);
+/// assert_eq!([0.4, 0.75, 1.0].map(|t| late.target_fraction(t)), [0.0, 0.5, 1.0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ColourMix {
-    /// How fast within its span.
+    /// Easing of the mix between `from` and `to`.
     pub curve: NamedEasing,
-    /// The t at which the source begins to give way, in [0, 1).
+    /// The t at which the mix starts, in [0, 1). Before it only the source is visible.
     pub from: f64,
-    /// The t from which on only the target is seen, in (from, 1].
+    /// The t at which the mix ends, in (from, 1]. After it only the target is visible.
     pub to: f64,
 }
 
-/// Why a mix is none.
+/// Error of [`ColourMix::check`]: the range of t is empty or exceeds [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("colours cannot change from t = {from} to t = {to}: give 0 \u{2264} from < to \u{2264} 1")]
+#[error(
+    "colours cannot change from t = {from} to t = {to}; enter values with 0 \u{2264} from < to \u{2264} 1"
+)]
 pub struct ColourMixError {
     from: f64,
     to: f64,
 }
 
 impl Default for ColourMix {
-    /// Evenly, all the way.
+    /// A linear mix over all of [0, 1].
     fn default() -> Self {
         Self {
             curve: NamedEasing::Linear,
@@ -64,10 +66,10 @@ impl Default for ColourMix {
 }
 
 impl ColourMix {
-    /// That the span is one.
+    /// Checks that 0 ≤ `from` < `to` ≤ 1.
     ///
     /// # Errors
-    /// Where it is empty, or reaches beyond [0, 1].
+    /// Returns an error if the range is empty or exceeds [0, 1].
     pub fn check(&self) -> Result<(), ColourMixError> {
         let Self { from, to, .. } = *self;
         if from >= 0.0 && from < to && to <= 1.0 {
@@ -77,50 +79,48 @@ impl ColourMix {
         }
     }
 
-    /// How much of the target is seen at t, in [0, 1]; beyond the ends that of
-    /// the nearer end.
+    /// Returns the fraction of the target in the mix at `t`, in [0, 1]; constant beyond the ends.
     #[must_use]
-    pub fn share(&self, t: f64) -> f64 {
-        let along = ((t - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
-        self.curve.apply(along)
+    pub fn target_fraction(&self, t: f64) -> f64 {
+        let fraction = ((t - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+        self.curve.apply(fraction)
     }
 }
 
-/// The content *colours*: two pictures and how they mix. Cloning is cheap.
+/// Two pictures and how they are mixed. Cloning is cheap.
 #[derive(Clone, Debug)]
 pub struct PicturePair {
     layers: [PictureLayer; 2],
     mix: ColourMix,
 }
 
-/// Where the pixels of an output lie in the plane.
+/// Size and position of an output image in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct PictureRaster {
-    /// Pixels across and down.
+    /// Width and height in pixels.
     pub size: [u32; 2],
-    /// The upper left corner of the upper left pixel.
+    /// Upper left corner of the upper left pixel, in the plane.
     pub corner: DVec2,
-    /// The side of a pixel.
-    pub pixel: f64,
+    /// Side length of a pixel, in units of the plane.
+    pub pixel_size: f64,
 }
 
 impl PictureRaster {
-    /// Where a point of the plane is, in pixels from the upper left corner.
-    fn located(&self, p: DVec2) -> DVec2 {
-        let d = (p - self.corner) / self.pixel;
+    /// Converts a point of the plane to pixels from the upper left corner, y down.
+    fn pixel_from_plane(&self, p: DVec2) -> DVec2 {
+        let d = (p - self.corner) / self.pixel_size;
         DVec2::new(d.x, -d.y)
     }
 }
 
 impl PicturePair {
-    /// Two pictures, mixed.
+    /// Decodes two pictures.
     ///
     /// # Errors
-    /// Where the span of the mix is none.
+    /// Returns an error if the range of the mix is invalid.
     pub fn new(source: &Picture, target: &Picture, mix: ColourMix) -> Result<Self, ColourMixError> {
         mix.check()?;
-        // Decoding takes as long as several frames, and each knows nothing of
-        // the other.
+        // In parallel: decoding one picture takes as long as several frames.
         let (source, target) =
             rayon::join(|| PictureLayer::new(source), || PictureLayer::new(target));
         Ok(Self {
@@ -129,23 +129,22 @@ impl PicturePair {
         })
     }
 
-    /// Source and target.
+    /// Pictures of source and target.
     #[must_use]
     pub fn layers(&self) -> &[PictureLayer; 2] {
         &self.layers
     }
 
-    /// How they mix.
+    /// How the pictures are mixed.
     #[must_use]
     pub fn mix(&self) -> &ColourMix {
         &self.mix
     }
 
-    /// The rectangle that is shown at t.
+    /// Returns the visible rectangle at `t`: the bounds of source and target, interpolated.
     #[must_use]
     pub fn window(&self, t: f64) -> Bounds {
-        // Beyond the ends the window stays: extrapolated, it might turn inside
-        // out.
+        // Clamped, because an extrapolated rectangle may turn inside out.
         let t = t.clamp(0.0, 1.0);
         let [a, b] = [self.layers[0].bounds(), self.layers[1].bounds()];
         Bounds {
@@ -154,17 +153,19 @@ impl PicturePair {
         }
     }
 
-    /// What is seen at t: sRGB with straight alpha, transparent where nothing
-    /// is. Costs a bilinear look-up in each picture for each pixel.
+    /// Renders the picture at `t` in sRGB with straight alpha, transparent where there is nothing.
+    /// Costs one bilinear lookup per pixel and picture.
+    ///
+    /// `placement` must be the placement at the same `t`.
     ///
     /// # Panics
-    /// Where a face of the placement has a vertex without a place.
+    /// Panics if a face of the placement has a vertex without a position.
     #[must_use]
     pub fn render(&self, placement: &Placement, t: f64, raster: &PictureRaster) -> RgbaImage {
         let [width, height] = raster.size;
         let mut out = RgbaImage::new(width, height);
         let (pixels, _) = out.as_chunks_mut::<4>();
-        let to_lattice = |p: DVec2| raster.located(p) - 0.5;
+        let to_lattice = |p: DVec2| raster.pixel_from_plane(p) - 0.5;
         let paint = PicturePaint::new(self, t, raster);
         let filler = |facet: SourceFacet| paint.filler(facet);
         scan(placement, to_lattice, width as usize, pixels, filler);
@@ -172,16 +173,17 @@ impl PicturePair {
     }
 }
 
-/// Pixels that are looked up at a time, in one picture after the other: their
-/// light takes 512 bytes, and starting over hardly counts any more.
+/// Number of pixels sampled from one picture before switching to the other (resource limit: their
+/// light takes 512 bytes, and the cost of switching is negligible).
 const CHUNK: usize = 32;
 
-/// How runs of pixels are painted.
+/// Renders runs of pixels of one output image.
 struct PicturePaint<'a> {
+    /// Source and target, at the resolution of the output.
     layers: [PictureSampler<'a>; 2],
-    /// Of the target, in the mix.
+    /// Fraction of the target in the mix.
     share: f32,
-    /// Of each column and of each row, how much is shown.
+    /// Visible fraction of each column and of each row.
     shown: [Vec<f32>; 2],
     encoder: SrgbEncoder,
 }
@@ -189,65 +191,67 @@ struct PicturePaint<'a> {
 impl<'a> PicturePaint<'a> {
     fn new(pair: &'a PicturePair, t: f64, raster: &PictureRaster) -> Self {
         Self {
-            layers: [0, 1].map(|k| pair.layers[k].sampler(raster.pixel)),
-            share: pair.mix.share(t) as f32,
+            layers: [0, 1].map(|k| pair.layers[k].sampler(raster.pixel_size)),
+            share: pair.mix.target_fraction(t) as f32,
             shown: shown(pair.window(t), raster),
             encoder: SrgbEncoder::new(),
         }
     }
 
-    /// Writes the pixels of a face, a part of a row at a time.
+    /// Returns the function that fills the pixels of a face, one run of a row at a time.
     fn filler(&self, facet: SourceFacet) -> impl FnMut(usize, usize, &mut [[u8; 4]]) {
         let [columns, rows] = &self.shown;
-        // No sample of the output is farther than this from another.
-        let reach = columns.len().max(rows.len());
+        // Maximum distance, in samples, between two samples of the output.
+        let max_offset = columns.len().max(rows.len());
         let [source, target] = &self.layers;
-        let source = source.across(&facet.source, facet.first, reach);
-        let target = target.across(&facet.target, facet.first, reach);
+        let source = source.footprint(&facet.source, facet.first_sample, max_offset);
+        let target = target.footprint(&facet.target, facet.first_sample, max_offset);
         let mut lights = [LinearLight::ZERO; CHUNK];
         move |x, y, pixels| {
-            // One picture after the other, so that the rows of only one are
-            // walked at a time.
+            // One picture after the other, so that the rows of only one stay in the cache.
             let columns = columns[x..].chunks(CHUNK);
             let starts = (x..).step_by(CHUNK);
             for ((x, pixels), columns) in starts.zip(pixels.chunks_mut(CHUNK)).zip(columns) {
                 let lights = &mut lights[..pixels.len()];
-                // At the ends one of the pictures is not looked at.
+                // At the ends of the mix only one picture is sampled.
                 if self.share == 1.0 {
-                    target.look([x, y], lights, |_, light| light);
+                    target.sample_row([x, y], lights, |_, light| light);
                 } else {
-                    source.look([x, y], lights, |_, light| light);
+                    source.sample_row([x, y], lights, |_, light| light);
                 }
                 if self.share > 0.0 && self.share < 1.0 {
-                    target.look([x, y], lights, |before, light| {
+                    target.sample_row([x, y], lights, |before, light| {
                         mixed(before, light, self.share)
                     });
                 }
                 for ((pixel, light), column) in pixels.iter_mut().zip(lights).zip(columns) {
-                    *pixel = self.encoder.encoded(*light * (rows[y] * column)).0;
+                    *pixel = self.encoder.encode(*light * (rows[y] * column)).0;
                 }
             }
         }
     }
 }
 
-/// How much of each column of a raster, and of each row, a rectangle covers: of a pixel it
-/// covers its share of the column times that of the row.
+/// Returns the fraction of each column and of each row that a rectangle covers. The covered
+/// fraction of a pixel is the product of the two.
 fn shown(window: Bounds, raster: &PictureRaster) -> [Vec<f32>; 2] {
-    let low = raster.located(DVec2::new(window.min.x, window.max.y));
-    let high = raster.located(DVec2::new(window.max.x, window.min.y));
-    let along = |count: u32, low: f64, high: f64| {
+    let low = raster.pixel_from_plane(DVec2::new(window.min.x, window.max.y));
+    let high = raster.pixel_from_plane(DVec2::new(window.max.x, window.min.y));
+    let fractions = |count: u32, low: f64, high: f64| {
         let pixels = 0..count;
         pixels.map(|k| covered(k, low, high)).collect()
     };
     let [width, height] = raster.size;
-    [along(width, low.x, high.x), along(height, low.y, high.y)]
+    [
+        fractions(width, low.x, high.x),
+        fractions(height, low.y, high.y),
+    ]
 }
 
-/// How much of the pixel `k` lies between two edges.
+/// Fraction of pixel `k` between two edges.
 fn covered(k: u32, from: f64, to: f64) -> f32 {
     let (low, high) = (f64::from(k), f64::from(k) + 1.0);
-    // What is within rounding of an edge of the pixel is on it.
+    // An edge within rounding of a pixel border counts as lying on it.
     let share = high.min(to) - low.max(from);
     if share > 1.0 - 1e-9 {
         1.0

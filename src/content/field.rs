@@ -1,16 +1,18 @@
-//! A pair of distance fields and how they mix: the paper's §3.1.
+//! Blends of two signed distance fields, the content *field* (section 3.1 of the paper).
+//!
+//! A blend is F = (1 − t) L(f₀) + t L(f₁), filled where F ≥ L(τ). Both CPU and GPU interpolate the
+//! fields bilinearly *before* L is applied.
 //!
 //! A blend is F = (1 − t) L(f₀) + t L(f₁), drawn where F ≥ L(τ). The fields
 //! are read bilinearly *before* L is applied, by the CPU as by the GPU.
 //!
-//! The paper's L(x) = sgn(x) log(|x| + ε) changes sign near the boundary for
-//! ε < 1 and jumps there for every ε but 1, which is where the paper ended. L
-//! here is sgn(x) log(1 + |x| / ε): the same at ε = 1, and continuous, odd and
-//! monotone at every ε > 0.
+//! The paper uses L(x) = sgn(x) log(|x| + ε). For ε < 1 it changes sign near the boundary, and for
+//! every ε except 1 it jumps there. This implementation uses L(x) = sgn(x) log(1 + |x| / ε), which
+//! is equal at ε = 1 and continuous, odd and monotone for every ε > 0.
 //!
-//! Guarantees: at t = 0 and t = 1 the contour is that of the one design's
-//! field; a pair has two fields on one grid and a legal blend. Does not
-//! guarantee: between the ends, a blend may tear or merge parts.
+//! Guaranteed: at t = 0 and t = 1 the contour is that of the source and target field; a pair has
+//! two fields on one grid and a valid blend. Not guaranteed: topology. Between the ends a blend may
+//! split or merge parts.
 
 mod carried;
 mod many_designs;
@@ -21,26 +23,26 @@ use std::sync::Arc;
 
 use crate::field::{DistanceField, Grid, contour};
 use crate::geometry::DVec2;
-use crate::settings::choice::named;
+use crate::settings::named;
 use serde::{Deserialize, Serialize};
 
-/// What is done to distances before they are mixed.
+/// Scale on which distances are blended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BlendSpace {
-    /// L(x) = sgn(x) log(1 + |x| / ε): what is near a boundary decides.
+    /// L(x) = sgn(x) log(1 + |x| / ε): distances near a boundary weigh most.
     #[default]
     Log,
-    /// L(x) = x.
+    /// L(x) = x: all distances weigh the same.
     Real,
 }
 
 named! { BlendSpace {
-    Log: "log", "Logarithmic", "Near the outlines counts most: thin parts survive";
-    Real: "real", "Real", "Far counts as much as near: thin parts go under";
+    Log: "log", "Logarithmic", "Distances near the outlines weigh most: thin parts survive";
+    Real: "real", "Linear", "All distances weigh the same: thin parts disappear";
 } }
 
-/// How two distances make one. All lengths are in cells of the fields' grid.
+/// Parameters of a field blend. All lengths are in cells of the fields' grid.
 ///
 /// ```
 /// use morphospace::content::{BlendSpace, FieldBlend};
@@ -53,40 +55,40 @@ named! { BlendSpace {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FieldBlend {
-    /// Logarithmic or real.
+    /// Logarithmic or linear scale.
     pub space: BlendSpace,
-    /// ε > 0 of the logarithmic space: below it L is nearly straight. Real
-    /// space has no use for it.
+    /// ε > 0 of the logarithmic scale, in cells; L is nearly linear for distances below it. The
+    /// linear scale ignores it.
     pub epsilon: f64,
-    /// τ: how deep inside, by the blended distance, is drawn. Negative values
-    /// thicken.
+    /// τ, the blended distance at which the shape is cut, in cells. Positive values thin the shape,
+    /// negative values thicken it.
     pub threshold: f64,
 }
 
-/// Why a blend or a pair is none.
+/// Errors of [`FieldBlend::check`], [`FieldPair`] and [`FieldSet`].
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FieldPairError {
     /// ε is not a positive finite number.
-    #[error("epsilon is {0}: it must be above 0; the paper's value is 1")]
+    #[error("epsilon is {0}; enter a number above 0 (the paper uses 1)")]
     Epsilon(f64),
     /// The threshold is not finite.
-    #[error("the threshold is {0}: it must be a finite number of cells; 0 is the boundary")]
+    #[error("the threshold is {0}; enter a finite number of cells (0 is the boundary)")]
     Threshold(f64),
     /// The fields are not on the same grid.
     #[error(
-        "the source's field is on the grid {source_grid:?} and the target's on {target_grid:?}: measure both on one"
+        "the source field uses the grid {source_grid:?} and the target field {target_grid:?}; compute both on the same grid"
     )]
     Grids {
-        /// The source's.
+        /// Grid of the source field.
         source_grid: Grid,
-        /// The target's.
+        /// Grid of the target field.
         target_grid: Grid,
     },
 }
 
 impl Default for FieldBlend {
-    /// The paper's: logarithmic, ε = 1, the boundary itself.
+    /// The paper's parameters: logarithmic scale, ε = 1, τ = 0.
     fn default() -> Self {
         Self {
             space: BlendSpace::Log,
@@ -97,10 +99,10 @@ impl Default for FieldBlend {
 }
 
 impl FieldBlend {
-    /// That ε is positive and finite, and τ finite.
+    /// Checks that ε is positive and finite, and τ finite.
     ///
     /// # Errors
-    /// Names the number that is not.
+    /// Returns the offending number.
     pub fn check(&self) -> Result<(), FieldPairError> {
         if !(self.epsilon > 0.0 && self.epsilon.is_finite()) {
             return Err(FieldPairError::Epsilon(self.epsilon));
@@ -111,7 +113,7 @@ impl FieldBlend {
         Ok(())
     }
 
-    /// L(x) for a distance `x` in cells: odd, continuous and monotone.
+    /// Returns L(x) for a distance `x` in cells. L is odd, continuous and monotone.
     #[must_use]
     pub fn curve(&self, x: f64) -> f64 {
         if self.space == BlendSpace::Real {
@@ -121,36 +123,36 @@ impl FieldBlend {
         let log = if ratio.is_finite() {
             ratio.ln_1p()
         } else {
-            // |x| / ε has overflowed, and 1 is nothing beside it.
+            // |x| / ε overflowed, so the 1 in log(1 + |x| / ε) is negligible.
             x.abs().ln() - self.epsilon.ln()
         };
         log.copysign(x)
     }
 
-    /// The distance whose L is `level`: the inverse of [`Self::curve`].
-    pub(crate) fn distance(&self, level: f64) -> f64 {
+    /// Returns the distance, in cells, whose L is `level`: the inverse of [`Self::curve`].
+    pub(crate) fn inverse_curve(&self, level: f64) -> f64 {
         match self.space {
             BlendSpace::Real => level,
             BlendSpace::Log => (level.abs().exp_m1() * self.epsilon).copysign(level),
         }
     }
 
-    /// F for the distances `source` and `target`, at `t` in [0, 1] or beyond.
+    /// Returns F for two distances in cells. Values of `t` outside [0, 1] extrapolate.
     #[must_use]
     pub fn value(&self, source: f64, target: f64, t: f64) -> f64 {
         (1.0 - t) * self.curve(source) + t * self.curve(target)
     }
 
-    /// L(τ): drawn is where the value is at least this.
+    /// Returns L(τ). The shape is filled where F is at least this.
     #[must_use]
     pub fn level(&self) -> f64 {
         self.curve(self.threshold)
     }
 }
 
-/// Two fields on one grid, and their blend.
+/// Two distance fields on one grid, and their blend.
 ///
-/// Cloning is cheap: the fields are shared.
+/// Cloning is cheap because the fields are shared.
 ///
 /// ```
 /// use morphospace::content::{FieldBlend, FieldPair};
@@ -178,10 +180,10 @@ pub struct FieldPair {
 }
 
 impl FieldPair {
-    /// A pair of fields on one grid.
+    /// Combines two fields on one grid.
     ///
     /// # Errors
-    /// Where the grids differ, or the blend is none.
+    /// Returns an error if the grids differ or the blend is invalid.
     pub fn new(
         source: impl Into<Arc<DistanceField>>,
         target: impl Into<Arc<DistanceField>>,
@@ -189,8 +191,7 @@ impl FieldPair {
     ) -> Result<Self, FieldPairError> {
         let (source, target) = (source.into(), target.into());
         blend.check()?;
-        // Distances are in cells: those of another grid would mean something
-        // else.
+        // Distances are in cells, so fields of different grids have different units.
         if source.grid() != target.grid() {
             return Err(FieldPairError::Grids {
                 source_grid: *source.grid(),
@@ -204,10 +205,10 @@ impl FieldPair {
         })
     }
 
-    /// The same fields mixed another way; measures nothing again.
+    /// Returns the same fields with another blend, without computing distances again.
     ///
     /// # Errors
-    /// Where the blend is none.
+    /// Returns an error if the blend is invalid.
     pub fn with_blend(&self, blend: FieldBlend) -> Result<Self, FieldPairError> {
         blend.check()?;
         Ok(Self {
@@ -216,63 +217,63 @@ impl FieldPair {
         })
     }
 
-    /// The field at t = 0.
+    /// Field at t = 0.
     #[must_use]
     pub fn source(&self) -> &DistanceField {
         &self.source
     }
 
-    /// The field at t = 1.
+    /// Field at t = 1.
     #[must_use]
     pub fn target(&self) -> &DistanceField {
         &self.target
     }
 
-    /// How they mix.
+    /// Parameters of the blend.
     #[must_use]
     pub fn blend(&self) -> &FieldBlend {
         &self.blend
     }
 
-    /// The grid of both fields.
+    /// Grid of both fields.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         self.source.grid()
     }
 
-    /// F at a point of the plane. Beyond the grid, the values at its border
-    /// are carried on.
+    /// Returns F at a point of the plane. Outside the grid the values at its border continue.
     #[must_use]
     pub fn value(&self, p: DVec2, t: f64) -> f64 {
         self.blend
             .value(self.source.value(p), self.target.value(p), t)
     }
 
-    /// Whether a point of the plane is drawn: it is in the grid's rectangle,
-    /// and the value there is at least the level.
+    /// Whether a point of the plane is filled at `t`: it lies in the grid's rectangle, and F is at
+    /// least the level.
     #[must_use]
     pub fn is_inside(&self, p: DVec2, t: f64) -> bool {
-        // Values are carried on beyond the grid, the contour is cut off there.
+        // Field values continue beyond the grid, but the contour is clipped to it.
         self.grid().bounds().contains(p) && self.value(p, t) >= self.blend.level()
     }
 
-    /// What is drawn at `t`, as closed polygons in the plane: outer ones
-    /// counter-clockwise, holes clockwise, cut off at the grid's rectangle.
+    /// Returns the contour at `t` as closed polygons in the plane: outer ones counter-clockwise,
+    /// holes clockwise, clipped to the grid's rectangle.
     #[must_use]
     pub fn contour(&self, t: f64) -> Vec<Vec<DVec2>> {
         let (grid, blend) = (self.grid(), &self.blend);
         let (source, target) = (self.source.samples(), self.target.samples());
         let value = |x, y| blend.value(source.bilinear(x, y), target.bilinear(x, y), t);
-        // L is monotone: what both fields have on one side of the threshold is there.
+        // L is monotone, so for t in [0, 1] a sample that lies on the same side of the threshold in
+        // both fields needs no evaluation.
         let is_between = (0.0..=1.0).contains(&t);
         let [a, b] = [self.source.values(), self.target.values()];
-        let known = |column: usize, row: usize| {
-            let at = row * grid.width as usize + column;
-            let [a, b] = [a[at], b[at]].map(|value| f64::from(value) >= blend.threshold);
+        let known_side = |column: usize, row: usize| {
+            let index = row * grid.width as usize + column;
+            let [a, b] = [a[index], b[index]].map(|value| f64::from(value) >= blend.threshold);
             (is_between && a == b).then_some(a)
         };
         let (width, height) = (grid.width, grid.height);
-        let mut rings = contour::trace_knowing(width, height, known, value, blend.level());
+        let mut rings = contour::trace_knowing(width, height, known_side, value, blend.level());
         for p in rings.iter_mut().flatten() {
             *p = grid.plane_from_lattice(*p);
         }

@@ -1,8 +1,10 @@
-//! The distance fields of two designs: of all that they cover, and one for each paint of
-//! drawings in several; or those of many on the way through their blends, two at a time.
+//! Distance fields of a transition: the content *field*.
 //!
-//! Guarantees: at t = 0 and t = 1 each coat is that of its drawing. What one drawing has
-//! alone is blended with a field that is outside everywhere, and so shrinks away.
+//! Two designs have one pair of fields for the whole shape and, if they are painted, one pair per
+//! paint layer. A path through blends of many designs is a sequence of pairs of equal duration.
+//!
+//! Guaranteed: at t = 0 and t = 1 each paint layer is that of its design. A layer that exists in
+//! only one design is blended with a field that is outside everywhere, so it shrinks away.
 
 use super::field::{FieldBlend, FieldPair, FieldPairError};
 use super::{InkedLayer, PaintLayerStack};
@@ -12,33 +14,36 @@ use crate::warp::Placement;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// How deep outside the level a drawing is that has nothing in some paint, in cells: as
-/// deep as a sample beside a boundary, so that what the other has of it stays for long.
-const NOTHING: f64 = -1.0;
+/// Distance, in cells, of the field that stands in for a missing paint layer: outside, as deep as a
+/// sample next to a boundary. A small depth lets the other design's layer shrink slowly.
+const MISSING_DISTANCE: f64 = -1.0;
 
-/// The content *distance field*. Cloning is cheap: fields are shared.
+/// Distance fields of a transition. Cloning is cheap because the fields are shared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldContent {
-    /// At least one; each for as long as the others.
+    /// Pairs for the whole shape, at least one; all have the same share of the time.
     pairs: Arc<[FieldPair]>,
+    /// Fields per paint layer; `None` for a content in one colour.
     painted: Option<PaintedFields>,
+    /// Whether a warp carries the fields. Otherwise they rest.
     is_carried: bool,
 }
 
-/// The fields of drawings in several paints.
+/// Distance fields of painted designs, one pair per paint layer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintedFields {
-    /// The coats; there are no walks and no holes.
-    pub coating: PaintLayerStack,
-    /// Of each coat those of source and target; none where the design has nothing in it.
+    /// Paint layers. They refer to no boundary loops and no holes.
+    pub paint_layers: PaintLayerStack,
+    /// For each layer the fields of source and target; `None` if the design does not have the
+    /// layer.
     fields: Vec<[Option<Arc<DistanceField>>; 2]>,
-    /// As they are blended.
+    /// For each layer the pair that is blended, missing fields replaced.
     pairs: Vec<FieldPair>,
 }
 
 impl FieldContent {
-    /// Of all that is covered, in one colour unless it is painted; carried by a warp, or
-    /// at rest.
+    /// Creates the content from the pair `whole`, which covers the whole shape, and its paint
+    /// layers, if any. With `is_carried` a warp carries the fields; otherwise they rest.
     #[must_use]
     pub fn new(whole: FieldPair, painted: Option<PaintedFields>, is_carried: bool) -> Self {
         Self {
@@ -48,10 +53,11 @@ impl FieldContent {
         }
     }
 
-    /// Pairs at rest, one after the other for as long each, in one colour: what one ends
-    /// with the next begins with. None of no pairs, or where their grids or blends differ.
+    /// Creates a sequence of resting pairs of equal duration in one colour, where each pair starts
+    /// with the field that the previous one ends with. Returns `None` if there are no pairs, or
+    /// their grids or blends differ.
     #[must_use]
-    pub fn in_turn(pairs: Vec<FieldPair>) -> Option<Self> {
+    pub fn sequence(pairs: Vec<FieldPair>) -> Option<Self> {
         let first = pairs.first()?;
         let fits = |pair: &FieldPair| (pair.grid(), pair.blend()) == (first.grid(), first.blend());
         pairs.iter().all(fits).then(|| Self {
@@ -61,72 +67,79 @@ impl FieldContent {
         })
     }
 
-    /// The fields of all that is covered at t = 0.
+    /// The pair of the whole shape at t = 0.
     #[must_use]
-    pub fn first(&self) -> &FieldPair {
+    pub fn first_pair(&self) -> &FieldPair {
         &self.pairs[0]
     }
 
-    /// The pairs of fields of all that is covered, in turn: of two designs one.
+    /// Pairs of the whole shape in order of time; two designs have one.
     #[must_use]
     pub fn pairs(&self) -> &[FieldPair] {
         &self.pairs
     }
 
-    /// The number of the pair that is seen at `t`, and where in it: before and behind all
-    /// it extrapolates.
+    /// Returns the index of the pair shown at `t` and its blend parameter. Outside [0, 1] the first
+    /// or last pair extrapolates.
     #[must_use]
-    pub fn place(&self, t: f64) -> (usize, f64) {
+    pub fn pair_at(&self, t: f64) -> (usize, f64) {
         let count = self.pairs.len();
         if count == 1 {
             return (0, t);
         }
-        let share = t * count as f64;
-        // `as` saturates, and takes what is no number for 0.
-        let pair = (share.floor().max(0.0) as usize).min(count - 1);
-        (pair, share - pair as f64)
+        let pair_time = t * count as f64;
+        // `as` saturates and maps NaN to 0.
+        let pair = (pair_time.floor().max(0.0) as usize).min(count - 1);
+        (pair, pair_time - pair as f64)
     }
 
-    /// Those of the paints; none where there is one colour.
+    /// Fields per paint layer; `None` for a content in one colour.
     #[must_use]
     pub fn painted(&self) -> Option<&PaintedFields> {
         self.painted.as_ref()
     }
 
+    /// Mutable access to the fields per paint layer.
     pub(crate) fn painted_mut(&mut self) -> Option<&mut PaintedFields> {
         self.painted.as_mut()
     }
 
-    /// The same fields mixed another way; measures nothing again. None of several in
-    /// turn, which were mixed before.
+    /// Returns the same fields with another blend, without computing distances again. Returns
+    /// `None` for a sequence of pairs, whose fields are blends already.
     ///
     /// # Errors
-    /// Where the blend is none.
+    /// Returns an error if the blend is invalid.
     pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldPairError> {
         let [whole] = &*self.pairs else {
             return Ok(None);
         };
         let whole = whole.with_blend(blend)?;
-        let again = |painted: &PaintedFields| {
-            let (coating, fields) = (painted.coating.clone(), painted.fields.clone());
-            PaintedFields::blended(coating, fields, whole.grid(), blend)
+        let reblend = |painted: &PaintedFields| {
+            let (stack, fields) = (painted.paint_layers.clone(), painted.fields.clone());
+            PaintedFields::blended(stack, fields, whole.grid(), blend)
         };
-        let painted = self.painted.as_ref().map(again).transpose()?;
+        let painted = self.painted.as_ref().map(reblend).transpose()?;
         Ok(Some(Self::new(whole, painted, self.is_carried)))
     }
 
-    /// The contour of all that is covered, when the placement is that of `t`.
+    /// Returns the contour of the whole shape at `t`. `placement` must be the placement at the same
+    /// `t`.
     #[must_use]
     pub fn contour(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
-        let (pair, t) = self.place(t);
+        let (pair, t) = self.pair_at(t);
         self.contour_of(&self.pairs[pair], placement, t)
     }
 
-    /// The contours coat by coat as they lie at `t`, the lowest first, or that of the
-    /// whole where it has one colour.
+    /// Returns the contours at `t` by paint layer, lowest first; a content in one colour has a
+    /// single group.
     #[must_use]
-    pub fn coated_at(&self, placement: &Placement, t: f64) -> Vec<InkedLayer> {
-        let Some(PaintedFields { coating, pairs, .. }) = &self.painted else {
+    pub fn layers_at(&self, placement: &Placement, t: f64) -> Vec<InkedLayer> {
+        let Some(PaintedFields {
+            paint_layers: stack,
+            pairs,
+            ..
+        }) = &self.painted
+        else {
             let rings = self.contour(placement, t);
             return vec![InkedLayer {
                 t,
@@ -134,21 +147,22 @@ impl FieldContent {
                 ..InkedLayer::default()
             }];
         };
-        let order = coating.order(t).into_par_iter();
-        let coats = order.map(|k| {
+        let order = stack.draw_order(t).into_par_iter();
+        let layers = order.map(|k| {
             let inked = InkedLayer {
-                coat: k,
+                layer: k,
                 t,
                 rings: self.contour_of(&pairs[k], placement, t),
                 ..InkedLayer::default()
             };
-            let coat = &coating.coats[k];
-            let gradients = coat.shading.at(&placement.in_frame, |_| true);
-            coat.ink(inked, gradients, coat.alone.filter(|_| coating.fades))
+            let layer = &stack.layers[k];
+            let gradients = layer.shading.gradients_at(&placement.in_frame, |_| true);
+            layer.ink(inked, gradients, layer.only_in.filter(|_| stack.fades))
         });
-        coats.collect()
+        layers.collect()
     }
 
+    /// Contour of one pair, carried by the warp or at rest.
     fn contour_of(&self, pair: &FieldPair, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         match self.is_carried {
             true => pair.contour_carried(placement, t),
@@ -158,13 +172,13 @@ impl FieldContent {
 }
 
 impl PaintedFields {
-    /// Of each coat its fields in source and target, on the grid that all have; none
-    /// where the design has nothing in it.
+    /// Creates the pairs of all layers from the fields of source and target, which must lie on
+    /// `grid`; `None` stands for a layer that the design does not have.
     ///
     /// # Errors
-    /// As [`FieldPair::new`].
+    /// Same as [`FieldPair::new`].
     pub fn new(
-        coating: PaintLayerStack,
+        stack: PaintLayerStack,
         fields: Vec<[Option<DistanceField>; 2]>,
         grid: &Grid,
         blend: FieldBlend,
@@ -172,27 +186,29 @@ impl PaintedFields {
         let fields = fields
             .into_iter()
             .map(|ends| ends.map(|end| end.map(Arc::new)));
-        Self::blended(coating, fields.collect(), grid, blend)
+        Self::blended(stack, fields.collect(), grid, blend)
     }
 
+    /// Creates the pairs of all layers, with missing fields replaced by a field that is outside
+    /// everywhere.
     fn blended(
-        coating: PaintLayerStack,
+        stack: PaintLayerStack,
         fields: Vec<[Option<Arc<DistanceField>>; 2]>,
         grid: &Grid,
         blend: FieldBlend,
     ) -> Result<Self, FieldPairError> {
-        // Outside whatever the threshold is.
-        let outside = NOTHING + blend.threshold.min(0.0);
-        let nothing = Arc::new(DistanceField::even(*grid, outside));
+        // Lowered with a negative threshold, so that the missing layer stays outside.
+        let outside = MISSING_DISTANCE + blend.threshold.min(0.0);
+        let missing = Arc::new(DistanceField::uniform(*grid, outside));
         let pair = |ends: &[Option<Arc<DistanceField>>; 2]| {
             let [source, target] = ends
                 .each_ref()
-                .map(|end| Arc::clone(end.as_ref().unwrap_or(&nothing)));
+                .map(|end| Arc::clone(end.as_ref().unwrap_or(&missing)));
             FieldPair::new(source, target, blend)
         };
         Ok(Self {
             pairs: fields.iter().map(pair).collect::<Result<_, _>>()?,
-            coating,
+            paint_layers: stack,
             fields,
         })
     }
@@ -206,6 +222,7 @@ mod tests {
     use crate::warp::{IdentityWarp, Warp};
     use crate::work::progress::Silent;
 
+    /// Columns and rows of the test grid.
     const GRID: [u32; 2] = [24, 16];
 
     fn field(columns: std::ops::Range<usize>) -> DistanceField {
@@ -219,31 +236,31 @@ mod tests {
         DistanceField::from_mask(&mask, grid, Metric::Euclidean, &Silent).expect("a field")
     }
 
-    /// A bar that goes from left to right, and one on it that dies.
+    /// A bar that moves from left to right, and a bar on top of it that only the source has.
     fn fields(blend: FieldBlend) -> FieldContent {
         let whole = FieldPair::new(field(2..10), field(12..20), blend).expect("a field");
         let grid = *whole.grid();
-        let mut coating = PaintLayerStack::plain(0, 0);
-        let mut above = coating.coats[0].clone();
-        (above.heights, above.alone) = ([1; 2], Some(Side::Source));
-        coating.coats.push(above);
+        let mut stack = PaintLayerStack::single_layer(0, 0);
+        let mut above = stack.layers[0].clone();
+        (above.z_indices, above.only_in) = ([1; 2], Some(Side::Source));
+        stack.layers.push(above);
         let pairs = vec![
             [Some(field(2..10)), Some(field(12..20))],
             [Some(field(4..8)), None],
         ];
-        let painted = PaintedFields::new(coating, pairs, &grid, blend).expect("a field");
+        let painted = PaintedFields::new(stack, pairs, &grid, blend).expect("a field");
         FieldContent::new(whole, Some(painted), false)
     }
 
     fn areas(fields: &FieldContent, t: f64) -> Vec<f64> {
-        let bounds = fields.first().grid().bounds();
-        let coats = fields.coated_at(IdentityWarp::new(bounds).placer().placement(), t);
-        let area = |coat: &InkedLayer| coat.rings.iter().map(|ring| signed_area(ring)).sum();
-        coats.iter().map(area).collect()
+        let bounds = fields.first_pair().grid().bounds();
+        let layers = fields.layers_at(IdentityWarp::new(bounds).placer().placement(), t);
+        let area = |layer: &InkedLayer| layer.rings.iter().map(|ring| signed_area(ring)).sum();
+        layers.iter().map(area).collect()
     }
 
     #[test]
-    fn what_one_design_has_alone_shrinks_away() {
+    fn a_layer_of_only_one_design_shrinks_away() {
         let fields = fields(FieldBlend::default());
         let [start, later, end] = [0.0, 0.5, 1.0].map(|t| areas(&fields, t));
         assert!((start[0] - end[0]).abs() < 1e-9 && start[1] > 25.0);
@@ -252,13 +269,13 @@ mod tests {
     }
 
     #[test]
-    fn pairs_in_turn_are_seen_one_after_the_other() {
+    fn a_sequence_shows_its_pairs_one_after_the_other() {
         let pair = |from, to| FieldPair::new(from, to, FieldBlend::default()).expect("a pair");
         let [first, second] = [
             pair(field(2..10), field(6..16)),
             pair(field(6..16), field(12..20)),
         ];
-        let fields = FieldContent::in_turn(vec![first.clone(), second.clone()]).expect("pairs");
+        let fields = FieldContent::sequence(vec![first.clone(), second.clone()]).expect("pairs");
         let still = IdentityWarp::new(first.grid().bounds()).placer();
         for (t, pair, within) in [
             (-0.25, &first, -0.5),
@@ -275,11 +292,11 @@ mod tests {
             );
         }
         assert_eq!(fields.with_blend(FieldBlend::default()), Ok(None));
-        assert_eq!(FieldContent::in_turn(Vec::new()), None);
+        assert_eq!(FieldContent::sequence(Vec::new()), None);
     }
 
     #[test]
-    fn nothing_stays_nothing_at_any_threshold() {
+    fn a_missing_layer_stays_empty_at_any_threshold() {
         let blend = |threshold: f64| FieldBlend {
             threshold,
             ..FieldBlend::default()

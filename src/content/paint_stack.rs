@@ -1,103 +1,109 @@
-//! How the parts of a solid are painted, over and under each other.
+//! Paint layers of a content: which ring belongs to which layer, each layer's paints, gradients and
+//! strokes, and the order in which layers are drawn.
 
 use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::geometry::{DVec2, Side, fit_affine};
 
-/// The coats that the rings of a solid are in.
+/// Paint layers of a content, and the layer of each ring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintLayerStack {
-    /// What there is of paint.
-    pub coats: Vec<PlacedPaintLayer>,
-    /// For each boundary walk its coat.
-    pub of_walks: Vec<usize>,
-    /// For each hole its coat.
+    /// All layers; their `z_indices` give the drawing order.
+    pub layers: Vec<PlacedPaintLayer>,
+    /// For each boundary loop, the index of its layer.
+    pub of_loops: Vec<usize>,
+    /// For each hole, the index of its layer.
     pub of_holes: Vec<usize>,
-    /// For each boundary walk the design that has its part alone.
-    pub lone_walks: Vec<Option<Side>>,
-    /// What one design has alone fades in or out.
+    /// For each boundary loop, the only design that has its part; `None` for parts of both designs.
+    pub unmatched_loops: Vec<Option<Side>>,
+    /// Whether parts that exist in only one design fade in or out.
     pub fades: bool,
-    /// The t at which those change places that lie over each other otherwise in
-    /// the target than in the source.
-    pub reordered_at: f64,
+    /// The t at which the drawing order changes from that of the source to that of the target.
+    pub reorder_t: f64,
 }
 
-/// Rings that are painted alike.
+/// Rings that share paints, gradients and strokes, at one t.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InkedLayer {
-    /// Their coat; 0 where there is one colour.
-    pub coat: usize,
-    /// The time that they show, by which their paint is mixed.
+    /// Index of their layer; 0 if there is only one colour.
+    pub layer: usize,
+    /// Time on the clock of their parts, by which paints are mixed.
     pub t: f64,
-    /// The rings.
+    /// Closed rings.
     pub rings: Vec<Vec<DVec2>>,
-    /// Their paint in source and target; none where there is one colour.
+    /// Paints in source and target; `None` if there is only one colour.
     pub paints: [Option<Paint>; 2],
-    /// The gradients that their paints are the means of, as they are at `t`.
+    /// Gradients in source and target, transformed to their place at `t`. The paints are the means
+    /// of these gradients.
     pub gradients: [Option<Gradient>; 2],
-    /// The lines along them in source and target.
-    pub lines: [Option<StrokeStyle>; 2],
+    /// Strokes along the rings in source and target.
+    pub strokes: [Option<StrokeStyle>; 2],
 }
 
-/// Parts that are painted alike, in both designs.
+/// A paint layer: parts that share their paints, in both designs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedPaintLayer {
-    /// In source and target; none where the design has no colour of its own.
+    /// Paints in source and target; `None` if the design has no colour of its own.
     pub paints: [Option<Paint>; 2],
-    /// What is shaded.
+    /// Gradients, attached to vertices.
     pub shading: LayerShading,
-    /// The line along their outlines in source and target, where there is one.
-    pub lines: [Option<StrokeStyle>; 2],
-    /// How many coats lie below, in source and target.
-    pub heights: [usize; 2],
-    /// The design that has it alone.
-    pub alone: Option<Side>,
+    /// Strokes along the outlines in source and target, if any.
+    pub strokes: [Option<StrokeStyle>; 2],
+    /// Number of layers below this one, in source and target.
+    pub z_indices: [usize; 2],
+    /// The only design that has the layer; `None` if both have it.
+    pub only_in: Option<Side>,
 }
 
-/// The gradients of a coat, which go with its vertices.
+/// Gradients of a paint layer, which move with its vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayerShading {
-    /// The vertices along its walks.
+    /// Indices of the vertices on the layer's boundary loops.
     pub vertices: Vec<u32>,
-    /// In source and target, where the paint is the mean of one.
+    /// Gradients in source and target; `None` where the paint is flat.
     pub ends: [Option<AnchoredGradient>; 2],
 }
 
-/// A gradient, and where the vertices are in its design.
+/// A gradient with the positions of the layer's vertices in the gradient's design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnchoredGradient {
-    /// As it is in its design.
+    /// Gradient in its design.
     pub gradient: Gradient,
-    /// As many as there are vertices.
-    pub places: Vec<DVec2>,
+    /// Vertex positions in that design, parallel to [`LayerShading::vertices`].
+    pub vertex_positions: Vec<DVec2>,
 }
 
 impl LayerShading {
-    /// Both gradients, carried to where those of the vertices are that count, by the
-    /// affine map that fits them best.
+    /// Returns both gradients, transformed by the affine map that best fits the motion of the
+    /// vertices for which `is_counted` holds. `places` are the current positions of all vertices.
     ///
     /// # Panics
-    /// Where a vertex has no place.
+    /// Panics if a vertex has no position.
     #[must_use]
-    pub fn at(&self, places: &[DVec2], counts: impl Fn(u32) -> bool) -> [Option<Gradient>; 2] {
+    pub fn gradients_at(
+        &self,
+        places: &[DVec2],
+        is_counted: impl Fn(u32) -> bool,
+    ) -> [Option<Gradient>; 2] {
         if self.ends == [None, None] {
             return [None, None];
         }
-        let own: Vec<usize> = (0..self.vertices.len())
-            .filter(|&k| counts(self.vertices[k]))
+        let counted: Vec<usize> = (0..self.vertices.len())
+            .filter(|&k| is_counted(self.vertices[k]))
             .collect();
-        let place = |&k: &usize| places[self.vertices[k] as usize];
-        let here: Vec<DVec2> = own.iter().map(place).collect();
+        let position = |&k: &usize| places[self.vertices[k] as usize];
+        let current: Vec<DVec2> = counted.iter().map(position).collect();
         self.ends.each_ref().map(|end| {
             let end = end.as_ref()?;
-            let there: Vec<DVec2> = own.iter().map(|&k| end.places[k]).collect();
-            Some(end.gradient.moved(fit_affine(&there, &here)))
+            let original: Vec<DVec2> = counted.iter().map(|&k| end.vertex_positions[k]).collect();
+            Some(end.gradient.transformed(fit_affine(&original, &current)))
         })
     }
 }
 
 impl PlacedPaintLayer {
-    /// Paints, gradients and lines into what is in this coat at `t`, the gradients being
-    /// these there; of what fades the design that has it alone.
+    /// Fills in the paints, gradients and strokes of rings in this layer. `gradients` are those at
+    /// the time of the rings. If the rings fade, `fading` is the only design that has them; they
+    /// become transparent in the other.
     pub(super) fn ink(
         &self,
         inked: InkedLayer,
@@ -106,51 +112,52 @@ impl PlacedPaintLayer {
     ) -> InkedLayer {
         let mut inked = InkedLayer {
             paints: self.paints,
-            lines: self.lines,
+            strokes: self.strokes,
             gradients,
             ..inked
         };
         if let Some(own) = fading {
-            let clear = |paint: Paint| Paint {
+            let transparent = |paint: Paint| Paint {
                 opacity: 0.0,
                 ..paint
             };
-            let away = own.other();
-            inked.paints[away] = inked.paints[own].map(clear);
+            let other = own.other();
+            inked.paints[other] = inked.paints[own].map(transparent);
             let gradient = inked.gradients[own].as_ref();
-            inked.gradients[away] = gradient.map(|gradient| gradient.repainted(clear));
-            inked.lines[away] = None;
+            inked.gradients[other] = gradient.map(|gradient| gradient.map_paints(transparent));
+            inked.strokes[other] = None;
         }
         inked
     }
 }
 
 impl PaintLayerStack {
-    /// One coat in no colour of its own, over so many walks and holes.
+    /// Creates a single layer without a colour of its own for the given numbers of boundary loops
+    /// and holes.
     #[must_use]
-    pub fn plain(walks: usize, holes: usize) -> Self {
+    pub fn single_layer(loops: usize, holes: usize) -> Self {
         Self {
-            coats: vec![PlacedPaintLayer {
+            layers: vec![PlacedPaintLayer {
                 paints: [None; 2],
                 shading: LayerShading::default(),
-                lines: [None; 2],
-                heights: [0; 2],
-                alone: None,
+                strokes: [None; 2],
+                z_indices: [0; 2],
+                only_in: None,
             }],
-            of_walks: vec![0; walks],
+            of_loops: vec![0; loops],
             of_holes: vec![0; holes],
-            lone_walks: vec![None; walks],
+            unmatched_loops: vec![None; loops],
             fades: false,
-            reordered_at: 0.0,
+            reorder_t: 0.0,
         }
     }
 
-    /// The coats as they lie at `t`, the lowest first.
+    /// Returns the indices of the layers at `t`, lowest first.
     #[must_use]
-    pub fn order(&self, t: f64) -> Vec<usize> {
-        let end = usize::from(t >= self.reordered_at);
-        let mut order: Vec<usize> = (0..self.coats.len()).collect();
-        order.sort_by_key(|&coat| self.coats[coat].heights[end]);
+    pub fn draw_order(&self, t: f64) -> Vec<usize> {
+        let end = usize::from(t >= self.reorder_t);
+        let mut order: Vec<usize> = (0..self.layers.len()).collect();
+        order.sort_by_key(|&layer| self.layers[layer].z_indices[end]);
         order
     }
 }

@@ -1,53 +1,55 @@
-//! A placement read at the samples of a lattice: for each, which point of the
-//! source and which of the target is there.
+//! Rasterises a placement on a lattice: for each sample, the corresponding points of source and
+//! target.
 //!
-//! Guarantees: each sample is given the face that covers it, the last one of
-//! several; samples on an edge belong to a face beside it, so that no gap
-//! opens between neighbours; the result does not depend on the number of
-//! threads. Samples that no face covers are left as they are.
+//! Guaranteed: a sample takes the last face that covers it; samples on an edge belong to an
+//! adjacent face, so no gap opens between neighbours; the result does not depend on the number of
+//! threads. Samples that no face covers are left unchanged.
 
 use crate::geometry::DVec2;
 use crate::warp::Placement;
 use rayon::prelude::*;
 
-/// Rows that one thread works on at a time: few enough to go round several
-/// threads, and many enough that a face is set up in few of them.
+/// Rows per band of work for one thread (resource limit: small enough to occupy all threads, large
+/// enough that a face is set up for few bands).
 const BAND: usize = 32;
 
-/// How far beyond its edges a face reaches, in samples: rounding must not
-/// open gaps. At 8192 a double is exact to 1e-12; nobody sees 1e-7.
+/// Distance, in samples, by which a face extends beyond its edges, so that rounding opens no gaps
+/// (tolerance: far above the 1e-12 that doubles resolve at 8192 samples, and invisible).
 const REACH: f64 = 1e-7;
 
-/// What the samples of one face see.
+/// Affine maps from lattice samples to points of source and target, valid within one face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SourceFacet {
-    /// A sample, by column and row, that no other one of the face lies left of
-    /// or above in the rows that are worked on.
-    pub first: [usize; 2],
-    /// Which points of the source and of the target.
+    /// Column and row of the upper left corner of the face's samples in the rows being filled.
+    pub first_sample: [usize; 2],
+    /// Map to points of the source.
     pub source: AffinePlane,
+    /// Map to points of the target.
     pub target: AffinePlane,
 }
 
-/// An affine map from the lattice.
+/// An affine map from lattice coordinates to the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AffinePlane {
+    /// Image of sample (0, 0).
     pub origin: DVec2,
+    /// Change from one column to the next.
     pub by_x: DVec2,
+    /// Change from one row to the next.
     pub by_y: DVec2,
 }
 
 impl AffinePlane {
-    /// What the sample at `x` in row `y` sees.
+    /// Image of the sample in column `x` and row `y`.
     #[inline]
     pub fn at(&self, x: usize, y: usize) -> DVec2 {
         self.origin + self.by_x * x as f64 + self.by_y * y as f64
     }
 
-    /// The map that sends the corners to the values.
+    /// The map that sends `corners` to `values`. `det` is twice the signed area of the corners.
     fn through(corners: [DVec2; 3], values: [DVec2; 3], det: f64) -> Self {
         let [a, b, c] = corners;
-        // Cramer's rule: how much of each edge makes one column, and one row.
+        // Cramer's rule: components of a column step and a row step along the two edges.
         let (u, v) = ((b - a) / det, (c - a) / det);
         let (du, dv) = (values[1] - values[0], values[2] - values[0]);
         let by_x = du * v.y - dv * u.y;
@@ -60,7 +62,7 @@ impl AffinePlane {
     }
 }
 
-/// A face on the lattice.
+/// A face in lattice coordinates, ready to be rasterised.
 #[derive(Clone, Copy, Debug)]
 struct ScanPatch {
     corners: [DVec2; 3],
@@ -69,14 +71,14 @@ struct ScanPatch {
     target: AffinePlane,
 }
 
-/// A side of a counter-clockwise face, which lies to its left.
+/// An edge of a counter-clockwise face, which lies to its left.
 #[derive(Clone, Copy, Debug)]
 struct PatchEdge {
     begin: DVec2,
     along: DVec2,
-    /// [`REACH`] times its length.
+    /// [`REACH`] times the length of the edge.
     reach: f64,
-    /// 1 / `along.y`; `None` where it is level.
+    /// 1 / `along.y`; `None` for a horizontal edge.
     per_rise: Option<f64>,
 }
 
@@ -91,26 +93,29 @@ impl PatchEdge {
         }
     }
 
-    /// What of a row is left of it, from column to column; none where the
-    /// first is larger.
+    /// Columns of row `y` to the left of the edge, as an interval; empty if its start exceeds its
+    /// end.
     fn left_of(&self, y: f64) -> [f64; 2] {
         // Left of the edge: along.x (y - begin.y) - along.y (x - begin.x) >= 0.
         let slack = self.along.x * (y - self.begin.y) + self.reach;
         match self.per_rise {
             Some(per) if per > 0.0 => [f64::NEG_INFINITY, self.begin.x + slack * per],
             Some(per) => [self.begin.x + slack * per, f64::INFINITY],
-            // A level edge has its face above or below all along the row.
+            // A horizontal edge has the whole row on one side.
             None if slack < 0.0 => [f64::INFINITY, f64::NEG_INFINITY],
             None => [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
 }
 
-/// Has each face write its samples, in the order of the faces: `filler` is
-/// asked once for a face and some rows, and what it gives is called with
-/// column, row and what is to be written of that row from there on.
-/// `to_lattice` sends the plane to the lattice, whose sample (x, y) is at
-/// (x, y) and at `out[y * width + x]`.
+/// Fills `out` with the samples of all faces, in the order of the faces.
+///
+/// `to_lattice` maps the plane to lattice coordinates. Sample (x, y) lies at (x, y) and is stored
+/// at `out[y * width + x]`. `filler` is called once for each face and band of rows; the closure
+/// that it returns is called with column, row, and the slice of `out` to fill from that sample on.
+///
+/// # Panics
+/// Panics if a face has a vertex without a position.
 pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
     placement: &Placement,
     to_lattice: impl Fn(DVec2) -> DVec2,
@@ -122,35 +127,34 @@ pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
         return;
     }
     let places: Vec<DVec2> = placement.in_frame.iter().map(|&p| to_lattice(p)).collect();
-    // A band belongs to one thread, which goes through its faces in order: the
-    // last of several that cover a sample is the last on any number of threads.
-    let bands = sorted(&placement.faces, &places, out.len() / width);
+    // Each band is filled by one thread that takes its faces in order, so the last face that covers
+    // a sample is the same for any number of threads.
+    let bands = faces_by_band(&placement.faces, &places, out.len() / width);
     let rows = out.par_chunks_mut(width * BAND).zip(bands);
     rows.enumerate().for_each(|(band, (rows, here))| {
         for k in here {
             if let Some(patch) = patch(&placement.faces[k as usize], &places, placement) {
-                paint(&patch, band * BAND, width, rows, &filler);
+                fill_face(&patch, band * BAND, width, rows, &filler);
             }
         }
     });
 }
 
-/// `None` for a face without area.
+/// Sets up a face for rasterisation; `None` if it has no area.
 fn patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Option<ScanPatch> {
-    let of = |points: &[DVec2]| face.map(|v| points[v as usize]);
-    let corners = of(places);
+    let at_corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
+    let corners = at_corners(places);
     let [a, b, c] = corners;
     let det = (b - a).perp_dot(c - a);
-    // Below that its inverse overflows.
+    // The inverse of a subnormal number overflows.
     if !det.is_normal() {
         return None;
     }
-    // Edges want the face on their left: one that is turned over is gone round
-    // the other way.
+    // Edges need the face on their left, so a flipped face is traversed in reverse.
     let [b, c] = if det > 0.0 { [b, c] } else { [c, b] };
     Some(ScanPatch {
-        source: AffinePlane::through(corners, of(&placement.in_source), det),
-        target: AffinePlane::through(corners, of(&placement.in_target), det),
+        source: AffinePlane::through(corners, at_corners(&placement.in_source), det),
+        target: AffinePlane::through(corners, at_corners(&placement.in_target), det),
         edges: [
             PatchEdge::new(a, b),
             PatchEdge::new(b, c),
@@ -160,9 +164,9 @@ fn patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Option<Sca
     })
 }
 
-/// For each band of rows the faces that may reach it, in their order; those
-/// that are not finite are left out.
-fn sorted(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u32>> {
+/// Lists, for each band of rows, the faces that may reach it, in their order. Faces with a vertex
+/// that is not finite are skipped.
+fn faces_by_band(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); rows.div_ceil(BAND)];
     for (k, face) in faces.iter().enumerate() {
         let corners = face.map(|v| places[v as usize]);
@@ -171,8 +175,7 @@ fn sorted(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u32>> {
         if !is_finite || high + 1.0 < 0.0 || low - 1.0 > rows as f64 {
             continue;
         }
-        // A row more than needed on either side: exactly is asked where rows
-        // are painted.
+        // One row more than needed on either side; the exact test follows when rows are filled.
         let last = ((high + 1.0) as usize / BAND).min(bands.len() - 1);
         for band in &mut bands[(low - 1.0).max(0.0) as usize / BAND..=last] {
             band.push(k as u32);
@@ -181,12 +184,13 @@ fn sorted(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u32>> {
     bands
 }
 
-/// The least and the greatest.
+/// Returns the minimum and the maximum.
 fn extent([a, b, c]: [f64; 3]) -> [f64; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-fn paint<T, F: FnMut(usize, usize, &mut [T])>(
+/// Fills the samples of one face in one band of rows.
+fn fill_face<T, F: FnMut(usize, usize, &mut [T])>(
     patch: &ScanPatch,
     first_row: usize,
     width: usize,
@@ -195,21 +199,21 @@ fn paint<T, F: FnMut(usize, usize, &mut [T])>(
 ) {
     let [low, high] = extent(patch.corners.map(|p| p.y));
     let last_row = first_row + rows.len() / width;
-    let begin = at_or_after(low - REACH).max(first_row);
-    let end = after(high + REACH).min(last_row);
+    let begin = ceil_non_negative(low - REACH).max(first_row);
+    let end = next_above(high + REACH).min(last_row);
     let [left, right] = extent(patch.corners.map(|p| p.x));
-    let left = at_or_after(left - REACH);
+    let left = ceil_non_negative(left - REACH);
     if begin >= end || left >= width || right + REACH < 0.0 {
         return;
     }
     let mut fill = filler(SourceFacet {
-        first: [left, begin],
+        first_sample: [left, begin],
         source: patch.source,
         target: patch.target,
     });
     for y in begin..end {
-        let [from, to] = span(&patch.edges, y as f64);
-        let (x, end) = (at_or_after(from).max(left), after(to).min(width));
+        let [from, to] = covered_columns(&patch.edges, y as f64);
+        let (x, end) = (ceil_non_negative(from).max(left), next_above(to).min(width));
         if x < end {
             let row = (y - first_row) * width;
             fill(x, y, &mut rows[row + x..row + end]);
@@ -217,15 +221,15 @@ fn paint<T, F: FnMut(usize, usize, &mut [T])>(
     }
 }
 
-/// The first whole number from `x` on that is not negative.
-fn at_or_after(x: f64) -> usize {
-    // `as` saturates: what is negative, and NaN, begins at 0.
+/// Smallest non-negative integer that is at least `x`.
+fn ceil_non_negative(x: f64) -> usize {
+    // `as` saturates, so negative numbers and NaN become 0.
     let below = x as usize;
     below.saturating_add(usize::from((below as f64) < x))
 }
 
-/// The first whole number beyond `x` that is not negative.
-fn after(x: f64) -> usize {
+/// Smallest non-negative integer above `x`.
+fn next_above(x: f64) -> usize {
     if x < 0.0 {
         0
     } else {
@@ -233,9 +237,8 @@ fn after(x: f64) -> usize {
     }
 }
 
-/// Where a row lies within the edges: from column to column, nowhere where the
-/// first is larger.
-fn span(edges: &[PatchEdge; 3], y: f64) -> [f64; 2] {
+/// Columns of row `y` inside all three edges, as an interval; empty if its start exceeds its end.
+fn covered_columns(edges: &[PatchEdge; 3], y: f64) -> [f64; 2] {
     let [a, b, c] = edges.map(|edge| edge.left_of(y));
     [a[0].max(b[0]).max(c[0]), a[1].min(b[1]).min(c[1])]
 }
@@ -260,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rectangle_that_stands_still_is_itself_everywhere() {
+    fn an_identity_placement_maps_each_sample_to_itself() {
         let frame = Bounds {
             min: DVec2::splat(-0.5),
             max: DVec2::new(69.5, 99.5),
@@ -268,17 +271,17 @@ mod tests {
         let still = IdentityWarp::new(frame).placer();
         let mut out = vec![None; 70 * 100];
         scan(still.placement(), |p| p, 70, &mut out, both);
-        for (k, found) in out.iter().enumerate() {
+        for (k, sample) in out.iter().enumerate() {
             let here = DVec2::new((k % 70) as f64, (k / 70) as f64);
-            let (source, target) = found.expect("covered");
+            let (source, target) = sample.expect("covered");
             assert!(source.distance(here) < 1e-12 && target.distance(here) < 1e-12);
         }
     }
 
     proptest! {
-        /// Whatever the triangle, samples inside are covered and others not.
+        /// For random triangles, exactly the samples inside are covered.
         #[test]
-        fn what_lies_inside_is_covered(points in prop::collection::vec((-5.0f64..45.0, -5.0f64..45.0), 3)) {
+        fn exactly_the_samples_inside_are_covered(points in prop::collection::vec((-5.0f64..45.0, -5.0f64..45.0), 3)) {
             let corners: Vec<DVec2> = points.into_iter().map(DVec2::from).collect();
             let placement = Placement {
                 faces: Arc::new([[0, 1, 2]]),
@@ -291,16 +294,16 @@ mod tests {
             let [a, b, c] = [corners[0], corners[1], corners[2]];
             let det = (b - a).perp_dot(c - a);
             prop_assume!(det.abs() > 1e-3);
-            for (k, found) in out.iter().enumerate() {
+            for (k, sample) in out.iter().enumerate() {
                 let p = DVec2::new((k % 40) as f64, (k / 40) as f64);
                 let sides = [(a, b), (b, c), (c, a)]
                     .map(|(u, v)| det.signum() * (v - u).perp_dot(p - u) / u.distance(v));
                 let least = sides.into_iter().fold(f64::INFINITY, f64::min);
                 if least > 1e-6 {
-                    let (found, _) = found.expect("inside");
-                    prop_assert!(found.distance(p) < 1e-6);
+                    let (source, _) = sample.expect("inside");
+                    prop_assert!(source.distance(p) < 1e-6);
                 } else if least < -1e-3 {
-                    prop_assert!(found.is_none());
+                    prop_assert!(sample.is_none());
                 }
             }
         }

@@ -1,4 +1,8 @@
-//! Solid regions and bars that are carried by the vertices of a placement.
+//! Filled regions and bars, carried by the vertices of a placement: the content *solid*.
+//!
+//! Regions are boundary loops over mesh vertices. Parts and holes that exist in only one design are
+//! drawn separately: parts swell from thin lines or grow from a seed shape, holes shrink. Rings may
+//! overlap; they are meant to be filled together by the non-zero rule.
 
 use super::{InkedLayer, PaintLayerStack, SwellingShape, TransientHole};
 use crate::colour::Paint;
@@ -6,192 +10,215 @@ use crate::geometry::{DVec2, EdgeCrossing, RingEdge, Side, count_crossings, cros
 use crate::warp::{PartClock, TimeWindow};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// What is drawn over the vertices of a placement.
+/// Filled regions and bars over the vertices of a placement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SolidContent {
-    /// Closed boundary walks of the filled faces, as vertex indices; empty
-    /// for a truss, whose panels only carry its nodes.
+    /// Closed boundary loops of the filled faces, as vertex indices; empty for a truss, whose
+    /// panels are not filled.
     pub loops: Vec<Vec<u32>>,
     /// Bars, as pairs of vertex indices; empty for a mesh.
     pub bars: Vec<[u32; 2]>,
-    /// For each bar its paints in source and target; empty where bars have no
-    /// colours of their own.
+    /// Paints of each bar in source and target; empty if bars have no colours of their own.
     pub bar_paints: Vec<[Option<Paint>; 2]>,
     /// Width of the bars, in units of the designs.
     pub bar_width: f64,
-    /// Holes in the filled faces that one of the designs has alone.
+    /// Holes that exist in only one design.
     pub holes: Vec<TransientHole>,
-    /// Parts that one of the designs has alone and that swell, each drawn in
-    /// the stead of its walks.
-    pub swells: Vec<SwellingShape>,
-    /// Parts that one of the designs has alone and that grow, which are not
-    /// drawn while they are specks.
-    pub specks: Vec<SeedShape>,
-    /// How all that is painted; none where it has one colour.
-    pub coating: Option<PaintLayerStack>,
-    /// When its parts make their way; none where all do as the whole.
-    pub clocks: Option<BarClocks>,
+    /// Parts that exist in only one design and enter by swelling. Each is drawn instead of its
+    /// boundary loops.
+    pub swelling_shapes: Vec<SwellingShape>,
+    /// Parts that exist in only one design and grow from a seed shape. They are hidden while they
+    /// have no size.
+    pub seed_shapes: Vec<SeedShape>,
+    /// Paint layers; `None` if everything has one colour.
+    pub paint_layers: Option<PaintLayerStack>,
+    /// Clocks of parts with their own timing; `None` if all parts follow the transition.
+    pub part_clocks: Option<BarClocks>,
 }
 
-/// The clocks of the parts of a solid.
+/// Assigns a clock to each part of a solid. A clock maps the transition's t to the part's own t.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BarClocks {
-    /// What there is of clocks; the last is that of the whole.
+    /// All clocks. The last one is that of the whole transition.
     pub clocks: Vec<PartClock>,
-    /// For each boundary walk its clock.
-    pub of_walks: Vec<usize>,
-    /// For each hole its clock.
+    /// For each boundary loop, the index of its clock.
+    pub of_loops: Vec<usize>,
+    /// For each hole, the index of its clock.
     pub of_holes: Vec<usize>,
-    /// For each vertex its clock.
+    /// For each vertex, the index of its clock.
     pub of_vertices: Vec<usize>,
 }
 
 impl BarClocks {
+    /// Index of the clock of a vertex.
     fn of_vertex(&self, vertex: u32) -> usize {
         self.of_vertices[vertex as usize]
     }
 }
 
-/// A ring, and what it is painted with.
+/// A ring with its paint layer and the properties that split a layer into groups.
 struct InkedRing {
-    coat: usize,
+    layer: usize,
     key: InkKey,
     points: Vec<DVec2>,
 }
 
-/// What tells rings of one coat apart: the number of their clock, and of those that fade
-/// the design that has them alone.
+/// Key that splits the rings of one paint layer into groups of equal paint: the clock and, for
+/// fading parts, the only design that has them.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct InkKey {
     clock: usize,
     fading: Option<Side>,
 }
 
-/// Bars that are painted alike.
+/// Bars that share their paints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InkedBars {
-    /// Their paints in source and target; none where they have no colour of their
-    /// own.
+    /// Paints in source and target; `None` if the bars have no colour of their own.
     pub paints: [Option<Paint>; 2],
-    /// Their indices.
+    /// Indices of the bars.
     pub bars: Vec<usize>,
 }
 
 impl InkedBars {
-    /// Of so many bars, with a paint each or none: in the order in which paints are
-    /// first seen, which is the order in which they are drawn.
+    /// Groups `count` bars by paint, in the order in which paints first occur, which is the drawing
+    /// order. Bars without an entry in `paints` have no colour of their own.
     #[must_use]
-    pub fn all(count: usize, paints: &[[Option<Paint>; 2]]) -> Vec<Self> {
-        let mut all: Vec<Self> = Vec::new();
-        // Forces are shown by colours, which are as many as bars then.
-        let mut known = HashMap::new();
+    pub fn grouped_by_paint(count: usize, paints: &[[Option<Paint>; 2]]) -> Vec<Self> {
+        let mut groups: Vec<Self> = Vec::new();
+        // A map keeps this linear: when colours show forces, there may be as many paints as bars.
+        let mut group_of_paints = HashMap::new();
         for bar in 0..count {
             let paints = paints.get(bar).copied().unwrap_or_default();
-            let bits = |paint: Paint| (paint.colour, paint.opacity.to_bits());
-            let at = *known
-                .entry(paints.map(|end| end.map(bits)))
+            let paint_bits = |paint: Paint| (paint.colour, paint.opacity.to_bits());
+            let group = *group_of_paints
+                .entry(paints.map(|end| end.map(paint_bits)))
                 .or_insert_with(|| {
                     let bars = Vec::new();
-                    all.push(Self { paints, bars });
-                    all.len() - 1
+                    groups.push(Self { paints, bars });
+                    groups.len() - 1
                 });
-            all[at].bars.push(bar);
+            groups[group].bars.push(bar);
         }
-        all
+        groups
     }
 }
 
-/// A part that grows from a speck, or shrinks to one.
+/// A part that exists in only one design and grows from, or shrinks to, a seed shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeedShape {
-    /// Its boundary walks, by their numbers.
-    pub walks: Vec<usize>,
-    /// When it changes its size.
-    pub life: TimeWindow,
+    /// Indices of its boundary loops.
+    pub loop_indices: Vec<usize>,
+    /// Time window in which its size changes.
+    pub window: TimeWindow,
 }
 
 impl SolidContent {
-    /// The boundary walks at `t`, when the vertices are at these places; then
-    /// the parts that swell and the holes, those that are there.
+    /// Returns the visible rings at `t`: first the boundary loops, then the swelling parts, then
+    /// the holes. `places` are the vertex positions at `t`.
     ///
     /// # Panics
-    /// Where a walk goes by a vertex that has no place.
+    /// Panics if a loop uses a vertex that has no position.
     #[must_use]
     pub fn rings_at(&self, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let inked = self.inked_at(places, t).into_iter();
         inked.map(|ring| ring.points).collect()
     }
 
-    /// The boundary walks of parts that both designs have.
+    /// Returns the boundary loops of the parts that both designs have.
     ///
     /// # Panics
-    /// Where a walk goes by a vertex that has no place.
-    pub(crate) fn lasting_at(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
-        let specks = self.specks.iter().flat_map(|speck| &speck.walks);
-        let swells = self.swells.iter().flat_map(SwellingShape::walks);
-        let alone: BTreeSet<usize> = specks.chain(swells).copied().collect();
-        let lasting = (0..self.loops.len()).filter(|walk| !alone.contains(walk));
-        lasting.map(|walk| self.walk_at(walk, places)).collect()
+    /// Panics if a loop uses a vertex that has no position.
+    pub(crate) fn shared_loops_at(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
+        let specks = self
+            .seed_shapes
+            .iter()
+            .flat_map(|speck| &speck.loop_indices);
+        let swells = self
+            .swelling_shapes
+            .iter()
+            .flat_map(SwellingShape::loop_indices);
+        let transient: BTreeSet<usize> = specks.chain(swells).copied().collect();
+        let shared = (0..self.loops.len()).filter(|loop_index| !transient.contains(loop_index));
+        shared
+            .map(|loop_index| self.loop_at(loop_index, places))
+            .collect()
     }
 
-    /// The rings of [`Self::rings_at`], each with its coat and its clock.
+    /// Returns the rings of [`Self::rings_at`], each with its paint layer and group key.
     fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<InkedRing> {
-        let coating = self.coating.as_ref();
-        let fading = coating.filter(|all| all.fades);
-        let of_walk = |walk: usize, points: Vec<DVec2>| InkedRing {
-            coat: coating.map_or(0, |all| all.of_walks[walk]),
+        let stack = self.paint_layers.as_ref();
+        let fading = stack.filter(|all| all.fades);
+        let loop_ring = |loop_index: usize, points: Vec<DVec2>| InkedRing {
+            layer: stack.map_or(0, |all| all.of_loops[loop_index]),
             key: InkKey {
-                clock: self.clocks.as_ref().map_or(0, |all| all.of_walks[walk]),
-                fading: fading.and_then(|all| all.lone_walks[walk]),
+                clock: self
+                    .part_clocks
+                    .as_ref()
+                    .map_or(0, |all| all.of_loops[loop_index]),
+                fading: fading.and_then(|all| all.unmatched_loops[loop_index]),
             },
             points,
         };
-        let walks = self.walks(t);
-        let walks = walks.map(|walk| of_walk(walk, self.walk_at(walk, places)));
+        let loops = self
+            .unchanged_loops(t)
+            .map(|loop_index| loop_ring(loop_index, self.loop_at(loop_index, places)));
         let swells = self.swelling(t).flat_map(|swell| {
-            let walk = swell.walks().first().copied().unwrap_or_default();
+            let loop_index = swell.loop_indices().first().copied().unwrap_or_default();
             let rings = self.swollen(swell, places, t).into_iter();
-            rings.map(move |ring| of_walk(walk, ring))
+            rings.map(move |ring| loop_ring(loop_index, ring))
         });
-        // Parts that have holes of one design alone are in both.
-        let of_hole = |(hole, points): (usize, Vec<DVec2>)| InkedRing {
-            coat: coating.map_or(0, |all| all.of_holes[hole]),
+        // Parts with holes of only one design exist in both designs, so their holes do not fade.
+        let hole_ring = |(hole, points): (usize, Vec<DVec2>)| InkedRing {
+            layer: stack.map_or(0, |all| all.of_holes[hole]),
             key: InkKey {
-                clock: self.clocks.as_ref().map_or(0, |all| all.of_holes[hole]),
+                clock: self
+                    .part_clocks
+                    .as_ref()
+                    .map_or(0, |all| all.of_holes[hole]),
                 fading: None,
             },
             points,
         };
-        let holes = self.holes.iter().enumerate();
-        let holes = holes.filter_map(|(k, hole)| Some((k, hole.at(places, self.hole_time(k, t))?)));
-        walks.chain(swells).chain(holes.map(of_hole)).collect()
+        let holes = self
+            .holes
+            .iter()
+            .enumerate()
+            .filter_map(|(k, hole)| Some((k, hole.ring_at(places, self.hole_time(k, t))?)));
+        loops.chain(swells).chain(holes.map(hole_ring)).collect()
     }
 
-    /// The time that a boundary walk shows at `t`.
-    fn walk_time(&self, walk: usize, t: f64) -> f64 {
-        let clocks = self.clocks.as_ref();
-        clocks.map_or(t, |clocks| clocks.clocks[clocks.of_walks[walk]].at(t))
+    /// Time that the clock of a boundary loop shows at `t`.
+    fn loop_time(&self, loop_index: usize, t: f64) -> f64 {
+        let clocks = self.part_clocks.as_ref();
+        clocks.map_or(t, |clocks| {
+            clocks.clocks[clocks.of_loops[loop_index]].part_time(t)
+        })
     }
 
-    /// The time that a hole shows at `t`.
+    /// Time that the clock of a hole shows at `t`.
     fn hole_time(&self, hole: usize, t: f64) -> f64 {
-        let clocks = self.clocks.as_ref();
-        clocks.map_or(t, |clocks| clocks.clocks[clocks.of_holes[hole]].at(t))
+        let clocks = self.part_clocks.as_ref();
+        clocks.map_or(t, |clocks| {
+            clocks.clocks[clocks.of_holes[hole]].part_time(t)
+        })
     }
 
-    /// The time at `t` of a part that has these walks.
-    fn part_time(&self, walks: &[usize], t: f64) -> f64 {
-        walks.first().map_or(t, |&walk| self.walk_time(walk, t))
+    /// Time that the clock of a part with these boundary loops shows at `t`.
+    fn part_time(&self, loops: &[usize], t: f64) -> f64 {
+        loops
+            .first()
+            .map_or(t, |&loop_index| self.loop_time(loop_index, t))
     }
 
-    /// The rings of each coat at `t`, the lowest coat first; of a solid of one
-    /// colour all in one. Those of a coat that show several times, or fade, stand apart.
+    /// Returns the rings at `t` by paint layer, lowest layer first; a solid in one colour has one
+    /// group. Rings of a layer whose clocks or fading differ form separate groups.
     ///
     /// # Panics
-    /// Where a walk goes by a vertex that has no place.
+    /// Panics if a loop uses a vertex that has no position.
     #[must_use]
-    pub fn coated_at(&self, places: &[DVec2], t: f64) -> Vec<InkedLayer> {
-        let Some(coating) = &self.coating else {
+    pub fn layers_at(&self, places: &[DVec2], t: f64) -> Vec<InkedLayer> {
+        let Some(stack) = &self.paint_layers else {
             let rings = self.rings_at(places, t);
             return vec![InkedLayer {
                 t,
@@ -199,160 +226,203 @@ impl SolidContent {
                 ..InkedLayer::default()
             }];
         };
-        let mut of_coats = vec![BTreeMap::<InkKey, Vec<Vec<DVec2>>>::new(); coating.coats.len()];
+        let mut groups_by_layer =
+            vec![BTreeMap::<InkKey, Vec<Vec<DVec2>>>::new(); stack.layers.len()];
         for ring in self.inked_at(places, t) {
-            let of_key = of_coats[ring.coat].entry(ring.key).or_default();
-            of_key.push(ring.points);
+            let group = groups_by_layer[ring.layer].entry(ring.key).or_default();
+            group.push(ring.points);
         }
-        let of_coat = |coat: usize| {
-            let mut of_keys = std::mem::take(&mut of_coats[coat]);
-            if self.clocks.is_none() && !coating.fades {
-                // Every coat is there then, empty or not.
-                of_keys.entry(InkKey::default()).or_default();
+        let layer_groups = |layer: usize| {
+            let mut groups = std::mem::take(&mut groups_by_layer[layer]);
+            if self.part_clocks.is_none() && !stack.fades {
+                // Without clocks and fading, callers expect each layer exactly once, even if it is
+                // empty.
+                groups.entry(InkKey::default()).or_default();
             }
-            of_keys.into_iter().map(move |(key, rings)| {
-                let clocks = self.clocks.as_ref();
-                let shows = |v: u32| clocks.is_none_or(|all| all.of_vertex(v) == key.clock);
-                let gradients = coating.coats[coat].shading.at(places, shows);
-                let t = clocks.map_or(t, |all| all.clocks[key.clock].at(t));
+            groups.into_iter().map(move |(key, rings)| {
+                let clocks = self.part_clocks.as_ref();
+                let is_on_clock = |v: u32| clocks.is_none_or(|all| all.of_vertex(v) == key.clock);
+                let gradients = stack.layers[layer]
+                    .shading
+                    .gradients_at(places, is_on_clock);
+                let t = clocks.map_or(t, |all| all.clocks[key.clock].part_time(t));
                 let inked = InkedLayer {
-                    coat,
+                    layer,
                     t,
                     rings,
                     ..InkedLayer::default()
                 };
-                coating.coats[coat].ink(inked, gradients, key.fading)
+                stack.layers[layer].ink(inked, gradients, key.fading)
             })
         };
-        coating.order(t).into_iter().flat_map(of_coat).collect()
+        stack
+            .draw_order(t)
+            .into_iter()
+            .flat_map(layer_groups)
+            .collect()
     }
 
-    /// Where rings of [`Self::rings_at`] cross; those of two coats may.
+    /// Returns the crossings between rings of [`Self::rings_at`] in the same paint layer. Rings of
+    /// different layers may overlap.
     ///
     /// # Panics
-    /// Where a walk goes by a vertex that has no place.
+    /// Panics if a loop uses a vertex that has no position.
     #[must_use]
     pub fn crossings_at(&self, places: &[DVec2], t: f64) -> Vec<EdgeCrossing> {
-        let Some(coating) = &self.coating else {
+        let Some(stack) = &self.paint_layers else {
             return crossings(&self.rings_at(places, t));
         };
         let rings = self.inked_at(places, t);
-        let of_coat = |coat: usize| {
-            let is_in_coat = |k: &usize| rings[*k].coat == coat;
-            let members: Vec<usize> = (0..rings.len()).filter(is_in_coat).collect();
-            let own: Vec<Vec<DVec2>> = members.iter().map(|&k| rings[k].points.clone()).collect();
-            let mut found = crossings(&own);
-            for edge in found.iter_mut().flat_map(|crossing| &mut crossing.edges) {
+        let layer_crossings = |layer: usize| {
+            let is_in_layer = |k: &usize| rings[*k].layer == layer;
+            let members: Vec<usize> = (0..rings.len()).filter(is_in_layer).collect();
+            let member_rings: Vec<Vec<DVec2>> =
+                members.iter().map(|&k| rings[k].points.clone()).collect();
+            let mut crossings_in_layer = crossings(&member_rings);
+            for edge in crossings_in_layer
+                .iter_mut()
+                .flat_map(|crossing| &mut crossing.edges)
+            {
                 edge.ring = members[edge.ring];
             }
-            found
+            crossings_in_layer
         };
-        (0..coating.coats.len()).flat_map(of_coat).collect()
+        (0..stack.layers.len()).flat_map(layer_crossings).collect()
     }
 
-    /// How often rings cross that are in one coat.
+    /// Counts the crossings between rings of the same paint layer.
     ///
     /// # Panics
-    /// Where a walk goes by a vertex that has no place.
+    /// Panics if a loop uses a vertex that has no position.
     #[must_use]
     pub fn count_crossings(&self, places: &[DVec2], t: f64) -> usize {
-        let mut coats = vec![Vec::new(); self.coating.as_ref().map_or(1, |all| all.coats.len())];
+        let mut rings_by_layer =
+            vec![Vec::new(); self.paint_layers.as_ref().map_or(1, |all| all.layers.len())];
         for ring in self.inked_at(places, t) {
-            coats[ring.coat].push(ring.points);
+            rings_by_layer[ring.layer].push(ring.points);
         }
-        coats.iter().map(|rings| count_crossings(rings)).sum()
+        rings_by_layer
+            .iter()
+            .map(|rings| count_crossings(rings))
+            .sum()
     }
 
-    fn walk_at(&self, walk: usize, places: &[DVec2]) -> Vec<DVec2> {
-        self.loops[walk]
+    /// Points of a boundary loop.
+    fn loop_at(&self, loop_index: usize, places: &[DVec2]) -> Vec<DVec2> {
+        self.loops[loop_index]
             .iter()
             .map(|&v| places[v as usize])
             .collect()
     }
 
-    /// The walks that are drawn as they are at `t`, by their numbers.
-    fn walks(&self, t: f64) -> impl Iterator<Item = usize> {
-        let swelling = self.swelling(t).flat_map(SwellingShape::walks);
-        let gone = self
-            .specks
+    /// Indices of the boundary loops that are drawn unchanged at `t`.
+    fn unchanged_loops(&self, t: f64) -> impl Iterator<Item = usize> {
+        let swelling = self.swelling(t).flat_map(SwellingShape::loop_indices);
+        let absent = self
+            .seed_shapes
             .iter()
             .filter(move |speck| self.is_gone(speck, t));
-        let otherwise: BTreeSet<usize> = gone
-            .flat_map(|speck| &speck.walks)
+        let replaced: BTreeSet<usize> = absent
+            .flat_map(|speck| &speck.loop_indices)
             .chain(swelling)
             .copied()
             .collect();
-        (0..self.loops.len()).filter(move |walk| !otherwise.contains(walk))
+        (0..self.loops.len()).filter(move |loop_index| !replaced.contains(loop_index))
     }
 
-    /// The parts that are not as they were drawn at `t`.
+    /// Parts that have not reached their full thickness at `t`.
     fn swelling(&self, t: f64) -> impl Iterator<Item = &SwellingShape> {
-        let swells = self.swells.iter();
-        swells.filter(move |swell| swell.share(self.part_time(swell.walks(), t)) < 1.0)
+        let swells = self.swelling_shapes.iter();
+        swells.filter(move |swell| {
+            swell.thickness_fraction(self.part_time(swell.loop_indices(), t)) < 1.0
+        })
     }
 
+    /// Whether a part grown from a seed shape is absent at `t`.
     fn is_gone(&self, speck: &SeedShape, t: f64) -> bool {
-        speck.life.is_gone(self.part_time(&speck.walks, t))
+        speck
+            .window
+            .is_absent(self.part_time(&speck.loop_indices, t))
     }
 
-    /// A part as far as it has swollen.
+    /// Rings of a swelling part at `t`; empty while it is absent.
     fn swollen(&self, swell: &SwellingShape, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
-        let first = swell.walks().first();
-        let first = first.map(|&walk| self.walk_at(walk, places));
-        swell.at(&first.unwrap_or_default(), self.part_time(swell.walks(), t))
+        let first = swell.loop_indices().first();
+        let first = first.map(|&loop_index| self.loop_at(loop_index, places));
+        swell.rings_at(
+            &first.unwrap_or_default(),
+            self.part_time(swell.loop_indices(), t),
+        )
     }
 
-    /// The corners of the face at an edge of [`Self::rings_at`], of a boundary
-    /// walk its two ends; of what swells, whose edges have no faces, those of some
-    /// edge of the part.
-    pub(crate) fn corners_at(&self, edge: RingEdge, places: &[DVec2], t: f64) -> Option<Vec<u32>> {
+    /// Returns the vertices that carry an edge of [`Self::rings_at`]: the two ends for an edge of a
+    /// boundary loop, the corners of the host face for an edge of a hole.
+    ///
+    /// Edges of a swelling part lie in no face; for them the first edge of the part's outline
+    /// stands in.
+    pub(crate) fn face_vertices_at(
+        &self,
+        edge: RingEdge,
+        places: &[DVec2],
+        t: f64,
+    ) -> Option<Vec<u32>> {
         let RingEdge { ring, point } = edge;
-        let ends = |walk: usize, point: usize| {
-            let walk = &self.loops[walk];
-            vec![walk[point], walk[(point + 1) % walk.len()]]
+        let ends = |loop_index: usize, point: usize| {
+            let vertices = &self.loops[loop_index];
+            vec![vertices[point], vertices[(point + 1) % vertices.len()]]
         };
-        let walks: Vec<usize> = self.walks(t).collect();
-        if let Some(&walk) = walks.get(ring) {
-            return Some(ends(walk, point));
+        let loops: Vec<usize> = self.unchanged_loops(t).collect();
+        if let Some(&loop_index) = loops.get(ring) {
+            return Some(ends(loop_index, point));
         }
-        let mut ring = ring - walks.len();
+        let mut ring = ring - loops.len();
         for swell in self.swelling(t) {
             let rings = self.swollen(swell, places, t).len();
             if ring < rings {
-                return swell.walks().first().map(|&walk| ends(walk, 0));
+                return swell
+                    .loop_indices()
+                    .first()
+                    .map(|&loop_index| ends(loop_index, 0));
             }
             ring -= rings;
         }
         let mut holes = self.holes_at(t).filter(|(_, is_gone)| !is_gone);
-        Some(holes.nth(ring)?.0.face(point).to_vec())
+        Some(holes.nth(ring)?.0.host_face(point).to_vec())
     }
 
-    /// How many of the rings that come and go are not there at `t`: points, to
-    /// what counts rings.
-    pub(crate) fn gone_at(&self, t: f64) -> usize {
-        let swollen = |swell: &SwellingShape| swell.share(self.part_time(swell.walks(), t));
-        let swells = self.swells.iter().filter(|swell| swollen(swell) <= 0.0);
-        let specks = self.specks.iter().filter(|speck| self.is_gone(speck, t));
-        let walks: usize = swells
-            .map(|swell| swell.walks().len())
-            .chain(specks.map(|speck| speck.walks.len()))
+    /// Number of rings that are absent at `t`: boundary loops of transient parts, and holes.
+    pub(crate) fn absent_ring_count(&self, t: f64) -> usize {
+        let thickness = |swell: &SwellingShape| {
+            swell.thickness_fraction(self.part_time(swell.loop_indices(), t))
+        };
+        let swells = self
+            .swelling_shapes
+            .iter()
+            .filter(|swell| thickness(swell) <= 0.0);
+        let specks = self
+            .seed_shapes
+            .iter()
+            .filter(|speck| self.is_gone(speck, t));
+        let transient_loops: usize = swells
+            .map(|swell| swell.loop_indices().len())
+            .chain(specks.map(|speck| speck.loop_indices.len()))
             .sum();
-        self.holes_at(t).filter(|(_, is_gone)| *is_gone).count() + walks
+        self.holes_at(t).filter(|(_, is_gone)| *is_gone).count() + transient_loops
     }
 
-    /// All holes, and whether each is gone at `t`.
+    /// All holes, each with whether it is absent at `t`.
     fn holes_at(&self, t: f64) -> impl Iterator<Item = (&TransientHole, bool)> {
         let holes = self.holes.iter().enumerate();
-        holes.map(move |(k, hole)| (hole, hole.is_gone(self.hole_time(k, t))))
+        holes.map(move |(k, hole)| (hole, hole.is_absent(self.hole_time(k, t))))
     }
 
-    /// The bars at the given vertex places.
+    /// Returns the end points of all bars at the given vertex positions.
     ///
     /// # Panics
-    /// Where a bar ends at a vertex that has no place.
+    /// Panics if a bar ends at a vertex that has no position.
     #[must_use]
     pub fn bars_at(&self, places: &[DVec2]) -> Vec<[DVec2; 2]> {
-        let at = |bar: &[u32; 2]| bar.map(|v| places[v as usize]);
-        self.bars.iter().map(at).collect()
+        let ends = |bar: &[u32; 2]| bar.map(|v| places[v as usize]);
+        self.bars.iter().map(ends).collect()
     }
 }

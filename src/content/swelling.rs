@@ -1,71 +1,71 @@
-//! Parts that one design has alone, and that come in their own shape: as lines
-//! at first, which swell to what was drawn.
+//! Swelling shapes: parts that exist in only one design and enter as thin lines that swell to their
+//! full shape.
 //!
-//! Such a part keeps within its own outline all the time, so that it is in
-//! nobody's way who keeps out of that.
+//! A swelling shape is an inset of its own outline, so it never leaves that outline and cannot
+//! collide with anything outside it.
 
 use crate::geometry::{DVec2, inradius, inset};
 use crate::warp::TimeWindow;
 
-/// A part of one design that swells, in the stead of some boundary walks.
+/// Part of one design that swells. It is drawn instead of some boundary loops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SwellingShape {
-    /// The walks in whose stead it is drawn, by their numbers; the first goes
-    /// around the others.
-    walks: Vec<usize>,
-    /// As it is drawn, about the middle of the first walk.
+    /// Indices of the boundary loops that it replaces. The first one encloses the others.
+    loop_indices: Vec<usize>,
+    /// Rings of the full shape, relative to the mean of the points of the first ring.
     rings: Vec<Vec<DVec2>>,
-    /// How far a boundary moves inwards until nothing is left.
+    /// Inset depth at which nothing is left, in units of the design.
     depth: f64,
-    /// When it swells.
+    /// Time window in which it swells.
     life: TimeWindow,
 }
 
 impl SwellingShape {
-    /// A part of walks with these numbers that are these rings in the design that has it,
-    /// the outer one first.
+    /// Creates a part that replaces the boundary loops with the indices `loop_indices`. `rings` are
+    /// the same loops in the design that has the part, the outer one first.
     #[must_use]
-    pub fn new(walks: Vec<usize>, rings: &[Vec<DVec2>], life: TimeWindow) -> Self {
+    pub fn new(loop_indices: Vec<usize>, rings: &[Vec<DVec2>], life: TimeWindow) -> Self {
         let middle = rings.first().map_or(DVec2::ZERO, |ring| middle(ring));
-        let about = |ring: &Vec<DVec2>| ring.iter().map(|&p| p - middle).collect();
+        let relative = |ring: &Vec<DVec2>| ring.iter().map(|&p| p - middle).collect();
         Self {
-            walks,
+            loop_indices,
             depth: inradius(rings),
-            rings: rings.iter().map(about).collect(),
+            rings: rings.iter().map(relative).collect(),
             life,
         }
     }
 
-    /// The walks in whose stead it is drawn.
-    pub(crate) fn walks(&self) -> &[usize] {
-        &self.walks
+    /// Indices of the boundary loops that it replaces.
+    pub(crate) fn loop_indices(&self) -> &[usize] {
+        &self.loop_indices
     }
 
-    /// How much of its thickness it has at `t`.
-    pub(crate) fn share(&self, t: f64) -> f64 {
+    /// Fraction of its full thickness at `t`, from 0 to 1.
+    pub(crate) fn thickness_fraction(&self, t: f64) -> f64 {
         self.life.size(t)
     }
 
-    /// Its rings at `t`, when the first of its walks is at these places; none
-    /// where it is gone.
+    /// Returns its rings at `t`; empty while it is absent. `first_loop` are the positions of its
+    /// first boundary loop at `t`, whose mean point places the shape.
     #[must_use]
-    pub fn at(&self, first_walk: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
-        let share = self.share(t);
-        if share <= 0.0 {
+    pub fn rings_at(&self, first_loop: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
+        let fraction = self.thickness_fraction(t);
+        if fraction <= 0.0 {
             return Vec::new();
         }
-        let middle = middle(first_walk);
-        let mut rings = inset(&self.rings, self.depth * (1.0 - share));
+        let middle = middle(first_loop);
+        let mut rings = inset(&self.rings, self.depth * (1.0 - fraction));
         rings.iter_mut().flatten().for_each(|p| *p += middle);
         rings
     }
 }
 
-/// The mean of some points.
+/// Returns the mean of some points; zero if there are none.
 pub(crate) fn middle(points: &[DVec2]) -> DVec2 {
-    let about = points.first().copied().unwrap_or_default();
-    let sum: DVec2 = points.iter().map(|&p| p - about).sum();
-    about + sum / points.len().max(1) as f64
+    // Relative to the first point, so that points far from the origin lose no digits.
+    let reference = points.first().copied().unwrap_or_default();
+    let sum: DVec2 = points.iter().map(|&p| p - reference).sum();
+    reference + sum / points.len().max(1) as f64
 }
 
 #[cfg(test)]
@@ -87,10 +87,10 @@ mod tests {
         };
         let frame = SwellingShape::new(vec![3, 4], &[ring(4.0), hole], life);
         let away = DVec2::new(10.0, 0.0);
-        // As small as it may be where it is not there: its middle counts.
-        let walk: Vec<DVec2> = ring(0.01).into_iter().map(|p| p + away).collect();
-        assert!(frame.at(&walk, 0.5).is_empty());
-        let half = frame.at(&walk, 2.0 / 3.0);
+        // A tiny ring, as where the part is absent: only its mean point matters.
+        let tiny_loop: Vec<DVec2> = ring(0.01).into_iter().map(|p| p + away).collect();
+        assert!(frame.rings_at(&tiny_loop, 0.5).is_empty());
+        let half = frame.rings_at(&tiny_loop, 2.0 / 3.0);
         assert_eq!(half.len(), 2);
         let reach = |p: &DVec2| (*p - away).abs().max_element();
         assert!(
@@ -98,7 +98,7 @@ mod tests {
                 .flatten()
                 .all(|p| (2.4..3.6).contains(&reach(p)))
         );
-        let whole = frame.at(&walk, 1.0);
+        let whole = frame.rings_at(&tiny_loop, 1.0);
         assert!(whole[0].iter().all(|p| (reach(p) - 4.0).abs() < 1e-6));
     }
 }

@@ -1,22 +1,19 @@
-//! Signed distance transforms whose balls are octagons: city-block, chessboard
-//! and quasi-Euclidean.
+//! Signed chamfer distance transforms: city-block, chessboard and quasi-Euclidean metrics.
 //!
-//! Two passes over the picture, each looking at four neighbours (Rosenfeld and
-//! Pfaltz 1966, Montanari 1968, Borgefors 1986). A shortest way of straight and
-//! diagonal steps can always be put in an order that the two passes follow, so
-//! that the results are exact in these metrics, up to the rounding of √2. As
-//! in the Euclidean transform both signs come out of one sweep: a neighbour of
-//! the other side is at distance 0.
+//! Two passes over the picture, each visiting four neighbours (Rosenfeld and Pfaltz 1966, Montanari
+//! 1968, Borgefors 1986). The steps of a shortest path can be reordered so that the two passes
+//! follow it, so results are exact in these metrics up to the rounding of √2. One sweep gives both
+//! signs, because a neighbour on the other side has distance 0.
 
 use super::Mask;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 use std::ops::Range;
 
-/// Rows between two looks at whether the work was cancelled.
-const ROWS: usize = 64;
+/// Rows between two checks for cancellation (resource limit).
+const REPORT_ROWS: usize = 64;
 
-/// Signed distances of all cells of `mask`, where a step along an axis is 1
-/// long and one along a diagonal `diagonal`.
+/// Computes the signed distances of all cells of `mask`. A step along an axis has length 1, a
+/// diagonal step length `diagonal`.
 pub(super) fn distances(
     mask: &Mask,
     diagonal: f64,
@@ -29,15 +26,15 @@ pub(super) fn distances(
         checkpoint(progress, "measuring distances", fraction)
     };
     for y in 0..height {
-        if y % ROWS == 0 {
+        if y % REPORT_ROWS == 0 {
             report(y)?;
         }
         let row = lengths.row(y);
-        // Behind lie the cell to the left and the three below.
+        // This pass has visited the cell to the left and the three below.
         row.for_each(|i| lengths.visit(i, diagonal, |i, step| i - step));
     }
     for y in (0..height).rev() {
-        if y % ROWS == 0 {
+        if y % REPORT_ROWS == 0 {
             report(2 * height - 1 - y)?;
         }
         let row = lengths.row(y).rev();
@@ -47,33 +44,34 @@ pub(super) fn distances(
     Ok(cells.map(|i| lengths.signed(i)).collect())
 }
 
-/// Sides and unsigned distances, with the ring of outside cells around the
+/// Sides and unsigned distances of all cells, including the ring of outside cells around the
 /// picture.
 struct ChamferWeights {
+    /// Whether each cell is inside.
     sides: Vec<bool>,
+    /// Distance of each cell to the nearest cell of the other side.
     lengths: Vec<f64>,
-    /// Cells in a row, ring included.
+    /// Number of cells in a row, ring included.
     stride: usize,
 }
 
 impl ChamferWeights {
-    /// The sides, and no distance yet.
+    /// Copies the sides; all distances are still infinite.
     fn of(mask: &Mask) -> Self {
         let (width, height) = (mask.width() as usize, mask.height() as usize);
-        // A ring of outside cells, so that no cell asks whether it has
-        // neighbours.
+        // The ring of outside cells saves border checks.
         let stride = width + 2;
         let cells = stride * (height + 2);
-        let mut found = Self {
+        let mut distances = Self {
             sides: vec![false; cells],
             lengths: vec![f64::INFINITY; cells],
             stride,
         };
         for (y, bits) in mask.bits().chunks_exact(width).enumerate() {
-            let row = found.row(y);
-            found.sides[row].copy_from_slice(bits);
+            let row = distances.row(y);
+            distances.sides[row].copy_from_slice(bits);
         }
-        found
+        distances
     }
 
     /// Indices of the cells in row `y` of the picture.
@@ -82,25 +80,25 @@ impl ChamferWeights {
         first..first + self.stride - 2
     }
 
-    /// Lowers the distance of cell `i` by way of the four neighbours that the
-    /// pass has behind it.
-    fn visit(&mut self, i: usize, diagonal: f64, behind: impl Fn(usize, usize) -> usize) {
-        let by = |step: usize| {
-            let neighbour = behind(i, step);
+    /// Lowers the distance of cell `i` by paths through the four neighbours already visited by this
+    /// pass.
+    fn visit(&mut self, i: usize, diagonal: f64, visited: impl Fn(usize, usize) -> usize) {
+        let distance_via = |step: usize| {
+            let neighbour = visited(i, step);
             if self.sides[neighbour] == self.sides[i] {
                 self.lengths[neighbour]
             } else {
                 0.0
             }
         };
-        let straight = by(1).min(by(self.stride)) + 1.0;
-        let diagonal = by(self.stride - 1).min(by(self.stride + 1)) + diagonal;
+        let straight = distance_via(1).min(distance_via(self.stride)) + 1.0;
+        let diagonal = distance_via(self.stride - 1).min(distance_via(self.stride + 1)) + diagonal;
         self.lengths[i] = self.lengths[i].min(straight).min(diagonal);
     }
 
+    /// Signed distance of a cell.
     fn signed(&self, i: usize) -> f32 {
-        // The boundary runs half a cell before the nearest cell of the other
-        // side.
+        // The boundary lies half a cell before the nearest cell of the other side.
         let distance = (self.lengths[i] - 0.5) as f32;
         if self.sides[i] { distance } else { -distance }
     }

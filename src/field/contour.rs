@@ -1,50 +1,47 @@
 //! Contours of a function over a picture, as closed polygons.
 //!
-//! Marching squares on the lattice of samples (after Lorensen and Cline 1987,
-//! in the plane). Two things are done better than by the textbook: crossings
-//! are roots of the function itself and not of a straight line between two
-//! samples, and a saddle is resolved by the function's value at its centre.
+//! Marching squares on the lattice of samples (after Lorensen and Cline 1987, in the plane), with
+//! two improvements: crossings are roots of the function itself, not of a line between two samples;
+//! and a saddle is resolved by the function's value at its centre.
 //!
-//! Guarantees: polygons are closed, outer ones counter-clockwise and holes
-//! clockwise (seen with y up); what reaches the border of the picture is
-//! closed along it; the result is the same on any number of threads.
+//! Guaranteed: polygons are closed, outer ones counter-clockwise and holes clockwise (with y up); a
+//! shape that reaches the border of the picture is closed along it; the result does not depend on
+//! the number of threads.
 //!
-//! Does not guarantee: features thinner than a cell may be missed, and inside
-//! a cell the contour is a straight line. Polygons may touch in a point where
-//! the function equals the level at a sample; `Regions::from_rings` cleans
-//! that.
+//! Not guaranteed: features thinner than a cell may be missed, and within a cell the contour is a
+//! straight line. Polygons may touch in a point where the function equals the level at a sample;
+//! `Regions::from_rings` separates them.
 
 use rayon::prelude::*;
 
 use super::sampled_field::SampledField;
 use crate::geometry::DVec2;
 
-/// How far apart, in cells, the two ends of a crossing's bracket may be at the
-/// end: on a lattice of 8192 samples this is near the resolution of `f64`.
+/// Length of the bracket, in cells, at which the search for a crossing stops (tolerance: near the
+/// resolution of `f64` on a lattice of 8192 samples).
 const BRACKET: f64 = 1e-11;
 
-/// A crossing ends where the function has come this near to the level, as a
-/// fraction of its change along the edge: linear edges end after one step.
+/// Residual at which the search for a crossing stops, as a fraction of the function's change along
+/// the edge (tolerance: about two roundings, so that linear edges stop after one step).
 const RESIDUAL: f64 = 4e-16;
 
-/// Steps for one crossing. Every third is a bisection, so that `3 · log2(1 /
-/// BRACKET)` suffice for the worst function.
-const STEPS: u32 = 111;
+/// Maximum number of steps for one crossing. Derived: every third step is a bisection, so 3 ·
+/// log2(1 / [`BRACKET`]) suffice for any function.
+const MAX_STEPS: u32 = 111;
 
-/// Traces the boundary of `{ value ≥ level }` over a picture of `width` ×
-/// `height` samples.
+/// Traces the boundary of `{ value ≥ level }` over a picture of `width` × `height` samples.
 ///
-/// Sample (x, y) is at (x, y), so that pixel centres are integers; the picture
-/// reaches half a sample beyond the outermost ones, from (−½, −½) to
-/// (`width` − ½, `height` − ½). `value` is asked for positions in that
-/// rectangle, border included, and should be continuous there; where it is NaN
-/// is outside. Points come in the same units.
+/// Sample (x, y) lies at (x, y), so pixel centres have integer coordinates. The picture extends
+/// half a sample beyond the outermost ones, from (−½, −½) to (`width` − ½, `height` − ½). `value`
+/// is evaluated in that rectangle, border included, and should be continuous there; NaN counts as
+/// outside. The returned points have the same units.
 ///
-/// Polygons are closed (the first point is not repeated) and have at least
-/// three points. The inside is on their left where y is up: outer polygons are
-/// counter-clockwise, holes clockwise. Points in the middle of a straight run
-/// along an axis are left out. Costs one evaluation a sample and a few a
-/// crossing, over the threads of the caller's rayon pool.
+/// Polygons are closed (the first point is not repeated) and have at least three points. With y up,
+/// the inside is on their left: outer polygons are counter-clockwise, holes clockwise. Points
+/// within a straight run along an axis are omitted.
+///
+/// Costs one evaluation per sample and a few per crossing, on the threads of the current rayon
+/// pool.
 ///
 /// ```
 /// use morphospace::field::contour::trace;
@@ -61,8 +58,8 @@ where
     trace_knowing(width, height, |_, _| None, value, level)
 }
 
-/// [`trace`] of a function of which is `known` for many samples, by column and row,
-/// whether they are inside: `value` is not asked there.
+/// Same as [`trace`], but `known(column, row)` may return whether a sample is inside; `value` is
+/// not evaluated at those samples.
 pub(crate) fn trace_knowing<F>(
     width: u32,
     height: u32,
@@ -91,22 +88,21 @@ where
         .collect()
 }
 
-/// [`trace`] for a picture whose value between samples is bilinear.
+/// Same as [`trace`] for samples that are interpolated bilinearly.
 pub fn trace_samples(samples: &SampledField, level: f64) -> Vec<Vec<DVec2>> {
     let (width, height) = (samples.width(), samples.height());
     trace(width, height, |x, y| samples.bilinear(x, y), level)
 }
 
-/// A lattice edge: twice the index of its lower left node, plus 1 where it
-/// points up.
+/// Index of a lattice edge: twice the index of its lower left node, plus 1 if it points up.
 type LatticeEdge = usize;
 
-/// The part of a contour in one square: it enters by the first edge and leaves
-/// by the second, the inside on its left.
+/// Segment of a contour in one square, from the edge where it enters to the edge where it leaves,
+/// the inside on its left.
 type ContourSegment = (LatticeEdge, LatticeEdge);
 
-/// The lattice, widened by two nodes on each side: the picture's border, and a
-/// ring in the same place that is always outside and closes every contour.
+/// Marching squares on the lattice, extended by two nodes on each side: the picture's border, and a
+/// ring at the same positions that is always outside and so closes every contour.
 struct MarchingSquares<K, F> {
     columns: usize,
     rows: usize,
@@ -119,17 +115,18 @@ where
     K: Fn(usize, usize) -> Option<bool> + Sync,
     F: Fn(f64, f64) -> f64 + Sync,
 {
+    /// Position of a node.
     fn position(&self, column: usize, row: usize) -> DVec2 {
-        // The last sample is at count − 5, the picture's border half a sample
-        // beyond.
+        // The last sample lies at count − 5, and the border half a sample beyond it.
         let along = |i: usize, count: usize| (i as f64 - 2.0).clamp(-0.5, count as f64 - 4.5);
         DVec2::new(along(column, self.columns), along(row, self.rows))
     }
 
+    /// Whether each node is inside.
     fn inside(&self) -> Vec<bool> {
         let mut inside = vec![false; self.columns * self.rows];
         let rows = inside.par_chunks_mut(self.columns).enumerate();
-        // The outermost nodes are not asked: they stay outside.
+        // The outermost nodes are not evaluated; they stay outside.
         let inner = rows.skip(1).take(self.rows - 2);
         inner.for_each(|(row, out)| {
             for (column, out) in out.iter_mut().enumerate().take(self.columns - 1).skip(1) {
@@ -149,7 +146,7 @@ where
         })
     }
 
-    /// All segments, sorted by the edge that they start from.
+    /// All segments, sorted by the edge where they enter.
     fn segments(&self, inside: &[bool]) -> Vec<ContourSegment> {
         let mut segments: Vec<ContourSegment> = (0..self.rows - 1)
             .into_par_iter()
@@ -159,6 +156,7 @@ where
         segments
     }
 
+    /// Segments of one row of squares.
     fn row_segments(&self, row: usize, inside: &[bool]) -> Vec<ContourSegment> {
         let lower = &inside[row * self.columns..][..self.columns];
         let upper = &inside[(row + 1) * self.columns..][..self.columns];
@@ -166,7 +164,7 @@ where
         for column in 0..self.columns - 1 {
             let (l, u) = (&lower[column..column + 2], &upper[column..column + 2]);
             let corners = [l[0], l[1], u[1], u[0]];
-            // Nearly all squares have nothing in them.
+            // Fast path: nearly all squares are entirely inside or outside.
             if corners != [corners[0]; 4] {
                 self.square(column, row, corners, &mut out);
             }
@@ -174,8 +172,8 @@ where
         out
     }
 
-    /// The one or two segments of a square; corners and edges
-    /// counter-clockwise from the lower left.
+    /// Appends the one or two segments of a square. Corners and edges are ordered counter-clockwise
+    /// from the lower left.
     fn square(&self, column: usize, row: usize, corners: [bool; 4], out: &mut Vec<ContourSegment>) {
         let node = row * self.columns + column;
         let edges = [
@@ -186,12 +184,12 @@ where
         ];
         let leaves = |k: usize| corners[k % 4] && !corners[(k + 1) % 4];
         let enters = |k: usize| !corners[k % 4] && corners[(k + 1) % 4];
-        let saddle = leaves(0) == leaves(2) && leaves(1) == leaves(3);
-        // Round the corner that the segment cuts off: an outer one lies ahead,
-        // an inner one behind.
-        let ahead = !saddle || self.centre_is_inside(column, row);
+        let is_saddle = leaves(0) == leaves(2) && leaves(1) == leaves(3);
+        // Traverses the edges around the corner that the segment cuts off: counter-clockwise around
+        // an outside corner, clockwise around an inside one.
+        let counter_clockwise = !is_saddle || self.centre_is_inside(column, row);
         for from in (0..4).filter(|&k| leaves(k)) {
-            let turn = |step: usize| from + if ahead { step } else { 4 - step };
+            let turn = |step: usize| from + if counter_clockwise { step } else { 4 - step };
             if let Some(to) = (1..4).map(turn).find(|&k| enters(k)) {
                 out.push((edges[from], edges[to % 4]));
             }
@@ -203,14 +201,13 @@ where
         (self.above)(p.x, p.y) >= 0.0
     }
 
-    /// Where the contour crosses an edge.
+    /// Point where the contour crosses an edge.
     fn crossing(&self, edge: LatticeEdge) -> DVec2 {
         let (column, row) = (edge / 2 % self.columns, edge / 2 / self.columns);
         let upright = edge % 2;
         let a = self.position(column, row);
         let b = self.position(column + 1 - upright, row + upright);
-        // The outer ring is in the place of the border: what it crosses is
-        // there.
+        // The outer ring coincides with the border, so the crossing lies there.
         if a == b {
             return a;
         }
@@ -222,52 +219,52 @@ where
     }
 }
 
-/// The root in [0, 1] of a continuous function that is ≥ 0 at one end only:
-/// the Illinois method, with bisections for the functions that stall it.
+/// Finds the root in [0, 1] of a continuous function that is non-negative at exactly one end: the
+/// Illinois method, with bisections for functions that stall it.
 fn root(f: impl Fn(f64) -> f64) -> f64 {
     let (mut lo, mut hi) = ((0.0, f(0.0)), (1.0, f(1.0)));
-    // From the change along the edge, so that functions of any size end alike.
-    let near = RESIDUAL * (lo.1 - hi.1).abs();
-    let rising = hi.1 >= 0.0;
+    // Relative to the change along the edge, so that the scale of the function does not matter.
+    let max_residual = RESIDUAL * (lo.1 - hi.1).abs();
+    let is_rising = hi.1 >= 0.0;
     let mut last_was_low = None;
-    for step in 0..STEPS {
+    for step in 0..MAX_STEPS {
         if hi.0 - lo.0 <= BRACKET {
             break;
         }
         let s = between(lo, hi, step % 3 == 2);
         let value = f(s);
-        if value.abs() <= near {
+        if value.abs() <= max_residual {
             return s;
         }
-        let low = (value >= 0.0) != rising;
-        let (moved, kept) = if low {
+        let is_low = (value >= 0.0) != is_rising;
+        let (replaced_end, kept_end) = if is_low {
             (&mut lo, &mut hi)
         } else {
             (&mut hi, &mut lo)
         };
-        *moved = (s, value);
-        // The Illinois step: an end that stays twice loses half its weight, or
-        // the chord would creep up on the root from one side.
-        if last_was_low == Some(low) {
-            kept.1 *= 0.5;
+        *replaced_end = (s, value);
+        // Illinois step: an end that stays twice has its value halved; otherwise the chord would
+        // approach the root from one side only.
+        if last_was_low == Some(is_low) {
+            kept_end.1 *= 0.5;
         }
-        last_was_low = Some(low);
+        last_was_low = Some(is_low);
     }
     between(lo, hi, false)
 }
 
-/// Where the chord of a bracket is zero, or its middle.
-fn between(lo: (f64, f64), hi: (f64, f64), middle: bool) -> f64 {
+/// Zero of the chord of a bracket, or the bracket's midpoint.
+fn between(lo: (f64, f64), hi: (f64, f64), bisect: bool) -> f64 {
     let s = lo.0 + (hi.0 - lo.0) * (lo.1 / (lo.1 - hi.1));
-    if middle || !(lo.0..=hi.0).contains(&s) {
+    if bisect || !(lo.0..=hi.0).contains(&s) {
         0.5 * (lo.0 + hi.0)
     } else {
         s
     }
 }
 
-/// Links segments, sorted by start, into closed chains of edges. Every edge
-/// that ends a segment starts another, so that following them comes back.
+/// Links segments, sorted by start, into closed chains of edges. Every edge that ends a segment
+/// starts another one, so each chain returns to its start.
 fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
     let mut used = vec![false; segments.len()];
     let mut chains = Vec::new();
@@ -278,8 +275,8 @@ fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
             && !std::mem::replace(&mut used[i], true)
         {
             chain.push(segments[i].0);
-            // One segment starts from each edge that ends one: what leaves a
-            // square enters the next.
+            // Exactly one segment starts at each edge that ends one: the contour leaves one square
+            // and enters the next.
             next = segments.binary_search_by_key(&segments[i].1, |s| s.0);
         }
         if !chain.is_empty() {
@@ -289,8 +286,8 @@ fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
     chains
 }
 
-/// Without repeated points and without points inside a straight run along an
-/// axis, which the picture's border is full of.
+/// Removes repeated points, and points within a straight run along an axis, of which the picture's
+/// border has many.
 fn cleaned(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.dedup();
     if points.len() > 1 && points.first() == points.last() {
@@ -299,14 +296,15 @@ fn cleaned(mut points: Vec<DVec2>) -> Vec<DVec2> {
     let count = points.len();
     let at = |i: usize| points[i % count];
     (0..count)
-        .filter(|&i| !straight(at(i + count - 1), at(i), at(i + 1)))
+        .filter(|&i| !is_straight(at(i + count - 1), at(i), at(i + 1)))
         .map(at)
         .collect()
 }
 
-fn straight(before: DVec2, p: DVec2, after: DVec2) -> bool {
+/// Whether `p` lies within a straight run along an axis.
+fn is_straight(before: DVec2, p: DVec2, after: DVec2) -> bool {
     let along_axis = (before.x == p.x && p.x == after.x) || (before.y == p.y && p.y == after.y);
-    // A spike turns back along the axis, and its point is kept.
+    // The point of a spike, where the run turns back, stays.
     along_axis && (p - before).dot(after - p) > 0.0
 }
 

@@ -1,10 +1,9 @@
-//! Signed distance fields of designs.
+//! Signed distance fields of designs: one distance per cell of a grid.
 //!
-//! Guarantees: positive inside and negative outside, in cells of the grid;
-//! from polygons exact up to rounding, from masks equal to brute force.
-//! Between samples a field is bilinear, as the stage's shader has it. Does not
-//! guarantee: between samples it is no distance, and near the medial axis it
-//! is rounded off by up to half a cell.
+//! Guaranteed: values are positive inside, negative outside, and in cells of the grid. From
+//! polygons they are exact up to rounding; from masks they equal brute force. Values are
+//! interpolated bilinearly between samples, as in the stage's shader. Not guaranteed: interpolated
+//! values are not exact distances; near the medial axis they are off by up to half a cell.
 
 use super::{
     Grid, GridError, Mask, MaskError, Metric, SampledField, SampledFieldError, distance_transform,
@@ -13,7 +12,7 @@ use super::{inside, polygon_distance};
 use crate::geometry::{DVec2, Regions};
 use crate::work::progress::{Cancelled, Progress};
 
-/// A signed distance for each sample of a grid.
+/// Signed distances at the samples of a grid.
 ///
 /// ```
 /// use morphospace::field::{DistanceField, Grid};
@@ -34,38 +33,38 @@ pub struct DistanceField {
     values: Vec<f32>,
 }
 
-/// Why there is no such field.
+/// Errors of computing or creating a distance field.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FieldError {
-    /// The grid is none.
+    /// The grid is invalid.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// The mask is none.
+    /// The mask is invalid.
     #[error(transparent)]
     Mask(#[from] MaskError),
-    /// There are not as many values as cells.
+    /// The number of values differs from the number of cells.
     #[error(transparent)]
     Length(#[from] SampledFieldError),
     /// A value is NaN or infinite.
-    #[error("the distance at cell ({x}, {y}) is not a finite number; measure the field again")]
+    #[error("the distance at cell ({x}, {y}) is not a finite number; compute the field again")]
     NotFinite {
         /// Column.
         x: u32,
         /// Row.
         y: u32,
     },
-    /// Nobody wants the field any more.
+    /// The computation was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
 impl DistanceField {
-    /// A field of known values, row-major, the lowest row first.
+    /// Creates a field from values in row-major order, lowest row first.
     ///
     /// # Errors
-    /// Where the grid is none, there are not as many values as cells, or one
-    /// is not finite.
+    /// Returns an error if the grid is invalid, the number of values differs from the number of
+    /// cells, or a value is not finite.
     pub fn new(grid: Grid, values: Vec<f32>) -> Result<Self, FieldError> {
         grid.check()?;
         let Grid { width, height, .. } = grid;
@@ -77,8 +76,8 @@ impl DistanceField {
         Ok(Self { grid, values })
     }
 
-    /// One value all over a grid that was checked.
-    pub(crate) fn even(grid: Grid, value: f64) -> Self {
+    /// Creates a field with the same value everywhere. The grid must be valid.
+    pub(crate) fn uniform(grid: Grid, value: f64) -> Self {
         let value = value.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
         Self {
             values: vec![value; grid.width as usize * grid.height as usize],
@@ -86,10 +85,10 @@ impl DistanceField {
         }
     }
 
-    /// The distance transform of a mask that has the grid's size.
+    /// Computes the distance transform of a mask, which must have the size of the grid.
     ///
     /// # Errors
-    /// Where the grid is none, the mask has another size, or the work was
+    /// Returns an error if the grid is invalid, the mask has another size, or `progress` is
     /// cancelled.
     pub fn from_mask(
         mask: &Mask,
@@ -112,35 +111,36 @@ impl DistanceField {
         Ok(Self { grid, values })
     }
 
-    /// The exact Euclidean distance to the edges of `regions`. A design may
-    /// reach beyond the grid: its boundary is where it is, not at the frame.
+    /// Computes the exact Euclidean distance to the edges of `regions`. Parts outside the grid
+    /// count: the grid's border is no boundary.
     ///
-    /// Time grows with the number of cells, and hardly with that of edges.
+    /// The running time is proportional to the number of cells and depends little on the number of
+    /// edges.
     ///
     /// # Errors
-    /// Where the grid is none, or the work was cancelled.
+    /// Returns an error if the grid is invalid or `progress` is cancelled.
     pub fn from_regions(
         regions: &Regions,
         grid: Grid,
         progress: &dyn Progress,
     ) -> Result<Self, FieldError> {
         grid.check()?;
-        // In the grid's own units: distances are counted in cells.
+        // In lattice coordinates, so that distances are in cells.
         let edges = inside::edges(regions, &grid);
         let mut values = polygon_distance::distances(&edges, &grid, progress)?;
         for (value, inside) in values.iter_mut().zip(inside::inside(&edges, &grid)) {
             if !inside {
-                *value = 0.0 - *value; // 0 stays 0 and does not become −0
+                *value = 0.0 - *value; // not −value: 0 must not become −0
             }
         }
         Self::new(grid, values)
     }
 
-    /// The distance transform of the cells whose centre is inside `regions`:
-    /// the paper's way, with a staircase for a boundary.
+    /// Computes the distance transform of the cells whose centre is inside `regions`. This is the
+    /// paper's method; it approximates the boundary by a staircase.
     ///
     /// # Errors
-    /// Where the grid is none, no cell's centre is inside, or the work was
+    /// Returns an error if the grid is invalid, no cell centre is inside, or `progress` is
     /// cancelled.
     pub fn from_raster(
         regions: &Regions,
@@ -152,26 +152,26 @@ impl DistanceField {
         Self::from_mask(&mask, grid, metric, progress)
     }
 
-    /// The grid whose cells the distances are counted in.
+    /// Grid, whose cells are the unit of the distances.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// Values at the cells' centres, row-major, the lowest row first.
+    /// Values at the cell centres in row-major order, lowest row first.
     #[must_use]
     pub fn values(&self) -> &[f32] {
         &self.values
     }
 
-    /// The values as a lattice that can be read between its samples.
+    /// Values as a lattice that can be interpolated.
     #[must_use]
     pub fn samples(&self) -> SampledField<'_> {
         SampledField::of_grid(&self.grid, &self.values)
     }
 
-    /// The bilinear value, in cells, at a point of the plane; beyond the
-    /// outermost samples it is theirs.
+    /// Returns the bilinearly interpolated value, in cells, at a point of the plane. Beyond the
+    /// outermost samples their values continue.
     #[must_use]
     pub fn value(&self, p: DVec2) -> f64 {
         let p = self.grid.lattice_from_plane(p);

@@ -1,13 +1,13 @@
-//! The exact signed Euclidean distance transform, in linear time.
+//! Exact signed Euclidean distance transform in linear time.
 //!
-//! Two passes, as in Meijster, Roerdink and Hesselink 2000 and in Felzenszwalb
-//! and Huttenlocher 2012: distances along each column, then the lower envelope
-//! of parabolas along each row. Both signs come out of one sweep, because a
-//! cell needs nothing but the nearest cell of the other side. And within a run
-//! of cells of one side, nothing beyond the two cells that end it can be
-//! nearer than they are, so that each run has an envelope of its own.
+//! Two passes, as in Meijster, Roerdink and Hesselink 2000 and in Felzenszwalb and Huttenlocher
+//! 2012: distances along each column, then the lower envelope of parabolas along each row.
 //!
-//! All squares are integers and exact; only the last root is rounded.
+//! One sweep gives both signs, because a cell only needs the nearest cell of the other side. Within
+//! a run of cells of one side, no cell beyond the two that end the run can be nearer than these
+//! two, so each run has its own envelope.
+//!
+//! Guaranteed: all squared distances are exact integers; only the final square root is rounded.
 
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -15,35 +15,35 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::Mask;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Columns that a thread sweeps at a time. Stored one strip after the other: a
-/// strip of a 2048² mask stays in the second-level cache, and a row of it is
-/// two cache lines.
+/// Columns per strip of work for one thread. Strips are stored one after the other (resource limit:
+/// a strip of a 2048² mask fits into the second-level cache, and one of its rows takes two cache
+/// lines).
 const STRIP: usize = 64;
 
-/// Rows between two looks at whether the work was cancelled.
-const ROWS: usize = 16;
+/// Rows between two checks for cancellation (resource limit).
+const BAND_ROWS: usize = 16;
 
-/// No cell of the other side in this column. Its square is above every true
-/// square and still leaves room for one more in an `i32`.
+/// Marks a column without cells of the other side. Its square exceeds every valid square, and a
+/// second square added to it still fits in an `i32`.
 const NONE: i16 = i16::MAX;
 
-/// Signed distances of all cells of `mask`.
+/// Computes the signed distances of all cells of `mask`.
 pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>, Cancelled> {
     let strips = columns(mask);
     let (width, height) = (mask.width() as usize, mask.height() as usize);
     let done = AtomicUsize::new(0);
     let mut out = vec![0.0; mask.bits().len()];
-    out.par_chunks_mut(width * ROWS)
+    out.par_chunks_mut(width * BAND_ROWS)
         .enumerate()
         .try_for_each_init(
             || RowPass::new(width),
             |pass, (band, out)| {
-                // Bands end in any order: counted, the progress only grows.
-                let before = done.fetch_add(ROWS, Ordering::Relaxed);
-                let fraction = before as f64 / height as f64;
+                // Bands finish in any order; counting them lets the progress only grow.
+                let rows_done = done.fetch_add(BAND_ROWS, Ordering::Relaxed);
+                let fraction = rows_done as f64 / height as f64;
                 checkpoint(progress, "measuring distances", fraction)?;
                 for (i, out) in out.chunks_mut(width).enumerate() {
-                    let y = band * ROWS + i;
+                    let y = band * BAND_ROWS + i;
                     pass.read(&strips, y, height);
                     pass.transform(&mask.bits()[y * width..][..width], out);
                 }
@@ -53,8 +53,8 @@ pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>
     Ok(out)
 }
 
-/// Distances along the columns from each cell to the nearest of the other
-/// side, the ring of empty cells around the mask included, strip by strip.
+/// First pass: the distance of each cell along its column to the nearest cell of the other side,
+/// strip by strip. The ring of outside cells around the mask counts.
 fn columns(mask: &Mask) -> Vec<i16> {
     let (width, height) = (mask.width() as usize, mask.height() as usize);
     let strip_len = STRIP * height;
@@ -70,30 +70,34 @@ fn columns(mask: &Mask) -> Vec<i16> {
     strips
 }
 
-/// Counts cells since the last change of side in each column of a strip, row
-/// by row, starting from the empty ring.
+/// Counts, row by row, the cells since the last change of side in each column of a strip, starting
+/// at the ring of outside cells.
 fn sweep<'a>(
     strip: &mut [i16],
     rows: impl Iterator<Item = (usize, &'a [bool])>,
     merge: impl Fn(i16, i16) -> i16,
 ) {
     let mut counts = [NONE; STRIP];
-    let mut before = [0; STRIP];
+    let mut previous_side = [0; STRIP];
     for (y, row) in rows {
         let out = &mut strip[y * STRIP..][..row.len()];
-        let columns = out.iter_mut().zip(row).zip(&mut counts).zip(&mut before);
-        for (((out, &inside), count), before) in columns {
-            // Without a branch, the compiler counts many columns at once.
-            let side = -i16::from(inside); // all bits or none
-            *count = (*count & !(side ^ *before)).saturating_add(1);
-            *before = side;
+        let columns = out
+            .iter_mut()
+            .zip(row)
+            .zip(&mut counts)
+            .zip(&mut previous_side);
+        for (((out, &inside), count), previous_side) in columns {
+            // Branch-free, so that the compiler vectorises over columns.
+            let side = -i16::from(inside); // all bits set or none
+            *count = (*count & !(side ^ *previous_side)).saturating_add(1);
+            *previous_side = side;
             *out = merge(*out, *count);
         }
     }
 }
 
-/// A piece of a lower envelope: the parabola (x − vertex)² + height, lowest
-/// from `start` to the start of the next piece.
+/// A piece of a lower envelope: the parabola (x − vertex)² + height, which is lowest from `start`
+/// to the start of the next piece.
 #[derive(Clone, Copy, Debug)]
 struct ParabolaPiece {
     vertex: i32,
@@ -107,7 +111,7 @@ impl ParabolaPiece {
     }
 }
 
-/// The second pass and what it needs for a row.
+/// Second pass: the buffers to transform one row.
 struct RowPass {
     squares: Vec<i32>,
     envelope: Vec<ParabolaPiece>,
@@ -121,7 +125,7 @@ impl RowPass {
         }
     }
 
-    /// Gathers the squared column distances of row `y` from the strips.
+    /// Reads the squared column distances of row `y` from the strips.
     fn read(&mut self, strips: &[i16], y: usize, height: usize) {
         for (strip, out) in self.squares.chunks_exact_mut(STRIP).enumerate() {
             let row = &strips[(strip * height + y) * STRIP..][..STRIP];
@@ -131,14 +135,15 @@ impl RowPass {
         }
     }
 
+    /// Computes the signed distances of one row. `row` holds the sides of its cells.
     fn transform(&mut self, row: &[bool], out: &mut [f32]) {
         let mut from = 0;
         for run in row.chunk_by(|a, b| a == b) {
             let to = from + run.len();
-            // The ring around the mask is empty, and ends inside runs only.
-            let left = from > 0 || run[0];
-            let right = to < row.len() || run[0];
-            self.run(from, to, left, right);
+            // The ring around the mask is outside, so it ends runs of inside cells only.
+            let ends_left = from > 0 || run[0];
+            let ends_right = to < row.len() || run[0];
+            self.run(from, to, ends_left, ends_right);
             from = to;
         }
         let squares = &self.squares[..row.len()];
@@ -148,18 +153,18 @@ impl RowPass {
         }
     }
 
-    /// Replaces the squares of the run `from..to` by the squared distances,
-    /// with cells of the other side at its `left` and `right` end or none.
-    fn run(&mut self, from: usize, to: usize, left: bool, right: bool) {
+    /// Replaces the squares of the run `from..to` by squared distances. `ends_left` and
+    /// `ends_right` say whether a cell of the other side adjoins the run there.
+    fn run(&mut self, from: usize, to: usize, ends_left: bool, ends_right: bool) {
         let (first, end) = (from as i32, to as i32);
         self.envelope.clear();
-        if left {
+        if ends_left {
             self.push(first - 1, 0, first, end);
         }
         for x in from..to {
             self.push(x as i32, self.squares[x], first, end);
         }
-        if right {
+        if ends_right {
             self.push(end, 0, first, end);
         }
         let mut end = to;
@@ -172,6 +177,7 @@ impl RowPass {
         }
     }
 
+    /// Adds a parabola to the right of the envelope of the cells `first..end`.
     fn push(&mut self, vertex: i32, height: i32, first: i32, end: i32) {
         let mut piece = ParabolaPiece {
             vertex,
@@ -179,10 +185,11 @@ impl RowPass {
             start: first,
         };
         while let Some(top) = self.envelope.last() {
-            // All have one curvature, and the new vertex is farther right: what
-            // beats the top where that starts beats it all along.
+            // All parabolas have the same curvature, and the new vertex is farther right. If the
+            // new parabola is not above the top one where the top one starts, it is not above it
+            // anywhere further right.
             if piece.at(top.start) > top.at(top.start) {
-                piece.start = meeting(top, &piece);
+                piece.start = first_cell_below(top, &piece);
                 break;
             }
             self.envelope.pop();
@@ -193,9 +200,9 @@ impl RowPass {
     }
 }
 
-/// The first cell where `right` is below `left`, which is lower at the cell
-/// where it starts, so that no number here is negative.
-fn meeting(left: &ParabolaPiece, right: &ParabolaPiece) -> i32 {
+/// Returns the first cell where `right` is below `left`. `left` is lower where it starts, so no
+/// number here is negative.
+fn first_cell_below(left: &ParabolaPiece, right: &ParabolaPiece) -> i32 {
     let rise = right.vertex * right.vertex + right.height - left.vertex * left.vertex - left.height;
     let run = 2 * (right.vertex - left.vertex);
     (rise as u32 / run as u32) as i32 + 1

@@ -1,16 +1,15 @@
-//! The grid that a field is measured on.
+//! Grid of a distance field: square cells over a rectangle of the plane.
 //!
-//! Distances are counted in its cells, so that a grid is part of what a blend
-//! means; a project stores it. Row 0 is the lowest, and a sample is at the
-//! centre of its cell. Guarantees: a grid that passed [`Grid::check`] is
-//! finite, and small enough for a texture and for exact squares.
+//! Distances are in cells, so the grid affects the meaning of a blend; a project stores it. Row 0
+//! is the lowest row, and samples lie at cell centres. Guaranteed: a grid that passed
+//! [`Grid::check`] is finite, and small enough for a texture and for squared distances to be exact.
 
 use crate::geometry::{Bounds, DVec2};
 
 /// Square cells over a rectangle of the plane.
 ///
-/// The *lattice* of a grid has its unit in the cell and its origin at the
-/// centre of cell (0, 0), so that samples have integer coordinates.
+/// The grid's *lattice* coordinates have the cell as unit and the centre of cell (0, 0) as origin,
+/// so samples have integer coordinates.
 ///
 /// ```
 /// use morphospace::field::Grid;
@@ -24,73 +23,73 @@ use crate::geometry::{Bounds, DVec2};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// Cells along a row, 1 to [`Grid::MAX_SIDE`].
+    /// Number of columns, 1 to [`Grid::MAX_SIDE`].
     pub width: u32,
-    /// Rows, 1 to [`Grid::MAX_SIDE`].
+    /// Number of rows, 1 to [`Grid::MAX_SIDE`].
     pub height: u32,
-    /// The lower left corner of cell (0, 0).
+    /// Lower left corner of cell (0, 0), in the plane.
     pub origin: DVec2,
-    /// The side of a cell, positive.
+    /// Side length of a cell in units of the plane, positive.
     pub cell: f64,
 }
 
-/// Why there is no such grid.
+/// Errors of creating or checking a [`Grid`].
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GridError {
-    /// A side is 0 or above the limit.
+    /// A side is 0 or exceeds [`Grid::MAX_SIDE`].
     #[error(
-        "a grid of {width} × {height} cells: choose 1 to {} cells for each side",
+        "the grid has {width} × {height} cells; choose 1 to {} cells per side",
         Grid::MAX_SIDE
     )]
     Size {
-        /// Cells along a row.
+        /// Number of columns.
         width: u32,
-        /// Rows.
+        /// Number of rows.
         height: u32,
     },
-    /// The origin or the cell is not finite, or the cell is not positive.
+    /// The origin or the cell size is not finite, or the cell size is not positive.
     #[error(
-        "a grid at ({}, {}) with cells of {cell}: both must be finite and the cell above 0",
+        "the grid has its origin at ({}, {}) and cell size {cell}; both must be finite and the cell size above 0",
         origin.x,
         origin.y
     )]
     Place {
         /// Lower left corner.
         origin: DVec2,
-        /// Side of a cell.
+        /// Side length of a cell.
         cell: f64,
     },
     /// The rectangle to cover has no extent or is not finite.
-    #[error("there is no grid over a rectangle of {} × {}: check the size of the design", size.x, size.y)]
+    #[error("a grid cannot cover a rectangle of {} × {}; check the size of the design", size.x, size.y)]
     Bounds {
         /// Size of the rectangle.
         size: DVec2,
     },
-    /// The margin is negative or above [`Grid::MAX_MARGIN`].
-    #[error("the margin is {0}: choose 0 to {max} of the longer side", max = Grid::MAX_MARGIN)]
+    /// The margin is negative or exceeds [`Grid::MAX_MARGIN`].
+    #[error("the margin is {0}; choose a fraction of the longer side from 0 to {max}", max = Grid::MAX_MARGIN)]
     Margin(f64),
 }
 
 impl Grid {
-    /// Cells along a side at most: what every desktop GPU takes as a texture,
-    /// and what keeps every squared distance exact in 32 bits.
+    /// Maximum number of cells per side (resource limit: every desktop GPU accepts textures of this
+    /// size, and squared distances stay exact in 32 bits).
     pub const MAX_SIDE: u32 = 8192;
 
-    /// Margin at most, in longer sides: with it a design has a ninth of its
-    /// grid's side. More is a slip.
+    /// Maximum margin, as a fraction of the longer side (resource limit: the design then covers a
+    /// ninth of the grid's side).
     pub const MAX_MARGIN: f64 = 4.0;
 
-    /// A share of a cell that rounding may cost where cells are counted: a
-    /// square of 0.1 by 10 cells is not to get 11 rows.
+    /// Fraction of a cell by which a count may exceed an integer before it is rounded up
+    /// (tolerance: rounding must not turn 10 rows into 11).
     const COUNT_SLACK: f64 = 1e-9;
 
-    /// A grid of `width` × `height` cells with sides `cell`, its lower left
-    /// corner at `origin`.
+    /// Creates a grid of `width` × `height` cells with side length `cell` and its lower left corner
+    /// at `origin`.
     ///
     /// # Errors
-    /// Where a side is 0 or above [`Self::MAX_SIDE`], or a number is not finite
-    /// or the cell not positive.
+    /// Returns an error if a side is 0 or exceeds [`Self::MAX_SIDE`], a number is not finite, or
+    /// the cell size is not positive.
     pub fn new(width: u32, height: u32, origin: DVec2, cell: f64) -> Result<Self, GridError> {
         let grid = Self {
             width,
@@ -102,13 +101,15 @@ impl Grid {
         Ok(grid)
     }
 
-    /// A grid with `cells` along the longer side of `bounds` after it was
-    /// widened on all sides by `margin`, a fraction of its longer side. It has
-    /// the same centre; the shorter side is rounded up to whole cells.
+    /// Creates a grid around `bounds` widened by a margin.
+    ///
+    /// The margin on all sides is `margin` times the longer side of `bounds`. The longer side of
+    /// the grid has `cells` cells; the shorter one is rounded up to whole cells. The centre stays
+    /// the same.
     ///
     /// # Errors
-    /// Where the rectangle has no extent, the margin is out of range, or there
-    /// would be too many or no cells.
+    /// Returns an error if the rectangle has no extent, the margin is out of range, or the number
+    /// of cells is 0 or too large.
     pub fn covering(bounds: &Bounds, cells: u32, margin: f64) -> Result<Self, GridError> {
         let size = bounds.max - bounds.min;
         let longer = size.max_element();
@@ -118,23 +119,21 @@ impl Grid {
         if !(0.0..=Self::MAX_MARGIN).contains(&margin) {
             return Err(GridError::Margin(margin));
         }
-        // The same width all around, by the longer side: flat designs have room
-        // above, too.
+        // The same margin on all sides, so that flat designs have space above and below, too.
         let padded = size + DVec2::splat(2.0 * margin * longer);
         let cell = padded.max_element() / f64::from(cells);
         let count = |side: f64| (side / cell - Self::COUNT_SLACK).ceil().max(1.0) as u32;
-        // The longer side is to have `cells`, which rounding could exceed by
-        // one.
+        // Rounding could give the longer side one cell more.
         let (width, height) = (count(padded.x).min(cells), count(padded.y).min(cells));
         let half = 0.5 * cell * DVec2::new(f64::from(width), f64::from(height));
         let centre = bounds.min + 0.5 * size;
         Self::new(width, height, centre - half, cell)
     }
 
-    /// That the fields hold what is said about them: they are public.
+    /// Checks the public fields against their documented ranges.
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Same as [`Self::new`].
     pub fn check(&self) -> Result<(), GridError> {
         let sides = 1..=Self::MAX_SIDE;
         if !sides.contains(&self.width) || !sides.contains(&self.height) {
@@ -152,19 +151,19 @@ impl Grid {
         Ok(())
     }
 
-    /// How many cells there are.
+    /// Number of cells.
     #[must_use]
     pub fn cells(&self) -> usize {
         self.width as usize * self.height as usize
     }
 
-    /// The centre of the cell in column `x` and row `y`.
+    /// Centre of the cell in column `x` and row `y`, in the plane.
     #[must_use]
     pub fn centre(&self, x: u32, y: u32) -> DVec2 {
         self.plane_from_lattice(DVec2::new(f64::from(x), f64::from(y)))
     }
 
-    /// The rectangle that the cells cover.
+    /// Rectangle that the cells cover.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let size = self.cell * DVec2::new(f64::from(self.width), f64::from(self.height));
@@ -174,13 +173,13 @@ impl Grid {
         }
     }
 
-    /// Where a point of the plane is on the lattice of samples.
+    /// Converts a point of the plane to lattice coordinates.
     #[must_use]
     pub fn lattice_from_plane(&self, p: DVec2) -> DVec2 {
         (p - self.origin) / self.cell - DVec2::splat(0.5)
     }
 
-    /// Where a point of the lattice of samples is in the plane.
+    /// Converts lattice coordinates to a point of the plane.
     #[must_use]
     pub fn plane_from_lattice(&self, p: DVec2) -> DVec2 {
         self.origin + (p + DVec2::splat(0.5)) * self.cell
@@ -206,9 +205,14 @@ mod tests {
             let covered = grid.bounds();
             let longer = f64::max(width, height);
             let slack = 1e-6 * longer;
-            let wanted = bounds.size() + DVec2::splat(2.0 * margin * longer - slack);
-            assert!(covered.size().cmpge(wanted).all());
-            assert!(covered.size().cmple(wanted + grid.cell + 2.0 * slack).all());
+            let min_size = bounds.size() + DVec2::splat(2.0 * margin * longer - slack);
+            assert!(covered.size().cmpge(min_size).all());
+            assert!(
+                covered
+                    .size()
+                    .cmple(min_size + grid.cell + 2.0 * slack)
+                    .all()
+            );
             assert!(covered.centre().distance(bounds.centre()) < 1e-12);
             assert_eq!(grid.width.max(grid.height), 50);
         }

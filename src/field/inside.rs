@@ -1,18 +1,17 @@
-//! Which samples of a grid are inside a set of polygons, by scanline winding.
+//! Determines which grid samples are inside a set of polygons, by scanline winding numbers.
 //!
-//! Guarantees: the same half-open rule as `Ring::winding`, so that edges that
-//! meet in a row are counted once. A sample within rounding of an edge may go
-//! either way.
+//! Guaranteed: the same half-open rule as `Ring::winding`, so that edges that meet in a row are
+//! counted once. A sample within rounding of an edge may be classified either way.
 
 use rayon::prelude::*;
 
 use super::Grid;
 use crate::geometry::{DVec2, Regions};
 
-/// An edge on the lattice of samples.
+/// An edge in lattice coordinates: start and end.
 pub(super) type ScanlineEdge = (DVec2, DVec2);
 
-/// All edges of `regions` on the lattice of `grid`.
+/// Returns all edges of `regions` in the lattice coordinates of `grid`.
 pub(super) fn edges(regions: &Regions, grid: &Grid) -> Vec<ScanlineEdge> {
     let place = |p| grid.lattice_from_plane(p);
     regions
@@ -22,16 +21,15 @@ pub(super) fn edges(regions: &Regions, grid: &Grid) -> Vec<ScanlineEdge> {
         .collect()
 }
 
-/// Samples with non-zero winding, row-major.
+/// Returns for each sample whether its winding number is not zero, in row-major order.
 pub(super) fn inside(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
     let mut steps = vec![0_i32; grid.cells()];
     for &(a, b) in edges {
-        // Windings: +1 to the right of an edge that rises, −1 of one that
-        // falls.
+        // An edge changes the winding number to its right by +1 if it rises and by −1 if it falls.
         if a.y <= b.y {
-            cross(a, b, 1, grid, &mut steps);
+            add_crossings(a, b, 1, grid, &mut steps);
         } else {
-            cross(b, a, -1, grid, &mut steps);
+            add_crossings(b, a, -1, grid, &mut steps);
         }
     }
     let width = grid.width as usize;
@@ -39,8 +37,8 @@ pub(super) fn inside(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
     bits.par_chunks_mut(width)
         .zip(steps.par_chunks(width))
         .for_each(|(bits, steps)| {
-            // Steps add up along the row: each edge is written once a row, not
-            // once a sample.
+            // Prefix sums along the row, so that each edge is written once per row and not once per
+            // sample.
             let mut winding = 0;
             for (bit, step) in bits.iter_mut().zip(steps) {
                 winding += step;
@@ -50,12 +48,12 @@ pub(super) fn inside(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
     bits
 }
 
-/// Adds `step` to the first sample to the right of an upward edge, in each row
-/// that it crosses.
-fn cross(low: DVec2, high: DVec2, step: i32, grid: &Grid, steps: &mut [i32]) {
-    // `as` saturates, which is what edges outside the grid need.
+/// Adds `step` to the first sample to the right of an upward edge, in each row that the edge
+/// crosses.
+fn add_crossings(low: DVec2, high: DVec2, step: i32, grid: &Grid, steps: &mut [i32]) {
+    // `as` saturates, as edges outside the grid require.
     let row = |y: f64| (y.ceil() as usize).min(grid.height as usize);
-    // A level edge has no slope, and no row to need it in.
+    // A horizontal edge has an infinite slope, but crosses no row.
     let slope = (high.x - low.x) / (high.y - low.y);
     for y in row(low.y)..row(high.y) {
         let x = low.x + (y as f64 - low.y) * slope;

@@ -1,17 +1,17 @@
-//! Binary images: which cells of a grid are inside.
+//! Binary images: the cells of a grid that are inside a design.
 //!
-//! A cell is inside where its centre is, by non-zero winding. Guarantees: a
-//! mask has at least one inside cell, and no side above [`Grid::MAX_SIDE`].
-//! Does not guarantee: parts thinner than a cell may fall between the centres.
+//! A cell is inside if its centre is, by non-zero winding. Guaranteed: a mask has at least one
+//! inside cell, and no side above [`Grid::MAX_SIDE`]. Not guaranteed: parts thinner than a cell may
+//! fall between the centres.
 
 use super::inside;
 use super::{Grid, GridError, SampledFieldError};
 use crate::geometry::{DVec2, Regions};
 
-/// Which cells are inside, row-major, row 0 the lowest.
+/// Whether each cell is inside, row-major, row 0 the lowest.
 ///
-/// What lies beyond the border counts as outside: a mask that is all inside is
-/// legal and has its boundary at its border.
+/// Cells beyond the border count as outside: a mask whose cells are all inside is valid and has its
+/// boundary at the border.
 ///
 /// ```
 /// use morphospace::field::Mask;
@@ -28,29 +28,29 @@ pub struct Mask {
     bits: Vec<bool>,
 }
 
-/// Why there is no such mask.
+/// Errors of creating a [`Mask`].
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MaskError {
-    /// There are not as many bits as cells.
+    /// The number of bits differs from the number of cells.
     #[error(transparent)]
     Length(#[from] SampledFieldError),
     /// No cell is inside.
-    #[error("no cell is inside the design: choose another threshold, or more cells")]
+    #[error("no grid cell is inside the design; use more cells or another threshold")]
     Empty,
-    /// The grid is none, or one of the mask's size would not be.
+    /// The grid is invalid, or the mask is larger than a grid may be.
     #[error(transparent)]
     Grid(#[from] GridError),
 }
 
 impl Mask {
-    /// Reads `bits` as `height` rows of `width` cells, the lowest row first.
+    /// Reads `bits` as `height` rows of `width` cells, lowest row first.
     ///
     /// # Errors
-    /// Where a side is 0 or above [`Grid::MAX_SIDE`], there are not as many
-    /// bits as cells, or none is set.
+    /// Returns an error if a side is 0 or exceeds [`Grid::MAX_SIDE`], the number of bits differs
+    /// from the number of cells, or no bit is set.
     pub fn new(width: u32, height: u32, bits: Vec<bool>) -> Result<Self, MaskError> {
-        // A mask is as large as a grid may be, wherever that lies.
+        // Size limits are those of a grid at any position.
         Grid::new(width, height, DVec2::ZERO, 1.0)?;
         SampledFieldError::check(width, height, bits.len())?;
         if !bits.contains(&true) {
@@ -63,30 +63,30 @@ impl Mask {
         })
     }
 
-    /// The cells of `grid` whose centre is inside `regions`. Costs a step for
-    /// each row that an edge crosses, and one for each cell.
+    /// Rasterises `regions`: a cell is inside if its centre is. Costs one step per row that an edge
+    /// crosses, and one per cell.
     ///
     /// # Errors
-    /// Where the grid is none, or no centre is inside.
+    /// Returns an error if the grid is invalid, or no cell centre is inside.
     pub fn from_regions(regions: &Regions, grid: &Grid) -> Result<Self, MaskError> {
         grid.check()?;
         let bits = inside::inside(&inside::edges(regions, grid), grid);
         Self::new(grid.width, grid.height, bits)
     }
 
-    /// Cells along a row.
+    /// Number of columns.
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows.
+    /// Number of rows.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Cell (x, y) at index `y · width + x`; `true` is inside.
+    /// Sides of the cells, cell (x, y) at index `y · width + x`; `true` is inside.
     #[must_use]
     pub fn bits(&self) -> &[bool] {
         &self.bits
@@ -114,7 +114,7 @@ mod tests {
             &[(2.4, 2.0), (2.4, 3.4), (4.6, 3.4), (4.6, 2.0)],
         ]);
         let grid = Grid::new(8, 6, DVec2::ZERO, 1.0).expect("a grid");
-        let found = Mask::from_regions(&frame, &grid).expect("cells inside");
+        let rasterised = Mask::from_regions(&frame, &grid).expect("cells inside");
         let expected = "
             ........
             .#####..
@@ -122,7 +122,7 @@ mod tests {
             .#...#..
             .#####..
             ........";
-        assert_eq!(text(&found), text(&mask(expected)));
+        assert_eq!(text(&rasterised), text(&mask(expected)));
     }
 
     #[test]
@@ -135,10 +135,10 @@ mod tests {
             .collect();
         let star = regions(&[&star]);
         let grid = Grid::new(70, 50, DVec2::new(-2.0, -3.1), 0.11).expect("a grid");
-        let found = Mask::from_regions(&star, &grid).expect("cells inside");
+        let mask = Mask::from_regions(&star, &grid).expect("cells inside");
         for y in 0..grid.height {
             for x in 0..grid.width {
-                let bit = found.bits()[(y * grid.width + x) as usize];
+                let bit = mask.bits()[(y * grid.width + x) as usize];
                 assert_eq!(bit, star.contains(grid.centre(x, y)), "cell ({x}, {y})");
             }
         }
@@ -148,8 +148,8 @@ mod tests {
     fn a_design_beyond_the_frame_fills_the_mask() {
         let big = regions(&[&[(-9.0, -9.0), (19.0, -9.0), (19.0, 19.0), (-9.0, 19.0)]]);
         let grid = Grid::new(4, 3, DVec2::ZERO, 1.0).expect("a grid");
-        let found = Mask::from_regions(&big, &grid).expect("cells inside");
-        assert!(found.bits().iter().all(|&b| b));
+        let mask = Mask::from_regions(&big, &grid).expect("cells inside");
+        assert!(mask.bits().iter().all(|&b| b));
     }
 
     #[test]

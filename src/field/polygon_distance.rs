@@ -1,18 +1,19 @@
-//! The exact distance from samples to polygon edges.
+//! Exact distances from grid samples to polygon edges.
 //!
-//! Blocks of samples are halved down to a few; each keeps the edges that can
-//! be nearest to any of its samples. Let u be the direction from an edge's
-//! nearest point to the centre of a block with radius r, and d the distance.
-//! On the way to another point of the block the difference of two such
-//! distances changes by no more than the difference of their directions, which
-//! is at most 2, and at most |u − u₀| + 2 r / (d₀ − r): the way from a convex
-//! set to a point changes by no more than the point moves. So an edge is out
-//! where d > d₀ + r min(2, |u − u₀| + 2 r / (d₀ − r)), d₀ and u₀ those of the
-//! nearest edge. Nothing is approximated: values are exact up to rounding, and
-//! the brute-force minimum over all edges is the oracle in the tests.
+//! Blocks of samples are halved recursively; each block keeps only the edges that can be nearest to
+//! one of its samples.
 //!
-//! Cost: far from a smooth outline a block keeps a handful of edges; in the
-//! centre of a circle it keeps all.
+//! The pruning bound: let d be the distance from an edge to the centre of a block of radius r, u
+//! the direction from the nearest point of the edge to that centre, and d₀, u₀ the same for the
+//! edge nearest to the centre. From the centre to another point of the block, the difference of the
+//! two distances changes by at most r times the difference of their directions. That difference is
+//! at most 2, and at most |u − u₀| + 2 r / (d₀ − r), because the vector from a convex set to a
+//! point changes by no more than the point moves. An edge is therefore dropped if d > d₀ + r min(2,
+//! |u − u₀| + 2 r / (d₀ − r)).
+//!
+//! Guaranteed: values are exact up to rounding; the tests compare them with the minimum over all
+//! edges. Cost: far from a smooth outline a block keeps a handful of edges; at the centre of a
+//! circle it keeps all.
 
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,20 +23,20 @@ use super::inside::ScanlineEdge;
 use crate::geometry::DVec2;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Rows that a thread takes at a time: fewer even out the threads, more leave
-/// fewer edges to be sorted out again.
-const ROWS: usize = 32;
+/// Rows per band of work for one thread (resource limit: smaller bands balance the threads better,
+/// larger ones repeat less pruning).
+const BAND_ROWS: usize = 32;
 
-/// Samples of a block that is not halved any more: below, sorting out edges
-/// costs more than it saves.
-const LEAF: usize = 16;
+/// Maximum number of samples of a block that is not halved further (resource limit: below it,
+/// pruning edges costs more than it saves).
+const LEAF_SAMPLES: usize = 16;
 
-/// Rounding that the choice of edges allows for, in cells: far above that of
-/// doubles at 8192 cells (1e-12), and an edge too many costs only time.
+/// Margin of the pruning bound, in cells (tolerance: far above the 1e-12 that doubles resolve at
+/// 8192 cells; an edge too many only costs time).
 const SLACK: f64 = 1e-6;
 
-/// Distances to the nearest of `edges`, in cells, for all samples of `grid`.
-/// There must be an edge.
+/// Computes the distance to the nearest of `edges`, in cells, for all samples of `grid`. There must
+/// be at least one edge.
 pub(super) fn distances(
     edges: &[ScanlineEdge],
     grid: &Grid,
@@ -48,19 +49,19 @@ pub(super) fn distances(
     let width = grid.width as usize;
     let done = AtomicUsize::new(0);
     let mut out = vec![0.0; grid.cells()];
-    out.par_chunks_mut(width * ROWS)
+    out.par_chunks_mut(width * BAND_ROWS)
         .enumerate()
         .try_for_each_init(
             || SegmentSearch::new(&segments),
             |search, (band, out)| {
-                let before = done.fetch_add(ROWS, Ordering::Relaxed);
-                let fraction = before as f64 / f64::from(grid.height);
+                let rows_done = done.fetch_add(BAND_ROWS, Ordering::Relaxed);
+                let fraction = rows_done as f64 / f64::from(grid.height);
                 checkpoint(progress, "measuring distances", fraction)?;
                 let block = SampleBlock {
                     x: (0, width),
                     y: (0, out.len() / width),
                 };
-                let first_row = band * ROWS;
+                let first_row = band * BAND_ROWS;
                 let mut band = RowBand {
                     first_row,
                     width,
@@ -73,12 +74,12 @@ pub(super) fn distances(
     Ok(out)
 }
 
-/// A line segment, ready to be measured from.
+/// A line segment, prepared for distance queries.
 #[derive(Clone, Copy, Debug)]
 struct PolygonSegment {
     start: DVec2,
     along: DVec2,
-    /// 1 / length², or 0 for a point.
+    /// 1 / length², or 0 for a segment without length.
     scale: f64,
 }
 
@@ -89,12 +90,12 @@ impl PolygonSegment {
         Self {
             start,
             along,
-            // A point has no direction to go along: 0 stays at its start.
+            // A segment without length has no direction; 0 keeps the nearest point at its start.
             scale: if scale.is_finite() { scale } else { 0.0 },
         }
     }
 
-    /// From the nearest point of the segment to `p`.
+    /// Vector from the nearest point of the segment to `p`.
     fn to(&self, p: DVec2) -> DVec2 {
         let from_start = p - self.start;
         let s = (from_start.dot(self.along) * self.scale).clamp(0.0, 1.0);
@@ -102,24 +103,27 @@ impl PolygonSegment {
     }
 }
 
-/// The edge that is nearest to the centre of a block, against all others.
+/// Pruning bound of a block: the edge nearest to its centre, with which all others are compared.
 struct NearestCandidate {
+    /// Unit vector from the nearest edge to the centre.
     direction: DVec2,
+    /// Distance of the nearest edge to the centre, plus the margin for rounding.
     distance: f64,
+    /// Distance of the outermost samples from the centre.
     radius: f64,
-    /// How far two directions can turn apart within the block.
-    turn: f64,
-    /// Square of the distance at which no edge can be nearest.
+    /// Bound on how much two directions can diverge within the block.
+    max_divergence: f64,
+    /// Squared distance beyond which no edge can be nearest, whatever its direction.
     limit: f64,
 }
 
 impl NearestCandidate {
     fn new(away: DVec2, radius: f64) -> Self {
         let distance = away.length();
-        let clear = distance - radius;
-        // Where the edge reaches into the block, directions may be any two.
-        let turn = if clear > 0.0 {
-            2.0 * radius / clear
+        let clearance = distance - radius;
+        // If the edge reaches into the block, directions are arbitrary.
+        let max_divergence = if clearance > 0.0 {
+            2.0 * radius / clearance
         } else {
             2.0
         };
@@ -127,23 +131,23 @@ impl NearestCandidate {
             direction: away / distance,
             distance: distance * (1.0 + SLACK) + SLACK,
             radius,
-            turn,
+            max_divergence,
             limit: ((distance + 2.0 * radius) * (1.0 + SLACK) + SLACK).powi(2),
         }
     }
 
-    /// Whether an edge, from which it is `away` to the centre, can be nearer
-    /// somewhere in the block.
-    fn leaves(&self, away: DVec2) -> bool {
+    /// Whether an edge may be nearest to a point of the block. `away` is the vector from the edge
+    /// to the centre.
+    fn can_be_nearest(&self, away: DVec2) -> bool {
         let square = away.length_squared();
-        // Most edges are told by this, without a root.
+        // Rejects most edges without a square root.
         if square > self.limit {
             return false;
         }
         let distance = square.sqrt();
-        let apart = (away / distance).distance(self.direction) + self.turn;
-        // On the boundary there is no direction: `min` takes 2 over NaN.
-        distance <= self.distance + self.radius * apart.min(2.0)
+        let divergence = (away / distance).distance(self.direction) + self.max_divergence;
+        // If the centre lies on an edge, `divergence` is NaN, and `min` returns 2.
+        distance <= self.distance + self.radius * divergence.min(2.0)
     }
 }
 
@@ -154,7 +158,7 @@ struct RowBand<'a> {
     out: &'a mut [f32],
 }
 
-/// Half-open ranges of columns and, within a band, of rows.
+/// A block of samples: half-open ranges of columns and of rows within a band.
 #[derive(Clone, Copy, Debug)]
 struct SampleBlock {
     x: (usize, usize),
@@ -162,10 +166,12 @@ struct SampleBlock {
 }
 
 impl SampleBlock {
+    /// Numbers of columns and rows.
     fn size(&self) -> (usize, usize) {
         (self.x.1 - self.x.0, self.y.1 - self.y.0)
     }
 
+    /// Splits the block across its longer side.
     fn halves(&self) -> [Self; 2] {
         let (width, height) = self.size();
         if width >= height {
@@ -177,7 +183,8 @@ impl SampleBlock {
         }
     }
 
-    /// The centre of its samples, and how far the outermost are from it.
+    /// Centre of its samples in lattice coordinates, and the distance of the outermost samples from
+    /// it.
     fn disc(&self, first_row: usize) -> (DVec2, f64) {
         let (width, height) = self.size();
         let half = 0.5 * DVec2::new((width - 1) as f64, (height - 1) as f64);
@@ -186,12 +193,12 @@ impl SampleBlock {
     }
 }
 
-/// The edges that are still in question, as a stack: those of a block lie
-/// above those of the block that it is a half of.
+/// Recursive search with a stack of candidate edges. The candidates of a block lie above those of
+/// its parent block.
 struct SegmentSearch<'a> {
     segments: &'a [PolygonSegment],
     stack: Vec<u32>,
-    /// From each edge in question to the centre of the block.
+    /// Vectors from each candidate to the centre of the block; a buffer that is reused.
     away: Vec<DVec2>,
 }
 
@@ -204,27 +211,26 @@ impl<'a> SegmentSearch<'a> {
         }
     }
 
-    /// Fills a block of a band; the edges in question lie on the stack from
-    /// `bottom` up.
+    /// Fills a block of a band. Its candidates lie on the stack from `bottom` up.
     fn fill(&mut self, block: SampleBlock, bottom: usize, band: &mut RowBand<'_>) {
         let (columns, rows) = block.size();
-        if columns * rows <= LEAF {
+        if columns * rows <= LEAF_SAMPLES {
             return self.measure(block, bottom, band);
         }
-        // Depth first: a half inherits what its block has kept, and gives back
-        // the stack as it was.
+        // Depth first: each half starts from the candidates of its block and restores the stack
+        // afterwards.
         for half in block.halves() {
             let top = self.stack.len();
             let (centre, radius) = half.disc(band.first_row);
-            self.keep_near(bottom, centre, radius);
+            self.push_near(bottom, centre, radius);
             self.fill(half, top, band);
             self.stack.truncate(top);
         }
     }
 
-    /// Pushes those edges from `bottom` up that can be nearest to a point
-    /// within `radius` of `centre`.
-    fn keep_near(&mut self, bottom: usize, centre: DVec2, radius: f64) {
+    /// Pushes the candidates from `bottom` up that can be nearest to a point within `radius` of
+    /// `centre`.
+    fn push_near(&mut self, bottom: usize, centre: DVec2, radius: f64) {
         let segments = self.segments;
         let away = self.stack[bottom..]
             .iter()
@@ -238,14 +244,15 @@ impl<'a> SegmentSearch<'a> {
         else {
             return;
         };
-        let rival = NearestCandidate::new(nearest, radius);
+        let bound = NearestCandidate::new(nearest, radius);
         for (k, &away) in self.away.iter().enumerate() {
-            if rival.leaves(away) {
+            if bound.can_be_nearest(away) {
                 self.stack.push(self.stack[bottom + k]);
             }
         }
     }
 
+    /// Computes the distances of a block by brute force over its candidates.
     fn measure(&self, block: SampleBlock, bottom: usize, band: &mut RowBand<'_>) {
         for y in block.y.0..block.y.1 {
             for x in block.x.0..block.x.1 {

@@ -1,22 +1,20 @@
-//! A picture of `f32` samples read between its samples.
+//! A lattice of `f32` samples with bilinear interpolation.
 //!
-//! Guarantees: interpolation is bilinear and exact at the samples; positions
-//! outside are clamped to the outermost samples. Does not guarantee smoothness:
-//! the gradient jumps from cell to cell.
+//! Guaranteed: interpolation is exact at the samples; positions outside are clamped to the
+//! outermost samples. Not guaranteed: smoothness. The gradient jumps between cells.
 
 use super::Grid;
 
-/// A regular lattice of samples, borrowed: row-major, sample (x, y) at index
-/// `y · width + x`. Whether row 0 is the lowest or the uppermost is the
-/// caller's affair.
+/// A regular lattice of borrowed samples in row-major order, sample (x, y) at index `y · width +
+/// x`. The caller decides whether row 0 is the lowest or the uppermost.
 ///
 /// ```
-/// use morphospace::field::Samples;
+/// use morphospace::field::SampledField;
 ///
-/// let ramp = Samples::new(2, 1, &[0.0, 10.0])?;
+/// let ramp = SampledField::new(2, 1, &[0.0, 10.0])?;
 /// assert_eq!(ramp.bilinear(0.25, 0.0), 2.5);
 /// assert_eq!(ramp.bilinear(-7.0, 3.0), 0.0);
-/// # Ok::<(), morphospace::field::SamplesError>(())
+/// # Ok::<(), morphospace::field::SampledFieldError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SampledField<'a> {
@@ -25,24 +23,24 @@ pub struct SampledField<'a> {
     values: &'a [f32],
 }
 
-/// Why values are no lattice of samples: of a field, a mask or a picture.
+/// Error of reading values as a lattice: the lattice is empty, or the number of values is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "a lattice of {width} × {height} samples needs at least one sample and as many values as samples, but {values} values were given"
+    "a lattice of {width} × {height} samples got {values} values; give one value per sample, and at least one sample"
 )]
 pub struct SampledFieldError {
-    /// Samples along a row.
+    /// Number of columns.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
-    /// How many values were given.
+    /// Number of values given.
     pub values: usize,
 }
 
 impl SampledFieldError {
-    /// That there is a value for each sample, and one at least.
+    /// Checks that there is one value per sample, and at least one sample.
     pub(super) fn check(width: u32, height: u32, values: usize) -> Result<(), Self> {
-        // As u64, which no product of two u32 leaves.
+        // In u64, which holds every product of two u32.
         let samples = u64::from(width) * u64::from(height);
         if samples == 0 || samples != values as u64 {
             return Err(Self {
@@ -59,7 +57,7 @@ impl<'a> SampledField<'a> {
     /// Reads `values` as `height` rows of `width` samples.
     ///
     /// # Errors
-    /// Where a side is 0, or `values` is not `width · height` long.
+    /// Returns an error if a side is 0, or `values` does not have `width · height` elements.
     pub fn new(width: u32, height: u32, values: &'a [f32]) -> Result<Self, SampledFieldError> {
         SampledFieldError::check(width, height, values.len())?;
         Ok(Self {
@@ -69,7 +67,7 @@ impl<'a> SampledField<'a> {
         })
     }
 
-    /// The samples of a grid that was checked, as many values as it has cells.
+    /// Reads the values of a valid grid, one per cell.
     pub(super) fn of_grid(grid: &Grid, values: &'a [f32]) -> Self {
         Self {
             width: grid.width as usize,
@@ -78,20 +76,20 @@ impl<'a> SampledField<'a> {
         }
     }
 
-    /// Samples along a row.
+    /// Number of columns.
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width as u32
     }
 
-    /// Rows.
+    /// Number of rows.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height as u32
     }
 
-    /// The value at (`x`, `y`) in units of samples, sample (0, 0) at (0, 0);
-    /// positions outside, and NaN, are clamped to the lattice.
+    /// Returns the value at (`x`, `y`), in units of samples with sample (0, 0) at (0, 0). Positions
+    /// outside, and NaN, are clamped to the lattice.
     #[must_use]
     pub fn bilinear(&self, x: f64, y: f64) -> f64 {
         let (left, right, u) = bracket(x, self.width);
@@ -104,9 +102,9 @@ impl<'a> SampledField<'a> {
     }
 }
 
-/// The two samples around `x`, and how far it is from the first to the second.
+/// Returns the two samples around `x` and the fraction of the way from the first to the second.
 fn bracket(x: f64, count: usize) -> (usize, usize, f64) {
-    // In this order NaN becomes 0: `max` takes the number.
+    // In this order NaN becomes 0, because `max` returns the number.
     let clamped = x.max(0.0).min((count - 1) as f64);
     let first = clamped as usize;
     (first, (first + 1).min(count - 1), clamped - first as f64)

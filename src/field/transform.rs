@@ -1,22 +1,21 @@
-//! Signed distance transforms of masks.
+//! Signed distance transforms of masks in four metrics.
 //!
-//! Positive inside, negative outside, in cells. The boundary runs between
-//! cells, so that each side loses half a cell and no value is 0. What lies
-//! beyond the border of a mask counts as one ring of outside cells: a design
-//! that fills or exceeds its frame is cut off at the frame, just as it is
-//! drawn.
+//! Values are positive inside, negative outside, and in cells. The boundary runs midway between
+//! inside and outside cells, so half a cell is subtracted on each side and no value is 0. A mask is
+//! surrounded by one ring of outside cells: a design that reaches its border ends there, as it does
+//! in the drawing.
 //!
-//! Guarantees: equal to the brute-force minimum over all cells, for each
-//! metric. Costs: linear in the number of cells; the Euclidean transform runs
-//! over the threads of the caller's rayon pool, the others on one.
+//! Guaranteed: values equal the brute-force minimum over all cells in each metric. Cost: linear in
+//! the number of cells. The Euclidean transform uses the threads of the current rayon pool, the
+//! others one thread.
 
 use super::{Mask, chamfer, euclidean};
-use crate::settings::choice::named;
+use crate::settings::named;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 use std::f64::consts::SQRT_2;
 
-/// How far two cells are apart, `dx` columns and `dy` rows from each other
-/// (Rosenfeld and Pfaltz 1968; the names are those of the paper's tool).
+/// Distance between cells that are `dx` columns and `dy` rows apart (Rosenfeld and Pfaltz 1968; the
+/// names are those of the paper's tool).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Metric {
@@ -32,14 +31,14 @@ pub enum Metric {
 }
 
 named! { Metric {
-    Euclidean: "euclidean", "Euclidean", "True distance: offsets are round.";
+    Euclidean: "euclidean", "Euclidean", "True distance: offset outlines have round corners.";
     QuasiEuclidean: "quasi-euclidean", "Quasi-Euclidean",
-        "Along axes and diagonals: offsets are octagons.";
-    CityBlock: "city-block", "City block", "Along axes: offsets are diamonds.";
-    Chessboard: "chessboard", "Chessboard", "The larger of the two: offsets are squares.";
+        "Steps along axes and diagonals: offset outlines are octagonal.";
+    CityBlock: "city-block", "City block", "Steps along axes: offset outlines are diamond-shaped.";
+    Chessboard: "chessboard", "Chessboard", "Larger of the two axis distances: offset outlines are square.";
 } }
 
-/// Signed distances of all cells of `mask`, row-major as its bits.
+/// Computes the signed distances of all cells of `mask`, in the order of its bits.
 ///
 /// ```
 /// use morphospace::field::{Mask, Metric, distance_transform};
@@ -47,12 +46,12 @@ named! { Metric {
 ///
 /// let mask = Mask::new(5, 1, vec![false, true, true, true, false])?;
 /// let found = distance_transform(&mask, Metric::Euclidean, &Silent)?;
-/// assert_eq!(found, [-0.5, 0.5, 0.5, 0.5, -0.5]); // the ring is near
+/// assert_eq!(found, [-0.5, 0.5, 0.5, 0.5, -0.5]); // outside cells surround the mask
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`Cancelled`] if nobody wants the result any more.
+/// Returns [`Cancelled`] if `progress` is cancelled.
 pub fn distance_transform(
     mask: &Mask,
     metric: Metric,

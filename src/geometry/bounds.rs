@@ -1,8 +1,8 @@
-//! Axis-parallel boxes.
+//! Axis-aligned bounding boxes.
 
 use super::DVec2;
 
-/// A closed axis-parallel box; `min` is at most `max` in both coordinates.
+/// Closed axis-aligned box; `min` is at most `max` in both coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Lower left corner.
@@ -12,7 +12,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The smallest box around the points; `None` for no points.
+    /// Returns the smallest box around the points; `None` for no points.
     ///
     /// ```
     /// use morphospace::geometry::{Bounds, DVec2};
@@ -28,13 +28,13 @@ impl Bounds {
         }))
     }
 
-    /// The diameter of the smallest box around the points; 0 for none.
+    /// Diagonal of the smallest box around the points; 0 for no points.
     #[must_use]
     pub fn diameter_of(points: &[DVec2]) -> f64 {
         Self::of(points.iter().copied()).map_or(0.0, |bounds| bounds.diameter())
     }
 
-    /// The box that holds one point.
+    /// Box that contains a single point.
     #[must_use]
     pub const fn at(p: DVec2) -> Self {
         Self { min: p, max: p }
@@ -46,7 +46,7 @@ impl Bounds {
         self.max - self.min
     }
 
-    /// The midpoint.
+    /// Centre of the box.
     #[must_use]
     pub fn centre(&self) -> DVec2 {
         self.min.midpoint(self.max)
@@ -58,7 +58,7 @@ impl Bounds {
         self.size().length()
     }
 
-    /// The smallest box around both.
+    /// Smallest box around both boxes.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         Self {
@@ -67,11 +67,10 @@ impl Bounds {
         }
     }
 
-    /// Grown by `by` on every side; a negative `by` shrinks to the centre at
-    /// most.
+    /// The box grown by `by` on every side. A negative `by` shrinks it, at most to its centre.
     #[must_use]
     pub fn padded(&self, by: f64) -> Self {
-        // What is narrower than it loses becomes a line, never inside out.
+        // A side shorter than twice the shrinkage becomes 0, never negative.
         let centre = self.centre();
         Self {
             min: (self.min - by).min(centre),
@@ -79,19 +78,19 @@ impl Bounds {
         }
     }
 
-    /// Whether `p` lies in the closed box.
+    /// Returns whether `p` lies in the closed box.
     #[must_use]
     pub fn contains(&self, p: DVec2) -> bool {
         p.cmpge(self.min).all() && p.cmple(self.max).all()
     }
 
-    /// Whether the closed boxes have a point in common.
+    /// Returns whether the closed boxes have a point in common.
     #[must_use]
     pub fn meets(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
-    /// The corners, counter-clockwise from the lower left.
+    /// Corners, counter-clockwise from the lower left.
     #[must_use]
     pub fn corners(&self) -> [DVec2; 4] {
         [

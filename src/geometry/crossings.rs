@@ -1,34 +1,33 @@
-//! Where closed polygons cross themselves and each other.
+//! Proper crossings of closed polygons with themselves and with each other.
 //!
-//! A plane sweep over edges sorted along the axis on which they overlap less
-//! (Shamos, Hoey 1976, without their status structure): O(n log n + k) for k
-//! pairs of edges that overlap along that axis. Guaranteed: every proper
-//! crossing, by exact predicates. Not counted: touching, coincident edges and
-//! an edge that runs exactly through a vertex.
+//! A plane sweep over edges sorted along the axis on which they overlap less (Shamos, Hoey 1976,
+//! without their status structure): O(n log n + k) for k pairs of edges that overlap along that
+//! axis. Guaranteed: every proper crossing is found, by exact predicates. Not counted: touching
+//! edges, coincident edges, and edges that run exactly through a vertex.
 
 use super::{DVec2, orient2d, segments_cross};
 use serde::Serialize;
 
-/// An edge of closed polygons, from a point to the next one.
+/// Edge of a closed polygon, from a point to the next one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RingEdge {
-    /// Which ring, from 0.
+    /// Index of the ring.
     pub ring: usize,
-    /// Which of its points the edge begins at, from 0.
+    /// Index of the point at which the edge starts.
     pub point: usize,
 }
 
-/// Two edges whose insides meet in one point.
+/// Crossing of two edges at a point inside both.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EdgeCrossing {
-    /// The edges, in the order of their rings and points.
+    /// The edges, ordered by ring and point.
     pub edges: [RingEdge; 2],
-    /// Where they meet.
+    /// Point of the crossing.
     pub place: DVec2,
 }
 
-/// The number of proper crossings among the edges of all rings, each with
-/// itself and with the others.
+/// Returns the number of proper crossings among the edges of all rings, within a ring and between
+/// rings.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, count_crossings};
@@ -42,7 +41,7 @@ pub fn count_crossings(rings: &[Vec<DVec2>]) -> usize {
     count
 }
 
-/// The proper crossings themselves, in the order of their edges.
+/// Returns the proper crossings, ordered by their edges.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, crossings};
@@ -58,33 +57,35 @@ pub fn crossings(rings: &[Vec<DVec2>]) -> Vec<EdgeCrossing> {
     found
 }
 
-/// An edge by what the sweep asks of it first.
+/// Edge with its extents along and across the sweep direction.
 #[derive(Clone, Copy)]
 struct SweepEdge {
-    /// Where it begins and ends along the sweep.
+    /// Smallest and largest coordinate along the sweep.
     along: [f64; 2],
-    /// And across.
+    /// Smallest and largest coordinate across the sweep.
     across: [f64; 2],
     edge: RingEdge,
     ends: [DVec2; 2],
 }
 
-fn sweep(rings: &[Vec<DVec2>], mut found: impl FnMut(RingEdge, RingEdge)) {
+/// Calls `report` for each pair of edges that cross.
+fn sweep(rings: &[Vec<DVec2>], mut report: impl FnMut(RingEdge, RingEdge)) {
     let mut spans = spans(rings);
-    // `total_cmp` puts NaN at an end, and `<=` is false for it.
+    // `total_cmp` sorts NaN to an end, and `<=` is false for NaN.
     spans.sort_unstable_by(|a, b| a.along[0].total_cmp(&b.along[0]));
     for (i, span) in spans.iter().enumerate() {
         let later = spans[i + 1..].iter();
-        // Sorted by where they begin: the first that begins too far ends the search.
+        // Sorted by their starts, so the first edge that starts too far along ends the search.
         for other in later.take_while(|other| other.along[0] <= span.along[1]) {
-            let apart = other.across[0] > span.across[1] || span.across[0] > other.across[1];
-            if !apart && segments_cross(span.ends, other.ends) {
-                found(span.edge, other.edge);
+            let is_apart = other.across[0] > span.across[1] || span.across[0] > other.across[1];
+            if !is_apart && segments_cross(span.ends, other.ends) {
+                report(span.edge, other.edge);
             }
         }
     }
 }
 
+/// Edges of all rings, with the sweep along the axis on which they overlap less.
 fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
     let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
     let mut spans: Vec<SweepEdge> = ring_edges(rings)
@@ -95,7 +96,8 @@ fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
             ends,
         })
         .collect();
-    let crowded = |of: fn(&SweepEdge) -> [f64; 2]| {
+    // Mean number of edges over a point of the axis.
+    let overlap = |of: fn(&SweepEdge) -> [f64; 2]| {
         let all = spans.iter().map(of);
         let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
         for [a, b] in all {
@@ -103,8 +105,8 @@ fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
         }
         sum / (high - low)
     };
-    // The sweep costs as much as edges overlap along it.
-    if crowded(|s| s.along) > crowded(|s| s.across) {
+    // The cost of the sweep grows with the overlap along it.
+    if overlap(|s| s.along) > overlap(|s| s.across) {
         for span in &mut spans {
             std::mem::swap(&mut span.along, &mut span.across);
         }
@@ -112,6 +114,7 @@ fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
     spans
 }
 
+/// Edges of all rings with their ends.
 fn ring_edges(rings: &[Vec<DVec2>]) -> impl Iterator<Item = (RingEdge, [DVec2; 2])> {
     rings.iter().enumerate().flat_map(|(ring, points)| {
         let next = points.iter().cycle().skip(1);
@@ -121,18 +124,20 @@ fn ring_edges(rings: &[Vec<DVec2>]) -> impl Iterator<Item = (RingEdge, [DVec2; 2
     })
 }
 
+/// Crossing of two edges that are known to cross.
 fn crossing(rings: &[Vec<DVec2>], a: RingEdge, b: RingEdge) -> EdgeCrossing {
     let ends = |e: RingEdge| {
         let ring = &rings[e.ring];
         [ring[e.point], ring[(e.point + 1) % ring.len()]]
     };
     let ([p, q], [r, s]) = (ends(a), ends(b));
-    let (begin, end) = (orient2d(r, s, p), orient2d(r, s, q));
+    // Signed heights of the ends above the other edge give the fraction along this one.
+    let (height_p, height_q) = (orient2d(r, s, p), orient2d(r, s, q));
     let mut edges = [a, b];
     edges.sort_unstable_by_key(|e| (e.ring, e.point));
     EdgeCrossing {
         edges,
-        place: p.lerp(q, begin / (begin - end)),
+        place: p.lerp(q, height_p / (height_p - height_q)),
     }
 }
 
@@ -141,6 +146,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    /// Oracle: tests all pairs of edges.
     fn slow_count(rings: &[Vec<DVec2>]) -> usize {
         let edges: Vec<_> = ring_edges(rings).collect();
         let pairs = (0..edges.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -188,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_crosses_nothing() {
+    fn edges_that_are_not_finite_cross_nothing() {
         let mut ring = square(0.0, 1.0);
         ring[2] = DVec2::NAN;
         assert_eq!(count_crossings(&[ring, square(0.2, 0.4), vec![]]), 0);

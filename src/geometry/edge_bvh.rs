@@ -1,67 +1,66 @@
-//! The edges of a closed polygon in boxes within boxes, so that a ray, or
-//! whoever asks for the edges near a place, looks at few of them.
+//! Bounding-volume hierarchy over the edges of a closed polygon, for ray and proximity queries.
 //!
-//! Runs of edges that follow each other lie near each other: they are halved
-//! as they are listed, without sorting. A ray costs about the logarithm of the
-//! number of edges, instead of all of them.
+//! Consecutive edges lie near each other, so runs of edges are halved in list order, without
+//! sorting. A ray costs about the logarithm of the number of edges.
 //!
-//! Guaranteed: the same edge is met first, to the last bit, as when all are
-//! looked at, but for rays along an edge, which meet it by rounding alone.
+//! Guaranteed: a ray hits the same edge first, to the last bit, as in a search over all edges,
+//! except for rays that run along an edge, which meet it by rounding alone.
 
 use super::{Bounds, DVec2, ray_hit_parameter, ring_edges};
 
-/// Edges that are looked at one by one.
-const RUN: usize = 8;
+/// Maximum number of edges in a leaf (heuristic).
+const LEAF_EDGES: usize = 8;
 
-/// Boxes are larger by this share of the whole: far more than the rounding of
-/// where a ray meets an edge, far less than any edge's box.
-const SLACK: f64 = 1e-9;
+/// Padding of the boxes, as a fraction of the polygon's diameter (tolerance: far above the rounding
+/// of a ray's hit, far below the size of an edge).
+const PADDING: f64 = 1e-9;
 
-/// A closed polygon's edges.
+/// Edges of a closed polygon with a hierarchy of boxes.
 #[derive(Debug)]
 pub(crate) struct EdgeBvh {
     edges: Vec<(DVec2, DVec2)>,
-    /// A tree in depth-first order: the box of the first half follows at once,
-    /// that of the second where the number says.
+    /// Binary tree in depth-first order. The box of the first half follows immediately; the number
+    /// is the index of the second half's box.
     boxes: Vec<(Bounds, usize)>,
 }
 
 impl EdgeBvh {
-    /// The edges of a closed polygon.
+    /// Builds the hierarchy of a closed polygon.
     pub(crate) fn of(points: &[DVec2]) -> Self {
         let mut boxes = Self {
             edges: ring_edges(points).collect(),
             boxes: Vec::new(),
         };
-        let slack = SLACK * Bounds::diameter_of(points);
-        boxes.enclose(0, points.len(), slack);
+        let padding = PADDING * Bounds::diameter_of(points);
+        boxes.enclose(0, points.len(), padding);
         boxes
     }
 
-    /// Pushes the box of a range of edges, and those within it.
-    fn enclose(&mut self, from: usize, to: usize, slack: f64) {
+    /// Appends the box of a range of edges, then those of its two halves.
+    fn enclose(&mut self, from: usize, to: usize, padding: f64) {
         let ends = self.edges[from..to].iter().flat_map(|&(a, b)| [a, b]);
         let Some(bounds) = Bounds::of(ends) else {
             return;
         };
         let own = self.boxes.len();
-        self.boxes.push((bounds.padded(slack), own));
-        if to - from > RUN {
+        self.boxes.push((bounds.padded(padding), own));
+        if to - from > LEAF_EDGES {
             let middle = from + (to - from) / 2;
-            self.enclose(from, middle, slack);
+            self.enclose(from, middle, padding);
+            // Known once the first half is complete.
             self.boxes[own].1 = self.boxes.len();
-            self.enclose(middle, to, slack);
+            self.enclose(middle, to, padding);
         }
     }
 
-    /// How far a ray goes to the first edge beyond `own`, in lengths of
-    /// `direction`; infinite if to none.
-    pub(crate) fn first_beyond(&self, from: DVec2, direction: DVec2, own: f64) -> f64 {
+    /// Returns where a ray first hits an edge beyond `min_distance`; infinite if it hits none.
+    /// Distances are in lengths of `direction`.
+    pub(crate) fn first_hit_beyond(&self, from: DVec2, direction: DVec2, min_distance: f64) -> f64 {
         let ray = Ray {
             from,
             direction,
             inverse: direction.recip(),
-            own,
+            min_distance,
         };
         let mut nearest = f64::INFINITY;
         if !self.boxes.is_empty() {
@@ -70,12 +69,13 @@ impl EdgeBvh {
         nearest
     }
 
-    /// Whether `is` holds for an edge near `place`: all whose box meets it are
-    /// asked, and some more, until one says so.
+    /// Returns whether `is` holds for an edge near `place`. All edges whose boxes meet `place` are
+    /// tested, and some others, until one satisfies `is`.
     pub(crate) fn any_near(&self, place: &Bounds, is: &dyn Fn([DVec2; 2]) -> bool) -> bool {
         !self.boxes.is_empty() && self.any_within(place, is, 0, 0, self.edges.len())
     }
 
+    /// [`Self::any_near`] in the subtree of a node with the given range of edges.
     fn any_within(
         &self,
         place: &Bounds,
@@ -88,7 +88,7 @@ impl EdgeBvh {
         if !bounds.meets(place) {
             return false;
         }
-        if to - from <= RUN {
+        if to - from <= LEAF_EDGES {
             return self.edges[from..to].iter().any(|&(a, b)| is([a, b]));
         }
         let middle = from + (to - from) / 2;
@@ -96,17 +96,18 @@ impl EdgeBvh {
             || self.any_within(place, is, *second, middle, to)
     }
 
+    /// Lowers `nearest` to the first hit in the subtree of a node with the given range of edges.
     fn visit(&self, ray: &Ray, node: usize, from: usize, to: usize, nearest: &mut f64) {
         let (bounds, second) = &self.boxes[node];
         if !ray.enters(bounds, *nearest) {
             return;
         }
-        if to - from <= RUN {
+        if to - from <= LEAF_EDGES {
             for &edge in &self.edges[from..to] {
-                let far = ray_hit_parameter(ray.from, ray.direction, edge);
-                *nearest = far
-                    .filter(|far| *far > ray.own)
-                    .map_or(*nearest, |far| nearest.min(far));
+                let distance = ray_hit_parameter(ray.from, ray.direction, edge);
+                *nearest = distance
+                    .filter(|distance| *distance > ray.min_distance)
+                    .map_or(*nearest, |distance| nearest.min(distance));
             }
             return;
         }
@@ -116,21 +117,25 @@ impl EdgeBvh {
     }
 }
 
+/// Ray in the form used by the box test.
 struct Ray {
     from: DVec2,
     direction: DVec2,
+    /// Reciprocal of the direction.
     inverse: DVec2,
-    own: f64,
+    /// Distance up to which hits are ignored.
+    min_distance: f64,
 }
 
 impl Ray {
-    /// Whether the ray is in a box before it is as far as `nearest`.
+    /// Returns whether the ray enters a box before the distance `nearest`.
     fn enters(&self, bounds: &Bounds, nearest: f64) -> bool {
         let [low, high] =
             [bounds.min, bounds.max].map(|corner| (corner - self.from) * self.inverse);
+        // Slab test: the ray is in the box while it is in both coordinate ranges.
         let (mut enter, mut leave) = (0.0_f64, nearest);
         for (low, high) in [(low.x, high.x), (low.y, high.y)] {
-            // 0 · ∞: a ray along a side of the box, which keeps it in.
+            // 0 · ∞ is NaN: the ray runs along a side of the box, which does not exclude it.
             if !low.is_nan() && !high.is_nan() {
                 enter = enter.max(low.min(high));
                 leave = leave.min(low.max(high));
@@ -148,7 +153,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_ray_meets_what_it_meets_among_all_edges(
+        fn a_ray_hits_the_same_edge_as_in_a_search_over_all(
             points in prop::collection::vec((-1.0f64..1.0, -1.0f64..1.0), 1..80),
             from in (-1.5f64..1.5, -1.5f64..1.5),
             turn in 0.0f64..6.3,
@@ -158,12 +163,12 @@ mod tests {
             let (from, direction) = (DVec2::from(from), DVec2::from_angle(turn));
             let met = ring_edges(&points).filter_map(|edge| ray_hit_parameter(from, direction, edge));
             let slow = met.filter(|far| *far > own).fold(f64::INFINITY, f64::min);
-            let fast = EdgeBvh::of(&points).first_beyond(from, direction, own);
+            let fast = EdgeBvh::of(&points).first_hit_beyond(from, direction, own);
             prop_assert_eq!(slow, fast);
         }
 
         #[test]
-        fn what_crosses_an_edge_near_it_crosses_one_of_all(
+        fn a_proximity_query_agrees_with_a_test_of_all_edges(
             points in prop::collection::vec((-1.0f64..1.0, -1.0f64..1.0), 1..80),
             from in (-1.5f64..1.5, -1.5f64..1.5),
             by in (-0.3f64..0.3, -0.3f64..0.3),
@@ -187,7 +192,7 @@ mod tests {
             let from = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
             let met = ring_edges(&stairs).filter_map(|edge| ray_hit_parameter(from, direction, edge));
             let slow = met.fold(f64::INFINITY, f64::min);
-            prop_assert_eq!(slow, EdgeBvh::of(&stairs).first_beyond(from, direction, 0.0));
+            prop_assert_eq!(slow, EdgeBvh::of(&stairs).first_hit_beyond(from, direction, 0.0));
         }
     }
 }

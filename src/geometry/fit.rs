@@ -1,18 +1,19 @@
-//! The similarity and the affine map that lay points onto others best.
+//! Least-squares similarity and affine map between two lists of points.
 
 use super::{DAffine2, DMat2, DVec2};
 
-/// A rotation and scaling about one mean onto another, by least squares.
+/// Least-squares similarity from points to places: a rotation and scale about the means.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SimilarityFit {
-    /// Rotation and scale as a complex number: Σ p̄ q / Σ |p|² about the means.
+    /// Rotation and scale as a complex number: Σ p̄ q / Σ |p|², relative to the means.
     pub factor: DVec2,
-    /// The mean of the points, and of where they go.
+    /// Mean of the points, and mean of the places.
     pub means: [DVec2; 2],
 }
 
 impl SimilarityFit {
-    /// Of as many points as places; none where either are all one.
+    /// Fits the similarity; `None` if all points, or all places, coincide. Both lists have the same
+    /// length.
     pub fn of(points: &[DVec2], places: &[DVec2]) -> Option<Self> {
         let count = points.len() as f64;
         let means = [points, places].map(|all| all.iter().sum::<DVec2>() / count);
@@ -22,21 +23,22 @@ impl SimilarityFit {
             factor += DVec2::new(p.dot(q), p.perp_dot(q));
             square += p.length_squared();
         }
-        // 0 / 0 where the points are one.
+        // NaN (0 / 0) if all points coincide.
         let factor = factor / square;
         (factor.is_finite() && factor != DVec2::ZERO).then_some(Self { factor, means })
     }
 
+    /// Applies the similarity.
     pub fn apply(&self, p: DVec2) -> DVec2 {
         self.means[1] + self.factor.rotate(p - self.means[0])
     }
 
-    /// The rotation in radians, counter-clockwise.
+    /// Rotation in radians, counter-clockwise.
     pub fn angle(&self) -> f64 {
         self.factor.to_angle()
     }
 
-    /// How far off the points are, as a root of the mean square.
+    /// Root mean square of the distances between mapped points and places.
     pub fn residual(&self, points: &[DVec2], places: &[DVec2]) -> f64 {
         let off = |(p, q): (&DVec2, &DVec2)| self.apply(*p).distance_squared(*q);
         let sum: f64 = points.iter().zip(places).map(off).sum();
@@ -44,23 +46,25 @@ impl SimilarityFit {
     }
 }
 
-/// A plane's points on a line are not told from an area below this share.
+/// Points whose scatter matrix has a determinant below this fraction of its squared trace count as
+/// collinear (tolerance: above rounding).
 const FLAT: f64 = 1e-12;
 
-/// The affine map by least squares of as many points as places; of points on a line a
-/// similarity, of one point an offset.
+/// Fits the least-squares affine map from points to as many places. Collinear points give a
+/// similarity, a single point a translation.
 pub(crate) fn fit_affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
     let count = points.len().max(1) as f64;
     let [from, to] = [points, places].map(|all| all.iter().sum::<DVec2>() / count);
-    let (mut own, mut across) = (DMat2::ZERO, DMat2::ZERO);
+    let (mut scatter, mut cross_scatter) = (DMat2::ZERO, DMat2::ZERO);
     for (p, q) in points.iter().zip(places) {
         let (p, q) = (*p - from, *q - to);
-        own += DMat2::from_cols(p * p.x, p * p.y);
-        across += DMat2::from_cols(q * p.x, q * p.y);
+        scatter += DMat2::from_cols(p * p.x, p * p.y);
+        cross_scatter += DMat2::from_cols(q * p.x, q * p.y);
     }
-    let size = own.x_axis.x + own.y_axis.y;
-    let linear = if own.determinant() > FLAT * size * size {
-        across * own.inverse()
+    // The trace scales with the squared size of the points.
+    let size = scatter.x_axis.x + scatter.y_axis.y;
+    let linear = if scatter.determinant() > FLAT * size * size {
+        cross_scatter * scatter.inverse()
     } else {
         SimilarityFit::of(points, places).map_or(DMat2::IDENTITY, |fit| {
             DMat2::from_cols(fit.factor, fit.factor.perp())
@@ -90,7 +94,7 @@ mod tests {
                 .map(off)
                 .all(|off| off < 1e-12)
         );
-        // On a line, where a similarity is the most that can be known; and one point.
+        // Collinear points determine no more than a similarity, and one point a translation.
         let line = [(0.0, 0.0), (2.0, 0.0)].map(DVec2::from);
         let turned = [(1.0, 1.0), (1.0, 5.0)].map(DVec2::from);
         let up = fit_affine(&line, &turned).transform_point2(DVec2::Y);

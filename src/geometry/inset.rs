@@ -1,46 +1,46 @@
-//! What is left of a region when its boundary moves inwards.
+//! Insets a region: what remains of it when its boundary moves inwards.
 
 use super::{DVec2, signed_area};
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 
-/// The sharpest corner that keeps its tip, in radians: sharper ones only come
-/// about where a region is about to vanish.
-const TIP: f64 = 0.2;
+/// Sharpest corner that keeps its tip, in radians; sharper ones occur only where a region is about
+/// to vanish (heuristic).
+const MIN_TIP_ANGLE: f64 = 0.2;
 
-/// Halvings in the search for the depth at which nothing is left: to a
-/// thousandth.
+/// Number of bisections in the search for the inset depth (derived: 2⁻¹⁰ is about a thousandth).
 const HALVINGS: u32 = 10;
 
-/// The places of a region that are farther than `depth` from its boundary, as
-/// rings; holes run the other way round. Corners stay sharp.
+/// Returns the points of a region that are farther than `depth` from its boundary, as rings; holes
+/// run the other way round. Corners stay sharp.
 pub(crate) fn inset(rings: &[Vec<DVec2>], depth: f64) -> Vec<Vec<DVec2>> {
     let contours: Vec<Vec<[f64; 2]>> = rings
         .iter()
         .map(|ring| ring.iter().map(|p| p.to_array()).collect())
         .collect();
-    let style = OutlineStyle::new(-depth).line_join(LineJoin::Miter(TIP));
+    let style = OutlineStyle::new(-depth).line_join(LineJoin::Miter(MIN_TIP_ANGLE));
     let shapes = contours.outline_as::<i64>(&style);
-    let left = shapes.into_iter().flatten();
-    left.map(|ring| ring.into_iter().map(DVec2::from).collect())
+    let remaining = shapes.into_iter().flatten();
+    remaining
+        .map(|ring| ring.into_iter().map(DVec2::from).collect())
         .collect()
 }
 
-/// The depth of [`inset`] from which on nothing is left: the radius of the
-/// largest disc in a region, to a thousandth.
+/// Returns the smallest depth at which [`inset`] leaves nothing: the radius of the largest disc in
+/// the region, to a thousandth.
 pub(crate) fn inradius(rings: &[Vec<DVec2>]) -> f64 {
     let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
-    // No disc is larger than all there is.
-    let (mut some, mut none) = (0.0, (area.max(0.0) / std::f64::consts::PI).sqrt());
+    // No disc in the region has more area than the region.
+    let (mut inside, mut beyond) = (0.0, (area.max(0.0) / std::f64::consts::PI).sqrt());
     for _ in 0..HALVINGS {
-        let depth = 0.5 * (some + none);
+        let depth = 0.5 * (inside + beyond);
         *(if inset(rings, depth).is_empty() {
-            &mut none
+            &mut beyond
         } else {
-            &mut some
+            &mut inside
         }) = depth;
     }
-    none
+    beyond
 }
 
 #[cfg(test)]
@@ -69,9 +69,9 @@ mod tests {
     }
 
     #[test]
-    fn corners_stay_sharp_and_nothing_is_nothing() {
-        let least = inset(&[square(2.0)], 0.25);
-        assert!((area(&least) - 3.5 * 3.5).abs() < 1e-6);
+    fn corners_stay_sharp_and_empty_regions_stay_empty() {
+        let remaining = inset(&[square(2.0)], 0.25);
+        assert!((area(&remaining) - 3.5 * 3.5).abs() < 1e-6);
         assert!(inset(&[], 1.0).is_empty());
         assert_eq!(inradius(&[]), 0.0);
         assert!(inset(&[vec![DVec2::ONE; 3]], 1.0).is_empty());

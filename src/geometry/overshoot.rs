@@ -1,24 +1,25 @@
-//! What a quantity does on its way from one end to the other beyond what its ends need.
+//! Overshoot: how much a quantity exceeds, on its way, what its values at the ends require.
 
-/// By how much what was measured at `t` exceeds what lies between the ends, as a
-/// share of that, where it does so most; pairs `[t, W]`, t from 0 to 1.
+/// Returns the largest relative excess of `[t, value]` samples over the straight line between the
+/// first and the last value; 0 if none exceeds it. `t` runs from 0 to 1.
 pub(crate) fn max_overshoot(measured: &[[f64; 2]]) -> f64 {
     let (Some([_, first]), Some([_, last])) = (measured.first(), measured.last()) else {
         return 0.0;
     };
-    let share = |[t, found]: &[f64; 2]| {
+    let relative_excess = |[t, value]: &[f64; 2]| {
         let between = (1.0 - t) * first + t * last;
+        // A value of 0 has no relative excess.
         if between > 0.0 {
-            found / between - 1.0
+            value / between - 1.0
         } else {
             0.0
         }
     };
-    measured.iter().map(share).fold(0.0, f64::max)
+    measured.iter().map(relative_excess).fold(0.0, f64::max)
 }
 
-/// How much a quantity runs up and down beyond what its ends need, as a
-/// fraction of the larger end: (Σ |Δ| − |end − end|) / max(|end|).
+/// Returns how much a sequence rises and falls beyond the difference of its ends, relative to the
+/// larger end: (Σ |Δ| − |last − first|) / max(|first|, |last|).
 pub(crate) fn excess_variation(values: impl Iterator<Item = f64>) -> f64 {
     let values: Vec<f64> = values.collect();
     let (Some(first), Some(last)) = (values.first(), values.last()) else {
@@ -26,7 +27,7 @@ pub(crate) fn excess_variation(values: impl Iterator<Item = f64>) -> f64 {
     };
     let variation: f64 = values.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
     let scale = first.abs().max(last.abs());
-    // What is 0 at both ends has no scale to be held against.
+    // A quantity that is 0 at both ends has no scale to compare with.
     if scale > 0.0 {
         ((variation - (last - first).abs()) / scale).max(0.0)
     } else {
@@ -39,14 +40,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_lies_above_the_line_between_the_ends_is_too_much() {
+    fn only_values_above_the_line_between_the_ends_are_excess() {
         assert_eq!(max_overshoot(&[[0.0, 6.0], [0.5, 7.0], [1.0, 8.0]]), 0.0);
         assert_eq!(max_overshoot(&[[0.0, 6.0], [0.5, 14.0], [1.0, 8.0]]), 1.0);
         assert_eq!(max_overshoot(&[]), 0.0);
     }
 
     #[test]
-    fn a_monotone_run_has_no_excess() {
+    fn a_monotone_sequence_has_no_excess() {
         assert_eq!(excess_variation([1.0, 2.0, 4.0].into_iter()), 0.0);
         assert_eq!(excess_variation([4.0, 4.0, 1.0].into_iter()), 0.0);
         assert_eq!(excess_variation(std::iter::empty()), 0.0);

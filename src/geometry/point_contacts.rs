@@ -1,33 +1,35 @@
-//! Outlines that touch in single points, pulled apart.
+//! Separates outlines that touch in single points.
 //!
-//! A region may touch itself in a point, or two of its holes each other: it
-//! is seen well, yet it is no one piece to a triangulation, and what holds there
-//! for one side holds for the other by luck. Of what meets in a point the
-//! sharper corner is drawn back into itself, by less than is ever seen.
+//! A region may touch itself, or two of its holes each other, in a point. It looks right, but for a
+//! triangulation it is not one connected piece, and which side such a point belongs to depends on
+//! rounding. Of the corners that meet in a point, the sharper one is moved back into itself, by
+//! less than is visible.
 
 use super::{Bounds, DVec2, Region, Regions, Ring, distance_squared_to_segment};
 
-/// What is nearer than this counts as touching, in diameters of the regions.
-/// Far above the digits lost where points are put on edges.
-const TOUCH: f64 = 1e-9;
+/// Distance below which outlines touch, in diameters of the regions (tolerance: far above the
+/// rounding of points that are placed on edges).
+const CONTACT_DISTANCE: f64 = 1e-9;
 
-/// How far a corner is drawn back, in diameters, and as a share of its shorter
-/// edge at most. A hundredth of a pixel over the width of ten thousand.
-const BACK: f64 = 1e-6;
-const SHARE: f64 = 0.1;
+/// Distance by which a corner is moved back, in diameters (tolerance: a hundredth of a pixel at a
+/// width of ten thousand).
+const SETBACK: f64 = 1e-6;
+/// Maximum distance by which a corner is moved back, as a fraction of its shorter edge (heuristic).
+const MAX_SETBACK_SHARE: f64 = 0.1;
 
 impl Regions {
-    /// The same regions, apart where they touched in points; their own points
-    /// elsewhere, bit by bit.
-    pub(crate) fn pulled_apart(&self) -> Self {
+    /// Returns the same regions, apart where they touched in points. All other points stay, bit by
+    /// bit.
+    pub(crate) fn with_contacts_separated(&self) -> Self {
         let diameter = self.bounds().diameter();
         let apart = |region: &Region| {
-            let corners = RegionCorners::of(region);
-            let points = corners.drawn_back(diameter);
-            let mut rest = &points[..];
+            let region_corners = RegionCorners::of(region);
+            let points = region_corners.drawn_back(diameter);
+            let mut remaining = &points[..];
             let mut ring = |ring: &Ring| {
-                let (own, others) = rest.split_at(ring.points().len());
-                rest = others;
+                let (own, others) = remaining.split_at(ring.points().len());
+                remaining = others;
+                // A ring that would collapse stays as it is.
                 Ring::new(own.to_vec()).unwrap_or_else(|_| ring.clone())
             };
             Region {
@@ -35,53 +37,58 @@ impl Regions {
                 holes: region.holes.iter().map(ring).collect(),
             }
         };
-        self.mapped(apart)
+        self.map_regions(apart)
     }
 }
 
-/// The corners of a region, numbered through ring by ring.
+/// Corners of a region, numbered consecutively, ring by ring.
 struct RegionCorners {
     points: Vec<DVec2>,
-    /// The corner before each and the one after.
-    beside: Vec<[usize; 2]>,
+    /// Previous and next corner, for each corner.
+    neighbours: Vec<[usize; 2]>,
 }
 
 impl RegionCorners {
+    /// Collects the corners of all rings of a region.
     fn of(region: &Region) -> Self {
-        let (mut points, mut beside) = (Vec::new(), Vec::new());
+        let (mut points, mut neighbours) = (Vec::new(), Vec::new());
         for ring in region.rings() {
             let (first, n) = (points.len(), ring.points().len());
             points.extend_from_slice(ring.points());
-            beside.extend((0..n).map(|k| [(k + n - 1) % n, (k + 1) % n].map(|k| first + k)));
+            neighbours.extend((0..n).map(|k| [(k + n - 1) % n, (k + 1) % n].map(|k| first + k)));
         }
-        Self { points, beside }
+        Self { points, neighbours }
     }
 
+    /// Returns the corners with those that touch moved back.
     fn drawn_back(&self, diameter: f64) -> Vec<DVec2> {
         let mut points = self.points.clone();
-        for corner in self.touching(TOUCH * diameter) {
+        for corner in self.touching(CONTACT_DISTANCE * diameter) {
             let here = self.points[corner];
-            let edges = self.beside[corner].map(|k| self.points[k] - here);
+            let edges = self.neighbours[corner].map(|k| self.points[k] - here);
+            // Moved along the bisector, so that the corner stays between its edges.
             let [a, b] = edges.map(DVec2::normalize_or_zero);
-            let most = SHARE * edges[0].length().min(edges[1].length());
-            points[corner] = here + (a + b).normalize_or_zero() * most.min(BACK * diameter);
+            let max_setback = MAX_SETBACK_SHARE * edges[0].length().min(edges[1].length());
+            points[corner] =
+                here + (a + b).normalize_or_zero() * max_setback.min(SETBACK * diameter);
         }
         points
     }
 
-    /// The corners that lie on other edges, but for the bluntest of those that
-    /// meet in one point.
+    /// Returns the corners that lie on other edges, except the bluntest of those that meet in one
+    /// point.
     fn touching(&self, near: f64) -> Vec<usize> {
         let mut by_x: Vec<usize> = (0..self.points.len()).collect();
         by_x.sort_by(|&a, &b| self.points[a].x.total_cmp(&self.points[b].x));
-        let mut found = Vec::new();
+        let mut touching = Vec::new();
         for edge in 0..self.points.len() {
-            let ends = [edge, self.beside[edge][1]];
+            let ends = [edge, self.neighbours[edge][1]];
             let [a, b] = ends.map(|k| self.points[k]);
             let bounds = Bounds {
                 min: a.min(b) - near,
                 max: a.max(b) + near,
             };
+            // Candidates near an edge are one range of the corners sorted by x.
             let from = by_x.partition_point(|&k| self.points[k].x < bounds.min.x);
             let within = by_x[from..]
                 .iter()
@@ -92,24 +99,25 @@ impl RegionCorners {
                 let is_near = !ends.contains(&corner)
                     && bounds.contains(p)
                     && distance_squared_to_segment(p, a, b) <= near * near;
-                let is_blunter = |end: usize| {
+                // Of two corners at the same place only the sharper one is moved.
+                let is_sharper = |end: usize| {
                     let meets = p.distance_squared(self.points[end]) <= near * near;
                     meets && (self.width(end), end) < (self.width(corner), corner)
                 };
-                if is_near && !ends.into_iter().any(is_blunter) {
-                    found.push(corner);
+                if is_near && !ends.into_iter().any(is_sharper) {
+                    touching.push(corner);
                 }
             }
         }
-        found.sort_unstable();
-        found.dedup();
-        found
+        touching.sort_unstable();
+        touching.dedup();
+        touching
     }
 
-    /// How wide a corner is, as 1 − cos of the angle between its edges.
+    /// Opening of a corner, as 1 − cos of the angle between its edges.
     fn width(&self, corner: usize) -> f64 {
         let here = self.points[corner];
-        let [a, b] = self.beside[corner].map(|k| (self.points[k] - here).normalize_or_zero());
+        let [a, b] = self.neighbours[corner].map(|k| (self.points[k] - here).normalize_or_zero());
         1.0 - a.dot(b)
     }
 }
@@ -126,7 +134,7 @@ mod tests {
     }
 
     fn touching(regions: &Regions) -> usize {
-        let near = TOUCH * regions.bounds().diameter();
+        let near = CONTACT_DISTANCE * regions.bounds().diameter();
         let counts = regions
             .iter()
             .map(|r| RegionCorners::of(r).touching(near).len());
@@ -140,7 +148,7 @@ mod tests {
         let blunt = [(4.0, 4.0), (7.0, 6.0), (7.0, 2.0)];
         let before = regions(&[&square, &sharp, &blunt]);
         assert_eq!(touching(&before), 1);
-        let after = before.pulled_apart();
+        let after = before.with_contacts_separated();
         assert_eq!(touching(&after), 0);
         let moved = before
             .rings()
@@ -156,14 +164,14 @@ mod tests {
         let square = [(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
         let hole = [(4.0, 0.0), (6.0, 4.0), (2.0, 4.0)];
         let before = regions(&[&square, &hole]);
-        assert_eq!(touching(&before.pulled_apart()), 0);
+        assert_eq!(touching(&before.with_contacts_separated()), 0);
     }
 
     #[test]
-    fn what_touches_nowhere_is_left_as_it_is() {
+    fn regions_without_contact_stay_as_they_are() {
         let square = [(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
         let hole = [(4.0, 1.0), (6.0, 4.0), (2.0, 4.0)];
         let before = regions(&[&square, &hole]);
-        assert_eq!(before.pulled_apart(), before);
+        assert_eq!(before.with_contacts_separated(), before);
     }
 }

@@ -1,61 +1,61 @@
-//! Polar decomposition of 2×2 matrices in closed form, and the spectral
-//! functions of the symmetric factor.
+//! Polar decomposition of 2×2 matrices in closed form, and functions of the symmetric factor
+//! through its eigenvalues.
 
 use super::{DMat2, DVec2};
 
-/// M = R(angle) · stretch with a rotation R and a symmetric stretch. The angle
-/// may be chosen anew, whole turns away, where a shape turns further.
+/// Polar decomposition M = R(angle) · stretch into a rotation R and a symmetric stretch. Whole
+/// turns may be added to the angle, for a shape that turns further.
 ///
-/// For det M > 0 the stretch is positive definite and the decomposition is
-/// unique. For det M ≤ 0 the factors still multiply to M, but the stretch is
-/// not positive; callers refuse such matrices before they come here.
+/// For det M > 0 the stretch is positive definite and the decomposition is unique. For det M ≤ 0
+/// the factors still multiply to M, but the stretch is not positive definite; callers reject such
+/// matrices beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolarDecomposition {
-    /// θ in radians, any real.
+    /// Rotation angle θ in radians, any real number.
     pub angle: f64,
-    /// The symmetric factor.
+    /// Symmetric factor S.
     pub stretch: DMat2,
 }
 
 impl PolarDecomposition {
-    /// With θ = atan2(c − b, a + d) in (−π, π], for M = [a b; c d], S = R(−θ) M.
+    /// Decomposes M = [a b; c d] with θ = atan2(c − b, a + d) in (−π, π] and S = R(−θ) M.
     ///
     /// ```
-    /// use morphospace::geometry::{DMat2, Polar};
+    /// use morphospace::geometry::{DMat2, PolarDecomposition};
     /// let turn = DMat2::from_angle(0.5);
-    /// assert!((Polar::of(turn).angle - 0.5).abs() < 1e-15);
+    /// assert!((PolarDecomposition::of(turn).angle - 0.5).abs() < 1e-15);
     /// ```
     #[must_use]
     pub fn of(m: DMat2) -> Self {
         let (a, b, c, d) = (m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y);
-        // Where both are 0, M only mirrors and scales: any angle is as good.
+        // If both arguments are 0, M only mirrors and scales, and any angle will do.
         let angle = (c - b).atan2(a + d);
         let s = DMat2::from_angle(-angle) * m;
-        let off = 0.5 * (s.y_axis.x + s.x_axis.y); // equal but for rounding
+        let off = 0.5 * (s.y_axis.x + s.x_axis.y); // equal up to rounding
         Self {
             angle,
             stretch: DMat2::from_cols(DVec2::new(s.x_axis.x, off), DVec2::new(off, s.y_axis.y)),
         }
     }
 
-    /// R(θ) S.
+    /// Returns the product R(θ) S.
     #[must_use]
     pub fn matrix(&self) -> DMat2 {
         DMat2::from_angle(self.angle) * self.stretch
     }
 }
 
-/// A symmetric 2×2 matrix as λ₁ u uᵀ + λ₂ v vᵀ with orthonormal u, v.
+/// Eigendecomposition of a symmetric 2×2 matrix: λ₁ u uᵀ + λ₂ v vᵀ with orthonormal u, v.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SymmetricEigen {
     /// Eigenvalues, the larger first.
     pub values: [f64; 2],
-    /// Unit eigenvector of the larger one; the other is perpendicular.
+    /// Unit eigenvector of the larger eigenvalue; the other one is perpendicular.
     pub axis: DVec2,
 }
 
 impl SymmetricEigen {
-    /// Decomposes; only the symmetric part of `s` is used.
+    /// Decomposes `s`, of which only the symmetric part is used.
     #[must_use]
     pub fn of(s: DMat2) -> Self {
         let (a, d) = (s.x_axis.x, s.y_axis.y);
@@ -63,8 +63,8 @@ impl SymmetricEigen {
         let half = 0.5 * (a - d);
         let radius = half.hypot(b);
         let mean = 0.5 * (a + d);
-        // The larger one by sum, the smaller by the determinant where that
-        // does not cancel.
+        // The smaller eigenvalue is a difference that may cancel; if the mean is positive, dividing
+        // the determinant by the larger one avoids that.
         let large = mean + radius;
         let small = if mean > 0.0 {
             (a * d - b * b) / large
@@ -73,12 +73,12 @@ impl SymmetricEigen {
         };
         Self {
             values: [large, small],
-            // (half, b) stands at twice the axis's angle, also where b is 0.
+            // (half, b) points at twice the angle of the axis, also if b is 0.
             axis: DVec2::from_angle(0.5 * b.atan2(half)),
         }
     }
 
-    /// f(S): the function applied to both eigenvalues.
+    /// Returns f(S): the function applied to both eigenvalues.
     #[must_use]
     pub fn map(&self, f: impl Fn(f64) -> f64) -> DMat2 {
         let (l1, l2) = (f(self.values[0]), f(self.values[1]));
@@ -95,8 +95,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The singular value decomposition by one Jacobi rotation of MᵀM: slow,
-    /// obvious, and independent of the closed form.
+    /// Oracle: the rotation by singular value decomposition, with one Jacobi rotation of MᵀM. Slow,
+    /// simple and independent of the closed form.
     fn rotation_by_svd(m: DMat2) -> DMat2 {
         let gram = m.transpose() * m;
         let phi = 0.5 * (2.0 * gram.y_axis.x).atan2(gram.x_axis.x - gram.y_axis.y);

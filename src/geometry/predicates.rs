@@ -1,12 +1,12 @@
-//! Predicates that decide topology, with exact signs (Shewchuk 1997, through
-//! the `robust` crate), beside the plain floating-point area.
+//! Geometric predicates with exact signs (Shewchuk 1997, through the `robust` crate), and the plain
+//! floating-point area.
 
 use super::DVec2;
 use std::cmp::Ordering;
 
-/// Twice the signed area of `abc`: positive when they turn counter-clockwise,
-/// zero exactly when they are collinear. The sign is exact as long as no
-/// product of differences over- or underflows; the value is not.
+/// Returns twice the signed area of the triangle `abc`: positive if it runs counter-clockwise, zero
+/// exactly if the points are collinear. The sign is exact as long as no product of differences
+/// over- or underflows; the value is rounded.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, orient2d};
@@ -18,15 +18,14 @@ pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     robust::orient2d(coord(a), coord(b), coord(c))
 }
 
-/// Twice the signed area of `abc` in plain floating point: faster than
-/// [`orient2d`], with a sign that cannot be trusted near zero.
+/// Returns twice the signed area of `abc` in plain floating point: faster than [`orient2d`], but
+/// its sign is unreliable near zero.
 #[must_use]
 pub fn twice_signed_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// The order of two lists by the first numbers that differ: a total order of
-/// lists of one length.
+/// Compares two lists by the first numbers that differ: a total order on lists of equal length.
 pub(crate) fn lexicographic(
     a: impl IntoIterator<Item = f64>,
     b: impl IntoIterator<Item = f64>,

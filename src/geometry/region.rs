@@ -1,9 +1,9 @@
-//! Regions with holes, cleaned so that all later code may trust them.
+//! Regions with holes, cleaned so that later code can rely on them.
 //!
-//! [`Regions`] guarantees simple, disjoint polygons: outer rings
-//! counter-clockwise, holes clockwise. Cleaning is a union by fill rule
-//! (`i_overlay` on a 64-bit integer grid), which moves points by less than
-//! 1e-15 of the size unless they all but coincide. It does not simplify: a noisy outline stays noisy.
+//! [`Regions`] guarantees simple, disjoint polygons with counter-clockwise outer rings and
+//! clockwise holes. Cleaning is a union by fill rule (`i_overlay` on a 64-bit integer grid). It
+//! moves points by less than 1e-15 of the size, unless they nearly coincide. It does not simplify:
+//! a noisy outline stays noisy.
 
 use super::sliver::SliverTest;
 use super::{
@@ -13,10 +13,9 @@ use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::simplify::SimplifyShape;
 
-/// How crossings are found: in rounds, each of which joins what is nearer than
-/// a radius that grows. By the library's own step of √2, 31 points that nearly
-/// lie on one line, over and over, took 2.5 s; by 4, 0.4 s. Drawings need one
-/// round or two.
+/// Settings of the crossing search, which runs in rounds; each joins points closer than a radius
+/// that grows by `progression`. A faster growth than the library's √2 bounds the number of rounds
+/// for points that nearly lie on one line (heuristic).
 const SOLVER: Solver = Solver {
     precision: Precision {
         start: 0,
@@ -25,17 +24,16 @@ const SOLVER: Solver = Solver {
     ..Solver::AUTO
 };
 
-/// One connected piece.
+/// Connected region with holes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
-    /// The outside, counter-clockwise.
+    /// Outer boundary, counter-clockwise.
     pub outer: Ring,
-    /// The holes, each clockwise.
+    /// Holes, each clockwise.
     pub holes: Vec<Ring>,
 }
 
-/// One or more disjoint pieces; only those that were [stacked](Regions::stacked)
-/// may lie over each other.
+/// One or more disjoint regions; only those that were [stacked](Regions::stacked) may overlap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regions(Vec<Region>);
 
@@ -45,33 +43,33 @@ impl Region {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
-    /// Enclosed area, holes left out.
+    /// Enclosed area, without the holes.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.outer.signed_area() + self.holes.iter().map(Ring::signed_area).sum::<f64>()
     }
 
-    /// Whether `p` lies inside; on a boundary either answer may come.
+    /// Returns whether `p` lies inside; on a boundary the answer may be either.
     #[must_use]
     pub fn contains(&self, p: DVec2) -> bool {
         self.rings().map(|ring| ring.winding(p)).sum::<i32>() != 0
     }
 }
 
-/// Which points a set of rings encloses.
+/// Rule for which points a set of rings encloses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FillRule {
-    /// Where the rings wind around at all.
+    /// Points whose winding number is not zero.
     NonZero,
-    /// Where the rings wind around an odd number of times.
+    /// Points whose winding number is odd.
     EvenOdd,
 }
 
-/// Why rings enclose nothing that could be used.
+/// Reason why rings form no region.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegionsError {
-    /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
+    /// A coordinate is not a number, or is larger than [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: super::MAX_COORDINATE
     #[error("point {} of outline {} {RANGE_MESSAGE}", point + 1, ring + 1)]
@@ -81,27 +79,26 @@ pub enum RegionsError {
         /// Index of the point in it.
         point: usize,
     },
-    /// All points lie on one another, or as good as.
+    /// The design is too small, or too far from the origin for its size.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
-    /// No area is left.
+    /// The rings enclose no area.
     #[error("the outlines enclose no area; draw a closed, filled shape")]
     Empty,
 }
 
 impl Regions {
-    /// Smallest area, relative to the square of the size, that counts as a
-    /// piece, however it came about. A self-touching outline leaves slivers of about 1e-18.
+    /// Smallest area of a region or hole, relative to the squared size (tolerance: self-touching
+    /// outlines leave slivers of about 1e-18).
     const MIN_RELATIVE_AREA: f64 = 1e-14;
 
-    /// Points nearer than this to the one before, relative to the size, are one with
-    /// it. An outline that ends where it began is left with a last edge of about
-    /// 1e-15, which vanishes where the outline is made small.
+    /// Points closer than this to the previous point, relative to the size, are merged with it
+    /// (tolerance: an outline that ends where it began keeps a last edge of about 1e-15, which
+    /// vanishes when the outline is scaled down).
     const MIN_RELATIVE_EDGE: f64 = 1e-12;
 
-    /// Cleans the rings: self-crossings, overlaps, duplicates and collinear
-    /// points are resolved by the fill rule. Rings of fewer than three points
-    /// enclose nothing and are left out.
+    /// Creates regions from rings. The fill rule resolves self-crossings, overlaps, duplicates and
+    /// collinear points. Rings with fewer than three points are ignored.
     ///
     /// # Errors
     /// [`RegionsError`] if a coordinate is out of range or nothing is enclosed.
@@ -118,8 +115,8 @@ impl Regions {
         Self::cleaned(rings, rule).map(|(regions, _)| regions)
     }
 
-    /// As [`Regions::from_rings`], but an outline that is there twice counts
-    /// once, and what had to be repaired is told.
+    /// As [`Regions::from_rings`], but a duplicate outline counts once, and the repairs are
+    /// reported.
     ///
     /// # Errors
     /// As [`Regions::from_rings`].
@@ -128,12 +125,12 @@ impl Regions {
         rule: FillRule,
     ) -> Result<(Self, Repairs), RegionsError> {
         check_range(rings)?;
-        let (kept, found) = Repairs::find(rings);
-        let (regions, slivers) = Self::cleaned(&kept, rule)?;
-        Ok((regions, Repairs { slivers, ..found }))
+        let (used_rings, repairs) = Repairs::find(rings);
+        let (regions, slivers) = Self::cleaned(&used_rings, rule)?;
+        Ok((regions, Repairs { slivers, ..repairs }))
     }
 
-    /// The regions and how many slivers were left out.
+    /// Returns the regions and the number of slivers that were removed.
     fn cleaned(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
         let extent = DesignSizeError::check(&bounds)?;
@@ -143,16 +140,16 @@ impl Regions {
             edge: Self::MIN_RELATIVE_EDGE * extent,
             drawn: SliverTest::of(rings, extent, area),
         };
-        let origin = bounds.centre(); // coordinates about zero use the grid best
+        let origin = bounds.centre(); // the grid is finest around zero
         let subject: Vec<Vec<[f64; 2]>> = rings
             .iter()
             .filter(|ring| ring.len() >= 3)
             .map(|ring| ring.iter().map(|&p| (p - origin).to_array()).collect())
             .collect();
-        // A grid of 32 bits would move points by some 1e-9 of the size.
+        // A grid of 32 bits would move points by about 1e-9 of the size.
         let shapes =
             subject.simplify_shape_custom_as::<i64>(rule.into(), Default::default(), SOLVER);
-        let found: usize = shapes.iter().map(Vec::len).sum();
+        let contours: usize = shapes.iter().map(Vec::len).sum();
         let regions: Vec<Region> = shapes
             .into_iter()
             .filter_map(|shape| region_from(shape, origin, &smallest))
@@ -160,72 +157,72 @@ impl Regions {
         if regions.is_empty() {
             return Err(RegionsError::Empty);
         }
-        // The holes of an outside that was left out are slivers as well.
-        let kept: usize = regions.iter().map(|region| 1 + region.holes.len()).sum();
-        Ok((Self(regions), found - kept))
+        // The holes of a removed sliver count as slivers too.
+        let remaining: usize = regions.iter().map(|region| 1 + region.holes.len()).sum();
+        Ok((Self(regions), contours - remaining))
     }
 
-    /// The pieces of several layers, one layer after the other: pieces of two
-    /// layers may overlap, those of one do not. None of no layers.
+    /// Combines the regions of several layers, layer by layer. Regions of different layers may
+    /// overlap; those of one layer do not. `None` for no layers.
     #[must_use]
     pub fn stacked(layers: impl IntoIterator<Item = Self>) -> Option<Self> {
         let pieces: Vec<Region> = layers.into_iter().flat_map(|layer| layer.0).collect();
         (!pieces.is_empty()).then_some(Self(pieces))
     }
 
-    /// Only the pieces with these numbers; none of no pieces.
-    pub(crate) fn only(&self, numbers: &[usize]) -> Option<Self> {
+    /// Returns the regions with the given indices; `None` if there are none.
+    pub(crate) fn subset(&self, numbers: &[usize]) -> Option<Self> {
         let pieces = numbers.iter().filter_map(|&k| self.0.get(k).cloned());
         let pieces: Vec<Region> = pieces.collect();
         (!pieces.is_empty()).then_some(Self(pieces))
     }
 
-    /// Each piece as another.
-    pub(super) fn mapped(&self, map: impl Fn(&Region) -> Region) -> Self {
+    /// Replaces each region by its image.
+    pub(super) fn map_regions(&self, map: impl Fn(&Region) -> Region) -> Self {
         Self(self.0.iter().map(map).collect())
     }
 
-    /// The pieces.
+    /// The regions in order.
     pub fn iter(&self) -> impl Iterator<Item = &Region> {
         self.0.iter()
     }
 
-    /// How many pieces there are, at least one.
+    /// Number of regions, at least one.
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// All rings: each outer one followed by its holes.
+    /// All rings: each outer ring, followed by its holes.
     pub fn rings(&self) -> impl Iterator<Item = &Ring> {
         self.0.iter().flat_map(Region::rings)
     }
 
-    /// Enclosed area, holes left out.
+    /// Enclosed area, without the holes.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.rings().map(Ring::signed_area).sum()
     }
 
-    /// The smallest box around all pieces.
+    /// Smallest box around all regions.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        // There is a piece: none is an error when regions are made.
+        // Never empty: creating no region is an error.
         let first = self.0[0].outer.bounds();
         self.0
             .iter()
             .fold(first, |b, region| b.union(&region.outer.bounds()))
     }
 
-    /// Whether `p` lies inside; on a boundary either answer may come.
+    /// Returns whether `p` lies inside; on a boundary the answer may be either.
     #[must_use]
     pub fn contains(&self, p: DVec2) -> bool {
-        // Holes wind the other way: in them the sum is 0.
+        // Holes run the other way, so the winding numbers cancel inside them.
         self.rings().map(|ring| ring.winding(p)).sum::<i32>() != 0
     }
 
-    /// The regions laid down by a similarity; a mirror keeps orientations.
+    /// Applies a similarity. Mirrored rings are reversed, so that they keep their orientation.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
         let place = |ring: &Ring| {
@@ -253,6 +250,7 @@ impl From<FillRule> for OverlayRule {
     }
 }
 
+/// Checks that all points are in range.
 fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
     for (ring, points) in rings.iter().enumerate() {
         if let Some(point) = points.iter().position(|&p| !is_in_range(p)) {
@@ -262,7 +260,7 @@ fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
     Ok(())
 }
 
-/// What is smaller does not count.
+/// Limits below which contours and edges are removed.
 struct SliverLimits {
     area: f64,
     edge: f64,
@@ -270,12 +268,13 @@ struct SliverLimits {
 }
 
 impl SliverLimits {
+    /// Returns whether a contour is too small or too thin to keep.
     fn is_sliver(&self, contour: &Ring) -> bool {
-        contour.signed_area().abs() <= self.area || self.drawn.leaves(contour)
+        contour.signed_area().abs() <= self.area || self.drawn.is_leftover(contour)
     }
 }
 
-/// One cleaned shape, outer contour first; `None` for a sliver.
+/// Converts one cleaned shape, outer contour first, into a region; `None` for a sliver.
 fn region_from(
     shape: Vec<Vec<[f64; 2]>>,
     origin: DVec2,
@@ -285,6 +284,7 @@ fn region_from(
     let mut rings = shape.into_iter().filter_map(|contour| {
         let points = contour.into_iter().map(|p| DVec2::from(p) + origin);
         let mut points: Vec<DVec2> = points.collect();
+        // `dedup_by` passes the later point first.
         points.dedup_by(|b, a| is_same(*a, *b));
         while points.len() > 1 && is_same(points[0], points[points.len() - 1]) {
             points.pop();
@@ -302,6 +302,7 @@ fn region_from(
     Some(Region { outer, holes })
 }
 
+/// Returns the ring with the requested orientation.
 fn oriented(ring: Ring, ccw: bool) -> Ring {
     if (ring.signed_area() > 0.0) == ccw {
         ring
@@ -344,7 +345,7 @@ mod tests {
         assert!((mirrored.area() - 12.0).abs() < 1e-9);
     }
 
-    /// Any finite number, the extremes as often as the ordinary.
+    /// Any finite number, with extremes as frequent as ordinary values.
     fn finite() -> impl Strategy<Value = f64> {
         use proptest::num::f64::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
         let bounds = [
@@ -385,7 +386,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bound_is_for_large_and_for_small() {
+    fn limits_apply_to_large_and_small_designs() {
         let square = |size: f64| {
             let points = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)];
             Regions::from_rings(&[ring(&points)], FillRule::NonZero)
@@ -416,7 +417,7 @@ mod tests {
     }
 
     #[test]
-    fn an_outline_that_all_but_ends_where_it_began_has_no_last_edge() {
+    fn a_nearly_closed_outline_keeps_no_tiny_last_edge() {
         let last = (1.0, 24.0 + 6e-14);
         let nearly = ring(&[(1.0, 24.0), (0.0, 0.0), (24.0, 0.0), (24.0, 24.0), last]);
         let regions = Regions::from_rings(&[nearly], FillRule::NonZero).expect("a region");
@@ -425,7 +426,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_enclosed_is_an_error() {
+    fn outlines_without_area_are_an_error() {
         let line = ring(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]);
         assert_eq!(
             Regions::from_rings(&[line], FillRule::NonZero),
@@ -443,8 +444,8 @@ mod tests {
     }
 
     #[test]
-    fn edges_that_all_but_coincide_are_cleaned_soon() {
-        // Found by the fuzzer, which waited 15 s for it.
+    fn nearly_coincident_edges_are_cleaned_quickly() {
+        // Found by the fuzzer; took 15 s with the library's own settings.
         let rings: [&[(f64, f64)]; 5] = [
             &[
                 (1.0843959206559366e16, 1.0843961455707782e16),

@@ -1,17 +1,16 @@
-//! What is wrong with outlines before they are cleaned: crossings, touches,
-//! outlines drawn twice or without area, points that say nothing.
+//! Finds defects of outlines before they are cleaned: crossings, touches, duplicates, outlines
+//! without area, and idle points.
 //!
-//! Edges are compared by a sweep along x (Shamos and Hoey 1976, with a list
-//! in place of the tree) and exact predicates. The sweep has a budget of
-//! 500 comparisons for each edge; where that is spent the
-//! counts are lower bounds, and [`Repairs::at_least`] says so.
+//! Edges are compared by a sweep along x (Shamos and Hoey 1976, with a list instead of the tree)
+//! and exact predicates. The sweep may make 500 comparisons per edge; if that is not enough, the
+//! counts are lower bounds and [`Repairs::at_least`] is set.
 //!
-//! Not counted: edges that meet in corners of both. Outlines may touch so.
+//! Not counted: edges that meet at corners of both, since outlines may touch that way.
 
 use super::{Bounds, DVec2, orient2d, ring_edges};
 use std::collections::HashSet;
 
-/// What cleaning had to repair.
+/// Numbers of defects that cleaning repaired.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, FillRule, Regions};
@@ -26,29 +25,26 @@ pub struct Repairs {
     pub crossings: usize,
     /// Corners that lie on another edge.
     pub touches: usize,
-    /// Whether there may be more crossings and touches than were counted.
+    /// Whether there may be more crossings and touches than counted.
     pub at_least: bool,
-    /// Outlines with the same points as an earlier one, all but one left out.
+    /// Outlines with the same points as an earlier one; all but the first are left out.
     pub duplicates: usize,
-    /// Outlines that enclose nothing: fewer than three different points, or
-    /// all on one line.
+    /// Outlines that enclose nothing: fewer than three different points, or all points on one line.
     pub flat: usize,
-    /// Pieces and holes too small to count, left over from touching edges.
+    /// Regions and holes that are too small to keep, left over from touching edges.
     pub slivers: usize,
-    /// Points that repeat the one before or lie straight between their
-    /// neighbours.
+    /// Points that repeat the previous one, or lie straight between their neighbours.
     pub idle_points: usize,
 }
 
-/// Comparisons that the sweep may spend on each edge: up to that many edges
-/// are compared in full however they lie, and two million edges take no more
-/// than seconds.
+/// Number of comparisons that the sweep may make per edge (resource limit: two million edges take
+/// seconds, and up to 500 edges are always compared in full).
 const TESTS_PER_EDGE: usize = 500;
 
 impl Repairs {
-    /// The faults of this and another set of outlines together.
+    /// Adds the defects of another set of outlines.
     #[must_use]
-    pub fn and(self, other: Self) -> Self {
+    pub fn merged_with(self, other: Self) -> Self {
         Self {
             crossings: self.crossings + other.crossings,
             touches: self.touches + other.touches,
@@ -60,38 +56,39 @@ impl Repairs {
         }
     }
 
-    /// What is wrong with rings of points in range, and the rings to be cleaned:
-    /// those that enclose something, each once.
+    /// Returns the rings to be cleaned (each that encloses something, once) and the defects found.
+    /// The points must be in range.
     pub(super) fn find(rings: &[Vec<DVec2>]) -> (Vec<Vec<DVec2>>, Self) {
-        let mut found = Self::default();
+        let mut repairs = Self::default();
         let mut seen = HashSet::new();
-        let mut kept = Vec::new();
+        let mut used_rings = Vec::new();
         for ring in rings {
             let (corners, idle) = corners(ring);
-            // Before the duplicates: flat rings have no corners, all alike.
+            // Before the search for duplicates, because all flat rings would look alike.
             if corners.len() < 3 {
-                found.flat += 1;
+                repairs.flat += 1;
                 continue;
             }
             if !seen.insert(fingerprint(&corners)) {
-                found.duplicates += 1;
+                repairs.duplicates += 1;
                 continue;
             }
-            found.idle_points += idle;
-            kept.push(corners);
+            repairs.idle_points += idle;
+            used_rings.push(corners);
         }
-        found.cross(&kept);
-        (kept, found)
+        repairs.cross(&used_rings);
+        (used_rings, repairs)
     }
 
     /// Counts crossings and touches only; the rings are taken as they are.
     #[must_use]
-    pub fn between(rings: &[Vec<DVec2>]) -> Self {
-        let mut found = Self::default();
-        found.cross(rings);
-        found
+    pub fn count_contacts(rings: &[Vec<DVec2>]) -> Self {
+        let mut repairs = Self::default();
+        repairs.cross(rings);
+        repairs
     }
 
+    /// Counts crossings and touches by a sweep along x.
     fn cross(&mut self, rings: &[Vec<DVec2>]) {
         let mut edges: Vec<BoxedEdge> = rings
             .iter()
@@ -102,8 +99,9 @@ impl Repairs {
         let mut tests = TESTS_PER_EDGE * edges.len();
         let mut active: Vec<BoxedEdge> = Vec::new();
         for edge in edges {
+            // Edges that end before this one begins cannot meet it.
             active.retain(|other| other.bounds.max.x >= edge.bounds.min.x);
-            // Combs and hatchings stand beside each other all along the sweep.
+            // Edges of combs and hatchings overlap all along the sweep.
             if active.len() > tests {
                 self.at_least = true;
                 return;
@@ -116,25 +114,29 @@ impl Repairs {
         }
     }
 
+    /// Counts the crossing and the touches of two edges.
     fn compare(&mut self, e: &BoxedEdge, f: &BoxedEdge) {
+        // The sweep compares x; edges that are apart in y need no predicates.
         if e.bounds.min.y > f.bounds.max.y || f.bounds.min.y > e.bounds.max.y {
             return;
         }
         let [ea, eb] = [orient2d(f.a, f.b, e.a), orient2d(f.a, f.b, e.b)];
         let [fa, fb] = [orient2d(e.a, e.b, f.a), orient2d(e.a, e.b, f.b)];
-        if differ(ea, eb) && differ(fa, fb) {
+        if have_opposite_signs(ea, eb) && have_opposite_signs(fa, fb) {
             self.crossings += 1;
         }
-        // First ends only: a last end is the first of the edge after it.
-        self.touches += usize::from(ea == 0.0 && f.holds_inside(e.a));
-        self.touches += usize::from(fa == 0.0 && e.holds_inside(f.a));
+        // Only start points are tested: an end point is the start of the next edge.
+        self.touches += usize::from(ea == 0.0 && f.has_inside(e.a));
+        self.touches += usize::from(fa == 0.0 && e.has_inside(f.a));
     }
 }
 
-fn differ(a: f64, b: f64) -> bool {
+/// Returns whether one number is positive and the other negative.
+fn have_opposite_signs(a: f64, b: f64) -> bool {
     (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)
 }
 
+/// Edge with its bounding box.
 #[derive(Clone, Copy)]
 struct BoxedEdge {
     a: DVec2,
@@ -148,21 +150,21 @@ impl BoxedEdge {
         Self { a, b, bounds }
     }
 
-    /// Whether a point of the edge's line lies between its ends.
-    fn holds_inside(&self, p: DVec2) -> bool {
+    /// Returns whether a point on the edge's line lies strictly between its ends.
+    fn has_inside(&self, p: DVec2) -> bool {
         self.bounds.contains(p) && p != self.a && p != self.b
     }
 }
 
-/// The points at which the ring turns, and how many others there are. The
-/// first point, repeated at the end, is only how some formats close a ring.
+/// Returns the points at which a ring turns, and the number of idle points. A repeated first point
+/// at the end does not count, because some formats close rings that way.
 fn corners(ring: &[DVec2]) -> (Vec<DVec2>, usize) {
     let mut points = ring.to_vec();
     if points.len() > 1 && points.first() == points.last() {
         points.pop();
     }
-    // A closing point is nobody's fault; whatever else goes is idle.
-    let given = points.len();
+    // Counted after the closing point is gone; everything removed from here on is idle.
+    let given_count = points.len();
     points.dedup();
     while points.len() > 1 && points.first() == points.last() {
         points.pop();
@@ -174,42 +176,42 @@ fn corners(ring: &[DVec2]) -> (Vec<DVec2>, usize) {
             points[i],
             points[(i + 1) % count],
         );
-        // Straight back is a turn: what it holds is for the fill rule.
+        // A reversal counts as a turn: the fill rule decides what the spike encloses.
         orient2d(a, b, c) != 0.0 || (b - a).dot(c - b) < 0.0
     };
     let corners: Vec<DVec2> = (0..count).filter(turns).map(|i| points[i]).collect();
     if is_flat(&corners) {
         return (Vec::new(), 0);
     }
-    let idle = given - corners.len();
+    let idle = given_count - corners.len();
     (corners, idle)
 }
 
+/// Returns whether all points lie on one line.
 fn is_flat(points: &[DVec2]) -> bool {
     let Some(&first) = points.first() else {
         return true;
     };
-    // The farthest is another place than the first if any point is.
+    // The farthest point differs from the first one if any point does.
     let far = |p: &&DVec2| p.distance_squared(first);
     let farthest = points.iter().max_by(|p, q| far(p).total_cmp(&far(q)));
     farthest.is_none_or(|&end| points.iter().all(|&p| orient2d(first, end, p) == 0.0))
 }
 
-/// The same for two rings exactly when they run through the same points,
-/// wherever they start and whichever way they run.
+/// Returns a list that is equal for two rings through the same points, wherever they start and
+/// whichever way they run.
 fn fingerprint(ring: &[DVec2]) -> Vec<[u64; 2]> {
     let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // -0 is 0
     let forward: Vec<[u64; 2]> = ring.iter().map(bits).collect();
     let backward = forward.iter().rev().copied().collect();
-    from_least(forward).min(from_least(backward))
+    smallest_rotation(forward).min(smallest_rotation(backward))
 }
 
-/// The list turned so that it is the least of all its turns, as far as its
-/// least elements tell.
-fn from_least(mut list: Vec<[u64; 2]>) -> Vec<[u64; 2]> {
+/// Rotates a list to the smallest of its rotations that start at a smallest element.
+fn smallest_rotation(mut list: Vec<[u64; 2]>) -> Vec<[u64; 2]> {
     let least = list.iter().min().copied();
     let starts = (0..list.len()).filter(|&i| Some(list[i]) == least);
-    // A point that the ring runs through many times: a few turns will do.
+    // A ring may pass a point many times; comparing a few rotations is enough.
     let turned = |i: usize| list[i..].iter().chain(&list[..i]);
     if let Some(best) = starts.take(8).min_by(|&i, &j| turned(i).cmp(turned(j))) {
         list.rotate_left(best);
@@ -249,8 +251,8 @@ mod tests {
             assert_eq!(repairs(&rings), Repairs::default());
         }
         // Two squares that touch in a corner.
-        let beside = ring(&[(4, 4), (8, 4), (8, 8), (4, 8)]);
-        assert_eq!(repairs(&[ring(&SQUARE), beside]), Repairs::default());
+        let other_square = ring(&[(4, 4), (8, 4), (8, 8), (4, 8)]);
+        assert_eq!(repairs(&[ring(&SQUARE), other_square]), Repairs::default());
     }
 
     #[test]
@@ -297,7 +299,7 @@ mod tests {
                 .map(|p| if turn { DVec2::new(p.y, p.x) } else { p })
                 .collect()
         };
-        let found = Repairs::between(&[comb(false), comb(true)]);
+        let found = Repairs::count_contacts(&[comb(false), comb(true)]);
         assert!(found.at_least && found.crossings > 1_000);
     }
 }

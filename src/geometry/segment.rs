@@ -1,19 +1,20 @@
-//! Straight pieces between two points: what of them is near a point, and
-//! whether two of them meet.
+//! Line segments: the nearest point to a given point, contact and crossing of two segments, and
+//! intersection with a ray.
 
 use super::{DVec2, orient2d};
 
-/// How far along the segment from `a` to `b` the point nearest to `p` lies,
-/// in [0, 1]; 0 where the segment has no length.
+/// Returns the position of the point nearest to `p` on the segment from `a` to `b`, as a fraction
+/// in [0, 1]; 0 if the segment has no length.
 ///
 /// ```
-/// use morphospace::geometry::{DVec2, along_segment};
-/// assert_eq!(along_segment(DVec2::new(3.0, 5.0), DVec2::ZERO, DVec2::new(4.0, 0.0)), 0.75);
+/// use morphospace::geometry::{DVec2, nearest_segment_parameter};
+/// let (a, b) = (DVec2::ZERO, DVec2::new(4.0, 0.0));
+/// assert_eq!(nearest_segment_parameter(DVec2::new(3.0, 5.0), a, b), 0.75);
 /// ```
 #[must_use]
 pub fn nearest_segment_parameter(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let edge = b - a;
-    // 0/0 where the ends are one, or so near that the square underflows.
+    // 0/0 if the ends coincide, or are so close that the square underflows.
     let along = (p - a).dot(edge) / edge.length_squared();
     if along.is_finite() {
         along.clamp(0.0, 1.0)
@@ -22,7 +23,7 @@ pub fn nearest_segment_parameter(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     }
 }
 
-/// The squared distance from `p` to the segment from `a` to `b`.
+/// Squared distance from `p` to the segment from `a` to `b`.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, distance_squared_to_segment};
@@ -34,7 +35,7 @@ pub fn distance_squared_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance_squared(a + nearest_segment_parameter(p, a, b) * (b - a))
 }
 
-/// Whether two segments, ends included, have a point in common; exact.
+/// Returns whether two segments, ends included, have a point in common, by exact predicates.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, segments_touch};
@@ -45,11 +46,11 @@ pub fn distance_squared_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
 #[must_use]
 pub fn segments_touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let boxes_apart = a.max(b).cmplt(c.min(d)).any() || c.max(d).cmplt(a.min(b)).any();
-    // Segments on one line whose boxes meet do touch.
-    !boxes_apart && !one_side([a, b], c, d) && !one_side([c, d], a, b)
+    // Collinear segments touch if their boxes do.
+    !boxes_apart && !on_same_side([a, b], c, d) && !on_same_side([c, d], a, b)
 }
 
-/// Whether two segments cross in a point that is an end of neither; exact.
+/// Returns whether two segments cross at a point that is an end of neither, by exact predicates.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, segments_cross};
@@ -59,13 +60,13 @@ pub fn segments_touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 /// ```
 #[must_use]
 pub fn segments_cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    // Neighbours share a point; the exact predicate is slow just there.
+    // A shortcut for neighbours, which share a point: the exact predicate is slow for them.
     let shared = a == c || a == d || b == c || b == d;
-    !shared && parted([a, b], c, d) && parted([c, d], a, b)
+    !shared && separates([a, b], c, d) && separates([c, d], a, b)
 }
 
-/// How far along a ray the segment from `a` to `b` is met, in lengths of
-/// `direction`; none if it is not, or lies behind.
+/// Returns where a ray hits the segment from `a` to `b`, in lengths of `direction`; `None` if it
+/// misses, or if the hit lies behind.
 pub(crate) fn ray_hit_parameter(
     from: DVec2,
     direction: DVec2,
@@ -73,21 +74,21 @@ pub(crate) fn ray_hit_parameter(
 ) -> Option<f64> {
     let (edge, offset) = (b - a, a - from);
     let across = direction.perp_dot(edge);
-    // Parallel lines: infinite or NaN, and so outside the range.
+    // For parallel lines this is infinite or NaN, and therefore out of range.
     let share = offset.perp_dot(direction) / across;
     let far = || offset.perp_dot(edge) / across;
     let meets = (0.0..=1.0).contains(&share);
     meets.then(far).filter(|far| *far > 0.0)
 }
 
-/// Whether both points lie strictly on the same side of the line.
-fn one_side([a, b]: [DVec2; 2], p: DVec2, q: DVec2) -> bool {
+/// Returns whether both points lie strictly on the same side of the line.
+fn on_same_side([a, b]: [DVec2; 2], p: DVec2, q: DVec2) -> bool {
     let [p, q] = [p, q].map(|p| orient2d(a, b, p));
     (p > 0.0 && q > 0.0) || (p < 0.0 && q < 0.0)
 }
 
-/// Whether the line runs strictly between the points.
-fn parted([a, b]: [DVec2; 2], p: DVec2, q: DVec2) -> bool {
+/// Returns whether the line separates the points strictly.
+fn separates([a, b]: [DVec2; 2], p: DVec2, q: DVec2) -> bool {
     let [p, q] = [p, q].map(|p| orient2d(a, b, p));
     (p > 0.0 && q < 0.0) || (p < 0.0 && q > 0.0)
 }
@@ -98,18 +99,19 @@ mod tests {
     use proptest::prelude::*;
 
     fn point() -> impl Strategy<Value = DVec2> {
-        // Few places, so that ends meet, lie on edges and on one line.
+        // Few different points, so that ends often meet, lie on edges and are collinear.
         (0i8..4, 0i8..4).prop_map(|(x, y)| DVec2::new(x.into(), y.into()))
     }
 
-    /// The point that the lines share, where they are not parallel, as shares
-    /// of both segments: exact for small whole numbers.
+    /// Oracle: the intersection of the two lines as fractions of both segments, exact for small
+    /// integers; `None` if they are parallel.
     fn meeting([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<[f64; 2]> {
         let across = (b - a).perp_dot(d - c);
         let shares = [(c - a).perp_dot(d - c), (c - a).perp_dot(b - a)];
         (across != 0.0).then(|| shares.map(|share| share / across))
     }
 
+    /// Returns whether `p` lies on a segment.
     fn on([a, b]: [DVec2; 2], p: DVec2) -> bool {
         distance_squared_to_segment(p, a, b) == 0.0
     }

@@ -1,4 +1,4 @@
-//! Source and target, and what there is one of for each.
+//! Source and target, and a container with one value for each.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -27,7 +27,7 @@ impl Side {
         }
     }
 
-    /// The one across.
+    /// The other design.
     #[must_use]
     pub const fn other(self) -> Self {
         match self {
@@ -46,7 +46,7 @@ impl fmt::Display for Side {
     }
 }
 
-/// A list of two is read by side as well: the source's comes first.
+/// Arrays of two can be indexed by side, the source first.
 impl<T> Index<Side> for [T; 2] {
     type Output = T;
 
@@ -61,34 +61,34 @@ impl<T> IndexMut<Side> for [T; 2] {
     }
 }
 
-/// One thing of the source and one of the target.
+/// One value for the source and one for the target.
 ///
 /// ```
-/// use morphospace::geometry::{Pair, Side};
-/// let names = Pair { source: "A", target: "B" };
+/// use morphospace::geometry::{Side, SourceTarget};
+/// let names = SourceTarget { source: "A", target: "B" };
 /// assert_eq!(names[Side::Target], "B");
-/// assert_eq!(names.swapped().map(str::len), Pair { source: 1, target: 1 });
+/// assert_eq!(names.swapped().map(str::len), SourceTarget { source: 1, target: 1 });
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SourceTarget<T> {
-    /// In the source.
+    /// Value of the source.
     pub source: T,
-    /// In the target.
+    /// Value of the target.
     pub target: T,
 }
 
 impl<T> SourceTarget<T> {
-    /// What `of` says of each side.
-    pub fn of(mut of: impl FnMut(Side) -> T) -> Self {
+    /// Creates a pair from a function of the side.
+    pub fn from_fn(mut value_of: impl FnMut(Side) -> T) -> Self {
         Self {
-            source: of(Side::Source),
-            target: of(Side::Target),
+            source: value_of(Side::Source),
+            target: value_of(Side::Target),
         }
     }
 
-    /// One thing on a side, another across.
-    pub fn on(side: Side, here: T, across: T) -> Self {
+    /// Creates a pair with one value on the given side and another on the other side.
+    pub fn with_side(side: Side, here: T, across: T) -> Self {
         let (source, target) = match side {
             Side::Source => (here, across),
             Side::Target => (across, here),
@@ -96,7 +96,7 @@ impl<T> SourceTarget<T> {
         Self { source, target }
     }
 
-    /// Both sent through one map.
+    /// Applies a function to both values.
     pub fn map<U>(self, mut map: impl FnMut(T) -> U) -> SourceTarget<U> {
         SourceTarget {
             source: map(self.source),
@@ -104,7 +104,7 @@ impl<T> SourceTarget<T> {
         }
     }
 
-    /// The designs exchanged.
+    /// Returns the pair with source and target exchanged.
     #[must_use]
     pub fn swapped(self) -> Self {
         Self {
@@ -113,7 +113,7 @@ impl<T> SourceTarget<T> {
         }
     }
 
-    /// Source, then target.
+    /// Values of source and target, in this order.
     pub fn to_array(self) -> [T; 2] {
         [self.source, self.target]
     }

@@ -1,23 +1,23 @@
-//! Similarities: how one design is laid over another.
+//! Similarity transforms, by which one design is placed over another.
 
 use super::{Bounds, DAffine2, DMat2, DVec2, DesignSizeError, RANGE_MESSAGE, is_in_range};
 use serde::{Deserialize, Serialize};
 
-/// A mirror, then a scale, then a rotation about the origin, then an offset.
+/// Similarity transform: a mirror, then a scale, then a rotation about the origin, then an offset.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Similarity {
-    /// Moved by this much at the end, in the design's units.
+    /// Offset, applied last, in the design's units.
     pub offset: DVec2,
-    /// Enlarged by this factor; finite and positive.
+    /// Scale factor; finite and positive.
     pub scale: f64,
-    /// Turned counter-clockwise, in radians.
+    /// Rotation in radians, counter-clockwise.
     pub rotation: f64,
-    /// Left and right exchanged first.
+    /// Whether left and right are exchanged, before everything else.
     pub mirror: bool,
 }
 
-/// A similarity that would not keep shapes finite.
+/// Reason why a similarity cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimilarityError {
@@ -27,10 +27,10 @@ pub enum SimilarityError {
     /// The offset or the rotation is not finite.
     #[error("the offset and the rotation of a placement must be finite numbers")]
     NotFinite,
-    /// What it lays down is out of range.
-    #[error("laid down, a corner of the design {RANGE_MESSAGE}")]
+    /// A transformed design is out of range.
+    #[error("after placement, a corner of the design {RANGE_MESSAGE}")]
     OutOfRange,
-    /// What it lays down is too small.
+    /// A transformed design is too small, or too far from the origin for its size.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
 }
@@ -42,7 +42,7 @@ impl Default for Similarity {
 }
 
 impl Similarity {
-    /// Leaves everything where it is.
+    /// The transform that changes nothing.
     pub const IDENTITY: Self = Self {
         offset: DVec2::ZERO,
         scale: 1.0,
@@ -50,10 +50,10 @@ impl Similarity {
         mirror: false,
     };
 
-    /// Checks that the map is finite and can be inverted.
+    /// Checks that the transform is finite and invertible.
     ///
     /// # Errors
-    /// [`SimilarityError`] names the number that is wrong.
+    /// [`SimilarityError`] names the invalid number.
     pub fn checked(self) -> Result<Self, SimilarityError> {
         if !(self.scale.is_finite() && self.scale > 0.0) {
             return Err(SimilarityError::Scale(self.scale));
@@ -64,7 +64,7 @@ impl Similarity {
         Ok(self)
     }
 
-    /// Checks that what is laid down can be reckoned with.
+    /// Checks that a design with the given bounds stays in range.
     ///
     /// # Errors
     /// [`SimilarityError`] says what is wrong with the size or the place.
@@ -73,29 +73,29 @@ impl Similarity {
         if !corners.into_iter().all(is_in_range) {
             return Err(SimilarityError::OutOfRange);
         }
-        let laid = Bounds::of(corners).unwrap_or(*bounds);
-        Ok(DesignSizeError::check(&laid).map(drop)?)
+        let placed = Bounds::of(corners).unwrap_or(*bounds);
+        Ok(DesignSizeError::check(&placed).map(drop)?)
     }
 
-    /// The linear part; its determinant is negative when mirrored.
+    /// Linear part; its determinant is negative if mirrored.
     #[must_use]
     pub fn linear(&self) -> DMat2 {
         DMat2::from_angle(self.rotation)
             * DMat2::from_diagonal(DVec2::new(self.flip() * self.scale, self.scale))
     }
 
-    /// The same as an affine map.
+    /// The transform as an affine map.
     #[must_use]
     pub fn affine(&self) -> DAffine2 {
         DAffine2::from_mat2_translation(self.linear(), self.offset)
     }
 
-    /// The sign that x gets, and that a turn gets which is moved past the mirror.
+    /// Sign that the mirror gives to x, and to a rotation that is moved past it.
     fn flip(&self) -> f64 {
         if self.mirror { -1.0 } else { 1.0 }
     }
 
-    /// Where `p` goes.
+    /// Applies the transform to a point.
     ///
     /// ```
     /// use morphospace::geometry::{DVec2, Similarity};
@@ -105,23 +105,24 @@ impl Similarity {
     #[must_use]
     pub fn apply(&self, p: DVec2) -> DVec2 {
         if *self == Self::IDENTITY {
-            return p; // exact, so that designs as drawn keep their last bit
+            return p; // exact, so that unplaced designs keep every bit
         }
         self.linear() * p + self.offset
     }
 
-    /// This similarity after another, as one.
+    /// Returns the composition: first `first`, then this transform.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
         Self {
             offset: self.apply(first.offset),
             scale: self.scale * first.scale,
+            // A rotation that is moved past the mirror changes its sign.
             rotation: self.rotation + self.flip() * first.rotation,
             mirror: self.mirror != first.mirror,
         }
     }
 
-    /// The way back.
+    /// Returns the inverse transform.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let linear = Self {
@@ -131,7 +132,7 @@ impl Similarity {
             mirror: self.mirror,
         };
         Self {
-            // The offset was last, so it is undone first.
+            // The offset was applied last, so it is undone first.
             offset: -linear.apply(self.offset),
             ..linear
         }
@@ -143,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_after_another_and_back() {
+    fn composition_and_inverse_agree_with_application() {
         let similarity = |mirror, rotation| Similarity {
             offset: DVec2::new(3.0, -1.0),
             scale: 2.5,

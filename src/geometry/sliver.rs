@@ -1,45 +1,48 @@
-//! What cleaning leaves over where edges all but lie on each other.
+//! Recognises slivers: thin contours that cleaning leaves where edges nearly coincide.
 
 use super::{Bounds, DVec2, Ring, signed_area};
 
-/// A mean thickness, as a share of the size of all outlines: a tenth of a pixel in a
-/// picture of a thousand. Of 120 icons 15 had thinner ones, each of which would be a
-/// part of its own that is born or dies.
-const THIN: f64 = 1e-4;
+/// Mean thickness below which a contour may be a sliver, as a fraction of the size of all outlines:
+/// a tenth of a pixel in an image of a thousand (heuristic).
+const MAX_THICKNESS: f64 = 1e-4;
 
-/// A sliver is so small beside all that was drawn there; a drawing of hairlines that
-/// cross is not.
-const SMALL: f64 = 0.01;
+/// A sliver has less than this fraction of the area of every outline near it; where hairlines
+/// cross, contours have more (heuristic).
+const MAX_AREA_SHARE: f64 = 0.01;
 
-/// What was drawn, to tell a sliver by.
+/// Outlines as drawn, with which leftover contours are compared.
 pub(super) struct SliverTest {
+    /// Bounds and area of each outline.
     outlines: Vec<(Bounds, f64)>,
-    thin: f64,
+    /// Maximum mean thickness of a sliver.
+    max_thickness: f64,
 }
 
 impl SliverTest {
-    /// Outlines with more than this area.
+    /// Collects the outlines with more than the given area.
     pub(super) fn of(rings: &[Vec<DVec2>], extent: f64, area: f64) -> Self {
         let outlines = rings.iter().filter_map(|ring| {
-            let own = signed_area(ring).abs();
+            let ring_area = signed_area(ring).abs();
             let bounds = Bounds::of(ring.iter().copied())?;
-            (own > area).then_some((bounds, own))
+            (ring_area > area).then_some((bounds, ring_area))
         });
         Self {
             outlines: outlines.collect(),
-            thin: THIN * extent,
+            max_thickness: MAX_THICKNESS * extent,
         }
     }
 
-    /// Whether a contour is too thin to be seen, and is left over rather than drawn.
-    pub(super) fn leaves(&self, contour: &Ring) -> bool {
+    /// Returns whether a contour is too thin to be seen and is a leftover, not a drawn shape.
+    pub(super) fn is_leftover(&self, contour: &Ring) -> bool {
         let area = contour.signed_area().abs();
-        if 2.0 * area >= self.thin * contour.perimeter() {
+        // Twice the area over the perimeter is the mean thickness of a long shape.
+        if 2.0 * area >= self.max_thickness * contour.perimeter() {
             return false;
         }
-        let bounds = contour.bounds().padded(self.thin);
-        let mut there = self.outlines.iter().filter(|(own, _)| own.meets(&bounds));
-        there.all(|(_, drawn)| area < SMALL * drawn)
+        let bounds = contour.bounds().padded(self.max_thickness);
+        // A leftover is tiny next to every outline around it.
+        let mut near = self.outlines.iter().filter(|(own, _)| own.meets(&bounds));
+        near.all(|(_, drawn)| area < MAX_AREA_SHARE * drawn)
     }
 }
 
@@ -56,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn what_rounding_leaves_beside_a_side_is_left_out() {
+    fn a_sliver_left_by_rounding_is_removed() {
         // The last side ends a thousandth too low, and crosses the first.
         let slip = ring(&[
             [0.0, 0.0],
@@ -83,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn hairlines_and_dots_that_were_drawn_stay() {
+    fn drawn_hairlines_and_dots_stay() {
         let (hair, dot) = ([5.0, 5.0002], [2.0, 2.0001]);
         let drawn = [
             rect([0.0, 10.0], hair),

@@ -1,61 +1,64 @@
-//! The assignment problem by shortest augmenting paths with potentials
-//! (Kuhn 1955; Jonker and Volgenant 1987). O(rows² · columns).
+//! The assignment problem, solved by shortest augmenting paths with potentials (Kuhn 1955; Jonker
+//! and Volgenant 1987) in O(rows² · columns).
 
-/// For each row the column it is given, all different, so that the sum of the
-/// costs is least. Rows must not outnumber columns; costs are finite.
+/// Assigns each row a different column so that the sum of costs is minimal. Rows must not outnumber
+/// columns, and costs must be finite.
 pub(crate) fn assign(
     rows: usize,
     columns: usize,
     cost: impl Fn(usize, usize) -> f64,
 ) -> Vec<usize> {
-    // One row and column 0 stand before the first: "none".
-    let mut row_price = vec![0.0; rows + 1];
-    let mut column_price = vec![0.0; columns + 1];
+    // Index 0 of each array is a dummy that stands for "unassigned"; real rows and columns start at
+    // 1.
+    let mut row_potential = vec![0.0; rows + 1];
+    let mut column_potential = vec![0.0; columns + 1];
     let mut row_of = vec![0; columns + 1];
     for row in 1..=rows {
         row_of[0] = row;
-        let mut free = 0;
-        let mut least = vec![f64::INFINITY; columns + 1];
-        let mut via = vec![0; columns + 1];
-        let mut done = vec![false; columns + 1];
-        // Dijkstra over reduced costs, which the prices keep from being negative.
-        while row_of[free] != 0 {
-            done[free] = true;
-            let here = row_of[free];
+        let mut current_column = 0;
+        let mut distance = vec![f64::INFINITY; columns + 1];
+        let mut predecessor = vec![0; columns + 1];
+        let mut is_visited = vec![false; columns + 1];
+        // Dijkstra's algorithm on reduced costs, which the potentials keep non-negative.
+        while row_of[current_column] != 0 {
+            is_visited[current_column] = true;
+            let current_row = row_of[current_column];
             let (mut step, mut next) = (f64::INFINITY, 0);
-            for column in (1..=columns).filter(|&c| !done[c]) {
-                let reduced = cost(here - 1, column - 1) - row_price[here] - column_price[column];
-                if reduced < least[column] {
-                    least[column] = reduced;
-                    via[column] = free;
+            for column in (1..=columns).filter(|&c| !is_visited[c]) {
+                let reduced = cost(current_row - 1, column - 1)
+                    - row_potential[current_row]
+                    - column_potential[column];
+                if reduced < distance[column] {
+                    distance[column] = reduced;
+                    predecessor[column] = current_column;
                 }
-                if least[column] < step {
-                    (step, next) = (least[column], column);
+                if distance[column] < step {
+                    (step, next) = (distance[column], column);
                 }
             }
             for column in 0..=columns {
-                if done[column] {
-                    row_price[row_of[column]] += step;
-                    column_price[column] -= step;
+                if is_visited[column] {
+                    row_potential[row_of[column]] += step;
+                    column_potential[column] -= step;
                 } else {
-                    least[column] -= step;
+                    distance[column] -= step;
                 }
             }
-            free = next;
+            current_column = next;
         }
-        // Each column along the path goes to the row that reached it.
-        while free != 0 {
-            row_of[free] = row_of[via[free]];
-            free = via[free];
+        // Augment: each column along the path is reassigned to the row that reached it.
+        while current_column != 0 {
+            row_of[current_column] = row_of[predecessor[current_column]];
+            current_column = predecessor[current_column];
         }
     }
-    let mut given = vec![0; rows];
+    let mut assigned = vec![0; rows];
     for column in 1..=columns {
         if row_of[column] != 0 {
-            given[row_of[column] - 1] = column - 1;
+            assigned[row_of[column] - 1] = column - 1;
         }
     }
-    given
+    assigned
 }
 
 #[cfg(test)]
@@ -63,15 +66,19 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// All assignments, one by one.
-    fn least(rows: usize, cost: &dyn Fn(usize, usize) -> f64, free: &mut Vec<usize>) -> f64 {
+    /// Returns the minimum cost by enumerating all assignments.
+    fn brute_force_cost(
+        rows: usize,
+        cost: &dyn Fn(usize, usize) -> f64,
+        free: &mut Vec<usize>,
+    ) -> f64 {
         if rows == 0 {
             return 0.0;
         }
         let mut best = f64::INFINITY;
         for k in 0..free.len() {
             let column = free.remove(k);
-            best = best.min(cost(rows - 1, column) + least(rows - 1, cost, free));
+            best = best.min(cost(rows - 1, column) + brute_force_cost(rows - 1, cost, free));
             free.insert(k, column);
         }
         best
@@ -90,7 +97,7 @@ mod tests {
             distinct.dedup();
             prop_assert_eq!(distinct.len(), rows);
             let sum: f64 = given.iter().enumerate().map(|(r, &c)| cost(r, c)).sum();
-            let oracle = least(rows, &cost, &mut (0..rows + more).collect());
+            let oracle = brute_force_cost(rows, &cost, &mut (0..rows + more).collect());
             prop_assert!((sum - oracle).abs() < 1e-9);
         }
     }

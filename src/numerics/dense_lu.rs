@@ -1,16 +1,15 @@
-//! Small full systems, factored and solved in every frame.
+//! LU factorisation of small dense systems that change in every frame.
 //!
-//! A [`DenseLu`] keeps its memory from one matrix to the next and never fails:
-//! a singular matrix gives a solution with infinities or NaN, or a useless
-//! one, and it is the caller who looks at what is left over. Partial pivoting;
-//! everything runs on the calling thread.
+//! A [`DenseLu`] reuses its memory from one matrix to the next and never fails: a singular matrix
+//! gives a solution with infinities or NaN, or a meaningless one, and the caller checks the
+//! residual. Partial pivoting; everything runs on the calling thread.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
 use faer::{Conj, MatMut, MatRef, Par};
 
-/// A factored square matrix, L U with rows exchanged.
+/// LU factorisation of a square matrix with row exchanges.
 ///
 /// ```
 /// use morphospace::numerics::DenseLu;
@@ -21,13 +20,14 @@ use faer::{Conj, MatMut, MatRef, Par};
 /// assert_eq!(x, [4.0, 3.0]);
 /// ```
 pub struct DenseLu {
+    /// Number of unknowns.
     n: usize,
     /// L below the diagonal, U on and above, column by column.
     values: Vec<f64>,
-    /// Where each row came from, and where it went.
+    /// Row permutation and its inverse.
     rows: [Vec<u32>; 2],
     memory: MemBuffer,
-    /// Unknowns and right-hand sides that the memory is enough for.
+    /// Largest numbers of unknowns and of right-hand sides that the memory suffices for.
     room: [usize; 2],
 }
 
@@ -44,7 +44,7 @@ impl Default for DenseLu {
 }
 
 impl DenseLu {
-    /// Of the empty matrix; memory comes with the first larger one.
+    /// Factorisation of the empty matrix; memory is allocated with the first larger one.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -56,17 +56,17 @@ impl DenseLu {
         }
     }
 
-    /// How many unknowns there are.
+    /// Number of unknowns.
     #[must_use]
     pub fn size(&self) -> usize {
         self.n
     }
 
-    /// Factors an n×n matrix, given column by column: about 2n³/3 operations.
-    /// Allocates only for more unknowns than ever before.
+    /// Factors an n×n matrix, given column by column, in about 2n³/3 operations. Allocates only if
+    /// n exceeds all earlier sizes.
     ///
     /// # Panics
-    /// If the matrix has not n² entries.
+    /// If the matrix does not have n² entries.
     pub fn factor(&mut self, n: usize, matrix: &[f64]) {
         assert_eq!(matrix.len(), n * n, "the matrix is square");
         self.n = n;
@@ -90,12 +90,11 @@ impl DenseLu {
         );
     }
 
-    /// Solves in place for as many right-hand sides as fit into `rhs`, which
-    /// holds them one after the other. Allocates only for more of them than
-    /// ever before.
+    /// Solves in place for all right-hand sides in `rhs`, which are stored one after the other.
+    /// Allocates only if there are more of them than ever before.
     ///
     /// # Panics
-    /// If the length of `rhs` is no multiple of [`Self::size`].
+    /// If the length of `rhs` is not a multiple of [`Self::size`].
     pub fn solve(&mut self, rhs: &mut [f64]) {
         let n = self.n;
         if n == 0 {
@@ -117,12 +116,13 @@ impl DenseLu {
         );
     }
 
+    /// Enlarges the memory if it does not suffice.
     fn make_room(&mut self, n: usize, columns: usize) {
         if n <= self.room[0] && columns <= self.room[1] {
             return;
         }
-        // Both at their largest, or a small matrix with many columns and a
-        // large one with few would allocate in turns.
+        // To the maximum of both, or a small matrix with many columns and a large one with few
+        // would reallocate in turns.
         let [n, columns] = [n.max(self.room[0]), columns.max(self.room[1])];
         let factoring = factor::lu_in_place_scratch::<u32, f64>(n, n, Par::Seq, Default::default());
         let solving = solve::solve_in_place_scratch::<u32, f64>(n, columns, Par::Seq);
@@ -138,12 +138,12 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_solved_solves(
+        fn solutions_satisfy_the_system(
             n in 1_usize..40,
             entries in prop::collection::vec(-1.0f64..1.0, 40 * 40),
             x in prop::collection::vec(-1.0f64..1.0, 3 * 40),
         ) {
-            // Kept off singular ones by a large number somewhere in each row.
+            // A large number in each row keeps the matrix away from singular ones.
             let mut a = entries[..n * n].to_vec();
             for i in 0..n {
                 a[((i + 3) % n) * n + i] += 2.0 * n as f64;

@@ -1,19 +1,19 @@
-//! Eigenvalues and eigenvectors of small full symmetric matrices.
+//! Eigenvalues and eigenvectors of small dense symmetric matrices.
 
 use faer::{MatRef, Side};
 
-/// The eigenvalues of a symmetric matrix, given column by column, in ascending order,
-/// each with its unit eigenvector; none where it has entries that are no numbers. Only
-/// the lower triangle is read.
+/// Returns the eigenvalues of a symmetric n×n matrix, given column by column, in ascending order,
+/// each with its unit eigenvector. `None` if an entry is not finite. Only the lower triangle is
+/// read.
 ///
 /// ```
-/// use morphospace::linalg::symmetric_eigen;
+/// use morphospace::numerics::symmetric_eigen;
 /// let axes = symmetric_eigen(2, &[2.0, 1.0, 1.0, 2.0]).expect("numbers");
 /// assert!((axes[0].0 - 1.0).abs() < 1e-12 && (axes[1].0 - 3.0).abs() < 1e-12);
 /// ```
 ///
 /// # Panics
-/// If there are not n² entries.
+/// If there are not exactly n² entries.
 #[must_use]
 pub fn symmetric_eigen(n: usize, entries: &[f64]) -> Option<Vec<(f64, Vec<f64>)>> {
     assert_eq!(entries.len(), n * n, "n² entries");

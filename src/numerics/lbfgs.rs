@@ -1,37 +1,38 @@
-//! Minimisation of a smooth function by limited-memory BFGS (Liu, Nocedal
-//! 1989) with a weak Wolfe line search by bisection (Lewis, Overton 2013).
+//! L-BFGS minimisation of a smooth function (Liu, Nocedal 1989) with a weak Wolfe line search by
+//! bisection (Lewis, Overton 2013).
 //!
-//! The function may be infinite: such steps are shortened, so that what
-//! starts finite stays finite. Nothing is promised about how near the
-//! minimum the result is; it is never higher than the start. A cancel ends it
-//! early, at what was reached.
+//! The function may be infinite: such steps are shortened, so a finite start stays finite.
+//! Guaranteed: the result is never higher than the start. Not guaranteed: any distance to the
+//! minimum. A cancel ends the search early, at the best point so far.
 
 use crate::work::progress::Progress;
 
-/// Pairs of steps and gradient changes that are remembered: the literature's
-/// 3 to 20, each two more passes over all unknowns.
+/// Number of remembered steps with their gradient changes (cited: the literature uses 3 to 20; each
+/// adds two passes over all unknowns).
 const MEMORY: usize = 12;
-/// Least share of the predicted decrease (Armijo); this and the next are the
-/// values of Nocedal and Wright's "Numerical Optimization" for such methods.
+/// Fraction of the predicted decrease that a step must reach (Armijo condition; cited: Nocedal,
+/// Wright, "Numerical Optimization").
 const DECREASE: f64 = 1e-4;
-/// How much of the slope may be left (Wolfe).
+/// Fraction of the slope that a step may leave (curvature condition; cited: the same book).
 const CURVATURE: f64 = 0.9;
-/// Trials of one line search: halved so often, a step is 3e-8 of itself.
-const TRIALS: usize = 25;
+/// Maximum number of trials in one line search (resource limit: after 25 halvings a step is 3e-8 of
+/// its length).
+const MAX_TRIALS: usize = 25;
 
-/// Moves `x` downhill by at most `rounds` steps and returns the value there.
-/// `function` gives the value and fills the gradient; `precondition` applies
-/// an approximate inverse of its second derivative in place. Stops early when
-/// a step lowers the value by less than the share `enough`, and on a cancel.
+/// Moves `x` downhill by at most `max_steps` steps and returns the value there.
+///
+/// `function` returns the value and fills the gradient; `precondition` applies an approximate
+/// inverse of the second derivative in place. Stops early when a step lowers the value by less than
+/// the fraction `min_decrease`, and on a cancel.
 pub(crate) fn minimise(
     x: &mut [f64],
-    rounds: usize,
-    enough: f64,
+    max_steps: usize,
+    min_decrease: f64,
     mut precondition: impl FnMut(&mut [f64]),
     mut function: impl FnMut(&[f64], &mut [f64]) -> f64,
     progress: &dyn Progress,
 ) -> f64 {
-    // Infinite values make the search end as a barrier does.
+    // A cancelled evaluation is infinite, so the line search ends as at a barrier.
     let mut function = |x: &[f64], gradient: &mut [f64]| {
         if progress.is_cancelled() {
             return f64::INFINITY;
@@ -41,31 +42,35 @@ pub(crate) fn minimise(
     let mut gradient = vec![0.0; x.len()];
     let mut value = function(x, &mut gradient);
     let mut memory: Vec<CurvaturePair> = Vec::new();
-    for _ in 0..rounds {
+    for _ in 0..max_steps {
         let direction = direction(&memory, &gradient, &mut precondition);
-        let Some(found) = search(x, value, &gradient, &direction, &mut function) else {
+        let Some(accepted) = search(x, value, &gradient, &direction, &mut function) else {
             break;
         };
         let before = value;
-        remember(&mut memory, x, &gradient, &found, &mut precondition);
-        x.copy_from_slice(&found.x);
-        gradient = found.gradient;
-        value = found.value;
-        if before - value <= enough * before.abs() {
+        remember(&mut memory, x, &gradient, &accepted, &mut precondition);
+        x.copy_from_slice(&accepted.x);
+        gradient = accepted.gradient;
+        value = accepted.value;
+        if before - value <= min_decrease * before.abs() {
             break;
         }
     }
     value
 }
 
+/// A step and the change of the gradient along it.
 struct CurvaturePair {
     step: Vec<f64>,
+    /// Change of the gradient.
     change: Vec<f64>,
+    /// Dot product of step and change.
     product: f64,
-    /// What the preconditioner is off by along this step.
+    /// Factor that corrects the preconditioner along this step.
     scale: f64,
 }
 
+/// Point tried by the line search.
 struct LineSearchPoint {
     x: Vec<f64>,
     gradient: Vec<f64>,
@@ -76,10 +81,12 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Adds `by` times `b` to `a`.
 fn add_scaled(a: &mut [f64], by: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += by * b);
 }
 
+/// Returns the descent direction by the two-loop recursion.
 fn direction(
     memory: &[CurvaturePair],
     gradient: &[f64],
@@ -87,16 +94,17 @@ fn direction(
 ) -> Vec<f64> {
     let mut d: Vec<f64> = gradient.iter().map(|g| -g).collect();
     let mut shares = Vec::with_capacity(memory.len());
+    // First loop, from the newest pair to the oldest.
     for pair in memory.iter().rev() {
         let share = dot(&pair.step, &d) / pair.product;
         add_scaled(&mut d, -share, &pair.change);
         shares.push(share);
     }
-    // Between the two loops: the springs stand for the first guess of the
-    // second derivative's inverse.
+    // The preconditioner is the initial inverse Hessian, applied between the two loops.
     precondition(&mut d);
     let scale = memory.last().map_or(1.0, |last| last.scale);
     d.iter_mut().for_each(|d| *d *= scale);
+    // Second loop, from the oldest pair to the newest.
     for (pair, share) in memory.iter().zip(shares.iter().rev()) {
         let back = dot(&pair.change, &d) / pair.product;
         add_scaled(&mut d, share - back, &pair.step);
@@ -104,6 +112,8 @@ fn direction(
     d
 }
 
+/// Searches along a direction for a step that meets the weak Wolfe conditions. `None` if no step
+/// descends.
 fn search(
     x: &[f64],
     value: f64,
@@ -111,14 +121,14 @@ fn search(
     direction: &[f64],
     function: &mut impl FnMut(&[f64], &mut [f64]) -> f64,
 ) -> Option<LineSearchPoint> {
-    // Uphill only where rounding has spoilt the memory, or at a minimum.
+    // The direction is uphill only at a minimum, or if rounding has spoilt the memory.
     let slope = dot(gradient, direction);
     if !value.is_finite() || slope.is_nan() || slope >= 0.0 {
         return None;
     }
     let (mut low, mut high, mut length) = (0.0, f64::INFINITY, 1.0);
     let mut best: Option<LineSearchPoint> = None;
-    for _ in 0..TRIALS {
+    for _ in 0..MAX_TRIALS {
         let mut trial = LineSearchPoint {
             x: x.to_vec(),
             gradient: vec![0.0; x.len()],
@@ -126,17 +136,18 @@ fn search(
         };
         add_scaled(&mut trial.x, length, direction);
         trial.value = function(&trial.x, &mut trial.gradient);
-        // Outside the barrier the value is infinite, or NaN: no descent either.
+        // Outside the barrier the value is infinite or NaN, which does not count as descent.
         let descends = trial.value <= value + DECREASE * length * slope;
         if !descends {
             high = length;
         } else if dot(&trial.gradient, direction) < CURVATURE * slope {
-            // Lower, but still as steep: kept, in case nothing longer is found.
+            // Lower but still steep: the fallback if no longer step is accepted.
             low = length;
             best = Some(trial);
         } else {
             return Some(trial);
         }
+        // Bisects once an upper end is known, and doubles the step before.
         length = if high.is_finite() {
             0.5 * (low + high)
         } else {
@@ -146,18 +157,19 @@ fn search(
     best
 }
 
+/// Adds a step to the memory and drops the oldest one if it is full.
 fn remember(
     memory: &mut Vec<CurvaturePair>,
     x: &[f64],
     gradient: &[f64],
-    found: &LineSearchPoint,
+    accepted: &LineSearchPoint,
     precondition: &mut impl FnMut(&mut [f64]),
 ) {
     let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
-    let (step, change) = (minus(&found.x, x), minus(&found.gradient, gradient));
+    let (step, change) = (minus(&accepted.x, x), minus(&accepted.gradient, gradient));
     let product = dot(&step, &change);
-    // The loops divide by it, and go downhill for sure only where the slope has
-    // risen along the step.
+    // The recursion divides by the product, and it descends for sure only if the slope has risen
+    // along the step, by more than rounding.
     if product > 1e-14 * dot(&change, &change) {
         if memory.len() == MEMORY {
             memory.remove(0);

@@ -1,8 +1,8 @@
-//! Matrices that have their nonzero entries at the same places, and other
-//! values each time: ordered once, factored and solved as often as it takes.
+//! Sparse Cholesky factorisation of matrices with a fixed pattern of nonzero entries and changing
+//! values: ordered once, then factored and solved as often as needed.
 //!
-//! Guaranteed: nothing is allocated by a solve, and the same entries give the
-//! same solution, whatever was solved before.
+//! Guaranteed: a solve allocates nothing, and the same entries give the same solution, whatever was
+//! solved before.
 
 use super::{FactorError, in_blocks};
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -14,11 +14,11 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
-/// Where a symmetric matrix has entries.
+/// Pattern of the entries of a symmetric matrix, with its elimination order.
 ///
 /// ```
-/// use morphospace::numerics::Pattern;
-/// let (pattern, slots) = Pattern::new(2, &[[0, 0], [1, 1], [1, 0]])?;
+/// use morphospace::numerics::PatternCholesky;
+/// let (pattern, slots) = PatternCholesky::new(2, &[[0, 0], [1, 1], [1, 0]])?;
 /// let mut memory = pattern.memory();
 /// for (slot, value) in slots.iter().zip([4.0, 2.0, 1.0]) {
 ///     memory.entries()[*slot as usize] += value;
@@ -34,7 +34,7 @@ pub struct PatternCholesky {
     symbolic: SymbolicCholesky<u32>,
 }
 
-/// The entries of a matrix of a pattern, and the memory to factor it in.
+/// Entries of a matrix with a given pattern, and the memory to factor it.
 pub struct PatternWorkspace {
     entries: Vec<f64>,
     factor: Vec<f64>,
@@ -50,28 +50,29 @@ impl std::fmt::Debug for PatternWorkspace {
 }
 
 impl PatternWorkspace {
-    /// The entries, to be filled before each solve.
+    /// Entries of the matrix, to be filled before each solve.
     pub fn entries(&mut self) -> &mut [f64] {
         &mut self.entries
     }
 }
 
 impl PatternCholesky {
-    /// Orders a matrix of `n` unknowns with entries at these places, rows and
-    /// columns either way round; with it, for each place, which of the
-    /// [`PatternWorkspace::entries`] it is.
+    /// Orders a matrix of `n` unknowns with entries at `places`, row and column in either order.
+    /// Also returns, for each place, its index in [`PatternWorkspace::entries`].
     ///
     /// # Errors
     /// [`FactorError::OutOfMemory`] if it is too large.
     pub fn new(n: usize, places: &[[u32; 2]]) -> Result<(Self, Vec<u32>), FactorError> {
-        // Column first, so that they sort as they are stored.
+        // Column first, so that they sort in storage order.
         let stored = |&[i, j]: &[u32; 2]| [i.min(j), i.max(j)];
         let mut all: Vec<[u32; 2]> = places.iter().map(stored).collect();
         all.sort_unstable();
         all.dedup();
+        // Compressed columns: the number of entries before each column.
         let before = |column: u32| all.partition_point(|&[c, _]| c < column) as u32;
         let columns: Vec<u32> = (0..=n as u32).map(before).collect();
         let rows: Vec<u32> = all.iter().map(|&[_, row]| row).collect();
+        // The index of a place is its rank in the sorted list.
         let slot = |place: &[u32; 2]| all.partition_point(|other| *other < stored(place)) as u32;
         let slots = places.iter().map(slot).collect();
         let lower = SymbolicSparseColMat::new_checked(n, n, columns, None, rows);
@@ -85,7 +86,7 @@ impl PatternCholesky {
         Ok((Self { lower, symbolic }, slots))
     }
 
-    /// Memory for [`Self::solve`], its entries all zero.
+    /// Memory for [`Self::solve`], with all entries zero.
     #[must_use]
     pub fn memory(&self) -> PatternWorkspace {
         let factoring = self
@@ -99,11 +100,11 @@ impl PatternCholesky {
         }
     }
 
-    /// Factors the matrix of the entries and solves in place; whether it is
-    /// positive definite. If not, `rhs` is as it was.
+    /// Factors the matrix of the entries and solves in place. Returns whether the matrix is
+    /// positive definite; if not, `rhs` is unchanged.
     ///
     /// # Panics
-    /// If the memory is that of another pattern, or `rhs` has not one number for each
+    /// If the memory belongs to another pattern, or `rhs` does not have one number for each
     /// unknown.
     pub fn solve(&self, memory: &mut PatternWorkspace, rhs: &mut [f64]) -> bool {
         let PatternWorkspace {
@@ -140,9 +141,9 @@ mod tests {
     use crate::numerics::{Cholesky, SymmetricMatrix};
 
     #[test]
-    fn it_solves_as_a_matrix_factored_anew() {
+    fn it_solves_as_a_newly_factored_matrix_does() {
         let n = 12_u32;
-        // Twice at the same place, and either way round.
+        // Some places occur twice, or with row and column exchanged.
         let chain = (0..n).flat_map(|i| [[i, i], [i, (i + 1) % n], [(i + 5) % n, i], [i, i]]);
         let places: Vec<[u32; 2]> = chain.collect();
         let (pattern, slots) = PatternCholesky::new(n as usize, &places).expect("a pattern");

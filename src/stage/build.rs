@@ -1,8 +1,8 @@
-//! From two meshes to a transition, on Bevy's compute pool.
+//! Builds transitions from meshes in the background, on Bevy's compute pool.
 //!
-//! Guarantees: the main thread never waits; a build whose entity or meshes are
-//! gone is cancelled and its result dropped; the old picture stays until the
-//! new transition is there, and also where it cannot be had.
+//! Guaranteed: the main thread never waits. A build is cancelled, and its result dropped, when its
+//! entity or meshes are gone. The previous picture stays until the new transition is ready, and
+//! also if its build fails.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,42 +25,43 @@ use super::mesh_family;
 use super::mesh_family::{FamilySteering, MeshFamily};
 use super::part_assembly::WithoutParts;
 
-/// A build that is running. Dropping it (with its entity, or for a newer one)
-/// cancels the build.
+/// A running build. Dropping it, with its entity or because a newer build replaces it, cancels the
+/// build.
 #[derive(Component)]
 pub(super) struct TransitionBuild {
     task: Task<Result<BuildOutcome, BuildError>>,
-    wanted: Arc<BuildRequest>,
+    request: Arc<BuildRequest>,
 }
 
 impl TransitionBuild {
-    /// Starts it on the pool.
+    /// Starts a build on the pool.
     pub(super) fn start(
         work: impl FnOnce(&dyn Progress) -> Result<BuildOutcome, BuildError> + Send + 'static,
     ) -> Self {
-        let wanted = Arc::new(BuildRequest(AtomicBool::new(true)));
-        // The task owns a share of the flag: it may outlive the entity.
-        let progress = Arc::clone(&wanted);
+        let request = Arc::new(BuildRequest(AtomicBool::new(true)));
+        // Shared with the task, which may outlive the entity.
+        let progress = Arc::clone(&request);
         let task = AsyncComputeTaskPool::get().spawn(async move { work(&*progress) });
-        Self { task, wanted }
+        Self { task, request }
     }
 }
 
-/// What comes of it.
+/// Result of a build.
 pub(super) enum BuildOutcome {
-    /// Of two meshes.
+    /// Transition between two designs.
     Pair(Transition),
-    /// Of many.
+    /// Blend of any number of designs.
     Family(SteeredTransition),
 }
 
 impl Drop for TransitionBuild {
     fn drop(&mut self) {
-        // No other memory hangs on the flag.
-        self.wanted.0.store(false, Ordering::Relaxed);
+        // Relaxed suffices, because no other memory depends on the flag.
+        self.request.0.store(false, Ordering::Relaxed);
     }
 }
 
+/// Flag shared with a running build; false once the result is no longer needed.
 struct BuildRequest(AtomicBool);
 
 impl Progress for BuildRequest {
@@ -71,18 +72,19 @@ impl Progress for BuildRequest {
     }
 }
 
+/// Filter for entities whose meshes or options changed.
 type MeshesChanged = (
     Or<(
         Changed<SourceMesh>,
         Changed<TargetMesh>,
         Changed<MorphOptions>,
     )>,
-    // A transition that was built elsewhere brings its meshes along: they must
-    // not be built again.
+    // A transition that was built elsewhere adds its meshes to the entity; they must not be built
+    // again.
     Without<StageTransition>,
 );
 
-/// Starts a build wherever meshes or options are new.
+/// Starts a build for each entity with new meshes or options.
 pub(super) fn start_builds(
     mut commands: Commands,
     changed: Query<(Entity, &SourceMesh, &TargetMesh, &MorphOptions), MeshesChanged>,
@@ -97,7 +99,7 @@ pub(super) fn start_builds(
     }
 }
 
-/// Starts a build wherever a family is new.
+/// Starts a build for each entity with a new family.
 pub(super) fn start_families(
     mut commands: Commands,
     changed: Query<(Entity, &MeshFamily), Changed<MeshFamily>>,
@@ -111,6 +113,7 @@ pub(super) fn start_families(
     }
 }
 
+/// Builds the transition between two meshes with the same faces.
 fn build(
     source: TriangleMesh,
     target: TriangleMesh,
@@ -124,7 +127,7 @@ fn build(
     Transition::build(&spec, progress)
 }
 
-/// Takes in what has been built.
+/// Takes in the results of finished builds.
 pub(super) fn finish_builds(
     mut commands: Commands,
     mut building: Query<(Entity, &mut TransitionBuild, Option<&Blend>)>,
@@ -133,8 +136,7 @@ pub(super) fn finish_builds(
         let Some(result) = check_ready(&mut building.task) else {
             continue;
         };
-        // The entity may be gone when commands are applied: all of them only
-        // try.
+        // `try_`, because the entity may be gone when commands are applied.
         commands.entity(entity).try_remove::<TransitionBuild>();
         match result {
             Ok(BuildOutcome::Pair(transition)) => {
@@ -145,7 +147,7 @@ pub(super) fn finish_builds(
                 entity.try_insert((morph, WithoutParts));
             }
             Ok(BuildOutcome::Family(steered)) => {
-                // Sought to its weights before anybody sees it.
+                // Moved to its weights before it is drawn.
                 let morph = Morph(steered.transition().frame(0.0));
                 let steering = FamilySteering(steered);
                 commands
@@ -157,7 +159,7 @@ pub(super) fn finish_builds(
     }
 }
 
-/// Puts transitions on the stage that were built elsewhere.
+/// Turns transitions that were built elsewhere into morphs.
 pub(super) fn adopt_transitions(
     mut commands: Commands,
     changed: Query<(Entity, &StageTransition, &Blend), Changed<StageTransition>>,
@@ -166,21 +168,20 @@ pub(super) fn adopt_transitions(
         let morph = Morph(transition.frame(blend.t));
         let mut entity = commands.entity(entity);
         entity
-            // A build under way would put its own frame in place of this one
-            // later.
+            // A running build would replace this frame later.
             .try_remove::<TransitionBuild>()
             .try_insert((morph, WithoutParts));
         match transition.compatible().and_then(|_| meshes(transition)) {
             Some(meshes) => entity.try_insert(meshes),
-            // Those of the transition before this one would be stale.
+            // The meshes of the previous transition would be stale.
             None => entity.try_remove::<(SourceMesh, TargetMesh)>(),
         };
     }
 }
 
-/// Both ends of a transition that has triangles: the designs themselves, or
-/// the panels between the bars of trusses. Panels that meet three at an edge
-/// are no mesh; such a transition stands on the stage without.
+/// Both ends of a transition with triangles: the designs themselves, or the panels between the bars
+/// of trusses. Returns `None` for panels of which three meet at an edge, because these are no valid
+/// mesh.
 fn meshes(transition: &Transition) -> Option<(SourceMesh, TargetMesh)> {
     let [source, target] = transition.designs();
     if let (DesignForm::Mesh(source), DesignForm::Mesh(target)) = (&source.form, &target.form) {

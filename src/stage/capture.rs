@@ -1,14 +1,13 @@
-//! Pictures of the stage at any size, on a coloured or a transparent ground,
-//! drawn off screen by a camera of their own.
+//! Captures of the stage: pictures of any size on a coloured or transparent background, drawn off
+//! screen by a separate camera.
 //!
-//! Guarantees: each [`CaptureStage`] is answered by exactly one
-//! [`StageCaptured`], with the picture or with words for a user; colours are
-//! blended as the exporters blend them; panels and other windows are not in
-//! the picture. Does not guarantee the very frame of the request: the graphics
-//! card may have to prepare itself first, and the answer says at which t the
-//! picture was taken.
+//! Guaranteed: each [`CaptureStage`] is answered by exactly one [`StageCaptured`], with the picture
+//! or an error message for the user; colours are blended as in exported files; panels and other
+//! windows are not captured. Not guaranteed: the exact frame of the request. The graphics card may
+//! have to compile shaders first; the answer reports the t of the picture.
 
 use bevy::camera::{CompositingSpace, RenderTarget};
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::render::render_resource::TextureFormat;
 use bevy::render::renderer::RenderDevice;
@@ -23,57 +22,63 @@ use super::components::Blend;
 use super::pipelines::PipelinesReady;
 use super::stage_view::{StageView, units_per_px};
 
-/// Frames to wait for the graphics card before a capture is given up: twenty
-/// seconds at 60 a second. Longer and a user waits for nothing, shorter and a
-/// slow machine that compiles its shaders has no picture.
-const PATIENCE: u32 = 1200;
+/// Maximum number of frames to wait for the graphics card, 20 s at 60 frames per second
+/// (heuristic).
+const MAX_WAIT_FRAMES: u32 = 1200;
 
-/// Asks for a picture of the stage.
+/// Requests a picture of the stage.
 #[derive(Message, Clone, Debug)]
 pub struct CaptureStage {
-    /// Comes back in the answer.
+    /// Identifier that the answer repeats.
     pub id: u64,
     /// Width and height in pixels.
     pub size_px: UVec2,
-    /// The colour behind everything; `None` is transparent.
+    /// Background colour; `None` is transparent.
     pub ground: Option<Rgb>,
-    /// The part of the plane to show: all of it is visible, centred.
+    /// Part of the plane to show. All of it is visible, centred in the picture.
     pub view: Bounds,
 }
 
-/// The answer to a [`CaptureStage`].
+/// Answer to a [`CaptureStage`].
 #[derive(Message, Clone, Debug)]
 pub struct StageCaptured {
-    /// The request's.
+    /// Identifier of the request.
     pub id: u64,
-    /// The blend parameter in the picture, if anything was on the stage.
+    /// Blend parameter shown in the picture; `None` if the stage was empty.
     pub t: Option<f64>,
-    /// The picture with straight (not premultiplied) alpha, upper row first,
-    /// or why there is none.
+    /// Picture with straight (not premultiplied) alpha, top row first, or an error message for the
+    /// user.
     pub result: Result<RgbaImage, String>,
 }
 
-/// Captures that are under way.
+/// Captures in progress.
 #[derive(Resource, Default)]
 pub(super) struct PendingCaptures(Vec<CaptureTarget>);
 
+/// A capture in progress: the off-screen camera, its image, and the screenshot once it was
+/// requested.
 struct CaptureTarget {
     id: u64,
     camera: Entity,
     image: Handle<Image>,
     shot: Option<Entity>,
     t: Option<f64>,
+    /// Number of frames waited so far.
     frames: u32,
 }
 
-/// What a picture is made with; all of it is missing without a renderer.
-type RenderAccess<'w> = (
-    Option<ResMut<'w, Assets<Image>>>,
-    Option<Res<'w, RenderDevice>>,
-    Option<Res<'w, PipelinesReady>>,
-);
+/// Resources of the renderer that a capture needs; all missing without a renderer.
+#[derive(SystemParam)]
+pub(super) struct RenderAccess<'w> {
+    /// Images, to which each capture adds its target.
+    images: Option<ResMut<'w, Assets<Image>>>,
+    /// The graphics card, which limits the size of images.
+    device: Option<Res<'w, RenderDevice>>,
+    /// Whether the shaders have been compiled.
+    pipelines: Option<Res<'w, PipelinesReady>>,
+}
 
-/// Sets up a camera for each request.
+/// Spawns a camera for each request.
 pub(super) fn begin_captures(
     mut commands: Commands,
     mut requests: MessageReader<CaptureStage>,
@@ -82,11 +87,16 @@ pub(super) fn begin_captures(
     graphics: RenderAccess,
     view: Res<StageView>,
 ) {
-    let (Some(mut images), Some(device), Some(ready)) = graphics else {
+    let RenderAccess {
+        images: Some(mut images),
+        device: Some(device),
+        pipelines: Some(ready),
+    } = graphics
+    else {
         for request in requests.read() {
-            answers.write(refused(
+            answers.write(failed_capture(
                 request.id,
-                "there is no graphics card to draw it with",
+                "this program runs without a graphics card",
             ));
         }
         return;
@@ -95,20 +105,19 @@ pub(super) fn begin_captures(
     for request in requests.read() {
         let size = request.size_px;
         if size.min_element() == 0 || size.max_element() > largest {
-            let why = format!(
-                "the graphics card draws pictures of 1 to {largest} pixels a side, \
+            let reason = format!(
+                "the graphics card supports 1 to {largest} pixels per side, \
                  not {} × {}; choose another size",
                 size.x, size.y
             );
-            answers.write(refused(request.id, &why));
+            answers.write(failed_capture(request.id, &reason));
             continue;
         }
         let format = TextureFormat::Rgba8UnormSrgb;
         let image = images.add(Image::new_target_texture(size.x, size.y, format, None));
         let camera = commands.spawn(camera(request, &image, view.anchor())).id();
-        // Other pipelines than the window's may be wanted: its format is
-        // another.
-        ready.start_over();
+        // The target has another format than the window, so it may need other pipelines.
+        ready.reset();
         captures.0.push(CaptureTarget {
             id: request.id,
             camera,
@@ -120,14 +129,16 @@ pub(super) fn begin_captures(
     }
 }
 
-fn refused(id: u64, why: &str) -> StageCaptured {
+/// Answer to a request that failed for the given reason.
+fn failed_capture(id: u64, reason: &str) -> StageCaptured {
     StageCaptured {
         id,
         t: None,
-        result: Err(format!("no picture was taken: {why}")),
+        result: Err(format!("image capture failed: {reason}")),
     }
 }
 
+/// Off-screen camera that renders the requested part of the plane into `image`.
 fn camera(request: &CaptureStage, image: &Handle<Image>, anchor: glam::DVec2) -> impl Bundle {
     let at = (request.view.centre() - anchor).as_vec2();
     let ground = request
@@ -152,7 +163,7 @@ fn camera(request: &CaptureStage, image: &Handle<Image>, anchor: glam::DVec2) ->
     )
 }
 
-/// Takes the picture once the graphics card is ready, and gives up in the end.
+/// Takes each picture once the graphics card is ready; gives up after [`MAX_WAIT_FRAMES`] frames.
 pub(super) fn advance_captures(
     mut commands: Commands,
     mut answers: MessageWriter<StageCaptured>,
@@ -164,33 +175,37 @@ pub(super) fn advance_captures(
     captures.0.retain_mut(|capture| {
         capture.frames += 1;
         if is_ready && capture.shot.is_none() {
-            // Of several entities the first one's: an answer tells one t.
+            // If there are several entities, t of the first one is reported.
             capture.t = blends.iter().next().map(|blend| blend.t);
             let shot = Screenshot::image(capture.image.clone());
             capture.shot = Some(commands.spawn(shot).observe(finish_capture).id());
         }
-        if capture.frames <= PATIENCE {
+        if capture.frames <= MAX_WAIT_FRAMES {
             return true;
         }
-        // Or it would draw into its picture on every frame to come.
+        // Otherwise the camera would draw in every later frame.
         commands.entity(capture.camera).try_despawn();
         if let Some(shot) = capture.shot {
             commands.entity(shot).try_despawn();
         }
-        answers.write(refused(capture.id, "the graphics card did not answer"));
+        answers.write(failed_capture(
+            capture.id,
+            "the graphics card did not respond in time; try again",
+        ));
         false
     });
 }
 
+/// Answers a request when its screenshot arrives.
 fn finish_capture(
     shot: On<ScreenshotCaptured>,
     mut commands: Commands,
     mut answers: MessageWriter<StageCaptured>,
     mut captures: ResMut<PendingCaptures>,
 ) {
-    let is_it = |capture: &CaptureTarget| capture.shot == Some(shot.entity);
-    // It was given up in the meantime, and has its answer.
-    let Some(index) = captures.0.iter().position(is_it) else {
+    let is_of_shot = |capture: &CaptureTarget| capture.shot == Some(shot.entity);
+    // Otherwise the capture was given up and has been answered.
+    let Some(index) = captures.0.iter().position(is_of_shot) else {
         return;
     };
     let capture = captures.0.swap_remove(index);
@@ -200,8 +215,8 @@ fn finish_capture(
     let picture = RgbaImage::from_raw(x, y, data);
     answers.write(match picture {
         Some(mut picture) => {
-            // Blending over nothing leaves colours multiplied by their alpha, in
-            // sRGB values, as that is the space the camera composites in.
+            // The camera blends in sRGB over a transparent background, which leaves sRGB colours
+            // multiplied by alpha.
             picture.pixels_mut().for_each(make_straight);
             StageCaptured {
                 id: capture.id,
@@ -209,6 +224,9 @@ fn finish_capture(
                 result: Ok(picture),
             }
         }
-        None => refused(capture.id, "the graphics card gave back too few pixels"),
+        None => failed_capture(
+            capture.id,
+            "the graphics card returned an incomplete picture; try again",
+        ),
     });
 }

@@ -1,9 +1,9 @@
-//! The render mesh of what a warp carries: fields and pictures.
+//! Render mesh of distance fields, pictures and the warp grid: the vertices of the placement with
+//! texture coordinates.
 //!
-//! Its vertices are those of the placement. Each brings along where it is in
-//! the plane (as texture coordinates) and where to look in the source and in
-//! the target (as a colour of four floats: Bevy interpolates those as they
-//! are), so that the fragment shader knows all three.
+//! The fragment shader needs three points per vertex: the position in the plane, stored as texture
+//! coordinates, and the lookup positions in source and target, stored as a colour of four floats,
+//! which Bevy interpolates unchanged.
 
 use bevy::mesh::VertexAttributeValues;
 use bevy::prelude::*;
@@ -14,9 +14,9 @@ use crate::transition::Frame;
 
 use super::vertices::{positions, write_points};
 
-/// Writes a mesh that has as many vertices as the placement. Where to look is
-/// told in samples of the fields of `content` or in shares of its pictures'
-/// sides; without one in units of the plane, relative to `origin`.
+/// Writes a mesh that has as many vertices as the placement. Lookup positions are in samples for
+/// fields, in fractions of the sides for pictures, and in units of the plane relative to `origin`
+/// if `content` is `None`.
 pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mesh: &mut Mesh) {
     let places = &frame.placement().in_frame;
     write_points(places, origin, positions(mesh));
@@ -24,7 +24,7 @@ pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mes
         mesh.attribute_mut(Mesh::ATTRIBUTE_UV_0)
     {
         for (out, &p) in coordinates.iter_mut().zip(places) {
-            // Subtracted in double precision, as positions are.
+            // Subtracted in double precision, like the positions.
             *out = (p - origin).as_vec2().to_array();
         }
     }
@@ -35,25 +35,26 @@ pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mes
     match content {
         None => write_lookups(frame, out, |p| p - origin, |p| p - origin),
         Some(Content::Field(fields)) => {
-            let grid = fields.first().grid();
+            let grid = fields.first_pair().grid();
             let in_samples = |p: DVec2| grid.lattice_from_plane(p);
             write_lookups(frame, out, in_samples, in_samples);
         }
         Some(Content::Colours(pair)) => {
-            let [source, target] = pair.layers().each_ref().map(share_of);
+            let [source, target] = pair.layers().each_ref().map(picture_fractions);
             write_lookups(frame, out, source, target);
         }
-        Some(Content::Solid(_)) => {} // has nothing to be looked up
+        Some(Content::Solid(_)) => {} // needs no lookup
     }
 }
 
-/// Where in a picture a point of the plane is, as shares of its sides.
-fn share_of(layer: &PictureLayer) -> impl Fn(DVec2) -> DVec2 {
+/// Converts a point of the plane to fractions of a picture's sides.
+fn picture_fractions(layer: &PictureLayer) -> impl Fn(DVec2) -> DVec2 {
     let (width, height) = layer.picture().pixels().dimensions();
     let size = DVec2::new(f64::from(width), f64::from(height));
     move |p| layer.pixel_from_plane(p) / size
 }
 
+/// Writes the lookup positions of all vertices, converted by `source` and `target`.
 fn write_lookups(
     frame: &Frame,
     out: &mut [[f32; 4]],

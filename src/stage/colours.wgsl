@@ -1,8 +1,8 @@
-// Two pictures, looked up where a warp says and cross-dissolved.
+// Cross-dissolves two pictures, each sampled at the position given by the warp.
 //
-// `uv` is the place in the plane, relative to the part's origin; `color` says
-// where to look in the source (xy) and in the target (zw), from 0 to 1 across
-// and down. Textures are premultiplied and become linear light when read.
+// `uv` is the position in the plane relative to the part's origin. `color` holds the lookup
+// positions in the source (xy) and in the target (zw), from 0 to 1, x right and y down. Textures
+// are premultiplied and are decoded to linear light when sampled.
 
 #import bevy_sprite::mesh2d_vertex_output::VertexOutput
 #ifdef SRGB_OUTPUT
@@ -12,8 +12,11 @@
 #import bevy_render::color_operations::linear_rgb_to_oklab
 #endif
 
+// Same fields as ColourLook in picture_material.rs.
 struct Colours {
+    // Minimum x and y, maximum x and y of the visible rectangle.
     window: vec4<f32>,
+    // Fraction of the target in the mix.
     share: f32,
 };
 
@@ -23,7 +26,7 @@ struct Colours {
 @group(#{MATERIAL_BIND_GROUP}) @binding(3) var target_picture: texture_2d<f32>;
 @group(#{MATERIAL_BIND_GROUP}) @binding(4) var target_sampler: sampler;
 
-// How much of the pixel lies in the window, along each axis.
+// Fraction of the pixel inside the visible rectangle: the product of both axes.
 fn covered(at: vec2<f32>) -> f32 {
     let pixel = max(fwidth(at), vec2(1e-20));
     let low = clamp((at - colours.window.xy) / pixel + 0.5, vec2(0.0), vec2(1.0));

@@ -1,9 +1,9 @@
-//! What stands on the stage: the components a program spawns and those that
-//! the plugin adds.
+//! Components of a transition on the stage: those that a program spawns and those that the plugin
+//! adds.
 //!
-//! Guarantees: removing or replacing any of them never leaves stale pictures
-//! behind. Does not guarantee a picture while a build is running: until then
-//! the entity shows what it showed before, or nothing.
+//! Guaranteed: removing or replacing any of them never leaves a stale picture. Not guaranteed: a
+//! picture while a build is running. Until it finishes, the entity keeps its previous picture, or
+//! shows nothing.
 
 use bevy::prelude::*;
 
@@ -11,26 +11,25 @@ use crate::mesh::TriangleMesh;
 use crate::transition::{BuildError, Frame, Transition, TransitionStyle};
 use crate::warp::ArapOptions;
 
-/// The design at t = 0, as triangles. Together with a [`TargetMesh`] of the
-/// same faces it is all that a morphing entity needs.
+/// Design at t = 0, as triangles. It must have the same faces as the [`TargetMesh`]; together the
+/// two are all that a morphing entity needs.
 ///
-/// Changing it (or the target, or the options) builds the transition anew.
+/// Changing it, the target or the options rebuilds the transition.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
 #[require(Blend, MorphOptions, StageStyle, Transform, Visibility)]
 pub struct SourceMesh(pub TriangleMesh);
 
-/// The design at t = 1: the same faces as the [`SourceMesh`], in the same
-/// order, other positions.
+/// Design at t = 1: the same faces as the [`SourceMesh`], in the same order, at other positions.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
 #[require(Blend, MorphOptions, StageStyle, Transform, Visibility)]
 pub struct TargetMesh(pub TriangleMesh);
 
-/// Where the entity is in its transition: 0 is the source, 1 the target,
-/// values outside extrapolate. NaN and infinity leave the picture as it was.
+/// Blend parameter of an entity: 0 is the source, 1 the target, values outside extrapolate. NaN and
+/// infinity leave the picture unchanged.
 ///
 /// ```
 /// use morphospace::stage::Blend;
@@ -39,72 +38,70 @@ pub struct TargetMesh(pub TriangleMesh);
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Blend {
-    /// The blend parameter.
+    /// Blend parameter.
     pub t: f64,
 }
 
-/// How two meshes are interpolated.
+/// Options of the interpolation between two meshes.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug, Default)]
 pub struct MorphOptions(pub ArapOptions);
 
-/// A transition that is built, and the frame it is at: added by the plugin,
-/// sought to [`Blend`] whenever that changes. Its content says how it is drawn.
+/// A built transition with its current frame. The plugin adds it and moves it to [`Blend`] whenever
+/// that changes. Its content determines how it is drawn.
 ///
-/// Reflection sees that it is there, not the frame: that owns the memory that
-/// it is evaluated in and has no copies.
+/// Reflection shows the component but not the frame, which owns its memory and cannot be cloned.
 #[derive(Component, Debug, Reflect)]
 #[reflect(Component, Debug, from_reflect = false)]
 pub struct Morph(#[reflect(ignore)] pub(super) Frame);
 
 impl Morph {
-    /// The frame that is on the stage. Where the graphics card plays it, its vertices are
-    /// placed when somebody asks for them, once for each t: ask where you need them.
+    /// Returns the current frame. If the graphics card plays it, its vertices are placed on the
+    /// first read at each t, so read them only where needed.
     pub fn frame(&self) -> &Frame {
         &self.0
     }
 }
 
-/// A transition that is built already, of any cell of the table.
+/// A transition that was built elsewhere, of any kind.
 ///
-/// The plugin answers with a [`Morph`], and with a [`SourceMesh`] and a
-/// [`TargetMesh`] where it has triangles. Replacing it replaces the picture.
+/// The plugin adds a [`Morph`] and, if the transition has triangles, a [`SourceMesh`] and a
+/// [`TargetMesh`]. Replacing the component replaces the picture.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
 #[require(Blend, StageStyle, Transform, Visibility)]
 pub struct StageTransition(pub Transition);
 
-/// Colours of an entity on the stage, and what of it is shown.
+/// Colours of an entity on the stage, and which of its elements are visible.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
 pub struct StageStyle {
     /// Colours, shared with the exporters.
     #[reflect(ignore, clone)]
     pub style: TransitionStyle,
-    /// What is shown.
+    /// Visible elements.
     pub show: StageVisibility,
 }
 
-/// What of a transition is shown; what does not apply to it is ignored.
+/// Visible elements of a transition. Elements that do not apply to it are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Reflect)]
 #[reflect(Clone, Debug, Default, PartialEq)]
 pub struct StageVisibility {
-    /// The filled form (solids and fields).
+    /// Filled shape (solids and fields) or picture.
     pub fill: bool,
-    /// The edges of the triangulation.
+    /// Edges of the triangulation.
     pub wireframe: bool,
-    /// The bars and joints of a truss.
+    /// Bars and joints of a truss.
     pub bars: bool,
     /// Thin outlines of source and target.
     pub ghosts: bool,
     /// Lines of equal blended distance (fields only).
     pub iso_lines: bool,
-    /// The blended field in two hues, warm inside and cool outside (fields only).
+    /// Blended field in two hues, warm inside and cool outside (fields only).
     pub signed_colours: bool,
-    /// A square grid of the source, where the warp carries it (wherever
-    /// there are faces).
+    /// Square grid of the source, deformed by the warp (any transition with faces).
     pub grid: bool,
 }
 
@@ -122,12 +119,12 @@ impl Default for StageVisibility {
     }
 }
 
-/// Two meshes could not be made into a transition. Triggered on the entity,
-/// which keeps what it showed before.
+/// Triggered on an entity whose transition could not be built. The entity keeps its previous
+/// picture.
 #[derive(EntityEvent, Debug)]
 pub struct BuildFailed {
-    /// The entity whose meshes they are.
+    /// Entity whose build failed.
     pub entity: Entity,
-    /// Why, in words for a user.
+    /// Reason, readable by a user.
     pub error: BuildError,
 }

@@ -1,9 +1,9 @@
-//! Designs that are files: Bevy's asset server reads them, and an entity that shows them is
-//! built again where one of them was read again.
+//! Designs as assets: Bevy's asset server reads the files, and an entity is rebuilt when one of its
+//! files is reloaded.
 //!
-//! Guarantees: nothing is built before all designs of an entity are there; until the new
-//! transition is there the old one stays, and also where a file cannot be read any more,
-//! which is told as a [`BuildFailed`].
+//! Guaranteed: a build starts only when all designs of an entity are loaded. The previous
+//! transition stays until the new one is ready. It also stays if a file cannot be read any more,
+//! which triggers a [`BuildFailed`].
 
 use std::sync::Arc;
 
@@ -20,12 +20,12 @@ use super::build::{BuildOutcome, TransitionBuild};
 use super::components::{Blend, BuildFailed, StageStyle};
 use super::mesh_family::{BlendWeights, steered};
 
-/// A design of a file, as `AssetServer::load` reads it: every format that
-/// [`import`](crate::design::import) knows, with its [`ImportOptions`] as settings.
+/// A design loaded from a file by `AssetServer::load`, in any format that
+/// [`import`](crate::design::import) knows. The asset settings are [`ImportOptions`].
 #[derive(Asset, TypePath, Clone, Debug)]
 pub struct DesignAsset(pub Arc<Design>);
 
-/// Reads [`DesignAsset`]s. [`MorphPlugin`](super::MorphPlugin) brings it where there are
+/// Asset loader of [`DesignAsset`]. [`MorphPlugin`](super::MorphPlugin) registers it if the app has
 /// assets.
 #[derive(TypePath, Clone, Debug)]
 pub struct DesignLoader {
@@ -40,14 +40,14 @@ impl Default for DesignLoader {
     }
 }
 
-/// Why a file is no design.
+/// Errors of loading a [`DesignAsset`].
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadDesignError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] std::io::Error),
-    /// What it holds is no design.
+    /// The file does not contain a valid design.
     #[error(transparent)]
     Import(#[from] ImportError),
 }
@@ -75,11 +75,11 @@ impl AssetLoader for DesignLoader {
     }
 }
 
-/// Two designs or more that are assets: all that an entity needs to show what lies between
-/// them, matched as the program matches them. Two are moved by [`Blend`], more, as rigid
-/// parts, by [`BlendWeights`].
+/// Two or more design assets: all that an entity needs to show the transition between them, matched
+/// automatically with the default options. Two designs follow [`Blend`]; three or more are blended
+/// as rigid parts and follow [`BlendWeights`].
 ///
-/// Other designs, or one that the asset server has read again, build it anew.
+/// Replacing the designs, or reloading one of their files, rebuilds the transition.
 ///
 /// ```no_run
 /// use bevy::prelude::*;
@@ -101,7 +101,7 @@ impl AssetLoader for DesignLoader {
 #[require(Blend, BlendWeights, StageStyle, Transform, Visibility)]
 pub struct MorphDesigns(pub Vec<Handle<DesignAsset>>);
 
-/// Starts a build wherever all designs are there and one of them is new.
+/// Starts a build for each entity whose designs are all loaded and of which one is new.
 pub(super) fn start_designs(
     mut commands: Commands,
     assets: Res<Assets<DesignAsset>>,
@@ -109,11 +109,11 @@ pub(super) fn start_designs(
     mut failed: MessageReader<AssetLoadFailedEvent<DesignAsset>>,
     shown: Query<(Entity, Ref<MorphDesigns>)>,
 ) {
-    let is_new = |event: &AssetEvent<DesignAsset>| match *event {
+    let new_id = |event: &AssetEvent<DesignAsset>| match *event {
         AssetEvent::Added { id } | AssetEvent::Modified { id } => Some(id),
         _ => None,
     };
-    let new: HashSet<AssetId<DesignAsset>> = read.read().filter_map(is_new).collect();
+    let new: HashSet<AssetId<DesignAsset>> = read.read().filter_map(new_id).collect();
     let failed: Vec<_> = failed.read().collect();
     for (entity, designs) in &shown {
         let ids = || designs.0.iter().map(Handle::id);
@@ -124,14 +124,15 @@ pub(super) fn start_designs(
         if !designs.is_changed() && !ids().any(|id| new.contains(&id)) {
             continue;
         }
-        let all = ids().map(|id| assets.get(id).map(|asset| Arc::clone(&asset.0)));
-        if let Some(all) = all.collect::<Option<Vec<_>>>() {
-            let building = TransitionBuild::start(move |progress| build(all, progress));
+        let loaded = ids().map(|id| assets.get(id).map(|asset| Arc::clone(&asset.0)));
+        if let Some(loaded) = loaded.collect::<Option<Vec<_>>>() {
+            let building = TransitionBuild::start(move |progress| build(loaded, progress));
             commands.entity(entity).try_insert(building);
         }
     }
 }
 
+/// Builds a transition between two designs, or the blend of more.
 fn build(designs: Vec<Arc<Design>>, progress: &dyn Progress) -> Result<BuildOutcome, BuildError> {
     match <[_; 2]>::try_from(designs) {
         Ok([source, target]) => {

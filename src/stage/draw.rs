@@ -1,8 +1,8 @@
-//! One system draws: wherever a frame moved, or looks otherwise, its parts are
-//! brought up to it, each in its own way.
+//! Draws morphs: one system updates the meshes and materials of render parts whose frame or style
+//! changed.
 //!
-//! Guarantees: only vertices that are seen are written, in place, and only then
-//! is the mesh marked as changed; hidden parts are written when they are shown.
+//! Guaranteed: only vertices of visible parts are written, in place, and only then is the mesh
+//! marked as changed. Hidden parts are written when they become visible.
 
 use bevy::platform::time::Instant;
 use bevy::prelude::*;
@@ -22,6 +22,7 @@ use super::recorded_material::{PlayedMaterial, RecordedSum};
 use super::uploaded_recording::UploadState;
 use super::warp_grid::GridLook;
 
+/// Components of a morph entity that drawing needs.
 type DrawnRoots = (
     Ref<'static, Morph>,
     Ref<'static, StageStyle>,
@@ -29,10 +30,10 @@ type DrawnRoots = (
     Option<&'static UploadState>,
 );
 
-/// A frame, or how it looks, or what shows it, is new.
+/// Filter for morphs whose frame, style or render parts changed.
 type DrawChanges = Or<(Changed<Morph>, Changed<StageStyle>, Changed<Children>)>;
 
-/// Writes vertices and materials.
+/// Updates vertices, visibility and materials of all changed morphs.
 pub(super) fn draw_morphs(
     roots: Query<DrawnRoots, DrawChanges>,
     mut parts: Query<(&mut StagePart, &mut Visibility, &Mesh2d)>,
@@ -40,15 +41,14 @@ pub(super) fn draw_morphs(
     mut times: ResMut<FrameTimes>,
 ) {
     let start = Instant::now();
-    let (mut some_played, mut some_read) = (false, false);
+    let (mut any_played, mut any_read) = (false, false);
     for (morph, style, children, sent) in &roots {
         let frame = morph.frame();
         let mut parts = parts.iter_many_mut(children);
         while let Some((mut part, mut visibility, mesh)) = parts.fetch_next() {
             let (has_moved, is_restyled) = (morph.is_changed(), style.is_changed());
-            // What is hidden stays stale until it is shown, however far the
-            // frame moves on.
-            part.stale |= part.kind.outdated(has_moved, is_restyled, frame);
+            // A hidden part stays stale until it is shown, however far the frame moves.
+            part.is_stale |= part.kind.is_outdated(has_moved, is_restyled, frame);
             let is_shown = part.kind.is_shown(&style);
             visibility.set_if_neq(if is_shown {
                 Visibility::Inherited
@@ -58,15 +58,15 @@ pub(super) fn draw_morphs(
             if !is_shown {
                 continue;
             }
-            if let Some(MissingParts(make)) = part.unmade.take() {
-                // It stands for this part alone, and for as long.
+            if let Some(MissingParts(make)) = part.deferred_mesh.take() {
+                // Cannot fail: the handle was reserved for this part and lives as long.
                 paints.meshes.insert(mesh, make(frame)).ok();
             }
-            // What is played stays as stale as what is hidden.
+            // A part played by the graphics card stays stale, like a hidden one.
             let is_played = part.is_played(sent, frame.t());
-            some_played |= is_played;
-            some_read |= part.reads(frame, frame.t(), &style, sent);
-            if part.stale
+            any_played |= is_played;
+            any_read |= part.needs_positions(frame, frame.t(), &style, sent);
+            if part.is_stale
                 && !is_played
                 && let Some(mut mesh) = paints.meshes.get_mut(mesh)
             {
@@ -77,11 +77,11 @@ pub(super) fn draw_morphs(
     }
     if !roots.is_empty() {
         times.draw.record(start.elapsed());
-        times.is_played = some_played && !some_read;
+        times.is_gpu_played = any_played && !any_read;
     }
 }
 
-/// Brings a part's material up to the frame.
+/// Updates the material of a part.
 fn paint(
     part: &StagePart,
     frame: &Frame,
@@ -93,73 +93,84 @@ fn paint(
     match (&part.paint, frame.transition().content()) {
         (StagePaint::Ink(ink), _) => {
             let colour = linear(part.kind.colour(t, style));
-            renew(&mut paints.inks, ink, |ink| &mut ink.colour, colour);
-            if let PartKind::Coats(coats) = &part.kind {
-                let gradients = coats.gradients().clone();
-                renew(&mut paints.inks, ink, |ink| &mut ink.gradients, gradients);
+            set_if_changed(&mut paints.inks, ink, |ink| &mut ink.colour, colour);
+            if let PartKind::PaintLayers(layers) = &part.kind {
+                let gradients = layers.gradients().clone();
+                set_if_changed(&mut paints.inks, ink, |ink| &mut ink.gradients, gradients);
             }
         }
         (StagePaint::Played(played), _) => {
             let colour = linear(part.kind.colour(t, style));
-            renew(&mut paints.played, played, |part| &mut part.colour, colour);
+            set_if_changed(&mut paints.played, played, |part| &mut part.colour, colour);
             let sum = match sent.and_then(|sent| sent.at(t)) {
                 Some((reel, sum)) => {
-                    change_reel(&mut paints.played, played, reel);
+                    bind_interval(&mut paints.played, played, reel);
                     sum
                 }
                 None => RecordedSum::default(),
             };
-            renew(&mut paints.played, played, |part| &mut part.sum, sum);
+            set_if_changed(&mut paints.played, played, |part| &mut part.sum, sum);
         }
         (StagePaint::Grid(grid), _) => {
             let look = GridLook::new(frame, origin, style);
-            renew(&mut paints.grids, grid, |grid| &mut grid.look, look);
+            set_if_changed(&mut paints.grids, grid, |grid| &mut grid.look, look);
         }
         (StagePaint::Field(field), Content::Field(fields)) => {
-            let (pair, within) = fields.place(t);
-            change_pair(&mut paints.fields, field, pair);
+            let (pair, within) = fields.pair_at(t);
+            bind_field_pair(&mut paints.fields, field, pair);
             let look = FieldLook::new(&fields.pairs()[pair], within, t, style);
-            renew(&mut paints.fields, field, |field| &mut field.look, look);
+            set_if_changed(&mut paints.fields, field, |field| &mut field.look, look);
             let kind = FieldKind::new(fields, style);
-            renew(&mut paints.fields, field, |field| &mut field.kind, kind);
+            set_if_changed(&mut paints.fields, field, |field| &mut field.kind, kind);
         }
         (StagePaint::Picture(picture), Content::Colours(pair)) => {
             let look = ColourLook::new(pair, t, origin);
-            renew(&mut paints.colours, picture, |part| &mut part.look, look);
+            set_if_changed(&mut paints.colours, picture, |part| &mut part.look, look);
         }
-        // An entity has parts of one transition only.
+        // Cannot happen: an entity has parts of one transition only.
         (StagePaint::Field(_) | StagePaint::Picture(_), _) => {}
     }
 }
 
-fn change_reel(materials: &mut Assets<PlayedMaterial>, of: &Handle<PlayedMaterial>, reel: &Buffer) {
-    if let Some(mut material) = materials.get_mut(of)
+/// Binds the buffer of another recorded interval, if it is not bound already.
+fn bind_interval(
+    materials: &mut Assets<PlayedMaterial>,
+    handle: &Handle<PlayedMaterial>,
+    reel: &Buffer,
+) {
+    if let Some(mut material) = materials.get_mut(handle)
         && material.bypass_change_detection().reel.id() != reel.id()
     {
         material.reel = reel.clone();
     }
 }
 
-fn change_pair(materials: &mut Assets<FieldMaterial>, of: &Handle<FieldMaterial>, pair: usize) {
-    let is_other = materials.get(of).is_some_and(|field| !field.shows(pair));
-    if is_other && let Some(mut material) = materials.get_mut(of) {
-        material.show(pair);
+/// Shows another pair of fields, if it is not shown already.
+fn bind_field_pair(
+    materials: &mut Assets<FieldMaterial>,
+    handle: &Handle<FieldMaterial>,
+    pair: usize,
+) {
+    let is_changed = materials
+        .get(handle)
+        .is_some_and(|field| !field.shows_pair(pair));
+    if is_changed && let Some(mut material) = materials.get_mut(handle) {
+        material.show_pair(pair);
     }
 }
 
-/// Writes how a material looks only where that is otherwise, so that what
-/// stands still is not sent to the graphics card.
-fn renew<M: Asset, L: PartialEq>(
+/// Sets a value in a material only if it differs, so that unchanged materials are not sent to the
+/// graphics card again.
+fn set_if_changed<M: Asset, L: PartialEq>(
     materials: &mut Assets<M>,
-    of: &Handle<M>,
-    look: fn(&mut M) -> &mut L,
-    wanted: L,
+    handle: &Handle<M>,
+    field: fn(&mut M) -> &mut L,
+    value: L,
 ) {
-    if let Some(mut material) = materials.get_mut(of)
-        // Borrowed in the usual way it would count as changed even if it stays
-        // as it is.
-        && *look(material.bypass_change_detection()) != wanted
+    if let Some(mut material) = materials.get_mut(handle)
+        // A mutable borrow would mark the material as changed even if nothing changes.
+        && *field(material.bypass_change_detection()) != value
     {
-        *look(&mut material) = wanted;
+        *field(&mut material) = value;
     }
 }

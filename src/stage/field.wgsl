@@ -1,9 +1,8 @@
-// Two distance fields, blended and cut at a threshold, anti-aliased at any zoom.
+// Blends two distance fields and cuts them at a threshold, anti-aliased at any zoom.
 //
-// `color` says where to look in the source (xy) and in the target (zw), in
-// samples: sample (i, j) is at (i, j), row 0 is the lowest.
-// The fields are 32-bit floats, which need not be filterable: they are
-// interpolated by hand, and L is applied afterwards, as the core does it.
+// `color` holds the lookup positions in the source (xy) and in the target (zw), in samples: sample
+// (i, j) is at (i, j), row 0 is the lowest. The fields are 32-bit floats, which the graphics card
+// may be unable to filter. The shader interpolates them itself and then applies L, as the CPU does.
 
 #import bevy_sprite::{
     mesh2d_vertex_output::VertexOutput,
@@ -16,14 +15,18 @@
 #import bevy_render::color_operations::linear_rgb_to_oklab
 #endif
 
+// Same fields as FieldLook in field_material.rs.
 struct Field {
     fill: vec4<f32>,
     inside: vec4<f32>,
     outside: vec4<f32>,
     line: vec4<f32>,
+    // Blend parameter of the pair.
     t: f32,
     epsilon: f32,
+    // L of the threshold.
     level: f32,
+    // Distance between lines of equal distance, in cells.
     spacing: f32,
 };
 
@@ -31,12 +34,14 @@ struct Field {
 @group(#{MATERIAL_BIND_GROUP}) @binding(1) var source: texture_2d<f32>;
 @group(#{MATERIAL_BIND_GROUP}) @binding(2) var target_field: texture_2d<f32>;
 
-// Distances beyond this many pixels are known to be far; nearer ones are measured.
+// Distance to the contour, in pixels, beyond which the estimate by the gradient suffices.
 const NEAR_PX: f32 = 16.0;
-// Bisections of one pixel: 1/64 of a pixel is finer than 8 bits can show.
+// Number of bisections within one pixel (tolerance: 1/64 of a pixel is finer than 8 bits can show).
 const BISECTIONS: u32 = 6u;
-// Lines are this wide on a picture of LINE_HEIGHT pixels and grow with it.
+// Width of lines, in pixels, on a picture of LINE_HEIGHT pixels; it grows with the height
+// (heuristic).
 const LINE_PX: f32 = 1.25;
+// Height of the picture, in pixels, for which line widths are given.
 const LINE_HEIGHT: f32 = 800.0;
 
 struct Sample {
@@ -44,6 +49,7 @@ struct Sample {
     gradient: vec2<f32>,
 }
 
+// Value and gradient of a field at a position in samples, clamped to the field.
 fn bilinear(samples: texture_2d<f32>, q: vec2<f32>) -> Sample {
     let last = vec2<f32>(textureDimensions(samples)) - 1.0;
     let at = clamp(q, vec2(0.0), last);
@@ -63,7 +69,7 @@ fn bilinear(samples: texture_2d<f32>, q: vec2<f32>) -> Sample {
     return out;
 }
 
-// L of the core's FieldBlend.
+// L of FieldBlend (content/field.rs).
 fn spaced(x: f32) -> f32 {
 #ifdef LOG_SPACE
     return sign(x) * log(1.0 + abs(x) / field.epsilon);
@@ -72,6 +78,7 @@ fn spaced(x: f32) -> f32 {
 #endif
 }
 
+// Derivative of L.
 fn spaced_slope(x: f32) -> f32 {
 #ifdef LOG_SPACE
     return 1.0 / (field.epsilon + abs(x));
@@ -80,7 +87,7 @@ fn spaced_slope(x: f32) -> f32 {
 #endif
 }
 
-// The way back from L: a blended value as a distance in cells.
+// Inverse of L: converts a blended value to a distance in cells.
 fn in_cells(v: f32) -> f32 {
 #ifdef LOG_SPACE
     return sign(v) * field.epsilon * (exp(min(abs(v), 80.0)) - 1.0);
@@ -89,26 +96,27 @@ fn in_cells(v: f32) -> f32 {
 #endif
 }
 
-// Where a pixel looks in both fields, and how that changes to the pixels beside
-// it: right and below.
+// Lookup positions of a pixel in both fields, and their change to the next pixel to the right and
+// below.
 struct Sight {
     at: vec4<f32>,
     right: vec4<f32>,
     below: vec4<f32>,
 };
 
+// Lookup positions at an offset of `px` pixels.
 fn moved(sight: Sight, px: vec2<f32>) -> vec4<f32> {
     return sight.at + px.x * sight.right + px.y * sight.below;
 }
 
-// The blend, less the level that it is cut at.
+// Blended value minus the level that it is cut at.
 fn blend(at: vec4<f32>) -> f32 {
     let f0 = bilinear(source, at.xy);
     let f1 = bilinear(target_field, at.zw);
     return (1.0 - field.t) * spaced(f0.value) + field.t * spaced(f1.value) - field.level;
 }
 
-// The same with its gradient by pixels.
+// Same as blend, with its gradient per pixel.
 fn blend_with_gradient(sight: Sight) -> Sample {
     let f0 = bilinear(source, sight.at.xy);
     let f1 = bilinear(target_field, sight.at.zw);
@@ -122,9 +130,8 @@ fn blend_with_gradient(sight: Sight) -> Sample {
     return out;
 }
 
-// Signed distance to the contour in pixels, exact within one pixel of it.
-// The gradient alone overrates it where L has its cusp, so the crossing is
-// looked for along the gradient.
+// Signed distance to the contour in pixels, exact within one pixel of it. The gradient alone
+// overestimates it at the cusp of L, so the crossing is searched along the gradient.
 fn contour_px(sight: Sight, here: Sample) -> f32 {
     let steep = length(here.gradient);
     let guess = here.value / max(steep, 1e-20);
@@ -140,12 +147,14 @@ fn contour_px(sight: Sight, here: Sample) -> f32 {
     return sign(here.value) * 0.5 * (low + high);
 }
 
+// Composites straight-alpha colours, `top` over `below`.
 fn over(top: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
     let alpha = top.a + below.a * (1.0 - top.a);
     let rgb = top.rgb * top.a + below.rgb * below.a * (1.0 - top.a);
     return vec4(rgb / max(alpha, 1e-6), alpha);
 }
 
+// Multiplies the opacity.
 fn faded(colour: vec4<f32>, by: f32) -> vec4<f32> {
     return vec4(colour.rgb, colour.a * by);
 }
@@ -173,7 +182,7 @@ fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
 #endif
 #endif
 #ifdef LINES
-    // How fast the blended distance changes from pixel to pixel.
+    // Change of the blended distance per pixel.
     let slope = length(here.gradient) / spaced_slope(in_cells(here.value + field.level));
     let ring = abs(fract(distance / field.spacing - 0.5) - 0.5) * field.spacing;
     let apart = clamp(0.5 * field.spacing / max(slope, 1e-20) - half_line, 0.0, 1.0);

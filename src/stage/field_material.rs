@@ -1,10 +1,10 @@
-//! Field mode on the GPU: both distance fields as textures, blended and cut by
-//! the fragment shader.
+//! Material of distance fields: both fields as textures, blended and cut at the threshold by the
+//! fragment shader.
 //!
-//! Guarantees: the shader evaluates the core's blend (bilinear between
-//! samples, L afterwards) in single precision; the contour is anti-aliased at
-//! any zoom, whatever a warp does; outside its mesh nothing is drawn. Does not guarantee the core's
-//! last digits: contours agree to a fraction of a pixel.
+//! Guaranteed: the shader evaluates the same blend as [`FieldPair`] (bilinear between samples, then
+//! L) in single precision; the contour is anti-aliased at any zoom and under any warp; nothing is
+//! drawn outside the mesh. Not guaranteed: the last digits. Contours agree with those of the CPU to
+//! a fraction of a pixel.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::ToExtents;
@@ -23,35 +23,36 @@ use crate::field::DistanceField;
 use super::components::StageStyle;
 use super::ink_material::{contrasting, embedded, linear};
 
-/// Hue of positive and of negative blended distance: orange and violet are told
-/// apart by every common kind of colour vision, on dark and on light grounds.
+/// Colour of positive blended distances: orange. With violet it is distinguishable under all common
+/// kinds of colour vision, on dark and light backgrounds.
 const INSIDE: Srgba = Srgba::rgb(0.878, 0.51, 0.078);
+/// Colour of negative blended distances: violet.
 const OUTSIDE: Srgba = Srgba::rgb(0.502, 0.451, 0.675);
 
-/// Lines of equal distance over the longer side of the grid: a matter of looks.
+/// Number of lines of equal distance along the longer side of the grid (heuristic).
 const ISO_LINES: f32 = 40.0;
 
-/// Two fields and how they are blended and drawn.
+/// Two distance fields, and how they are blended and drawn.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(FieldKind)]
 pub(super) struct FieldMaterial {
     #[uniform(0)]
     pub(super) look: FieldLook,
-    // To filter 32-bit floats is an optional feature of graphics cards, and
-    // half the digits are too few: the shader filters by hand.
+    // Filtering 32-bit floats is an optional feature of graphics cards, and 16 bits are not precise
+    // enough; the shader interpolates itself.
     #[texture(1, sample_type = "float", filterable = false)]
     source: Handle<Image>,
     #[texture(2, sample_type = "float", filterable = false)]
     target: Handle<Image>,
     pub(super) kind: FieldKind,
-    /// All that are blended, each with the next.
+    /// All fields of a sequence; each pair blends one with the next.
     nodes: Vec<Handle<Image>>,
 }
 
-/// What the pipeline of a field depends on: each is a shader of its own.
+/// Properties that select the shader variant of a field.
 ///
-/// Not branches on numbers of the uniform, which changes with every t: some drivers make a shader
-/// anew for each (Mesa's lavapipe 22.3 kept all of them, 26 MB in a second of playing).
+/// Not branches on uniforms, which change with t: some drivers compile a new shader for each change
+/// (Mesa's lavapipe 22.3 also kept all of them, 26 MB per second of playback).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct FieldKind {
     is_log: bool,
@@ -64,14 +65,15 @@ impl FieldKind {
     pub(super) fn new(fields: &FieldContent, style: &StageStyle) -> Self {
         let show = style.show;
         Self {
-            is_log: matches!(fields.first().blend().space, BlendSpace::Log),
-            // What has paints of its own lies below, in them.
+            is_log: matches!(fields.first_pair().blend().space, BlendSpace::Log),
+            // Painted fields are filled by the paint layers below.
             shows_fill: show.fill && fields.painted().is_none(),
             shows_lines: show.iso_lines,
             shows_signs: show.signed_colours,
         }
     }
 
+    /// Shader definitions of the variant.
     fn definitions(self) -> impl Iterator<Item = ShaderDefVal> {
         let all = [
             (self.is_log, "LOG_SPACE"),
@@ -90,7 +92,7 @@ impl From<&FieldMaterial> for FieldKind {
     }
 }
 
-/// The uniform of [`FieldMaterial`]; the same fields as in `field.wgsl`.
+/// Uniform of [`FieldMaterial`]; the same fields as in `field.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct FieldLook {
     fill: Vec4,
@@ -127,12 +129,13 @@ impl Material2d for FieldMaterial {
 }
 
 impl FieldMaterial {
+    /// Uploads the fields of a sequence of pairs.
     pub(super) fn new(pairs: &[FieldPair], images: &mut Assets<Image>) -> Self {
         let first = pairs.iter().take(1).map(FieldPair::source);
         let nodes = first.chain(pairs.iter().map(FieldPair::target));
         let nodes: Vec<_> = nodes.map(|field| images.add(texture_of(field))).collect();
         Self {
-            look: FieldLook::default(), // until it is drawn
+            look: FieldLook::default(), // set when it is drawn
             kind: FieldKind::default(),
             source: nodes[0].clone(),
             target: nodes[1].clone(),
@@ -140,10 +143,11 @@ impl FieldMaterial {
         }
     }
 
-    /// One that shows nothing, as most are asked for: logarithms, and the fill alone.
-    pub(super) fn nothing(images: &mut Assets<Image>) -> Self {
-        let one = texture(UVec2::ONE, &[1.0]);
-        let node = images.add(one);
+    /// A placeholder of the most common variant (logarithmic scale, fill only), to compile its
+    /// pipeline.
+    pub(super) fn placeholder(images: &mut Assets<Image>) -> Self {
+        let single_texel = texture(UVec2::ONE, &[1.0]);
+        let node = images.add(single_texel);
         Self {
             look: FieldLook::default(),
             kind: FieldKind {
@@ -157,20 +161,21 @@ impl FieldMaterial {
         }
     }
 
-    /// Whether these are the fields of a pair, by its number.
-    pub(super) fn shows(&self, pair: usize) -> bool {
+    /// Whether the material shows the pair with this index.
+    pub(super) fn shows_pair(&self, pair: usize) -> bool {
         self.source == self.nodes[pair]
     }
 
-    /// Takes the fields of a pair.
-    pub(super) fn show(&mut self, pair: usize) {
+    /// Shows the pair with this index.
+    pub(super) fn show_pair(&mut self, pair: usize) {
         self.source.clone_from(&self.nodes[pair]);
         self.target.clone_from(&self.nodes[pair + 1]);
     }
 }
 
 impl FieldLook {
-    /// Of a pair where it is at `within`; painted as the whole is at `t`.
+    /// Look of a pair at its own blend parameter `within`. Colours are those of the whole
+    /// transition at `t`.
     pub(super) fn new(pair: &FieldPair, within: f64, t: f64, style: &StageStyle) -> Self {
         let blend = pair.blend();
         let grid = pair.grid();
@@ -183,14 +188,13 @@ impl FieldLook {
             t: within as f32,
             epsilon: blend.epsilon as f32,
             level: blend.level() as f32,
-            // Distances are in cells of the grid, whatever units the design
-            // has.
+            // In cells, like distances, whatever the units of the design.
             spacing: grid.width.max(grid.height) as f32 / ISO_LINES,
         }
     }
 }
 
-/// A field as a texture, row 0 the lowest.
+/// Texture of a field; row 0 is the lowest.
 fn texture_of(field: &DistanceField) -> Image {
     let grid = field.grid();
     texture(UVec2::new(grid.width, grid.height), field.values())

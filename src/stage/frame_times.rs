@@ -1,22 +1,22 @@
-//! How long a frame takes, by stage.
+//! Durations of the stages of a frame.
 //!
-//! Guarantees: recording neither allocates nor blocks. Does not guarantee to
-//! see the GPU: `draw` is the processor's share, writing vertices and uniforms.
+//! Guaranteed: recording neither allocates nor blocks. Not guaranteed: GPU time. `draw` is the time
+//! the CPU takes to write vertices and uniforms.
 
 use std::time::Duration;
 
 use bevy::prelude::*;
 
-/// How many frames a median looks back.
+/// Number of frames that a median covers (heuristic).
 pub const REMEMBERED: usize = 120;
 
 /// The last [`REMEMBERED`] durations of one stage of the frame.
 ///
 /// ```
 /// use std::time::Duration;
-/// use morphospace::stage::Durations;
+/// use morphospace::stage::StageTimes;
 ///
-/// let mut durations = Durations::default();
+/// let mut durations = StageTimes::default();
 /// assert_eq!(durations.median(), None);
 /// for ms in [9, 1, 2] {
 ///     durations.record(Duration::from_millis(ms));
@@ -40,33 +40,34 @@ impl Default for StageTimes {
 }
 
 impl StageTimes {
-    /// Remembers one more duration and forgets the oldest.
+    /// Records a duration, replacing the oldest.
     pub fn record(&mut self, duration: Duration) {
         self.ring[self.recorded % REMEMBERED] = duration;
         self.recorded += 1;
     }
 
-    /// The median of the remembered durations (the lower one of an even
-    /// count), `None` before the first.
+    /// Returns the median of the recorded durations (the lower one of an even count); `None` before
+    /// the first.
     pub fn median(&self) -> Option<Duration> {
-        // A copy of 2 kB on the stack, so that nothing is allocated.
+        // A copy of 2 kB on the stack, to avoid an allocation.
         let mut sorted = self.ring;
-        let known = &mut sorted[..self.recorded.min(REMEMBERED)];
-        known.sort_unstable();
-        known.get(known.len().checked_sub(1)? / 2).copied()
+        let recorded = &mut sorted[..self.recorded.min(REMEMBERED)];
+        recorded.sort_unstable();
+        recorded.get(recorded.len().checked_sub(1)? / 2).copied()
     }
 }
 
-/// How long the stage's work took in the last frames that had any.
+/// Durations of the stage's work in recent frames. Frames without work are not recorded.
 #[derive(Resource, Clone, Debug, Default, Reflect)]
 #[reflect(Resource, Clone, Debug, Default)]
 pub struct FrameTimes {
-    /// Placing all vertices: right-hand sides, back-substitution, placement.
+    /// Placing all vertices: right-hand sides, back substitution and placement.
     pub solve: StageTimes,
     /// Writing render meshes and uniforms.
     pub draw: StageTimes,
-    /// What was drawn last the graphics card sums: it is neither solved nor written.
-    pub is_played: bool,
+    /// Whether the graphics card evaluated the last drawn frame from a recording, without solving
+    /// or writing vertices.
+    pub is_gpu_played: bool,
 }
 
 #[cfg(test)]
@@ -74,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_median_forgets_what_is_long_past() {
+    fn the_median_forgets_old_durations() {
         let mut durations = StageTimes::default();
         for _ in 0..REMEMBERED {
             durations.record(Duration::from_secs(9));

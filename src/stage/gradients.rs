@@ -1,5 +1,5 @@
-//! Gradients as shaders are told them: a table of numbers, and in each vertex where it
-//! is in its gradient's own space.
+//! Gradients as the shader reads them: a uniform table of numbers, and per vertex the position in
+//! the gradient's own space.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::ShaderType;
@@ -7,44 +7,48 @@ use glam::{DAffine2, DVec2};
 
 use crate::colour::{Gradient, GradientGeometry, GradientSpread, Paint};
 
-/// How many numbers there are, four at a time: a gradient takes two of them, and two for
-/// each stop. What has no place any more shows its mean.
-const ROOM: usize = 512;
+/// Size of the table, in vectors of four numbers; the same as in `ink.wgsl`. A gradient takes two
+/// vectors plus two per stop; gradients that do not fit are drawn in their mean colour (resource
+/// limit: 8 KiB of uniforms).
+const CAPACITY: usize = 512;
 
-/// All gradients of a frame.
+/// Uniform with all gradients of a frame.
 #[derive(Clone, Debug, PartialEq, ShaderType)]
 pub(super) struct GradientTextures {
-    numbers: [Vec4; ROOM],
+    numbers: [Vec4; CAPACITY],
 }
 
 impl Default for GradientTextures {
     fn default() -> Self {
         Self {
-            numbers: [Vec4::ZERO; ROOM],
+            numbers: [Vec4::ZERO; CAPACITY],
         }
     }
 }
 
-/// Gradients as they are put into the table.
+/// Builder of the uniform table.
 #[derive(Default)]
 pub(super) struct GradientTable {
     pub(super) gradients: GradientTextures,
-    /// Where each begins.
+    /// Index of the first vector of each gradient.
     firsts: Vec<usize>,
-    taken: usize,
+    /// Number of vectors in use.
+    used: usize,
 }
 
-/// A gradient in the table.
+/// Reference to a gradient in the table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadedFaces {
+    /// Index of the first vector of the gradient.
     first: usize,
-    /// From the plane to the gradient's own space.
+    /// Map from the plane to the gradient's own space.
     into: DAffine2,
 }
 
 impl GradientTable {
-    /// Puts a gradient in, if there is room and it is not flat.
-    pub(super) fn put(&mut self, gradient: &Gradient) -> Option<ShadedFaces> {
+    /// Adds a gradient. Returns `None` if there is no room, it has no stops, or its frame is
+    /// degenerate.
+    pub(super) fn insert(&mut self, gradient: &Gradient) -> Option<ShadedFaces> {
         let into = gradient.frame.inverse();
         if !into.is_finite() || gradient.stops.is_empty() {
             return None;
@@ -54,14 +58,14 @@ impl GradientTable {
             GradientSpread::Reflect => 1.0,
             GradientSpread::Repeat => 2.0,
         };
-        let (kind, focus, inner) = match gradient.course {
-            GradientGeometry::Straight => (0.0, DVec2::ZERO, 0.0),
-            GradientGeometry::Round { focus, inner } => (1.0, focus, inner),
+        let (kind, focus, inner) = match gradient.geometry {
+            GradientGeometry::Linear => (0.0, DVec2::ZERO, 0.0),
+            GradientGeometry::Radial { focus, inner } => (1.0, focus, inner),
         };
         let head = Vec4::new(kind, spread, gradient.stops.len() as f32, inner as f32);
         let focus = focus.as_vec2().extend(0.0).extend(0.0);
         let stops = gradient.stops.iter().flat_map(|stop| {
-            let at = Vec4::new(stop.at as f32, 0.0, 0.0, 0.0);
+            let at = Vec4::new(stop.offset as f32, 0.0, 0.0, 0.0);
             [encoded(stop.paint), at]
         });
         let numbers: Vec<Vec4> = [head, focus].into_iter().chain(stops).collect();
@@ -71,38 +75,39 @@ impl GradientTable {
         })
     }
 
-    /// Where the numbers are; those that are the same, in another place of the plane, only
-    /// once.
+    /// Index of a sequence of vectors, which is added if it is new. Equal gradients at different
+    /// positions share it.
     fn put_numbers(&mut self, numbers: &[Vec4]) -> Option<usize> {
         let is_there = |&first: &usize| self.gradients.numbers[first..].starts_with(numbers);
         if let Some(&first) = self.firsts.iter().find(|first| is_there(first)) {
             return Some(first);
         }
-        let first = self.taken;
+        let first = self.used;
         let room = self
             .gradients
             .numbers
             .get_mut(first..first + numbers.len())?;
         room.copy_from_slice(numbers);
         self.firsts.push(first);
-        self.taken += numbers.len();
+        self.used += numbers.len();
         Some(first)
     }
 }
 
 impl ShadedFaces {
-    /// What stands in the place of a colour: no opacity is negative.
-    pub(super) fn mark(&self) -> [f32; 4] {
+    /// Vertex colour that refers to the gradient. The negative opacity distinguishes it from a
+    /// colour.
+    pub(super) fn vertex_colour(&self) -> [f32; 4] {
         [self.first as f32, 0.0, 0.0, -1.0]
     }
 
-    /// Where a point of the plane is in the gradient's own space.
-    pub(super) fn place(&self, p: DVec2) -> [f32; 2] {
+    /// Converts a point of the plane to the gradient's own space.
+    pub(super) fn gradient_coordinates(&self, p: DVec2) -> [f32; 2] {
         self.into.transform_point2(p).as_vec2().to_array()
     }
 }
 
-/// sRGB with straight opacity, as gradients mix it.
+/// sRGB with straight opacity, the space in which gradients are mixed.
 fn encoded(paint: Paint) -> Vec4 {
     let [red, green, blue] = paint.colour.0.map(|channel| f32::from(channel) / 255.0);
     Vec4::new(red, green, blue, paint.opacity as f32)
@@ -114,27 +119,27 @@ mod tests {
     use crate::colour::{GradientStop, Rgb};
 
     #[test]
-    fn what_has_no_room_is_left_out() {
+    fn gradients_without_room_are_left_out() {
         let stop = |at: f64| GradientStop {
-            at,
+            offset: at,
             paint: Rgb([9; 3]).into(),
         };
         let gradient = |count: u32| Gradient {
-            course: GradientGeometry::Straight,
+            geometry: GradientGeometry::Linear,
             frame: DAffine2::from_scale(DVec2::splat(2.0)),
             stops: (0..count).map(|k| stop(f64::from(k) / 300.0)).collect(),
             spread: GradientSpread::Pad,
         };
         let mut table = GradientTable::default();
-        assert!(table.put(&gradient(0)).is_none());
-        let first = table.put(&gradient(200)).expect("room");
-        assert_eq!(first.place(DVec2::new(1.0, 4.0)), [0.5, 2.0]);
-        assert!(table.put(&gradient(60)).is_none());
-        let again = table.put(&gradient(200)).expect("is there");
-        assert_eq!(again.mark(), first.mark());
-        let second = table.put(&gradient(2)).expect("room");
-        assert_eq!(second.mark()[0], 402.0);
-        let flat = gradient(2).moved(DAffine2::from_scale(DVec2::X));
-        assert!(table.put(&flat).is_none());
+        assert!(table.insert(&gradient(0)).is_none());
+        let first = table.insert(&gradient(200)).expect("room");
+        assert_eq!(first.gradient_coordinates(DVec2::new(1.0, 4.0)), [0.5, 2.0]);
+        assert!(table.insert(&gradient(60)).is_none());
+        let again = table.insert(&gradient(200)).expect("is there");
+        assert_eq!(again.vertex_colour(), first.vertex_colour());
+        let second = table.insert(&gradient(2)).expect("room");
+        assert_eq!(second.vertex_colour()[0], 402.0);
+        let flat = gradient(2).transformed(DAffine2::from_scale(DVec2::X));
+        assert!(table.insert(&flat).is_none());
     }
 }

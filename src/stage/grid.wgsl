@@ -1,7 +1,7 @@
-// The lines of a square grid of the source.
+// Draws the lines of a square grid of the source, deformed by the warp.
 //
-// `uv` is the place in the plane, `color.xy` the point of the source that is
-// there; both relative to the part's origin.
+// `uv` is the position in the plane, `color.xy` the point of the source shown there; both relative
+// to the part's origin.
 
 #import bevy_sprite::{mesh2d_vertex_output::VertexOutput, mesh2d_view_bindings::view}
 #ifdef SRGB_OUTPUT
@@ -11,6 +11,7 @@
 #import bevy_render::color_operations::linear_rgb_to_oklab
 #endif
 
+// Same fields as GridLook in warp_grid.rs.
 struct Grid {
     colour: vec4<f32>,
     halo: vec4<f32>,
@@ -20,22 +21,23 @@ struct Grid {
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> grid: Grid;
 
-// Lines and their halos have these widths on a picture of LINE_HEIGHT pixels
-// and grow with it.
+// Widths of lines and of their halos, in pixels, on a picture of LINE_HEIGHT pixels; they grow with
+// the height (heuristic).
 const LINE_PX: f32 = 1.2;
 const HALO_PX: f32 = 3.2;
 const LINE_HEIGHT: f32 = 800.0;
 
+// Half of a width, scaled with the height of the picture.
 fn half_px(width: f32) -> f32 {
     return 0.5 * width * max(view.viewport.w / LINE_HEIGHT, 1.0);
 }
 
-// How much of the pixel a line covers (x), and with its halo (y).
+// Coverage of the pixel by a line (x), and by a line with its halo (y).
 fn lines(at: vec2<f32>) -> vec2<f32> {
     let cell = at / grid.spacing;
     let pixel = max(fwidth(cell), vec2(1e-9));
     let away = abs(fract(cell - 0.5) - 0.5) / pixel;
-    // Lines nearer than a few pixels would be a grey mass.
+    // Lines closer than a few pixels fade; otherwise they would merge into grey.
     let clear = clamp(1.5 - 6.0 * pixel, vec2(0.0), vec2(1.0));
     let line = clamp(half_px(LINE_PX) + 0.5 - away, vec2(0.0), vec2(1.0)) * clear;
     let wide = clamp(half_px(HALO_PX) + 0.5 - away, vec2(0.0), vec2(1.0)) * clear;

@@ -1,14 +1,14 @@
-// Faces, bars, discs, wires and outlines in one colour, with smooth edges at
-// any zoom. The kind of shape is a shader definition:
-//   (none)  faces: the triangles are the shape
-//   COATS   faces whose vertices bring their colours, or in their stead, with an
-//           opacity below 0, the number of a gradient; `uv` is where the fragment
-//           is in the gradient's own space
-//   ROUND   `uv` is where the fragment is in units of the shape's radius
-//   WIRE    `uv` holds two barycentric coordinates; the edges are drawn
-//   LINE    segments of constant width on the screen: the vertex shader pushes
-//           each corner by `offset.xy` half line widths; `offset.z` is the
-//           corner's side, −1 or 1
+// Draws faces, bars, discs, wireframes and outlines in one colour, with smooth edges at any zoom,
+// and faces in paint layers. A shader definition selects the kind of shape:
+//
+// - (none): faces; the triangles are the shape
+// - COATS: faces in paint layers; vertices bring their colours. A colour with opacity below 0
+//   refers to a gradient instead: its red component is the index in the table, and `uv` is the
+//   position in the gradient's own space
+// - ROUND: bars and discs; `uv` is the position in units of the shape's radius
+// - WIRE: wireframe; `uv` holds two barycentric coordinates, and the edges are drawn
+// - LINE: outlines, segments of constant width on the screen; the vertex shader moves each corner
+//   by `offset.xy` half line widths, and `offset.z` is the corner's side, −1 or 1
 
 #import bevy_sprite::{
     mesh2d_functions as mesh_functions,
@@ -28,18 +28,21 @@
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> ink: vec4<f32>;
 #ifdef COATS
 struct Gradients {
-    // Of each: straight or round, spread, how many stops, inner radius; the focus;
-    // and for each stop its colour and its place.
+    // For each gradient: a vector of kind (0 linear, 1 radial), spread, number of stops and inner
+    // radius; a vector with the focus; and for each stop two vectors, its colour and its offset.
+    // Same as GradientTable in gradients.rs.
     numbers: array<vec4<f32>, 512>,
 }
 @group(#{MATERIAL_BIND_GROUP}) @binding(1) var<uniform> gradients: Gradients;
 #endif
 
-// Lines have these widths on a picture of LINE_HEIGHT pixels and grow with it.
+// Widths of lines, in pixels, on a picture of LINE_HEIGHT pixels; they grow with the height
+// (heuristic).
 const WIRE_PX: f32 = 1.0;
 const OUTLINE_PX: f32 = 1.75;
 const LINE_HEIGHT: f32 = 800.0;
 
+// Half of a width, scaled with the height of the picture.
 fn half_line_px(width: f32) -> f32 {
     return 0.5 * width * max(view.viewport.w / LINE_HEIGHT, 1.0);
 }
@@ -58,7 +61,7 @@ fn vertex(corner: Corner) -> VertexOutput {
     let half_view = 0.5 * view.viewport.zw;
     let seen = (clip_from_local * vec4(corner.offset.xy, 0.0, 0.0)).xy * half_view;
     let unit = seen * length(corner.offset.xy) / max(length(seen), 1e-20);
-    // One pixel more than the line, for its smooth edge.
+    // One pixel wider than the line, for its smooth edge.
     let reach_px = half_line_px(OUTLINE_PX) + 1.0;
     var out: VertexOutput;
     out.world_position = world_from_local * vec4(corner.position, 1.0);
@@ -70,8 +73,8 @@ fn vertex(corner: Corner) -> VertexOutput {
 #endif
 
 #ifdef COATS
-// How far along the way of a round gradient a place is: on the circle whose middle
-// and radius run from the focus to the unit circle; below 0 where there is none.
+// Offset of a point along a radial gradient: the point lies on the circle whose centre and radius
+// are interpolated from the inner circle to the unit circle. Below 0 if there is none.
 fn round(p: vec2<f32>, focus: vec2<f32>, inner: f32) -> f32 {
     let d = p - focus;
     let grown = 1.0 - inner;
@@ -84,6 +87,7 @@ fn round(p: vec2<f32>, focus: vec2<f32>, inner: f32) -> f32 {
     return (-b - sqrt(max(b * b - a * c, 0.0))) / a;
 }
 
+// Colour of the gradient that starts at index `first`, at a point of its own space.
 fn shaded(first: u32, p: vec2<f32>) -> vec4<f32> {
     let head = gradients.numbers[first];
     let focus = gradients.numbers[first + 1u].xy;
@@ -104,11 +108,12 @@ fn shaded(first: u32, p: vec2<f32>) -> vec4<f32> {
         let way = select(f32(s >= next), clamp((s - here) / (next - here), 0.0, 1.0), next > here);
         colour = mix(colour, gradients.numbers[first + 2u + 2u * k], way);
     }
-    // Mixed as drawings have it, and then as everything else.
+    // Stops are mixed in sRGB, as in SVG; everything after that is linear.
     return vec4(srgb_to_linear_rgb(colour.rgb), colour.a);
 }
 #endif
 
+// Fraction of the pixel that the shape covers.
 fn coverage(uv: vec2<f32>) -> f32 {
 #ifdef LINE
     return clamp(half_line_px(OUTLINE_PX) + 0.5 - abs(uv.x), 0.0, 1.0);

@@ -1,9 +1,9 @@
-//! The material of everything that has one colour: faces, bars, joints, wires
-//! and outlines; and of faces in coats of paint.
+//! Material of shapes in one colour (faces, bars, joints, wireframes and outlines), and of faces in
+//! several paint layers.
 //!
-//! Guarantees: edges are smooth at any zoom; lines keep their width on the
-//! screen and grow with the height of the picture, so that a capture in 4K
-//! looks like the window; no face is culled, whichever way it is turned.
+//! Guaranteed: edges are smooth at any zoom. Lines keep their width on the screen and grow with the
+//! height of the picture, so that a capture in 4K looks like the window. Faces are visible from
+//! both sides.
 
 use bevy::asset::embedded_path;
 use bevy::mesh::MeshVertexBufferLayoutRef;
@@ -19,34 +19,34 @@ use crate::geometry::Bounds;
 
 use super::gradients::GradientTextures;
 
-/// What kind of shape the vertices describe.
+/// Kind of shape that the vertices describe. Each kind is a shader variant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum InkKind {
-    /// The triangles themselves.
+    /// Triangles in one colour.
     Faces,
-    /// The same, each vertex in a colour of its own.
-    Coats,
-    /// Bars and discs: inside is where the texture coordinates' length is below 1.
+    /// Triangles in paint layers: each vertex has its own colour or gradient.
+    PaintLayers,
+    /// Bars and discs: a fragment is inside if its texture coordinates have length below 1.
     Round,
-    /// The edges of triangles that share no vertices.
+    /// Edges of triangles that share no vertices.
     Wire,
-    /// Segments that the vertex shader widens.
+    /// Segments that the vertex shader widens to lines.
     Line,
 }
 
-/// One opaque colour, unless the vertices bring theirs.
+/// One opaque colour, or the colours of the vertices.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(InkKind)]
 pub(super) struct InkMaterial {
     #[uniform(0)]
     pub(super) colour: LinearRgba,
-    /// Those of coats.
+    /// Gradients of paint layers.
     #[uniform(1)]
     pub(super) gradients: GradientTextures,
     pub(super) kind: InkKind,
 }
 
-/// What the pipeline of a material depends on.
+/// Selects the shader variant.
 impl From<&InkMaterial> for InkKind {
     fn from(material: &InkMaterial) -> Self {
         material.kind
@@ -59,7 +59,7 @@ impl Material2d for InkMaterial {
     }
 
     fn alpha_mode(&self) -> AlphaMode2d {
-        // The colour is opaque, the smooth edges are not.
+        // The colour is opaque, but the smooth edges are not.
         AlphaMode2d::Blend
     }
 
@@ -73,15 +73,14 @@ impl Material2d for InkMaterial {
         };
         let definition = match key.bind_group_data {
             InkKind::Faces => return Ok(()),
-            InkKind::Coats => "COATS",
+            InkKind::PaintLayers => "COATS",
             InkKind::Round => "ROUND",
             InkKind::Wire => "WIRE",
             InkKind::Line => "LINE",
         };
         fragment.shader_defs.push(definition.into());
         if key.bind_group_data == InkKind::Line {
-            // Only lines are widened by a vertex shader of their own, in the
-            // same file.
+            // Only lines have a vertex shader of their own, in the same file.
             descriptor.vertex.shader = fragment.shader.clone();
             descriptor.vertex.shader_defs.push(definition.into());
         }
@@ -89,28 +88,28 @@ impl Material2d for InkMaterial {
     }
 }
 
-/// The path of a shader that lies beside this file and in the binary.
+/// Asset path of a shader embedded in the binary, from the folder of this file.
 pub(super) fn embedded(name: &'static str) -> bevy::asset::AssetPath<'static> {
-    let beside = embedded_path!("ink.wgsl").with_file_name(name);
-    bevy::asset::AssetPath::from_path_buf(beside).with_source("embedded")
+    let path = embedded_path!("ink.wgsl").with_file_name(name);
+    bevy::asset::AssetPath::from_path_buf(path).with_source("embedded")
 }
 
-/// A window as shaders are told it: least and most x and y, from an origin.
+/// Packs a rectangle for shaders: minimum x and y, maximum x and y, relative to an origin.
 pub(super) fn relative(window: Bounds, origin: glam::DVec2) -> Vec4 {
     let [low, high] = [window.min, window.max].map(|p| (p - origin).as_vec2());
     Vec4::new(low.x, low.y, high.x, high.y)
 }
 
-/// An opaque sRGB colour in linear light.
+/// Converts an opaque sRGB colour to linear light.
 pub(super) fn linear(colour: Rgb) -> LinearRgba {
     let [red, green, blue] = colour.to_linear();
     LinearRgba::rgb(red, green, blue)
 }
 
-/// What reads well on a ground: near black on light ones, near white on dark.
+/// Returns a readable colour on a background: near black on light ones, near white on dark ones.
 pub(super) fn contrasting(ground: Rgb) -> LinearRgba {
-    // Near 0.18, where black and white stand out alike (WCAG 2: √(1.05 · 0.05)
-    // − 0.05).
+    // Close to 0.18, the luminance on which black and white have equal contrast (WCAG 2: √(1.05 ·
+    // 0.05) − 0.05).
     if linear(ground).luminance() > 0.2 {
         linear(Rgb([28, 32, 38]))
     } else {

@@ -1,5 +1,5 @@
-//! Lines along outlines as triangles: a quad for each edge, and what fills the
-//! corner on its outer side.
+//! Triangulates strokes along outlines: a quad for each edge, and a polygon for each corner on its
+//! outer side.
 
 use std::f64::consts::PI;
 
@@ -7,15 +7,18 @@ use glam::DVec2;
 
 use crate::colour::{StrokeJoin, StrokeStyle};
 
-/// Corners of a disc that a round join is a part of.
-const ROUND: f64 = 48.0;
+/// Number of segments of a full circle; round joins use part of it (tolerance: deviates from the
+/// circle by 0.2 % of the radius).
+const CIRCLE_SEGMENTS: f64 = 48.0;
 
-/// Adds the triangles of a line along closed rings, relative to `origin`.
+/// Appends the triangles of a stroke along closed rings. Positions are relative to `origin`;
+/// overlapping triangles are not merged.
 pub(super) fn push(
     rings: &[Vec<DVec2>],
     line: &StrokeStyle,
     origin: DVec2,
-    (positions, indices): (&mut Vec<[f32; 3]>, &mut Vec<u32>),
+    positions: &mut Vec<[f32; 3]>,
+    indices: &mut Vec<u32>,
 ) {
     let mut fan = |corners: &[DVec2]| {
         let first = positions.len() as u32;
@@ -29,12 +32,13 @@ pub(super) fn push(
         }
     };
     for ring in rings {
-        along(ring, line, &mut fan);
+        push_ring(ring, line, &mut fan);
     }
 }
 
-/// Convex polygons that cover a line along a ring.
-fn along(ring: &[DVec2], line: &StrokeStyle, fan: &mut impl FnMut(&[DVec2])) {
+/// Passes convex polygons that cover a stroke along one ring to `fan`. Rings with points that are
+/// not finite are skipped.
+fn push_ring(ring: &[DVec2], line: &StrokeStyle, fan: &mut impl FnMut(&[DVec2])) {
     let mut points = ring.to_vec();
     points.dedup();
     if points.len() > 1 && points.first() == points.last() {
@@ -58,8 +62,8 @@ fn along(ring: &[DVec2], line: &StrokeStyle, fan: &mut impl FnMut(&[DVec2])) {
     }
 }
 
-/// What is missing at a corner where an edge with one offset to its left meets
-/// another.
+/// Fills the gap at a corner on its outer side. `left` are the offsets of the two edges to their
+/// left.
 fn corner(
     at: DVec2,
     left: [DVec2; 2],
@@ -67,7 +71,7 @@ fn corner(
     half: f64,
     fan: &mut impl FnMut(&[DVec2]),
 ) {
-    // The outer side is the right one where the ring turns left.
+    // The outer side is on the right if the ring turns left.
     let turn = left[0].perp_dot(left[1]);
     let [a, b] = if turn > 0.0 { left.map(|p| -p) } else { left };
     let angle = a.angle_to(b).abs();
@@ -75,14 +79,14 @@ fn corner(
         return;
     }
     let sum = a + b;
-    // Half the angle between the edges has this cosine between its sides.
+    // Distance of the mitre point from the corner.
     let reach = 2.0 * half * half / sum.length();
     match join {
         StrokeJoin::Mitre(limit) if reach <= limit * half => {
             fan(&[at, at + a, at + sum.normalize_or_zero() * reach, at + b]);
         }
         StrokeJoin::Round => {
-            let steps = (ROUND * angle / (2.0 * PI)).ceil().max(1.0);
+            let steps = (CIRCLE_SEGMENTS * angle / (2.0 * PI)).ceil().max(1.0);
             let sense = a.angle_to(b);
             let arc = (0..=steps as u32).map(|k| {
                 let turned = DVec2::from_angle(sense * f64::from(k) / steps);
@@ -99,7 +103,7 @@ mod tests {
     use super::*;
     use crate::colour::Rgb;
 
-    /// The area of all triangles, those that overlap as often as they do.
+    /// Total area of all triangles; overlaps count multiply.
     fn area(ring: &[(f64, f64)], join: StrokeJoin) -> f64 {
         let ring = ring.iter().map(|&p| DVec2::from(p)).collect();
         let line = StrokeStyle {
@@ -108,7 +112,7 @@ mod tests {
             join,
         };
         let (mut positions, mut indices) = (Vec::new(), Vec::new());
-        push(&[ring], &line, DVec2::ZERO, (&mut positions, &mut indices));
+        push(&[ring], &line, DVec2::ZERO, &mut positions, &mut indices);
         let at = |v: u32| {
             DVec2::new(
                 positions[v as usize][0].into(),
@@ -121,11 +125,11 @@ mod tests {
     }
 
     #[test]
-    fn corners_are_joined_as_the_line_says() {
+    fn corners_have_the_shape_of_their_join() {
         let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)];
-        let back: Vec<_> = square.iter().rev().copied().collect();
-        for ring in [&square[..], &back] {
-            // Four edges, and a corner each.
+        let reversed: Vec<_> = square.iter().rev().copied().collect();
+        for ring in [&square[..], &reversed] {
+            // Four edges and four corners.
             assert!((area(ring, StrokeJoin::Mitre(4.0)) - 84.0).abs() < 1e-4);
             assert!((area(ring, StrokeJoin::Bevel) - 82.0).abs() < 1e-4);
             assert!((area(ring, StrokeJoin::Mitre(1.2)) - 82.0).abs() < 1e-4);
@@ -134,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn whatever_the_ring_is_all_places_are_finite() {
+    fn degenerate_rings_give_finite_positions() {
         for ring in [
             vec![],
             vec![(1.0, 1.0); 3],

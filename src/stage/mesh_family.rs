@@ -1,7 +1,7 @@
-//! Many meshes of the same faces on one entity, and how much of each there is.
+//! Blends of many meshes with the same faces on one entity.
 //!
-//! Guarantees: as for two; what is shown is the blend of the weights of this update. Weights
-//! that are not one for each mesh, or not finite, leave the picture as it was.
+//! Guaranteed: the picture shows the blend for the weights of this update. Weights that are not
+//! finite, or not one per mesh, leave it unchanged.
 
 use std::sync::Arc;
 
@@ -19,18 +19,19 @@ use crate::work::progress::Progress;
 use super::components::{Morph, StageStyle};
 use super::frame_times::FrameTimes;
 
-/// Two meshes or more of the same faces in the same order. Together with [`BlendWeights`] it
-/// is all that an entity needs to show every blend of them, as rigid as can be.
+/// Two or more meshes with the same faces in the same order. Together with [`BlendWeights`] it is
+/// all that an entity needs to show any blend of them, as rigid as possible.
 ///
-/// Changing it builds the blend anew.
+/// Changing it rebuilds the blend.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
 #[require(BlendWeights, StageStyle, Transform, Visibility)]
 pub struct MeshFamily(pub Vec<TriangleMesh>);
 
-/// How much of each mesh of a [`MeshFamily`] is shown, or of each of three or more designs: a
-/// weight for each, which sum to one; outside [0, 1] they extrapolate. None at all is the first.
+/// Weights of the meshes of a [`MeshFamily`], or of three or more
+/// [`MorphDesigns`](super::MorphDesigns): one per design, with sum 1. Weights outside [0, 1]
+/// extrapolate. An empty list shows the first design.
 ///
 /// ```
 /// use bevy::prelude::*;
@@ -56,18 +57,19 @@ pub struct MeshFamily(pub Vec<TriangleMesh>);
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct BlendWeights(pub Vec<f64>);
 
-/// What a family was built into.
+/// Built blend of a family, steered by weights.
 #[derive(Component, Debug)]
 pub(super) struct FamilySteering(pub(super) SteeredTransition);
 
-/// The blend of some meshes.
+/// Builds the blend of meshes with the same faces.
 pub(super) fn build(
     meshes: Vec<TriangleMesh>,
     progress: &dyn Progress,
 ) -> Result<SteeredTransition, BuildError> {
-    // Outlines would be matched: meshes bring their match along, or are none of a family.
-    let given: Vec<&TriangleMesh> = meshes.iter().collect();
-    if let Err(error) = CompatibleFamily::from_meshes(&given) {
+    // Checked first, because meshes with different faces would otherwise be matched by their
+    // outlines.
+    let mesh_refs: Vec<&TriangleMesh> = meshes.iter().collect();
+    if let Err(error) = CompatibleFamily::from_meshes(&mesh_refs) {
         return Err(BuildError::Unavailable(error.to_string()));
     }
     let designs = meshes.into_iter().enumerate();
@@ -75,7 +77,7 @@ pub(super) fn build(
     steered(designs.collect(), progress)
 }
 
-/// The blend of some designs, as rigid parts.
+/// Builds the blend of designs as rigid parts.
 pub(super) fn steered(
     designs: Vec<Arc<Design>>,
     progress: &dyn Progress,
@@ -89,14 +91,14 @@ pub(super) fn steered(
     Ok(SteeredTransition::new(&space).unwrap_or_else(|| unreachable!("solids were asked for")))
 }
 
-/// Families whose weights moved, or that are new.
+/// Filter for families with new weights or a new blend.
 type WeightsMoved = Or<(
     Changed<BlendWeights>,
     Added<FamilySteering>,
     Changed<FamilySteering>,
 )>;
 
-/// Seeks every family whose weights moved.
+/// Moves every family with new weights to its blend.
 pub(super) fn solve_families(
     mut families: Query<(&BlendWeights, &FamilySteering, &mut Morph), WeightsMoved>,
     mut times: ResMut<FrameTimes>,

@@ -1,5 +1,4 @@
-//! What parts are painted with: a material of one of five kinds each, and the
-//! assets that hold them.
+//! Materials of render parts, and access to the assets that store them.
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
@@ -10,7 +9,7 @@ use super::picture_material::ColourMaterial;
 use super::recorded_material::PlayedMaterial;
 use super::warp_grid::GridMaterial;
 
-/// The material of a part.
+/// Material of a render part.
 #[derive(Clone, Debug)]
 pub(super) enum StagePaint {
     Ink(Handle<InkMaterial>),
@@ -20,7 +19,7 @@ pub(super) enum StagePaint {
     Grid(Handle<GridMaterial>),
 }
 
-/// All that is drawn with.
+/// Assets needed to create and update render parts.
 #[derive(SystemParam)]
 pub(super) struct StagePaints<'w> {
     pub(super) meshes: ResMut<'w, Assets<Mesh>>,

@@ -1,6 +1,5 @@
-//! The render mesh of what is in several paints: coat by coat, the lowest first, a
-//! line over what it goes around. Within one mesh the graphics card draws in this
-//! order.
+//! Render mesh of a content in several paint layers: all layers in one mesh, lowest first, each
+//! stroke above its fill. Within a mesh the graphics card draws triangles in order.
 
 use bevy::mesh::{Indices, Mesh};
 use glam::DVec2;
@@ -14,36 +13,37 @@ use super::line_mesh;
 use super::ring_fill::filled;
 use super::vertices::write_points;
 
-/// A solid or fields in coats, as they are written.
+/// State of the render mesh of a solid or of fields in paint layers.
 #[derive(Clone, Debug)]
 pub(super) struct LayerMesh {
-    /// Its faces, which stay the same. None where its rings are triangulated anew:
-    /// faces know nothing of what comes and goes.
+    /// Faces of the placement, which stay the same; `None` if the rings are triangulated anew in
+    /// each frame, because faces cannot represent transient parts and holes.
     faces: Option<LayerFaces>,
-    /// The gradients of the last frame.
+    /// Gradients of the last written frame.
     gradients: Box<GradientTextures>,
     is_of_fields: bool,
 }
 
-/// Which faces and which vertices are in which coat.
+/// Layer of each face and vertex.
 #[derive(Clone, Debug)]
 struct LayerFaces {
-    /// For each coat the corners of its faces.
+    /// For each layer the corners of its faces, as vertex indices.
     corners: Vec<Vec<u32>>,
-    /// For each vertex its coat.
+    /// For each vertex, the index of its layer.
     of_vertices: Vec<usize>,
 }
 
-/// What a coat is filled with.
+/// Fill of a layer.
 #[derive(Clone, Copy)]
 enum LayerInkSlot {
-    /// A colour in linear light, alpha straight.
+    /// Colour in linear light with straight alpha.
     Flat([f32; 4]),
+    /// Gradient of the table.
     Shaded(ShadedFaces),
 }
 
 impl LayerMesh {
-    /// Of fields with paints.
+    /// Layers of distance fields.
     pub(super) fn of_fields() -> Self {
         Self {
             faces: None,
@@ -52,17 +52,17 @@ impl LayerMesh {
         }
     }
 
-    /// Of a frame's solid, which has a coating.
-    pub(super) fn of_solid(frame: &Frame, solid: &SolidContent, coating: &PaintLayerStack) -> Self {
-        // Faces know nothing of that, nor of coats that are in several inks.
-        let comes_and_goes = !solid.holes.is_empty()
-            || !solid.swells.is_empty()
-            || solid.clocks.is_some()
-            || coating.fades;
-        let arap = frame.transition().arap().filter(|_| !comes_and_goes);
+    /// Layers of a solid with the given paint layers.
+    pub(super) fn of_solid(frame: &Frame, solid: &SolidContent, stack: &PaintLayerStack) -> Self {
+        // Faces cannot represent these, nor layers whose rings differ in paint.
+        let has_transients = !solid.holes.is_empty()
+            || !solid.swelling_shapes.is_empty()
+            || solid.part_clocks.is_some()
+            || stack.fades;
+        let arap = frame.transition().arap().filter(|_| !has_transients);
         let faces = arap.map(|arap| {
-            let parts = arap.mesh().components();
-            LayerFaces::new(frame, solid, coating, &parts)
+            let components = arap.mesh().components();
+            LayerFaces::new(frame, solid, stack, &components)
         });
         Self {
             faces,
@@ -71,22 +71,22 @@ impl LayerMesh {
         }
     }
 
-    /// Whether they are contours of fields.
+    /// Whether the layers are contours of distance fields.
     pub(super) fn is_of_fields(&self) -> bool {
         self.is_of_fields
     }
 
-    /// Whether the faces of the frame are drawn.
+    /// Whether the faces of the placement are drawn.
     pub(super) fn has_faces(&self) -> bool {
         self.faces.is_some()
     }
 
-    /// The gradients of the frame that was written last.
+    /// Gradients of the last written frame.
     pub(super) fn gradients(&self) -> &GradientTextures {
         &self.gradients
     }
 
-    /// Brings a mesh up to a frame and a style.
+    /// Writes the mesh of a frame in a style. Positions are relative to `origin`.
     pub(super) fn write(
         &mut self,
         frame: &Frame,
@@ -95,36 +95,36 @@ impl LayerMesh {
         mesh: &mut Mesh,
     ) {
         let placement = frame.placement();
-        let coated = frame.transition().content().coated_at(placement, frame.t());
+        let groups = frame.transition().content().layers_at(placement, frame.t());
         let mut table = GradientTable::default();
         let mut ink = |inked: &InkedLayer| {
             let gradients = inked.gradients.each_ref().map(Option::as_ref);
             let gradient = style.gradient_at(gradients, inked.paints, inked.t);
-            let shaded = gradient.and_then(|gradient| table.put(&gradient));
+            let shaded = gradient.and_then(|gradient| table.insert(&gradient));
             let flat = || LayerInkSlot::Flat(flat(style.paint_at(inked.paints, inked.t)));
             shaded.map_or_else(flat, LayerInkSlot::Shaded)
         };
-        let inks: Vec<LayerInkSlot> = coated.iter().map(&mut ink).collect();
+        let inks: Vec<LayerInkSlot> = groups.iter().map(&mut ink).collect();
         let mut layers = LayerMeshes::of(origin);
         if let Some(faces) = &self.faces {
             let places = &placement.in_frame;
             layers.positions.resize(places.len(), [0.0; 3]);
             write_points(places, origin, &mut layers.positions);
-            // Each coat is there once.
-            let mut of_coats = vec![LayerInkSlot::Flat([0.0; 4]); coated.len()];
-            for (inked, &ink) in coated.iter().zip(&inks) {
-                of_coats[inked.coat] = ink;
+            // With faces, each layer occurs exactly once.
+            let mut ink_of_layer = vec![LayerInkSlot::Flat([0.0; 4]); groups.len()];
+            for (inked, &ink) in groups.iter().zip(&inks) {
+                ink_of_layer[inked.layer] = ink;
             }
-            for (&coat, &place) in faces.of_vertices.iter().zip(places) {
-                layers.ink(of_coats[coat], place);
+            for (&layer, &place) in faces.of_vertices.iter().zip(places) {
+                layers.ink(ink_of_layer[layer], place);
             }
         }
-        for (inked, ink) in coated.iter().zip(inks) {
+        for (inked, ink) in groups.iter().zip(inks) {
             match &self.faces {
-                Some(faces) => layers.indices.extend(&faces.corners[inked.coat]),
+                Some(faces) => layers.indices.extend(&faces.corners[inked.layer]),
                 None => layers.fill(&inked.rings, ink),
             }
-            if let Some(line) = StrokeStyle::between(inked.lines, inked.t) {
+            if let Some(line) = StrokeStyle::interpolated(inked.strokes, inked.t) {
                 layers.draw(&inked.rings, &line);
             }
         }
@@ -134,17 +134,26 @@ impl LayerMesh {
 }
 
 impl LayerFaces {
-    /// `parts` is the connected part that each vertex is in.
-    fn new(frame: &Frame, solid: &SolidContent, coating: &PaintLayerStack, parts: &[u32]) -> Self {
-        let count = parts.iter().max().map_or(0, |&most| most as usize + 1);
-        let mut of_parts = vec![0; count];
-        for (walk, &coat) in solid.loops.iter().zip(&coating.of_walks) {
-            if let Some(&vertex) = walk.first() {
-                of_parts[parts[vertex as usize] as usize] = coat;
+    /// Assigns faces and vertices to layers. `components` gives the connected component of each
+    /// vertex; components belong to the layer of their boundary loop.
+    fn new(
+        frame: &Frame,
+        solid: &SolidContent,
+        stack: &PaintLayerStack,
+        components: &[u32],
+    ) -> Self {
+        let count = components.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut layer_of_component = vec![0; count];
+        for (boundary, &layer) in solid.loops.iter().zip(&stack.of_loops) {
+            if let Some(&vertex) = boundary.first() {
+                layer_of_component[components[vertex as usize] as usize] = layer;
             }
         }
-        let of_vertices: Vec<usize> = parts.iter().map(|&part| of_parts[part as usize]).collect();
-        let mut corners = vec![Vec::new(); coating.coats.len()];
+        let of_vertices: Vec<usize> = components
+            .iter()
+            .map(|&component| layer_of_component[component as usize])
+            .collect();
+        let mut corners = vec![Vec::new(); stack.layers.len()];
         for face in frame.placement().faces.iter() {
             corners[of_vertices[face[0] as usize]].extend(face);
         }
@@ -155,13 +164,13 @@ impl LayerFaces {
     }
 }
 
-/// Triangles in the order in which they are drawn.
+/// A mesh under construction, triangles in drawing order.
 struct LayerMeshes {
-    /// What positions are relative to.
+    /// Point that positions are relative to.
     origin: DVec2,
     positions: Vec<[f32; 3]>,
     colours: Vec<[f32; 4]>,
-    /// Where vertices are in their gradients.
+    /// Position of each vertex in the space of its gradient.
     places: Vec<[f32; 2]>,
     indices: Vec<u32>,
 }
@@ -177,16 +186,19 @@ impl LayerMeshes {
         }
     }
 
-    /// Adds the ink of the next vertex, which is there.
+    /// Adds the colour and gradient position of the next vertex, which lies at `at`.
     fn ink(&mut self, ink: LayerInkSlot, at: DVec2) {
         let (colour, place) = match ink {
             LayerInkSlot::Flat(colour) => (colour, [0.0; 2]),
-            LayerInkSlot::Shaded(shaded) => (shaded.mark(), shaded.place(at)),
+            LayerInkSlot::Shaded(shaded) => {
+                (shaded.vertex_colour(), shaded.gradient_coordinates(at))
+            }
         };
         self.colours.push(colour);
         self.places.push(place);
     }
 
+    /// Adds the triangulated area of rings.
     fn fill(&mut self, rings: &[Vec<DVec2>], ink: LayerInkSlot) {
         let first = self.positions.len() as u32;
         let (points, corners) = filled(rings, self.origin);
@@ -198,14 +210,20 @@ impl LayerMeshes {
         self.indices.extend(corners);
     }
 
+    /// Adds a stroke along rings.
     fn draw(&mut self, rings: &[Vec<DVec2>], line: &StrokeStyle) {
-        let triangles = (&mut self.positions, &mut self.indices);
-        line_mesh::push(rings, line, self.origin, triangles);
+        line_mesh::push(
+            rings,
+            line,
+            self.origin,
+            &mut self.positions,
+            &mut self.indices,
+        );
         self.colours.resize(self.positions.len(), flat(line.paint));
         self.places.resize(self.positions.len(), [0.0; 2]);
     }
 
-    /// Other frames have other triangles: there is little to be written in place.
+    /// Replaces all attributes, because the triangles change from frame to frame.
     fn put_into(self, mesh: &mut Mesh) {
         mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, self.positions);
         mesh.insert_attribute(Mesh::ATTRIBUTE_COLOR, self.colours);
@@ -214,6 +232,7 @@ impl LayerMeshes {
     }
 }
 
+/// Colour of a paint in linear light with straight alpha.
 fn flat(paint: Paint) -> [f32; 4] {
     let [red, green, blue] = paint.colour.to_linear();
     [red, green, blue, paint.opacity as f32]

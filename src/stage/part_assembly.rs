@@ -1,7 +1,7 @@
-//! How a transition gets its parts, and loses them.
+//! Spawns the render parts of a new transition, and despawns those of a removed one.
 //!
-//! Guarantees: an entity has parts of one transition only, however quickly
-//! transitions are replaced; when its [`Morph`] is removed, its parts go.
+//! Guaranteed: an entity has render parts of one transition only, however quickly transitions are
+//! replaced; when its [`Morph`] is removed, its parts are despawned.
 
 use bevy::camera::visibility::NoFrustumCulling;
 use bevy::ecs::system::SystemParam;
@@ -28,42 +28,43 @@ use super::uploaded_recording::UploadState;
 use super::vertices::{BarShapes, OutlineSegments, corner_coordinates, quad_indices};
 use super::warp_grid::GridMaterial;
 
-/// Marks an entity whose transition is new and has no parts yet.
+/// Marks an entity whose transition is new and has no render parts yet.
 #[derive(Component)]
 pub(super) struct WithoutParts;
 
 /// A render mesh of triangles.
 fn mesh(positions: Vec<[f32; 3]>) -> Mesh {
-    // The default usage keeps it in main memory too, to be rewritten.
+    // The default usage keeps a copy in main memory, which is rewritten in later frames.
     Mesh::new(PrimitiveTopology::TriangleList, default())
         .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
 }
 
-/// One that is yet to be written, with texture coordinates that stay.
-fn unplaced(coordinates: Vec<[f32; 2]>) -> Mesh {
+/// A mesh whose positions are written later; its texture coordinates stay.
+fn unwritten_mesh(coordinates: Vec<[f32; 2]>) -> Mesh {
     mesh(vec![[0.0; 3]; coordinates.len()])
         .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, coordinates)
 }
 
+/// A mesh of quads of four vertices, with given texture coordinates.
 fn quads(coordinates: Vec<[f32; 2]>) -> Mesh {
     let indices = quad_indices(coordinates.len() / 4);
-    unplaced(coordinates).with_inserted_indices(Indices::U32(indices))
+    unwritten_mesh(coordinates).with_inserted_indices(Indices::U32(indices))
 }
 
-/// Rings: how many vertices they will need is not known before a frame is filled.
+/// A placeholder for rings, whose number of vertices is known only after they are triangulated.
 fn nothing() -> Mesh {
     let (positions, indices) = ring_fill::nothing();
     mesh(positions).with_inserted_indices(Indices::U32(indices))
 }
 
-/// The faces of a placement.
+/// Faces of the placement, sharing vertices.
 fn faces(frame: &Frame) -> Mesh {
     let placement = frame.placement();
     let indices = placement.faces.as_flattened().to_vec();
     mesh(vec![[0.0; 3]; placement.in_frame.len()]).with_inserted_indices(Indices::U32(indices))
 }
 
-/// The same, with room for where each vertex looks.
+/// Faces with lookup positions in source and target.
 fn carried(frame: &Frame) -> Mesh {
     let count = frame.placement().in_frame.len();
     faces(frame)
@@ -71,16 +72,16 @@ fn carried(frame: &Frame) -> Mesh {
         .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0; 4]; count])
 }
 
-/// The corners of faces, each for itself.
+/// Faces that share no vertices, for wireframes.
 fn corners(frame: &Frame) -> Mesh {
-    unplaced(corner_coordinates(frame.placement().faces.len()))
+    unwritten_mesh(corner_coordinates(frame.placement().faces.len()))
 }
 
-/// The outlines of a figure.
+/// Outlines of a figure as lines.
 fn lines(figure: &VectorFigure, origin: DVec2) -> Mesh {
     let mut segments = OutlineSegments::of(figure, origin);
     if segments.quads() == 0 {
-        // An empty mesh would not be taken by the GPU.
+        // The GPU does not accept an empty mesh.
         segments.push_nothing();
     }
     let indices = Indices::U32(quad_indices(segments.quads()));
@@ -89,18 +90,19 @@ fn lines(figure: &VectorFigure, origin: DVec2) -> Mesh {
         .with_inserted_indices(indices)
 }
 
-/// Faces whose vertices know which they are.
+/// Faces whose vertices carry their index in the placement.
 fn numbered_faces(frame: &Frame) -> Mesh {
     let numbers: Vec<u32> = (0..frame.placement().in_frame.len() as u32).collect();
     faces(frame).with_inserted_attribute(VERTEX, numbers)
 }
 
+/// Unshared corners that carry their index in the placement.
 fn numbered_corners(frame: &Frame) -> Mesh {
     let numbers = frame.placement().faces.as_flattened().to_vec();
     corners(frame).with_inserted_attribute(VERTEX, numbers)
 }
 
-/// Everything that parts are made with.
+/// Resources needed to spawn render parts.
 #[derive(SystemParam)]
 pub(super) struct PartAssets<'w, 's> {
     commands: Commands<'w, 's>,
@@ -110,64 +112,67 @@ pub(super) struct PartAssets<'w, 's> {
 }
 
 impl PartAssets<'_, '_> {
+    /// Despawns the render parts among the given children.
     fn undress(&mut self, children: Option<&Children>) {
         for &child in children.into_iter().flatten() {
-            // A program may have hung children of its own below the entity.
+            // A program may have added children of its own to the entity.
             if self.parts.contains(child) {
                 self.commands.entity(child).try_despawn();
             }
         }
     }
 
-    fn dress(&mut self, of: Entity, frame: &Frame) {
+    /// Spawns the render parts of a frame as children of `entity`.
+    fn dress(&mut self, entity: Entity, frame: &Frame) {
         let transition = frame.transition();
-        // In the midst of the vertices, where single precision is finest.
+        // The centre of the vertices, where single precision is finest.
         let origin = transition.bounds().centre();
-        let mut fitting = PartFactory {
-            wardrobe: self,
-            of,
+        let mut factory = PartFactory {
+            assets: self,
+            entity,
             frame,
             origin,
         };
         match transition.content() {
-            Content::Solid(solid) => fitting.add_solid(solid),
+            Content::Solid(solid) => factory.add_solid(solid),
             Content::Field(fields) => {
                 if fields.painted().is_some() {
-                    fitting.add_coats(LayerMesh::of_fields());
+                    factory.add_paint_layers(LayerMesh::of_fields());
                 }
-                let paints = &mut fitting.wardrobe.paints;
+                let paints = &mut factory.assets.paints;
                 let material = FieldMaterial::new(fields.pairs(), &mut paints.images);
                 let material = paints.fields.add(material);
-                fitting.add(PartKind::Field, carried, material, StagePaint::Field);
+                factory.add(PartKind::Field, carried, material, StagePaint::Field);
             }
             Content::Colours(pair) => {
-                let paints = &mut fitting.wardrobe.paints;
+                let paints = &mut factory.assets.paints;
                 let material = ColourMaterial::new(pair, &mut paints.images);
                 let material = paints.colours.add(material);
-                fitting.add(PartKind::Picture, carried, material, StagePaint::Picture);
+                factory.add(PartKind::Picture, carried, material, StagePaint::Picture);
             }
         }
         if !frame.placement().faces.is_empty() {
-            let grids = &mut fitting.wardrobe.paints.grids;
+            let grids = &mut factory.assets.paints.grids;
             let material = grids.add(GridMaterial::default());
-            fitting.add(PartKind::Grid, carried, material, StagePaint::Grid);
+            factory.add(PartKind::Grid, carried, material, StagePaint::Grid);
         }
         let [source, target] = [0, 1]
             .map(|end| move |frame: &Frame| lines(&frame.transition().outlines()[end], origin));
-        fitting.add_inked(PartKind::SourceGhost, source);
-        fitting.add_inked(PartKind::TargetGhost, target);
+        factory.add_inked(PartKind::SourceGhost, source);
+        factory.add_inked(PartKind::TargetGhost, target);
     }
 }
 
-/// One transition that is being dressed.
+/// Spawns the render parts of one transition.
 struct PartFactory<'a, 'w, 's> {
-    wardrobe: &'a mut PartAssets<'w, 's>,
-    of: Entity,
+    assets: &'a mut PartAssets<'w, 's>,
+    entity: Entity,
     frame: &'a Frame,
     origin: DVec2,
 }
 
 impl PartFactory<'_, '_, '_> {
+    /// Spawns a part. Its mesh is created when the part is shown for the first time.
     fn add<M: Material2d>(
         &mut self,
         kind: PartKind,
@@ -175,54 +180,57 @@ impl PartFactory<'_, '_, '_> {
         material: Handle<M>,
         paint: fn(Handle<M>) -> StagePaint,
     ) {
-        // What is never shown takes no memory.
-        let place = self.wardrobe.paints.meshes.reserve_handle();
+        // Reserves the handle only, so that parts never shown take no memory.
+        let handle = self.assets.paints.meshes.reserve_handle();
         let part = StagePart {
             kind,
             paint: paint(material.clone()),
             origin: self.origin,
-            unmade: Some(MissingParts(Box::new(mesh))),
-            stale: true,
+            deferred_mesh: Some(MissingParts(Box::new(mesh))),
+            is_stale: true,
         };
-        let mesh = Mesh2d(place);
-        // A box to cull by would be measured again after each write, and would
-        // not know how far the shader widens lines.
+        let mesh = Mesh2d(handle);
+        // A bounding box for culling would have to be recomputed after each write, and would not
+        // include the lines widened by the shader.
         let drawn = (mesh, MeshMaterial2d(material), NoFrustumCulling);
         let hidden = Visibility::Hidden;
-        let parent = ChildOf(self.of);
-        self.wardrobe.commands.spawn((part, drawn, hidden, parent));
+        let parent = ChildOf(self.entity);
+        self.assets.commands.spawn((part, drawn, hidden, parent));
     }
 
-    /// Faces or wires: played from the graphics card, where there is one.
+    /// Adds faces or a wireframe, played by the graphics card if it supports recordings. `mesh` are
+    /// the constructors without and with vertex indices.
     fn add_triangles(&mut self, kind: PartKind, mesh: [fn(&Frame) -> Mesh; 2]) {
         let [plain, numbered] = mesh;
-        let Some(card) = &self.wardrobe.card else {
+        let Some(card) = &self.assets.card else {
             return self.add_inked(kind, plain);
         };
-        let material = self.wardrobe.paints.played.add(PlayedMaterial {
+        let material = self.assets.paints.played.add(PlayedMaterial {
             colour: LinearRgba::NONE,
             sum: RecordedSum::default(),
-            reel: card.nothing().clone(),
-            kind: kind.ink(),
+            reel: card.placeholder().clone(),
+            kind: kind.ink_kind(),
         });
         self.add(kind, numbered, material, StagePaint::Played);
     }
 
+    /// Adds a part whose vertices the CPU writes.
     fn add_inked(
         &mut self,
         kind: PartKind,
         mesh: impl FnOnce(&Frame) -> Mesh + Send + Sync + 'static,
     ) {
-        let material = self.wardrobe.paints.inks.add(InkMaterial {
+        let material = self.assets.paints.inks.add(InkMaterial {
             colour: LinearRgba::NONE,
             gradients: GradientTextures::default(),
-            kind: kind.ink(),
+            kind: kind.ink_kind(),
         });
         self.add(kind, mesh, material, StagePaint::Ink);
     }
 
-    fn add_coats(&mut self, coats: LayerMesh) {
-        let mesh = match coats.has_faces() {
+    /// Adds a mesh of paint layers.
+    fn add_paint_layers(&mut self, layers: LayerMesh) {
+        let mesh = match layers.has_faces() {
             true => faces(self.frame),
             false => nothing(),
         };
@@ -230,28 +238,29 @@ impl PartFactory<'_, '_, '_> {
         let mesh = mesh
             .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0_f32; 4]; count])
             .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0_f32; 2]; count]);
-        self.add_inked(PartKind::Coats(coats), |_| mesh);
+        self.add_inked(PartKind::PaintLayers(layers), |_| mesh);
     }
 
+    /// Adds the parts of a solid: fill, bars, joints and wireframe.
     fn add_solid(&mut self, solid: &SolidContent) {
         let count = self.frame.placement().faces.len();
         let has_loops = !solid.loops.is_empty();
-        // Faces know nothing of that.
-        let comes_and_goes = !solid.holes.is_empty() || !solid.swells.is_empty();
-        if let Some(coating) = &solid.coating {
-            self.add_coats(LayerMesh::of_solid(self.frame, solid, coating));
-        } else if has_loops && (count == 0 || comes_and_goes) {
+        // Faces cannot represent transient parts and holes.
+        let has_transients = !solid.holes.is_empty() || !solid.swelling_shapes.is_empty();
+        if let Some(stack) = &solid.paint_layers {
+            self.add_paint_layers(LayerMesh::of_solid(self.frame, solid, stack));
+        } else if has_loops && (count == 0 || has_transients) {
             self.add_inked(PartKind::Rings, |_| nothing());
         } else if has_loops {
             self.add_triangles(PartKind::Faces, [faces, numbered_faces]);
         }
-        for bars in BarShapes::all(solid) {
+        for bars in BarShapes::grouped_by_paint(solid) {
             let (shapes, cores) = (quads(bars.coordinates()), quads(bars.core_coordinates()));
             self.add_inked(PartKind::Bars(bars.clone()), |_| shapes);
             self.add_inked(PartKind::JointCores(bars), |_| cores);
         }
         if count > 0 {
-            // A truss has panels but no loops: its wires lie on the ground.
+            // A truss has panels but no filled loops, so its wireframe lies on the background.
             let wire = PartKind::Wire {
                 on_faces: has_loops,
             };
@@ -260,28 +269,28 @@ impl PartFactory<'_, '_, '_> {
     }
 }
 
-/// Gives new transitions their parts; how they look is for drawing to say.
+/// Spawns the render parts of new transitions. Drawing sets their look.
 pub(super) fn dress(
-    undressed: Query<(Entity, &Morph, Option<&Children>), With<WithoutParts>>,
-    mut wardrobe: PartAssets,
+    new_morphs: Query<(Entity, &Morph, Option<&Children>), With<WithoutParts>>,
+    mut assets: PartAssets,
 ) {
-    for (entity, morph, children) in &undressed {
-        // Of an earlier transition, where this one replaces it.
-        wardrobe.undress(children);
-        let mut commands = wardrobe.commands.entity(entity);
+    for (entity, morph, children) in &new_morphs {
+        // Parts of an earlier transition that this one replaces.
+        assets.undress(children);
+        let mut commands = assets.commands.entity(entity);
         commands.remove::<(WithoutParts, UploadState)>();
-        wardrobe.dress(entity, morph.frame());
+        assets.dress(entity, morph.frame());
     }
 }
 
-/// Takes the parts away with the frame that they showed.
+/// Observer that despawns the render parts of a removed morph.
 pub(super) fn undress(
     removed: On<Remove, Morph>,
     children: Query<&Children>,
-    mut wardrobe: PartAssets,
+    mut assets: PartAssets,
 ) {
-    wardrobe.undress(children.get(removed.entity).ok());
-    wardrobe
+    assets.undress(children.get(removed.entity).ok());
+    assets
         .commands
         .entity(removed.entity)
         .try_remove::<UploadState>();

@@ -1,5 +1,5 @@
-//! The render entities below an entity on the stage: faces or field, bars,
-//! joints, wires and ghosts.
+//! Render parts of an entity on the stage: child entities for faces, fields, bars, joints,
+//! wireframes and outlines.
 
 use bevy::prelude::*;
 use glam::DVec2;
@@ -20,21 +20,22 @@ use super::stage_view::StageView;
 use super::uploaded_recording::UploadState;
 use super::vertices::{BarShapes, positions, write_corners, write_points};
 
-/// A render entity of a transition.
+/// A render part: a child entity that draws one element of a transition.
 #[derive(Component, Debug)]
 pub(super) struct StagePart {
+    /// Element that the part draws.
     pub(super) kind: PartKind,
+    /// Material of the part.
     pub(super) paint: StagePaint,
-    /// The point of the plane that the vertices are relative to.
+    /// Point of the plane that the vertices are relative to.
     pub(super) origin: DVec2,
-    /// How its mesh is made, once it is shown.
-    pub(super) unmade: Option<MissingParts>,
-    /// The vertices are not those of the frame: they have not been written
-    /// since the frame moved.
-    pub(super) stale: bool,
+    /// Constructor of its mesh; taken when the part is shown for the first time.
+    pub(super) deferred_mesh: Option<MissingParts>,
+    /// Whether the vertices are older than the frame: the frame moved since they were written.
+    pub(super) is_stale: bool,
 }
 
-/// A mesh that has not been wanted yet.
+/// Deferred constructor of a mesh.
 pub(super) struct MissingParts(pub(super) Box<dyn FnOnce(&Frame) -> Mesh + Send + Sync>);
 
 impl fmt::Debug for MissingParts {
@@ -43,37 +44,45 @@ impl fmt::Debug for MissingParts {
     }
 }
 
-/// What a part shows.
+/// Element of a transition that a render part draws.
 #[derive(Clone, Debug)]
 pub(super) enum PartKind {
+    /// Filled faces.
     Faces,
-    /// Boundaries that bring no faces, or more holes than those.
+    /// Filled boundaries without faces, or with holes that the faces do not have.
     Rings,
-    /// Faces or boundaries in several paints.
-    Coats(LayerMesh),
+    /// Faces or rings in several paint layers.
+    PaintLayers(LayerMesh),
+    /// Distance fields.
     Field,
+    /// Cross-dissolved pictures.
     Picture,
+    /// Bars of a truss that share their paints.
     Bars(BarShapes),
+    /// Lighter cores of their joints.
     JointCores(BarShapes),
+    /// Edges of the triangulation.
     Wire {
-        /// It is seen on the faces, not on the ground.
+        /// Whether it is drawn on filled faces, not on the background.
         on_faces: bool,
     },
-    /// The grids that show the warp.
+    /// Grid that shows the warp.
     Grid,
+    /// Outline of the source.
     SourceGhost,
+    /// Outline of the target.
     TargetGhost,
 }
 
 impl PartKind {
-    /// What is drawn over what.
-    pub(super) fn layer(&self) -> f32 {
+    /// Height in the drawing order; parts with larger values cover those with smaller ones.
+    pub(super) fn z(&self) -> f32 {
         match self {
-            Self::Faces | Self::Rings | Self::Coats(_) | Self::Picture => 0.0,
-            // Lines of equal distance lie over the paints.
+            Self::Faces | Self::Rings | Self::PaintLayers(_) | Self::Picture => 0.0,
+            // Lines of equal distance lie above the paint layers.
             Self::Field => 0.05,
-            Self::Bars(bars) => 0.1 + 0.05 * bars.height,
-            Self::JointCores(bars) => 0.2 + 0.05 * bars.height,
+            Self::Bars(bars) => 0.1 + 0.05 * bars.z_fraction,
+            Self::JointCores(bars) => 0.2 + 0.05 * bars.z_fraction,
             Self::Wire { .. } => 0.3,
             Self::Grid => 0.35,
             Self::SourceGhost => 0.4,
@@ -81,21 +90,25 @@ impl PartKind {
         }
     }
 
-    pub(super) fn ink(&self) -> InkKind {
+    /// Shader variant of its material.
+    pub(super) fn ink_kind(&self) -> InkKind {
         match self {
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
             Self::Wire { .. } => InkKind::Wire,
             Self::SourceGhost | Self::TargetGhost => InkKind::Line,
-            Self::Coats(_) => InkKind::Coats,
+            Self::PaintLayers(_) => InkKind::PaintLayers,
             _ => InkKind::Faces,
         }
     }
 
+    /// Whether the style shows the part.
     pub(super) fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
         match self {
             Self::Faces | Self::Rings | Self::Picture => show.fill,
-            Self::Coats(coats) => show.fill && !(coats.is_of_fields() && show.signed_colours),
-            // One shader draws all three, and leaves out what is not asked for.
+            Self::PaintLayers(layers) => {
+                show.fill && !(layers.is_of_fields() && show.signed_colours)
+            }
+            // One shader draws all three and omits those that are off.
             Self::Field => show.fill || show.iso_lines || show.signed_colours,
             Self::Bars(_) => show.bars,
             Self::JointCores(_) => show.bars && style.joints,
@@ -105,63 +118,62 @@ impl PartKind {
         }
     }
 
+    /// Colour at `t`, for parts in one colour.
     pub(super) fn colour(&self, t: f64, StageStyle { style, show }: &StageStyle) -> Rgb {
         match self {
             Self::Bars(bars) => style.paint_at(bars.paints, t).colour,
             Self::JointCores(bars) => joint_core(style.paint_at(bars.paints, t).colour),
             Self::SourceGhost => style.source,
             Self::TargetGhost => style.target,
-            // Wires are cut into the fill where there is one.
+            // On a fill, wireframes are drawn in the background colour.
             Self::Wire { on_faces: true } if show.fill => style.ground,
             _ => style.fill_at(t),
         }
     }
 
-    /// Whether its vertices are others once the frame, or how it looks, is.
-    pub(super) fn outdated(&self, has_moved: bool, is_restyled: bool, frame: &Frame) -> bool {
+    /// Whether its vertices must be rewritten after the frame moved or the style changed.
+    pub(super) fn is_outdated(&self, has_moved: bool, is_restyled: bool, frame: &Frame) -> bool {
         match self {
             Self::SourceGhost | Self::TargetGhost => false,
-            // Where nothing is warped only the material changes, and the first
-            // write is due to `stale`.
+            // Without a warp only the material changes; the stale flag triggers the first write.
             Self::Field | Self::Picture => {
-                has_moved && frame.transition().cell().warp() != WarpKind::None
+                has_moved && frame.transition().method().warp() != WarpKind::None
             }
-            // Bars are as wide as their joints are drawn, and what has no paint of its
-            // own has the style's.
-            Self::Bars(_) | Self::Coats(_) => has_moved || is_restyled,
+            // The style sets the radius of joints and the colours of layers without paints of their
+            // own.
+            Self::Bars(_) | Self::PaintLayers(_) => has_moved || is_restyled,
             _ => has_moved,
         }
     }
 }
 
 impl StagePart {
-    /// Whether the graphics card knows where its vertices are at `t`.
+    /// Whether the graphics card evaluates its vertices at `t` from a recording.
     pub(super) fn is_played(&self, sent: Option<&UploadState>, t: f64) -> bool {
-        let is_there = sent.is_some_and(|sent| sent.shows(t));
+        let is_there = sent.is_some_and(|sent| sent.covers(t));
         is_there && matches!(self.paint, StagePaint::Played(_))
     }
 
-    /// Whether it is shown and wants to know where its vertices are as the frame moves
-    /// to `t`.
-    pub(super) fn reads(
+    /// Whether the part is shown and its vertices must be placed on the CPU for `t`.
+    pub(super) fn needs_positions(
         &self,
         frame: &Frame,
         t: f64,
         style: &StageStyle,
         sent: Option<&UploadState>,
     ) -> bool {
-        let is_outdated = self.kind.outdated(true, false, frame);
+        let is_outdated = self.kind.is_outdated(true, false, frame);
         self.kind.is_shown(style) && is_outdated && !self.is_played(sent, t)
     }
 
-    /// Brings the vertices up to where the frame is.
+    /// Writes the vertices of the current frame.
     pub(super) fn write(&mut self, frame: &Frame, style: &StageStyle, mesh: &mut Mesh) {
         let placement = frame.placement();
         let (points, faces, origin) = (&placement.in_frame, &placement.faces, self.origin);
         let joints = style.style.joints;
         match &mut self.kind {
-            PartKind::Coats(coats) => {
-                coats.write(frame, &style.style, origin, mesh);
+            PartKind::PaintLayers(layers) => {
+                layers.write(frame, &style.style, origin, mesh);
             }
             PartKind::Rings => ring_fill::write(frame, origin, mesh),
             PartKind::Field | PartKind::Picture => {
@@ -175,18 +187,18 @@ impl StagePart {
             PartKind::Bars(bars) => bars.write(points, joints, origin, positions(mesh)),
             PartKind::JointCores(bars) => bars.write_cores(points, origin, positions(mesh)),
         }
-        self.stale = false;
+        self.is_stale = false;
     }
 }
 
-/// Puts parts where they are in Bevy's world.
+/// Positions render parts in Bevy's world, relative to the anchor of the view.
 pub(super) fn place_parts(view: Res<StageView>, mut parts: Query<(&StagePart, &mut Transform)>) {
     for (part, transform) in &mut parts {
-        // Subtracted in double precision: designs may lie far from zero, and
-        // the view follows them.
-        let at = (part.origin - view.anchor()).as_vec2();
-        let translation = at.extend(part.kind.layer());
-        let mut place = transform.map_unchanged(|transform| &mut transform.translation);
-        place.set_if_neq(translation);
+        // Subtracted in double precision: designs may lie far from zero, and the anchor follows
+        // them.
+        let offset = (part.origin - view.anchor()).as_vec2();
+        let translation = offset.extend(part.kind.z());
+        let mut current = transform.map_unchanged(|transform| &mut transform.translation);
+        current.set_if_neq(translation);
     }
 }

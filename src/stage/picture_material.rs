@@ -1,9 +1,8 @@
-//! Colours on the GPU: both pictures as textures, cross-dissolved by the
-//! fragment shader.
+//! Material of cross-dissolved pictures: both pictures as textures, mixed by the fragment shader.
 //!
-//! Guarantees: light is mixed linear and premultiplied, as the core does it; a
-//! pixel of an opaque picture seen at its own size is that pixel. Does not
-//! guarantee the core's last digits: pictures agree to about a step of 255.
+//! Guaranteed: pictures are mixed in linear light with premultiplied alpha, as by [`PicturePair`];
+//! a pixel of an opaque picture seen at its own size keeps its value. Not guaranteed: the last
+//! digits. Results agree with those of the CPU to about one of 255 steps.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::{ImageAddressMode, ImageSampler, ImageSamplerDescriptor, ToExtents};
@@ -30,11 +29,12 @@ pub(super) struct ColourMaterial {
     target: Handle<Image>,
 }
 
-/// The uniform of [`ColourMaterial`]; the same fields as in `colours.wgsl`.
+/// Uniform of [`ColourMaterial`]; the same fields as in `colours.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct ColourLook {
-    /// Least and most x and y of what is shown, relative to the part's origin.
+    /// Visible rectangle relative to the part's origin: minimum x and y, maximum x and y.
     window: Vec4,
+    /// Fraction of the target in the mix.
     share: f32,
 }
 
@@ -52,7 +52,7 @@ impl ColourMaterial {
     pub(super) fn new(pair: &PicturePair, images: &mut Assets<Image>) -> Self {
         let [source, target] = pair.layers();
         Self {
-            look: ColourLook::default(), // until it is drawn
+            look: ColourLook::default(), // set when it is drawn
             source: images.add(texture(source)),
             target: images.add(texture(target)),
         }
@@ -63,17 +63,17 @@ impl ColourLook {
     pub(super) fn new(pair: &PicturePair, t: f64, origin: DVec2) -> Self {
         Self {
             window: relative(pair.window(t), origin),
-            share: pair.mix().share(t) as f32,
+            share: pair.mix().target_fraction(t) as f32,
         }
     }
 }
 
-/// A picture with its smaller sizes, premultiplied, coded as sRGB: the card
-/// decodes before it interpolates.
+/// Texture of a picture with all mipmap levels, premultiplied, encoded as sRGB. The graphics card
+/// decodes it before it interpolates.
 fn texture(layer: &PictureLayer) -> Image {
     let (width, height) = layer.picture().pixels().dimensions();
     let (bytes, levels) = layer.texture();
-    // Not `Image::new`: that wants the bytes of the largest size alone.
+    // Not `Image::new`, which accepts the largest level only.
     let mut image = Image::new_uninit(
         UVec2::new(width, height).to_extents(),
         TextureDimension::D2,

@@ -1,23 +1,25 @@
-// Vertices that are summed from a film, where there is one, and else are those of the
-// mesh. Fragments are drawn by `ink.wgsl`.
-//   WIRE  `uv` holds two barycentric coordinates
+// Vertex shader that evaluates a recording. Without one it uses the vertices of the mesh. Fragments
+// are drawn by `ink.wgsl`.
+//
+// With the shader definition WIRE, `uv` holds two barycentric coordinates.
 
 #import bevy_sprite::{
     mesh2d_functions as mesh_functions,
     mesh2d_vertex_output::VertexOutput,
 }
 
+// Same fields as RecordedSum in recorded_material.rs.
 struct Sum {
     weights: array<vec4<f32>, 6>,
-    // How far from each end of the reel: together 1.
+    // Distance from each end of the recorded interval; the two sum to 1.
     shares: vec2<f32>,
     coefficients: u32,
-    // In a row; 0 where the mesh has them.
+    // Number of vertices per row; 0 if the positions are those of the mesh.
     vertices: u32,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(3) var<uniform> sum: Sum;
-// Row after row: where vertices are at both ends, then their coefficients.
+// Row by row: the positions at both ends of the interval, then the coefficient rows.
 @group(#{MATERIAL_BIND_GROUP}) @binding(4) var<storage, read> reel: array<vec2<f32>>;
 
 struct Corner {
@@ -29,12 +31,12 @@ struct Corner {
 #endif
 }
 
+// Position of a vertex: the straight line between the ends, plus the polynomial terms.
 fn place(vertex: u32) -> vec2<f32> {
     let begin = reel[vertex];
     let end = reel[sum.vertices + vertex];
     let way = end - begin;
-    // From the nearer end, so that both are met to the last bit and what rests does
-    // not tremble.
+    // Computed from the nearer end, so that both ends are exact and vertices at rest do not jitter.
     let straight = select(
         end - sum.shares.y * way,
         begin + sum.shares.x * way,

@@ -1,9 +1,9 @@
-//! The material of faces and wires that can be played from the graphics card: the vertex
-//! shader sums the film, and no vertex is written while t moves.
+//! Material of faces and wireframes played by the graphics card: the vertex shader evaluates the
+//! recording, and no vertices are written while t moves.
 //!
-//! As long as there is no film, and outside of it, the vertices are those of the mesh,
-//! as of everything else: so a film that is there at last changes nothing but who sums.
-//! What is drawn is drawn by the shader of [`InkMaterial`](super::ink::InkMaterial).
+//! Without a recording, and for t outside it, the shader uses the vertices of the mesh, so the
+//! picture does not change when the recording arrives. Fragments are drawn by the shader of
+//! [`InkMaterial`](super::ink_material::InkMaterial).
 
 use bevy::mesh::{MeshVertexAttribute, MeshVertexBufferLayoutRef};
 use bevy::prelude::*;
@@ -18,18 +18,18 @@ use crate::recording::{IntervalWeights, MOST_COEFFICIENTS};
 
 use super::ink_material::{InkKind, embedded};
 
-/// Which vertex of the placement a vertex of the mesh is: meshes lie together in buffers,
-/// so that the number that a shader is told says nothing.
+/// Vertex attribute: index of the vertex in the placement. Meshes share buffers, so the shader's
+/// built-in vertex index is not the index in the mesh.
 pub(super) const VERTEX: MeshVertexAttribute = MeshVertexAttribute::new(
     "Vertex_Of_Placement",
     0x6d6f_7270_6801,
     VertexFormat::Uint32,
 );
 
-/// Rows of four that hold as many weights as there are at most.
-const ROWS: usize = MOST_COEFFICIENTS.div_ceil(4);
+/// Number of `vec4` that hold the maximum number of weights.
+const WEIGHT_VECTORS: usize = MOST_COEFFICIENTS.div_ceil(4);
 
-/// One opaque colour, on faces or their edges.
+/// One opaque colour for faces or their edges.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(InkKind)]
 pub(super) struct PlayedMaterial {
@@ -37,25 +37,28 @@ pub(super) struct PlayedMaterial {
     pub(super) colour: LinearRgba,
     #[uniform(3)]
     pub(super) sum: RecordedSum,
-    /// Row after row.
+    /// Recorded interval, row by row.
     #[storage(4, read_only, buffer, visibility(vertex))]
     pub(super) reel: Buffer,
     pub(super) kind: InkKind,
 }
 
-/// How the rows of a reel are summed; the same fields as in `played.wgsl`.
+/// Weights of the rows of a recorded interval; the same fields as in `played.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct RecordedSum {
-    weights: [Vec4; ROWS],
+    /// Weights of the coefficient rows, four per vector.
+    weights: [Vec4; WEIGHT_VECTORS],
+    /// Distance from each end of the interval, as fractions that sum to 1.
     shares: Vec2,
+    /// Number of coefficient rows.
     coefficients: u32,
-    /// In a row; none where the mesh has them.
+    /// Number of vertices per row; 0 if the positions are those of the mesh.
     vertices: u32,
 }
 
 impl RecordedSum {
     pub(super) fn new(weights: &IntervalWeights, vertices: usize, coefficients: usize) -> Self {
-        let mut rows = [Vec4::ZERO; ROWS];
+        let mut rows = [Vec4::ZERO; WEIGHT_VECTORS];
         for (k, weight) in weights.coefficients.into_iter().enumerate() {
             rows[k / 4][k % 4] = weight;
         }

@@ -1,10 +1,10 @@
-//! Films on the graphics card: once a film was recorded, its reels are sent there, in
-//! single precision, and what they show is played without the processor.
+//! Uploads recordings to the graphics card, in single precision, so that it plays them without the
+//! CPU.
 //!
-//! Guarantees: nothing waits for it, and the picture is the same before and after; a
-//! film that the card has no room for is played as if there were no card. Does not
-//! guarantee films on a card that is lost and found again: such a program puts its
-//! transitions on the stage anew.
+//! Guaranteed: nothing waits for an upload, and the picture is the same before and after it. A
+//! recording that does not fit into the memory of the card is played by the CPU. Not guaranteed:
+//! recordings after the device was lost and recreated; a program must then put its transitions on
+//! the stage again.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::{Buffer, BufferInitDescriptor, BufferUsages, DownlevelFlags};
@@ -21,26 +21,27 @@ use super::paint::StagePaint;
 use super::parts::StagePart;
 use super::uploaded_recording::{UploadState, UploadedInterval, UploadedIntervals};
 
-/// Storage buffers of Bevy's own that a vertex shader of ours may have beside the film.
-const OTHERS: u32 = 3;
+/// Number of storage buffers that Bevy binds in our vertex shaders; the recording needs one more.
+const BEVY_STORAGE_BUFFERS: u32 = 3;
 
-/// A graphics card whose vertex shaders read buffers; there is none where they do not.
+/// The graphics card, if its vertex shaders can read storage buffers. The resource is missing
+/// otherwise.
 #[derive(Resource, Clone)]
 pub(super) struct CardRecording {
     device: RenderDevice,
-    /// What a material has in the place of a film.
+    /// Buffer bound while there is no recording.
     nothing: Buffer,
-    /// What a reel may take, in bytes.
-    most_bytes: u64,
+    /// Maximum size of an uploaded interval, in bytes.
+    max_bytes: u64,
 }
 
 impl CardRecording {
-    pub(super) fn nothing(&self) -> &Buffer {
+    pub(super) fn placeholder(&self) -> &Buffer {
         &self.nothing
     }
 }
 
-/// Looks whether there is such a card.
+/// Inserts [`CardRecording`] if the graphics card supports it.
 pub(super) fn find_card(
     mut commands: Commands,
     device: Option<Res<RenderDevice>>,
@@ -52,11 +53,11 @@ pub(super) fn find_card(
     let limits = device.limits();
     let flags = adapter.get_downlevel_capabilities().flags;
     if flags.contains(DownlevelFlags::VERTEX_STORAGE)
-        && limits.max_storage_buffers_per_shader_stage > OTHERS
+        && limits.max_storage_buffers_per_shader_stage > BEVY_STORAGE_BUFFERS
     {
         commands.insert_resource(CardRecording {
             nothing: buffer(&device, &[[0.0; 2]]),
-            most_bytes: limits
+            max_bytes: limits
                 .max_storage_buffer_binding_size
                 .min(limits.max_buffer_size),
             device: device.clone(),
@@ -64,6 +65,7 @@ pub(super) fn find_card(
     }
 }
 
+/// Creates a storage buffer.
 fn buffer(device: &RenderDevice, numbers: &[[f32; 2]]) -> Buffer {
     device.create_buffer_with_data(&BufferInitDescriptor {
         label: Some("film"),
@@ -72,7 +74,7 @@ fn buffer(device: &RenderDevice, numbers: &[[f32; 2]]) -> Buffer {
     })
 }
 
-/// Sends films that have been recorded since.
+/// Starts uploading transitions that have been recorded since the last frame.
 pub(super) fn send_films(
     mut commands: Commands,
     card: Option<Res<CardRecording>>,
@@ -86,47 +88,56 @@ pub(super) fn send_films(
         let transition = morph.frame().transition();
         let mut parts = parts.iter_many(children);
         let played = parts.find(|part| matches!(part.paint, StagePaint::Played(_)));
-        if let (Some(Ok(film)), Some(part)) = (transition.film(), played) {
+        if let (Some(Ok(film)), Some(part)) = (transition.recording(), played) {
             let (card, film, origin) = (card.clone(), film.clone(), part.origin);
             let vertices = morph.frame().placement().in_frame.len();
             let task = AsyncComputeTaskPool::get()
-                .spawn(async move { card.send(film, vertices, origin).await });
-            commands.entity(entity).try_insert(UploadState::Under(task));
+                .spawn(async move { card.upload(film, vertices, origin).await });
+            commands
+                .entity(entity)
+                .try_insert(UploadState::Uploading(task));
         }
     }
 }
 
-/// Takes in those that have arrived.
+/// Takes in finished uploads.
 pub(super) fn take_films(mut films: Query<&mut UploadState>) {
     for mut sent in &mut films {
-        if let UploadState::Under(task) = sent.bypass_change_detection()
-            && let Some(arrived) = check_ready(task)
+        if let UploadState::Uploading(task) = sent.bypass_change_detection()
+            && let Some(uploaded) = check_ready(task)
         {
-            *sent = arrived.map_or(UploadState::Refused, UploadState::There);
+            *sent = uploaded.map_or(UploadState::Refused, UploadState::Ready);
         }
     }
 }
 
 impl CardRecording {
-    async fn send(
+    /// Uploads a recording; `None` if the card has no room. Positions are relative to `origin`.
+    async fn upload(
         self,
         film: Recording,
         vertices: usize,
         origin: DVec2,
     ) -> Option<UploadedIntervals> {
         let device = self.device.wgpu_device();
-        // Unheard, it would end the program.
+        // Without a scope, running out of memory would end the program.
         let scope = device.push_error_scope(ErrorFilter::OutOfMemory);
-        let reels = film.singles(vertices, origin);
-        let reels: Option<Vec<UploadedInterval>> = reels.map(|single| self.reel(&single)).collect();
+        let intervals = film.singles(vertices, origin);
+        let reels: Option<Vec<UploadedInterval>> = intervals
+            .map(|single| self.upload_interval(&single))
+            .collect();
         let error = scope.pop().await;
         let reels = reels.filter(|reels| error.is_none() && !reels.is_empty())?;
-        Some(UploadedIntervals { film, reels })
+        Some(UploadedIntervals {
+            recording: film,
+            intervals: reels,
+        })
     }
 
-    fn reel(&self, single: &SinglePrecisionInterval) -> Option<UploadedInterval> {
+    /// Uploads one interval; `None` if it exceeds the limit.
+    fn upload_interval(&self, single: &SinglePrecisionInterval) -> Option<UploadedInterval> {
         let bytes = size_of_val(&single.numbers[..]) as u64;
-        (bytes <= self.most_bytes).then(|| UploadedInterval {
+        (bytes <= self.max_bytes).then(|| UploadedInterval {
             rows: buffer(&self.device, &single.numbers),
             vertices: single.vertices,
             coefficients: single.coefficients,

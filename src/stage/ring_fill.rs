@@ -1,10 +1,9 @@
-//! The render mesh of boundaries that bring no faces, or have holes in them that
-//! come and go: their rings, filled together by the non-zero rule.
+//! Render mesh of rings filled by the non-zero rule, for boundaries without faces or with transient
+//! holes.
 //!
-//! The rings may cross themselves and each other, so each frame is triangulated
-//! anew (`i_triangle`, a sweep over a grid of 64-bit integers; some
-//! microseconds a vertex). Unlike the other parts this one allocates while it
-//! moves.
+//! The rings may cross themselves and each other, so they are triangulated anew in each frame
+//! (`i_triangle`, a sweep over a grid of 64-bit integers; a few microseconds per vertex). Unlike
+//! other render parts, this one allocates while it moves.
 
 use bevy::mesh::Indices;
 use bevy::prelude::*;
@@ -14,52 +13,50 @@ use i_triangle::float::triangulatable::Triangulatable;
 use crate::content::Content;
 use crate::transition::Frame;
 
-/// Farther from the origin nothing is filled: the GPU has 32-bit numbers, which
-/// end at 3e38, and the grid of integers panics from 2^500 on.
-const FARTHEST: f64 = 1e30;
+/// Maximum absolute coordinate that is filled, relative to the origin (resource limit: the GPU's
+/// 32-bit floats end at 3e38, and the integer grid panics from 2^500 on).
+const MAX_COORDINATE: f64 = 1e30;
 
-/// Vertices and faces of a mesh.
+/// Positions and indices of a triangle mesh.
 type RingFill = (Vec<[f32; 3]>, Vec<u32>);
 
-/// Vertices and faces of a mesh that shows nothing: an empty one would not be
-/// taken by the GPU.
+/// A triangle without area, which shows nothing. The GPU does not accept an empty mesh.
 pub(super) fn nothing() -> RingFill {
     (vec![[0.0; 3]; 3], vec![0, 1, 2])
 }
 
-/// Fills the rings of a solid, relative to `origin`.
+/// Triangulates the rings of a frame's solid, relative to `origin`, and writes them into `mesh`.
 pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
     let Content::Solid(solid) = frame.transition().content() else {
         return;
     };
     let rings = solid.rings_at(&frame.placement().in_frame, frame.t());
     let (positions, indices) = filled(&rings, origin);
-    // Other frames have other triangles: there is nothing to be written in
-    // place.
+    // Replaces all attributes, because the triangles change from frame to frame.
     mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, positions);
     mesh.insert_indices(Indices::U32(indices));
 }
 
-/// The triangles of rings; nothing where there is no area, or a point is [`FARTHEST`] or not finite, as
-/// far outside [0, 1].
+/// Triangulates rings relative to `origin`. The result shows nothing if the rings have no area, or
+/// a coordinate is not finite or exceeds [`MAX_COORDINATE`], as can happen far outside [0, 1].
 pub(super) fn filled(rings: &[Vec<DVec2>], origin: DVec2) -> RingFill {
-    let of = |ring: &Vec<DVec2>| -> Vec<[f64; 2]> {
+    let to_contour = |ring: &Vec<DVec2>| -> Vec<[f64; 2]> {
         ring.iter().map(|&p| (p - origin).to_array()).collect()
     };
-    let contours: Vec<Vec<[f64; 2]>> = rings.iter().map(of).collect();
-    // Asked this way round NaN is not near either.
-    let mut numbers = contours.iter().flatten().flatten();
-    if !numbers.all(|x| x.abs() < FARTHEST) {
+    let contours: Vec<Vec<[f64; 2]>> = rings.iter().map(to_contour).collect();
+    // Written so that NaN fails the test.
+    let mut coordinates = contours.iter().flatten().flatten();
+    if !coordinates.all(|x| x.abs() < MAX_COORDINATE) {
         return nothing();
     }
-    let found = contours.triangulate_as::<i64>().to_triangulation::<u32>();
-    if found.indices.is_empty() {
+    let triangulation = contours.triangulate_as::<i64>().to_triangulation::<u32>();
+    if triangulation.indices.is_empty() {
         return nothing();
     }
     let vertex = |[x, y]: [f64; 2]| [x as f32, y as f32, 0.0];
     (
-        found.points.into_iter().map(vertex).collect(),
-        found.indices,
+        triangulation.points.into_iter().map(vertex).collect(),
+        triangulation.indices,
     )
 }
 
@@ -92,7 +89,7 @@ mod tests {
         };
         let hole: Vec<DVec2> = square(1.0, 1.0).into_iter().rev().collect();
         let bow = ring(&[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)]);
-        for (rings, wanted) in [
+        for (rings, expected_area) in [
             (vec![square(0.0, 4.0), hole], 15.0),
             (vec![square(0.0, 2.0), square(1.0, 2.0)], 7.0),
             (vec![bow], 0.5),
@@ -101,8 +98,11 @@ mod tests {
             (vec![vec![DVec2::NAN, DVec2::ONE, DVec2::X]], 0.0),
             (vec![vec![DVec2::MAX, DVec2::ONE, DVec2::X]], 0.0),
         ] {
-            let found = area(&rings);
-            assert!((found - wanted).abs() < 1e-4, "{found} is not {wanted}");
+            let filled_area = area(&rings);
+            assert!(
+                (filled_area - expected_area).abs() < 1e-4,
+                "{filled_area} is not {expected_area}"
+            );
         }
     }
 }

@@ -1,10 +1,10 @@
-//! One system solves: wherever [`Blend`] changed, its frame is sought.
+//! Moves the frame of each morph to its [`Blend`].
 //!
-//! A frame that the graphics card plays is placed only if somebody reads it: see
+//! A frame that the graphics card plays is placed only if its positions are read: see
 //! [`Morph::frame`].
 //!
-//! Guarantees: nothing is allocated and nothing can fail; an unchanged t costs
-//! nothing and marks nothing as changed.
+//! Guaranteed: nothing is allocated and nothing can fail; an unchanged t costs nothing and marks
+//! nothing as changed.
 
 use bevy::platform::time::Instant;
 use bevy::prelude::*;
@@ -14,14 +14,15 @@ use super::frame_times::FrameTimes;
 use super::parts::StagePart;
 use super::uploaded_recording::UploadState;
 
-/// A frame, and what is drawn of it.
+/// Components that moving a frame needs: the morph, and what decides whether its positions are
+/// read.
 type MorphEntities = (
     &'static Blend,
     &'static mut Morph,
     Option<(&'static UploadState, &'static StageStyle, &'static Children)>,
 );
 
-/// Seeks every frame whose blend parameter moved.
+/// Moves every frame whose blend parameter changed.
 pub(super) fn solve_frames(
     mut morphs: Query<MorphEntities, Changed<Blend>>,
     parts: Query<&StagePart>,
@@ -30,15 +31,16 @@ pub(super) fn solve_frames(
     let start = Instant::now();
     let mut has_sought = false;
     for (&Blend { t }, mut morph, drawn) in &mut morphs {
-        // Read through a shared borrow: only the seek below marks the frame as
-        // changed, and what is drawn goes by that.
+        // Compared through a shared borrow: only an actual move marks the frame as changed and
+        // triggers drawing.
         if t.is_finite() && morph.frame().t() != t {
             let is_played = drawn.is_some_and(|(sent, style, children)| {
-                let reads = |part: &StagePart| part.reads(morph.frame(), t, style, Some(sent));
+                let reads =
+                    |part: &StagePart| part.needs_positions(morph.frame(), t, style, Some(sent));
                 !parts.iter_many(children).any(reads)
             });
             if is_played {
-                morph.0.turn(t);
+                morph.0.set_time(t);
             } else {
                 morph.0.seek(t);
             }

@@ -1,20 +1,21 @@
-//! Which part of the plane the window shows: fit, pan, zoom to the pointer.
+//! View of the stage: fit, pan, and zoom at the pointer.
 //!
-//! Guarantees: what is under the pointer stays there while zooming; screen and
-//! world convert into each other without drift, in `f64`. Pixels are logical
-//! ones: the window's scale factor is Bevy's affair and changes nothing here.
+//! Guaranteed: the point under the pointer stays there while zooming; screen and plane convert into
+//! each other in `f64` without drift. Pixels are logical pixels; Bevy applies the window's scale
+//! factor.
 
 use bevy::prelude::*;
 use glam::DVec2;
 
 use crate::geometry::Bounds;
 
-/// How far one can zoom in and out, relative to the scale that fits: nearer,
-/// single precision would show; farther, nothing would.
-const NEAREST: f64 = 1e-4;
-const FARTHEST: f64 = 1e2;
+/// Minimum scale, relative to the scale of the last fit (resource limit: closer, single precision
+/// becomes visible).
+const MIN_SCALE: f64 = 1e-4;
+/// Maximum scale, relative to the scale of the last fit (heuristic).
+const MAX_SCALE: f64 = 1e2;
 
-/// The part of the plane that every [`StageCamera`](super::StageCamera) shows.
+/// Part of the plane that every [`StageCamera`](super::StageCamera) shows.
 ///
 /// ```
 /// use bevy::math::Vec2;
@@ -33,14 +34,16 @@ const FARTHEST: f64 = 1e2;
 #[derive(Resource, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct StageView {
-    /// The point in the middle of the viewport.
+    /// Point of the plane in the middle of the viewport.
     pub centre: DVec2,
     /// Units of the designs per logical pixel, positive.
     pub units_per_px: f64,
-    /// Size of the viewport in logical pixels; kept up to date by the plugin
-    /// where there is a stage camera.
+    /// Size of the viewport in logical pixels. The plugin keeps it up to date if there is a stage
+    /// camera.
     pub viewport_px: Vec2,
+    /// Scale of the last fit, in units per logical pixel.
     fitted: f64,
+    /// Point of the plane at the origin of Bevy's world.
     anchor: DVec2,
 }
 
@@ -57,11 +60,10 @@ impl Default for StageView {
 }
 
 impl StageView {
-    /// Shows all of `bounds`, as large as the viewport of the given size (in
-    /// logical pixels) allows, and makes its middle the
-    /// [anchor](Self::anchor).
+    /// Shows all of `bounds` as large as a viewport of the given size (in logical pixels) allows,
+    /// and moves the [anchor](Self::anchor) to its centre.
     pub fn fit(&mut self, bounds: Bounds, viewport_px: Vec2) {
-        // A window that is folded away has no pixels to divide by.
+        // A minimised window has size 0, which must not be divided by.
         self.viewport_px = viewport_px.max(Vec2::ONE);
         self.fitted = units_per_px(bounds, self.viewport_px);
         self.units_per_px = self.fitted;
@@ -69,42 +71,40 @@ impl StageView {
         self.anchor = self.centre;
     }
 
-    /// Moves the picture with a pointer that moved by so many logical pixels,
-    /// y down.
+    /// Pans with a pointer that moved by `delta_px` logical pixels, y down.
     pub fn pan_px(&mut self, delta_px: Vec2) {
         let delta = DVec2::new(-f64::from(delta_px.x), f64::from(delta_px.y));
         self.centre += delta * self.units_per_px;
     }
 
-    /// Makes everything `factor` times larger and keeps what is under the
-    /// pointer where it is. Stops where nothing more could be seen.
+    /// Magnifies by `factor` and keeps the point under the pointer in place. The scale is limited
+    /// relative to the last fit; invalid factors are ignored.
     pub fn zoom_at(&mut self, pointer_px: Vec2, factor: f64) {
         if !factor.is_finite() || factor <= 0.0 {
             return;
         }
         let under = self.world_from_px(pointer_px);
-        let range = (self.fitted * NEAREST, self.fitted * FARTHEST);
-        self.units_per_px = (self.units_per_px / factor).clamp(range.0, range.1);
-        // By as much as the new scale moved it; where the scale stopped, by
-        // nothing.
+        let limits = (self.fitted * MIN_SCALE, self.fitted * MAX_SCALE);
+        self.units_per_px = (self.units_per_px / factor).clamp(limits.0, limits.1);
+        // Compensates for the shift at the pointer; zero if the limit stopped the zoom.
         self.centre += under - self.world_from_px(pointer_px);
     }
 
-    /// The point of the plane that is shown at a place of the viewport, given
-    /// in logical pixels from its upper left corner, y down.
+    /// Returns the point of the plane at a position in the viewport, given in logical pixels from
+    /// its upper left corner, y down.
     pub fn world_from_px(&self, px: Vec2) -> DVec2 {
         let from_middle = (px - 0.5 * self.viewport_px).as_dvec2();
         self.centre + DVec2::new(from_middle.x, -from_middle.y) * self.units_per_px
     }
 
-    /// Where in the viewport a point of the plane is shown: the way back of
+    /// Returns the position of a point of the plane in the viewport: the inverse of
     /// [`Self::world_from_px`].
     pub fn px_from_world(&self, p: DVec2) -> Vec2 {
         let from_middle = (p - self.centre) / self.units_per_px;
         0.5 * self.viewport_px + DVec2::new(from_middle.x, -from_middle.y).as_vec2()
     }
 
-    /// The part of the plane that is visible.
+    /// Returns the visible part of the plane.
     pub fn visible(&self) -> Bounds {
         let half = 0.5 * self.viewport_px.as_dvec2() * self.units_per_px;
         Bounds {
@@ -113,15 +113,16 @@ impl StageView {
         }
     }
 
-    /// The point of the plane that lies at the origin of Bevy's world: zero
-    /// until the first [`Self::fit`], then the middle of what was fitted, so
-    /// that single precision suffices however far out a design lies.
+    /// Returns the point of the plane at the origin of Bevy's world: zero before the first
+    /// [`Self::fit`], then the centre of the fitted bounds, so that single precision suffices
+    /// wherever a design lies.
     pub fn anchor(&self) -> DVec2 {
         self.anchor
     }
 }
 
-/// The scale at which all of `bounds` is seen in a picture of a size.
+/// Returns the scale at which `bounds` fits into a picture of the given size, in units per pixel; 1
+/// for bounds without extent.
 pub(super) fn units_per_px(bounds: Bounds, size_px: Vec2) -> f64 {
     let scale = (bounds.size() / size_px.as_dvec2()).max_element();
     if scale.is_finite() && scale > 0.0 {
@@ -146,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn fitting_shows_all_of_it_in_the_middle() {
+    fn fitting_centres_the_bounds() {
         let view = view();
         assert_eq!(view.centre, DVec2::new(1e6 + 4.0, -1.0));
         assert_eq!(view.units_per_px, 0.02);
@@ -155,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn screen_and_world_are_each_others_way_back() {
+    fn screen_and_world_convert_back_and_forth() {
         let view = view();
         for px in [Vec2::ZERO, Vec2::new(12.0, 390.0), Vec2::new(400.0, 1.0)] {
             assert!((view.px_from_world(view.world_from_px(px)) - px).length() < 1e-3);
@@ -180,9 +181,9 @@ mod tests {
             assert_eq!(view.units_per_px, 0.02);
         }
         view.zoom_at(Vec2::ZERO, 1e30);
-        assert_eq!(view.units_per_px, 0.02 * NEAREST);
+        assert_eq!(view.units_per_px, 0.02 * MIN_SCALE);
         view.zoom_at(Vec2::ZERO, 1e-30);
-        assert_eq!(view.units_per_px, 0.02 * FARTHEST);
+        assert_eq!(view.units_per_px, 0.02 * MAX_SCALE);
     }
 
     #[test]

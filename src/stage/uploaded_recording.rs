@@ -1,4 +1,4 @@
-//! A film on the graphics card, and whether it is there.
+//! State of a recording's upload to the graphics card.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::Buffer;
@@ -8,38 +8,46 @@ use crate::recording::Recording;
 
 use super::recorded_material::RecordedSum;
 
-/// Where the film of a transition is.
+/// Upload state of a transition's recording.
 #[derive(Component, Debug)]
 pub(super) enum UploadState {
-    /// On its way.
-    Under(Task<Option<UploadedIntervals>>),
-    There(UploadedIntervals),
-    /// The card has no room for it.
+    /// The upload is running.
+    Uploading(Task<Option<UploadedIntervals>>),
+    /// The recording is on the graphics card.
+    Ready(UploadedIntervals),
+    /// The graphics card has no room for it.
     Refused,
 }
 
-/// A film on the graphics card.
+/// A recording on the graphics card.
 #[derive(Debug)]
 pub(super) struct UploadedIntervals {
-    pub(super) film: Recording,
-    /// As many as the film has.
-    pub(super) reels: Vec<UploadedInterval>,
+    /// The recording, which provides the weights at each t.
+    pub(super) recording: Recording,
+    /// Uploaded intervals, one per interval of the recording.
+    pub(super) intervals: Vec<UploadedInterval>,
 }
 
-/// The polynomials between two times.
+/// One interval of a recording: polynomials between two times.
 #[derive(Debug)]
 pub(super) struct UploadedInterval {
-    /// Row after row, as `played.wgsl` reads them.
+    /// Rows as `played.wgsl` reads them.
     pub(super) rows: Buffer,
-    /// In a row.
+    /// Number of vertices per row.
     pub(super) vertices: usize,
+    /// Number of coefficient rows.
     pub(super) coefficients: usize,
 }
 
 impl UploadState {
-    /// What shows `t`, and how it is summed; none where the film does not.
+    /// Returns the buffer that covers `t`, and the weights of its rows; `None` if the recording is
+    /// not uploaded or does not cover `t`.
     pub(super) fn at(&self, t: f64) -> Option<(&Buffer, RecordedSum)> {
-        let Self::There(UploadedIntervals { film, reels }) = self else {
+        let Self::Ready(UploadedIntervals {
+            recording: film,
+            intervals: reels,
+        }) = self
+        else {
             return None;
         };
         let (k, weights) = film.weights(t)?;
@@ -48,8 +56,8 @@ impl UploadState {
         Some((&reel.rows, sum))
     }
 
-    /// Whether it shows `t`.
-    pub(super) fn shows(&self, t: f64) -> bool {
-        matches!(self, Self::There(_)) && (0.0..=1.0).contains(&t)
+    /// Whether the uploaded recording covers `t`.
+    pub(super) fn covers(&self, t: f64) -> bool {
+        matches!(self, Self::Ready(_)) && (0.0..=1.0).contains(&t)
     }
 }

@@ -1,9 +1,8 @@
-//! The vertices behind the stage's pictures, as plain numbers: faces, bars with
-//! joints, wires and outlines.
+//! Vertex layouts of render meshes: faces, bars with joints, wireframes and outlines.
 //!
-//! Guarantees: each layout is made once and only its positions are rewritten,
-//! in place; positions are `f32` relative to an origin, converted here and
-//! nowhere else, so that designs far from zero keep their precision.
+//! Guaranteed: each layout is created once, and later only its positions are rewritten in place.
+//! Positions are `f32` relative to an origin, subtracted here in double precision, so that designs
+//! far from zero keep their precision.
 
 use bevy::mesh::{Mesh, VertexAttributeValues};
 use glam::DVec2;
@@ -13,40 +12,40 @@ use crate::content::{InkedBars, SolidContent};
 use crate::export::{JOINT_CORE_RADIUS, JOINT_RADIUS};
 use crate::transition::VectorFigure;
 
-/// How far a bar's or disc's quad reaches beyond its edge, as a multiple of its
-/// radius, so that the shader has room to fade it out: half a pixel, which
-/// shapes from two pixels across on have.
+/// Half side of the quad of a bar or disc, as a multiple of its radius. Derived: for shapes at
+/// least two pixels across, the extra half radius covers the half pixel that the smooth edge takes.
 const MARGIN: f32 = 1.5;
 
-/// How far a line's corner may stand out, in half line widths: the usual
-/// limit of SVG.
+/// Maximum distance of a mitred corner from the outline, in half line widths (the default limit of
+/// SVG).
 const MITRE_LIMIT: f64 = 4.0;
 
-/// Vertices of a render mesh that are rewritten each frame.
+/// Positions of a render mesh that are rewritten each frame.
 pub(super) type VertexPositions = [[f32; 3]];
 
+/// Position of a vertex relative to `origin`.
 fn vertex(p: DVec2, origin: DVec2) -> [f32; 3] {
     let p = (p - origin).as_vec2();
     [p.x, p.y, 0.0]
 }
 
-/// A mesh's positions, to be changed in place.
+/// Returns the positions of a mesh, to be changed in place.
 pub(super) fn positions(mesh: &mut Mesh) -> &mut VertexPositions {
     match mesh.attribute_mut(Mesh::ATTRIBUTE_POSITION) {
         Some(VertexAttributeValues::Float32x3(positions)) => positions,
-        // Parts are made with positions of this kind alone.
+        // Render parts are always created with positions of this type.
         _ => &mut [],
     }
 }
 
-/// One vertex for each point.
+/// Writes one vertex per point.
 pub(super) fn write_points(points: &[DVec2], origin: DVec2, out: &mut VertexPositions) {
     for (out, &p) in out.iter_mut().zip(points) {
         *out = vertex(p, origin);
     }
 }
 
-/// Three vertices for each face, shared with no other.
+/// Writes three vertices per face, shared with no other face.
 pub(super) fn write_corners(
     points: &[DVec2],
     faces: &[[u32; 3]],
@@ -58,35 +57,34 @@ pub(super) fn write_corners(
     }
 }
 
-/// Where each corner of each face is in its triangle: two of its three
-/// barycentric coordinates.
+/// Returns two of the three barycentric coordinates of each corner in its triangle.
 pub(super) fn corner_coordinates(faces: usize) -> Vec<[f32; 2]> {
     [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]].repeat(faces)
 }
 
-/// Two triangles for each quad of four vertices in a row.
+/// Returns the indices of two triangles for each quad of four consecutive vertices.
 pub(super) fn quad_indices(quads: usize) -> Vec<u32> {
     let corners = |q: u32| [0, 1, 2, 2, 1, 3].map(|k| 4 * q + k);
     (0..quads as u32).flat_map(corners).collect()
 }
 
-/// Bars and the discs at their ends: a quad for each bar, then one for each
-/// node that a bar holds, lowest index first.
+/// Bars that share their paints, and the discs at their ends: one quad per bar, then one per node
+/// of a bar in ascending order of index.
 #[derive(Clone, Debug)]
 pub(super) struct BarShapes {
-    /// Their paints in source and target.
+    /// Paints in source and target.
     pub(super) paints: [Option<Paint>; 2],
-    /// How much of all bars lies below them, from 0 to 1.
-    pub(super) height: f32,
+    /// Height in the drawing order of all bars, from 0 (lowest) to 1.
+    pub(super) z_fraction: f32,
     bars: Vec<[u32; 2]>,
     nodes: Vec<u32>,
     bar_width: f64,
 }
 
 impl BarShapes {
-    /// Those that are painted alike, in the order in which they are drawn.
-    pub(super) fn all(solid: &SolidContent) -> Vec<Self> {
-        let all = InkedBars::all(solid.bars.len(), &solid.bar_paints);
+    /// Groups the bars of a solid by paint, in drawing order.
+    pub(super) fn grouped_by_paint(solid: &SolidContent) -> Vec<Self> {
+        let all = InkedBars::grouped_by_paint(solid.bars.len(), &solid.bar_paints);
         let count = all.len() as f32;
         let of = |(k, inked): (usize, &InkedBars)| Self::new(solid, inked, k as f32 / count);
         all.iter().enumerate().map(of).collect()
@@ -95,21 +93,20 @@ impl BarShapes {
     fn new(solid: &SolidContent, inked: &InkedBars, height: f32) -> Self {
         let bars: Vec<[u32; 2]> = inked.bars.iter().map(|&bar| solid.bars[bar]).collect();
         let mut nodes = bars.as_flattened().to_vec();
-        // Bars that meet share their disc: drawn twice its smooth edge would be
-        // darker.
+        // Bars that meet share one disc; drawn twice, its smooth edge would be darker.
         nodes.sort_unstable();
         nodes.dedup();
         Self {
             paints: inked.paints,
-            height,
+            z_fraction: height,
             bars,
             nodes,
             bar_width: solid.bar_width,
         }
     }
 
-    /// For each vertex of [`Self::write`], where it is in units of the shape's
-    /// radius: inside is where this vector is shorter than 1.
+    /// Returns for each vertex of [`Self::write`] its position in units of the shape's radius. A
+    /// fragment is inside if this vector is shorter than 1.
     pub(super) fn coordinates(&self) -> Vec<[f32; 2]> {
         let across = [-MARGIN, MARGIN, -MARGIN, MARGIN].map(|v| [0.0, v]);
         let mut out = across.repeat(self.bars.len());
@@ -117,13 +114,13 @@ impl BarShapes {
         out
     }
 
-    /// The same for [`Self::write_cores`].
+    /// Same as [`Self::coordinates`], for [`Self::write_cores`].
     pub(super) fn core_coordinates(&self) -> Vec<[f32; 2]> {
         disc_coordinates(self.nodes.len())
     }
 
-    /// Bars of the given width; with `joints` discs wider than the bars at
-    /// their ends, else just round ends.
+    /// Writes the bars. With `joints` their ends are discs wider than the bars, otherwise just
+    /// round ends.
     pub(super) fn write(
         &self,
         points: &[DVec2],
@@ -135,8 +132,7 @@ impl BarShapes {
         let (bars, discs) = out.split_at_mut(4 * self.bars.len());
         for (quad, &[a, b]) in bars.as_chunks_mut::<4>().0.iter_mut().zip(&self.bars) {
             let (a, b) = (points[a as usize], points[b as usize]);
-            // A bar without length has no direction, and shows as the disc at
-            // its end.
+            // A bar without length has no direction; only the discs at its ends are visible.
             let across = (b - a).normalize_or_zero().perp() * half_width * f64::from(MARGIN);
             *quad = [a - across, a + across, b - across, b + across].map(|p| vertex(p, origin));
         }
@@ -148,11 +144,12 @@ impl BarShapes {
         self.write_discs(points, radius, origin, discs);
     }
 
-    /// The lighter cores of the joints.
+    /// Writes the lighter cores of the joints.
     pub(super) fn write_cores(&self, points: &[DVec2], origin: DVec2, out: &mut VertexPositions) {
         self.write_discs(points, JOINT_CORE_RADIUS * self.bar_width, origin, out);
     }
 
+    /// Writes a disc of the given radius at each node.
     fn write_discs(&self, points: &[DVec2], radius: f64, origin: DVec2, out: &mut VertexPositions) {
         let reach = radius * f64::from(MARGIN);
         for (quad, &node) in out.as_chunks_mut::<4>().0.iter_mut().zip(&self.nodes) {
@@ -162,6 +159,7 @@ impl BarShapes {
     }
 }
 
+/// Corners of a disc's quad, in units of its half side.
 const CORNERS: [DVec2; 4] = [
     DVec2::new(-1.0, -1.0),
     DVec2::new(-1.0, 1.0),
@@ -169,27 +167,28 @@ const CORNERS: [DVec2; 4] = [
     DVec2::new(1.0, 1.0),
 ];
 
+/// Positions of the quad corners of discs, in units of the radius.
 fn disc_coordinates(discs: usize) -> Vec<[f32; 2]> {
     CORNERS
         .map(|c| (c.as_vec2() * MARGIN).to_array())
         .repeat(discs)
 }
 
-/// Lines of constant width on the screen: a quad for each segment, whose vertex
-/// shader pushes the corners apart.
+/// Lines of constant width on the screen: one quad per segment, whose corners the vertex shader
+/// pushes apart.
 ///
-/// Segments of an outline meet along the mitre, so that none overlaps its
-/// neighbour: smooth edges drawn twice would show as dots.
+/// Segments of an outline meet along the mitre and do not overlap; smooth edges drawn twice would
+/// show as dots.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OutlineSegments {
-    /// The segment's end that the corner belongs to.
+    /// End of the segment that the corner belongs to.
     pub(super) positions: Vec<[f32; 3]>,
-    /// Where the corner is pushed, in half line widths, and its side, −1 or 1.
+    /// Offset of the corner in half line widths, and its side, −1 or 1.
     pub(super) offsets: Vec<[f32; 3]>,
 }
 
 impl OutlineSegments {
-    /// The outlines and the bars' middle lines of a figure.
+    /// Collects the outlines of a figure and the centre lines of its bars.
     pub(super) fn of(figure: &VectorFigure, origin: DVec2) -> Self {
         let mut segments = Self::default();
         for ring in &figure.rings {
@@ -202,16 +201,17 @@ impl OutlineSegments {
         segments
     }
 
-    /// A segment that is not seen.
+    /// Adds an invisible segment.
     pub(super) fn push_nothing(&mut self) {
         self.push([DVec2::ZERO; 2], [DVec2::ZERO; 2], DVec2::ZERO);
     }
 
-    /// How many quads there are.
+    /// Number of quads.
     pub(super) fn quads(&self) -> usize {
         self.positions.len() / 4
     }
 
+    /// Adds the segments of a closed outline.
     fn push_ring(&mut self, ring: &[DVec2], origin: DVec2) {
         let n = ring.len();
         let across = |i: usize| (ring[(i + 1) % n] - ring[i % n]).normalize_or_zero().perp();
@@ -222,9 +222,10 @@ impl OutlineSegments {
         }
     }
 
+    /// Adds a segment; `offsets` are the left offsets at its ends, in half line widths.
     fn push(&mut self, ends: [DVec2; 2], offsets: [DVec2; 2], origin: DVec2) {
         for (p, offset) in ends.into_iter().zip(offsets) {
-            // Two corners in the same place: the vertex shader parts them.
+            // Two corners at the same position, which the vertex shader separates.
             for side in [-1.0, 1.0] {
                 let offset = offset.as_vec2() * side;
                 self.positions.push(vertex(p, origin));
@@ -234,12 +235,12 @@ impl OutlineSegments {
     }
 }
 
-/// Where two lines with the given unit normals have their common corner, one
-/// unit off both; sharp corners are cut at [`MITRE_LIMIT`].
+/// Returns the common corner of two lines with the given unit normals, one unit off both; sharp
+/// corners are cut at [`MITRE_LIMIT`].
 fn mitre(a: DVec2, b: DVec2) -> DVec2 {
     let sum = a + b;
     let length = (2.0 / sum.length()).min(MITRE_LIMIT);
-    // Where an outline turns straight back, the sum is zero.
+    // The sum is zero where an outline turns straight back.
     sum.normalize_or(b) * length
 }
 
@@ -255,13 +256,14 @@ mod tests {
             bar_width: 0.2,
             ..SolidContent::default()
         };
-        let all = BarShapes::all(&solid);
+        let all = BarShapes::grouped_by_paint(&solid);
         (points, all.into_iter().next().expect("bars"))
     }
 
-    /// Interpolates the shape's own coordinates at a point of the plane.
+    /// Length of the interpolated shape coordinates at a point of the plane; 1 on the edge of the
+    /// shape.
     fn reach(quad: &[[f32; 3]], coordinates: &[[f32; 2]], p: [f32; 2]) -> f32 {
-        // Quads are parallelograms: corner 0, and edges to corners 1 and 2.
+        // Quads are parallelograms: corner 0, with edges to corners 1 and 2.
         let at = |k: usize| glam::Vec2::new(quad[k][0], quad[k][1]);
         let edges = glam::Mat2::from_cols(at(1) - at(0), at(2) - at(0));
         let w = edges.inverse() * (glam::Vec2::from(p) - at(0));
@@ -270,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn bars_are_as_wide_as_they_should_be() {
+    fn bars_have_their_width() {
         let (points, shapes) = triangle();
         let mut out = vec![[0.0; 3]; shapes.coordinates().len()];
         shapes.write(&points, true, DVec2::ZERO, &mut out);
@@ -314,7 +316,7 @@ mod tests {
         let segments = OutlineSegments::of(&figure, DVec2::ZERO);
         assert_eq!(segments.quads(), 3);
         assert_eq!(segments.positions[10], [0.0, 0.0, 0.0]);
-        // The right angle's mitre is a diagonal, shared by both its segments.
+        // The mitre of the right angle is a diagonal, shared by both its segments.
         assert_eq!(segments.offsets[1], [1.0, 1.0, 1.0]);
         assert_eq!(segments.offsets[11], segments.offsets[1]);
     }

@@ -1,10 +1,10 @@
-//! What has the graphics card ready before it is asked: a triangle of no area in each
-//! material and each layout of vertices that parts have.
+//! Compiles pipelines in advance: spawns a triangle without area in each material and vertex layout
+//! that render parts use.
 //!
-//! Guarantees: the first frame of a transition shows it. Without this a part whose
-//! pipeline was not there yet was left out until it had been compiled, so that the
-//! stage blinked wherever one film took the place of another of a new kind. Does not
-//! guarantee fields with lines or signs, and pictures: these blink once.
+//! Guaranteed: the first frame of a transition is complete. Otherwise a part would be missing until
+//! its pipeline is compiled, and the stage would flicker whenever a transition of a new kind
+//! replaces another. Not guaranteed: fields with lines or signed colours, and pictures; they
+//! flicker once.
 
 use bevy::camera::visibility::NoFrustumCulling;
 use bevy::mesh::{Indices, PrimitiveTopology};
@@ -21,10 +21,10 @@ use super::recording_upload::CardRecording;
 use super::ring_fill;
 use super::warp_grid::GridMaterial;
 
-/// A kind of shape, and what its vertices bring beside where they are.
+/// A kind of shape, and the function that adds its vertex attributes to a mesh.
 type WarmUpVertexLayout = (InkKind, fn(Mesh) -> Mesh);
 
-/// A triangle of no area.
+/// A triangle without area.
 fn nothing() -> Mesh {
     let (positions, indices) = ring_fill::nothing();
     Mesh::new(PrimitiveTopology::TriangleList, default())
@@ -32,36 +32,43 @@ fn nothing() -> Mesh {
         .with_inserted_indices(Indices::U32(indices))
 }
 
+/// Adds texture coordinates.
 fn with_coordinates(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0_f32; 2]; 3])
 }
 
+/// Adds vertex colours.
 fn with_colours(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0_f32; 4]; 3])
 }
 
+/// Adds the offsets of lines.
 fn with_offsets(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, vec![[0.0_f32; 3]; 3])
 }
 
+/// Adds indices of vertices in the placement.
 fn with_numbers(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(VERTEX, vec![0_u32; 3])
 }
 
-/// Asks for every pipeline. They stay: what draws nothing costs nothing, and another
-/// camera wants pipelines of its own.
+/// Spawns an invisible triangle for every pipeline. They stay: they cost nothing to draw, and
+/// another camera needs pipelines of its own.
 pub(super) fn warm(
     mut commands: Commands,
     mut paints: StagePaints,
-    (card, ready): (Option<Res<CardRecording>>, Option<Res<PipelinesReady>>),
+    card: Option<Res<CardRecording>>,
+    ready: Option<Res<PipelinesReady>>,
 ) {
     if ready.is_none() {
-        // Nothing is drawn.
+        // There is no renderer.
         return;
     }
     let inks: [WarmUpVertexLayout; 5] = [
         (InkKind::Faces, |mesh| mesh),
-        (InkKind::Coats, |mesh| with_colours(with_coordinates(mesh))),
+        (InkKind::PaintLayers, |mesh| {
+            with_colours(with_coordinates(mesh))
+        }),
         (InkKind::Round, with_coordinates),
         (InkKind::Wire, with_coordinates),
         (InkKind::Line, with_offsets),
@@ -72,7 +79,7 @@ pub(super) fn warm(
             gradients: GradientTextures::default(),
             kind,
         });
-        commands.spawn(drawn(paints.meshes.add(layout(nothing())), ink));
+        commands.spawn(drawn_mesh(paints.meshes.add(layout(nothing())), ink));
     }
     let played: [WarmUpVertexLayout; 2] = [
         (InkKind::Faces, with_numbers),
@@ -82,18 +89,19 @@ pub(super) fn warm(
         let film = paints.played.add(PlayedMaterial {
             colour: LinearRgba::NONE,
             sum: RecordedSum::default(),
-            reel: card.nothing().clone(),
+            reel: card.placeholder().clone(),
             kind,
         });
-        commands.spawn(drawn(paints.meshes.add(layout(nothing())), film));
+        commands.spawn(drawn_mesh(paints.meshes.add(layout(nothing())), film));
     }
     let carried = paints.meshes.add(with_colours(with_coordinates(nothing())));
     let grid = paints.grids.add(GridMaterial::default());
-    commands.spawn(drawn(carried.clone(), grid));
-    let field = FieldMaterial::nothing(&mut paints.images);
-    commands.spawn(drawn(carried, paints.fields.add(field)));
+    commands.spawn(drawn_mesh(carried.clone(), grid));
+    let field = FieldMaterial::placeholder(&mut paints.images);
+    commands.spawn(drawn_mesh(carried, paints.fields.add(field)));
 }
 
-fn drawn<M: Material2d>(mesh: Handle<Mesh>, material: Handle<M>) -> impl Bundle {
+/// Components of a mesh with a material that is never culled.
+fn drawn_mesh<M: Material2d>(mesh: Handle<Mesh>, material: Handle<M>) -> impl Bundle {
     (Mesh2d(mesh), MeshMaterial2d(material), NoFrustumCulling)
 }

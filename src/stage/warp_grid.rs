@@ -1,8 +1,8 @@
-//! The grid that shows a warp: a square grid of the source, where the warp
-//! carries it. Straight at t = 0, at t = 1 it shows the whole warp.
+//! Grid that shows a warp: a square grid of the source, deformed by the warp. At t = 0 it is
+//! straight, at t = 1 it shows the whole warp.
 //!
-//! Guarantees: lines keep their width on the screen. Does not guarantee lines
-//! where the warp squeezes them nearer than a few pixels: they fade.
+//! Guaranteed: lines keep their width on the screen. Not guaranteed: lines that the warp moves to
+//! within a few pixels of each other; they fade.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::{AsBindGroup, ShaderType};
@@ -16,25 +16,25 @@ use crate::transition::Frame;
 use super::components::StageStyle;
 use super::ink_material::{contrasting, embedded, relative};
 
-/// Squares along the longer side of what is shown: a matter of looks.
+/// Number of squares along the longer side of the designs (heuristic).
 const SQUARES: f64 = 20.0;
 
-/// Lines over the vertices of a placement.
+/// Grid lines over the faces of a placement.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug, Default)]
 pub(super) struct GridMaterial {
     #[uniform(0)]
     pub(super) look: GridLook,
 }
 
-/// The uniform of [`GridMaterial`]; the same fields as in `grid.wgsl`.
+/// Uniform of [`GridMaterial`]; the same fields as in `grid.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct GridLook {
     colour: LinearRgba,
-    /// Around the lines, for pictures of any colour.
+    /// Colour around the lines, which keeps them readable on pictures.
     halo: LinearRgba,
-    /// Least and most x and y of what is shown, relative to the part's origin.
+    /// Visible rectangle relative to the part's origin: minimum x and y, maximum x and y.
     window: Vec4,
-    /// Side of a square, in units of the plane.
+    /// Side length of a square, in units of the plane.
     spacing: f32,
 }
 
@@ -55,12 +55,12 @@ impl GridLook {
         let (colour, halo, window) = match frame.transition().content() {
             Content::Colours(pair) => {
                 let window = pair.window(frame.t());
-                // A picture may have any colour below the lines, so both are
-                // needed.
+                // A picture may have any colour below the lines, so it needs both a line and a
+                // halo.
                 (LinearRgba::WHITE, LinearRgba::BLACK.with_alpha(0.4), window)
             }
             Content::Solid(_) | Content::Field(_) => {
-                // Parts may reach beyond the frame on their way.
+                // Parts may leave the frame while they move.
                 let all = bounds.padded(bounds.diameter());
                 (ink, LinearRgba::NONE, all)
             }

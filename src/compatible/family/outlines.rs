@@ -1,4 +1,4 @@
-//! A family of outlines, each matched with one of them.
+//! Creates a family from outlines that are each matched with one of them, the *hub*.
 
 use super::shared_boundary::{PieceRings, shared_rings};
 use super::{CompatibleFamily, FamilyError};
@@ -9,15 +9,14 @@ use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
 impl CompatibleFamily {
-    /// Outlines with the same parts and holes, each matched with that of the *hub*: the
-    /// vertices of each piece follow those of the one before, its rings' first.
+    /// Triangulates outlines with the same parts and holes in all designs at once.
     ///
-    /// `matches` has one for each design with the hub as its source, and none at the
-    /// hub's own place.
+    /// `matches` holds for each design its match with the hub as the source, and `None` at index
+    /// `hub`. Vertices are ordered piece by piece; in each piece the ring points come first.
     ///
     /// # Errors
-    /// [`FamilyError`] names the design that has other parts or holes, or says that no
-    /// common triangulation was found, or tells of a cancel.
+    /// [`FamilyError`] names the design whose parts or holes differ, or reports that no common
+    /// triangulation was found or that the work was cancelled.
     pub fn from_outlines(
         hub: usize,
         matches: &[Option<&RegionMatch>],
@@ -27,29 +26,29 @@ impl CompatibleFamily {
         if matches.len() < 2 {
             return Err(FamilyError::TooFew(matches.len()));
         }
-        let pieces =
-            shared_rings(hub, matches).map_err(|design| FamilyError::Parts { design, of: hub })?;
+        let pieces = shared_rings(hub, matches)
+            .map_err(|design| FamilyError::PartsDiffer { design, of: hub })?;
         let several = ProgressShares::new(progress, pieces.len());
         let triangulated = |(k, piece): (usize, &PieceRings)| {
             triangulate_many(piece, hub, options, &several.part(k)).map_err(|(design, error)| {
                 match error {
                     Some(error) => FamilyError::Outline { design, error },
-                    None => FamilyError::Folds,
+                    None => FamilyError::NoCommonTriangulation,
                 }
             })
         };
-        // In order, so that the first fault is told whatever the number of threads.
+        // Results stay in order, so the reported error does not depend on the number of threads.
         let meshes: Vec<_> = pieces.par_iter().enumerate().map(triangulated).collect();
         let mut faces: Vec<[u32; 3]> = Vec::new();
-        let mut places = vec![Vec::new(); matches.len()];
+        let mut embeddings = vec![Vec::new(); matches.len()];
         for mesh in meshes {
-            let (own, points) = mesh?;
-            let first = places[0].len() as u32;
-            faces.extend(own.iter().map(|face| face.map(|v| v + first)));
-            for (all, own) in places.iter_mut().zip(points) {
-                all.extend(own);
+            let (piece_faces, points) = mesh?;
+            let offset = embeddings[0].len() as u32;
+            faces.extend(piece_faces.iter().map(|face| face.map(|v| v + offset)));
+            for (all, piece_points) in embeddings.iter_mut().zip(points) {
+                all.extend(piece_points);
             }
         }
-        Self::new(faces, places, Vec::new())
+        Self::new(faces, embeddings, Vec::new())
     }
 }

@@ -1,3 +1,5 @@
+//! Tests of mesh families of outlines and trusses: validity, shared corners, errors.
+
 use super::*;
 use crate::compatible::PolygonOptions;
 use crate::correspondence::{MatchSettings, RegionMatch, match_regions};
@@ -5,7 +7,7 @@ use crate::geometry::{FillRule, Regions, orient2d};
 use crate::work::progress::Silent;
 use proptest::prelude::*;
 
-/// A flower of so many petals, maybe with a hole.
+/// Flower with the given number of petals, with an optional hole.
 fn flower(corners: u32, petals: f64, depth: f64, hole: Option<f64>) -> Regions {
     let ring = |size: f64, depth: f64| -> Vec<DVec2> {
         let point = |k: u32| {
@@ -22,6 +24,7 @@ fn flower(corners: u32, petals: f64, depth: f64, hole: Option<f64>) -> Regions {
     Regions::from_rings(&rings, FillRule::EvenOdd).expect("a flower")
 }
 
+/// Matches every design with the hub and triangulates them together.
 fn family_of(designs: &[Regions], hub: usize) -> Result<CompatibleFamily, FamilyError> {
     let matches: Vec<Option<RegionMatch>> = designs
         .iter()
@@ -36,8 +39,9 @@ fn family_of(designs: &[Regions], hub: usize) -> Result<CompatibleFamily, Family
     CompatibleFamily::from_outlines(hub, &matches, &PolygonOptions::default(), &Silent)
 }
 
+/// Checks that faces are positive, that all corners are vertices and that no hole is lost.
 fn assert_family(family: &CompatibleFamily, designs: &[Regions]) {
-    for (places, design) in family.places().iter().zip(designs) {
+    for (places, design) in family.embeddings().iter().zip(designs) {
         for face in family.faces().iter() {
             let [a, b, c] = face.map(|v| places[v as usize]);
             assert!(orient2d(a, b, c) > 0.0);
@@ -63,37 +67,40 @@ fn outlines_with_a_hole_are_a_family() {
         let [a, b] = [0, 1].map(|k| &designs[k]);
         let pair = match_regions(a, b, &MatchSettings::default(), &Silent).expect("a match");
         let pair = CompatibleMesh::from_outlines(&pair, &PolygonOptions::default(), &Silent);
-        let most = 3 * pair.expect("a mesh").source().len();
-        let count = family.places()[0].len();
-        assert!(count <= most, "{count} vertices; three pairs have {most}");
+        let max_count = 3 * pair.expect("a mesh").source().len();
+        let count = family.embeddings()[0].len();
+        assert!(
+            count <= max_count,
+            "{count} vertices; three pairs have {max_count}"
+        );
     }
 }
 
 #[test]
-fn what_has_a_hole_of_its_own_is_no_family() {
+fn an_unmatched_hole_is_an_error() {
     let designs = [
         flower(24, 3.0, 0.5, None),
         flower(31, 5.0, 0.4, None),
         flower(40, 2.0, 0.7, Some(0.6)),
     ];
     let error = family_of(&designs, 0).expect_err("a hole");
-    assert_eq!(error, FamilyError::Parts { design: 2, of: 0 });
-    let told = "design 3 has not the parts and holes of design 1";
-    assert_eq!(error.to_string(), told);
+    assert_eq!(error, FamilyError::PartsDiffer { design: 2, of: 0 });
+    let message = "design 3 does not have the same parts and holes as design 1";
+    assert_eq!(error.to_string(), message);
 }
 
 #[test]
-fn a_design_twice_is_itself_twice() {
+fn equal_designs_get_equal_vertices() {
     let one = flower(24, 3.0, 0.5, Some(1.0));
     let designs = [one.clone(), flower(31, 5.0, 0.4, Some(1.5)), one];
     let family = family_of(&designs, 1).expect("a family");
-    let [first, _, third] = family.places() else {
+    let [first, _, third] = family.embeddings() else {
         panic!("three designs");
     };
     let corners = designs[0].rings().flat_map(|ring| ring.points());
     for corner in corners {
-        let at = |places: &[DVec2]| places.iter().position(|p| p == corner);
-        assert_eq!(at(first), at(third));
+        let index_in = |places: &[DVec2]| places.iter().position(|p| p == corner);
+        assert_eq!(index_in(first), index_in(third));
     }
 }
 
@@ -110,7 +117,7 @@ fn trusses_must_have_the_same_bars() {
     let other = truss(2.0, &all[..2]);
     let error = CompatibleFamily::from_trusses(&[&a, &b, &other], &Silent).expect_err("a bar less");
     assert!(
-        matches!(error, FamilyError::Unlike { design: 2, .. }),
+        matches!(error, FamilyError::Incompatible { design: 2, .. }),
         "{error}"
     );
     assert_eq!(

@@ -1,5 +1,5 @@
-//! The front that moves inwards, and what it leaves behind: points that see a
-//! stretch of it in either design, corners cut off.
+//! Advancing front over a piece in two designs: replaces stretches of the front by fans around a
+//! point that sees them in each design, and cuts off corners.
 
 use super::boundary_rings::BoundaryRings;
 use super::edge_grid::EdgeGrid;
@@ -8,32 +8,33 @@ use crate::geometry::{DVec2, orient2d, ring_edges, segments_touch};
 use crate::work::progress::{Cancelled, Progress, still_wanted};
 use std::collections::HashSet;
 
-/// Edges of the stretches that are tried, longest first. Any number becomes
-/// two, so that three are the least that gain.
+/// Numbers of edges of the stretches tried, longest first; each is replaced by two edges, so three
+/// is the least that gains (heuristic).
 const STRETCHES: [usize; 4] = [7, 5, 4, 3];
-/// How far from its stretch a point is sought, in units of its extent: as far
-/// in as there is room, for good angles.
+/// Distances at which a new point is sought, in units of the stretch's extent; the farthest first,
+/// for good angles (heuristic).
 const REACHES: [f64; 5] = [0.6, 0.3, 0.12, 0.04, 0.01];
-/// So much farther in it has to be free, too, so that fronts that meet
-/// leave room.
-const ROOM: f64 = 1.5;
-/// Corners are cut off where both faces are at most so far from equilateral
-/// (1): a triangle with a right angle and sides of 1 and 5 is at 3.
-const SHAPELY: f64 = 3.0;
+/// Factor by which the sight lines to a new point are extended when they are checked, so that
+/// fronts that meet leave room (heuristic).
+const CLEARANCE: f64 = 1.5;
+/// Maximum shape term (1 if equilateral) of a corner triangle that is cut off; a right triangle
+/// with sides of 1 and 5 next to the right angle has 3 (heuristic).
+const MAX_CORNER_SHAPE: f64 = 3.0;
 
-/// What is left to triangulate, and what has been.
+/// State of the front: what is left to triangulate and the faces behind it.
 pub(super) struct AdvancingFront {
-    /// All vertices, those of the rings first.
+    /// All vertices in both designs, those of the rings first.
     pub(super) points: [Vec<DVec2>; 2],
+    /// Faces behind the front.
     pub(super) faces: Vec<[u32; 3]>,
-    /// The front's rings, by vertices.
+    /// Rings of the front, as vertex indices.
     pub(super) rings: Vec<Vec<u32>>,
-    /// The front's edges in either design.
+    /// Edges of the front in each design, for proximity queries.
     near: [EdgeGrid; 2],
 }
 
 impl AdvancingFront {
-    /// A front on the boundary.
+    /// Creates a front on the boundary.
     pub(super) fn of(source: &BoundaryRings, target: &BoundaryRings) -> Self {
         let rings = source.ranges.iter().cloned();
         let points = [source, target].map(|rings| rings.points.clone());
@@ -46,31 +47,34 @@ impl AdvancingFront {
         };
         let edges = coarse.rings.iter().flat_map(|ring| ring_edges(ring));
         for edge in edges.map(<[u32; 2]>::from).collect::<Vec<_>>() {
-            coarse.list(edge);
+            coarse.insert_edge(edge);
         }
         coarse
     }
 
+    /// Ends of an edge in one design.
     fn ends(&self, design: usize, edge: [u32; 2]) -> [DVec2; 2] {
         edge.map(|v| self.points[design][v as usize])
     }
 
-    fn list(&mut self, edge: [u32; 2]) {
+    /// Adds an edge of the front to both grids.
+    fn insert_edge(&mut self, edge: [u32; 2]) {
         for d in 0..2 {
             let ends = self.ends(d, edge);
             self.near[d].add(edge, ends);
         }
     }
 
-    fn strike(&mut self, edge: [u32; 2]) {
+    /// Removes an edge of the front from both grids.
+    fn remove_edge(&mut self, edge: [u32; 2]) {
         for d in 0..2 {
             let ends = self.ends(d, edge);
             self.near[d].remove(edge, ends);
         }
     }
 
-    /// The front in one design.
-    pub(super) fn core(&self, design: usize) -> BoundaryRings {
+    /// Rings of the front in one design.
+    pub(super) fn front_rings(&self, design: usize) -> BoundaryRings {
         let ring = |ring: &Vec<u32>| -> Vec<DVec2> {
             let at = |&v: &u32| self.points[design][v as usize];
             ring.iter().map(at).collect()
@@ -78,30 +82,41 @@ impl AdvancingFront {
         BoundaryRings::of(&self.rings.iter().map(ring).collect::<Vec<_>>())
     }
 
+    /// Number of points on the front.
     pub(super) fn size(&self) -> usize {
         self.rings.iter().map(Vec::len).sum()
     }
 }
 
-/// One ring of the front on its turn; the others stand still.
+/// One ring of the front while it advances; the others stay as they are.
 pub(super) struct FrontRing<'a> {
     coarse: &'a mut AdvancingFront,
     ring: usize,
-    kept: &'a HashSet<u32>,
+    /// Vertices that must stay on the front.
+    frozen: &'a HashSet<u32>,
 }
 
 impl<'a> FrontRing<'a> {
-    pub(super) fn of(coarse: &'a mut AdvancingFront, ring: usize, kept: &'a HashSet<u32>) -> Self {
-        Self { coarse, ring, kept }
+    /// Selects the ring of the front that advances.
+    pub(super) fn of(
+        coarse: &'a mut AdvancingFront,
+        ring: usize,
+        frozen: &'a HashSet<u32>,
+    ) -> Self {
+        Self {
+            coarse,
+            ring,
+            frozen,
+        }
     }
 
-    /// Once around, from another place at each turn.
+    /// Advances once around the ring, from a different start each turn.
     pub(super) fn advance(
         &mut self,
         turn: usize,
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
-        // The same start would try the same stretches, which have not fitted.
+        // The same start would only try stretches again that did not fit.
         let len = self.len();
         let mut at = turn % 3;
         let end = at + len;
@@ -112,23 +127,24 @@ impl<'a> FrontRing<'a> {
         Ok(())
     }
 
+    /// Number of vertices of the ring.
     fn len(&self) -> usize {
         self.coarse.rings[self.ring].len()
     }
 
-    /// The vertex so many places along the ring.
+    /// Vertex at position `at` along the ring, modulo its length.
     fn vertex(&self, at: usize) -> u32 {
         self.coarse.rings[self.ring][at % self.len()]
     }
 
+    /// Position of a vertex in one design.
     fn place(&self, design: usize, vertex: u32) -> DVec2 {
         self.coarse.points[design][vertex as usize]
     }
 
-    /// Replaces a stretch that starts at `at`, and says how many old points
-    /// that passes.
+    /// Replaces a stretch that starts at `at`; returns the number of old points it covers.
     fn step(&mut self, at: usize) -> Option<usize> {
-        // A cut makes no new point, so it is the better of the two.
+        // Cutting a corner adds no point, so it is tried first.
         if self.cut_corner(at) {
             return Some(2);
         }
@@ -137,19 +153,23 @@ impl<'a> FrontRing<'a> {
             .find(|&k| self.replace(at, k).is_some())
     }
 
+    /// Cuts off the corner after position `at` if that is valid in both designs; returns whether it
+    /// did.
     fn cut_corner(&mut self, at: usize) -> bool {
         let stretch = [0, 1, 2].map(|k| self.vertex(at + k));
-        // Three corners have to be left for the ring.
-        if self.len() < 4 || self.is_kept(&stretch) {
+        // The ring needs at least three corners.
+        if self.len() < 4 || self.has_frozen(&stretch) {
             return false;
         }
+        // In each design the triangle must be positive, well shaped, visible from its neighbours
+        // and empty.
         let fits = (0..2).all(|d| {
             let corners = stretch.map(|v| self.place(d, v));
             face_cost::is_positive(corners)
-                && face_cost::shape(corners) <= SHAPELY
+                && face_cost::shape(corners) <= MAX_CORNER_SHAPE
                 && self.sides(d, at, 2).iter().all(|&[a, b]| {
-                    let tip = |end| orient2d(a, b, end) > 0.0 || a == end || b == end;
-                    tip(corners[0]) && tip(corners[2])
+                    let is_left = |end| orient2d(a, b, end) > 0.0 || a == end || b == end;
+                    is_left(corners[0]) && is_left(corners[2])
                 })
                 && self.is_free(d, stretch[0], corners[2], &[stretch[2]])
                 && !self.holds_ring(d, &[corners])
@@ -161,15 +181,16 @@ impl<'a> FrontRing<'a> {
         fits
     }
 
-    fn is_kept(&self, stretch: &[u32]) -> bool {
-        stretch.iter().any(|v| self.kept.contains(v))
+    /// Returns whether a stretch contains a frozen vertex.
+    fn has_frozen(&self, stretch: &[u32]) -> bool {
+        stretch.iter().any(|v| self.frozen.contains(v))
     }
 
-    /// The stretch of `k` edges replaced by two to a point seen from all.
-    /// None where it does not fit.
+    /// Replaces a stretch of `k` edges by two edges to a new point that sees all of them; `None` if
+    /// it does not fit.
     fn replace(&mut self, at: usize, k: usize) -> Option<()> {
         let stretch: Vec<u32> = (0..=k).map(|i| self.vertex(at + i)).collect();
-        if self.len() < k + 2 || self.is_kept(&stretch) {
+        if self.len() < k + 2 || self.has_frozen(&stretch) {
             return None;
         }
         let p = self.common_point(0, at, &stretch)?;
@@ -177,40 +198,42 @@ impl<'a> FrontRing<'a> {
         let new = self.coarse.points[0].len() as u32;
         self.coarse.points[0].push(p);
         self.coarse.points[1].push(q);
+        // The fan between the stretch and its new point leaves the front.
         let faces = stretch.windows(2).map(|edge| [edge[0], edge[1], new]);
         self.coarse.faces.extend(faces);
         self.splice(at, k, Some(new));
         Some(())
     }
 
-    /// Takes the inner vertices of a stretch out of the ring.
+    /// Takes the inner vertices of a stretch out of the ring and puts `new` in their place.
     fn splice(&mut self, at: usize, k: usize, new: Option<u32>) {
         let len = self.len();
         for i in at..at + k {
             let edge = [self.vertex(i), self.vertex(i + 1)];
-            self.coarse.strike(edge);
+            self.coarse.remove_edge(edge);
         }
         let [first, last] = [self.vertex(at), self.vertex(at + k)];
         let middle = new.unwrap_or(last);
-        self.coarse.list([first, middle]);
+        self.coarse.insert_edge([first, middle]);
         if new.is_some() {
-            self.coarse.list([middle, last]);
+            self.coarse.insert_edge([middle, last]);
         }
         let ring = &mut self.coarse.rings[self.ring];
         ring.rotate_left(at);
+        // With the stretch at the start of the list, its inner vertices are 1..k.
         ring.splice(1..k, new);
-        // Back, so that places before the stretch keep their numbers.
+        // Rotated back, so that positions before the stretch stay valid.
         let now = ring.len();
         ring.rotate_right(at.min(now) % now.max(1));
         debug_assert!(now < len);
     }
 
-    /// The lines that a new vertex has to be left of: the stretch's edges and
-    /// those beside it at corners less than straight.
+    /// Returns the lines that a new vertex must lie left of: the edges of the stretch, and the
+    /// edges next to it at convex corners.
     fn sides(&self, d: usize, at: usize, k: usize) -> Vec<[DVec2; 2]> {
         let n = self.len();
         let place = |i: usize| self.place(d, self.vertex(i));
-        // A corner that is cut off gets no vertex that would have to see it.
+        // Cutting a corner (k = 2) adds no vertex that would have to see the stretch.
         let mut sides: Vec<[DVec2; 2]> = (0..k)
             .filter(|_| k > 2)
             .map(|i| [place(at + i), place(at + i + 1)])
@@ -226,7 +249,7 @@ impl<'a> FrontRing<'a> {
         sides
     }
 
-    /// A point in one design that sees the whole stretch, with room around.
+    /// Returns a point that sees the whole stretch in one design, with clearance.
     fn common_point(&self, d: usize, at: usize, stretch: &[u32]) -> Option<DVec2> {
         let places: Vec<DVec2> = stretch.iter().map(|&v| self.place(d, v)).collect();
         let middle = places.iter().sum::<DVec2>() / places.len() as f64;
@@ -236,10 +259,11 @@ impl<'a> FrontRing<'a> {
             .fold(0.0, f64::max);
         let sides = self.sides(d, at, stretch.len() - 1);
         let last = places.len() - 1;
-        // The square about the middle keeps the kernel near its stretch: an
-        // open one would reach across the piece.
+        // The square keeps the kernel near its stretch; an unbounded kernel would reach across the
+        // piece.
         REACHES.into_iter().find_map(|reach| {
             let point = centre_of_kernel(middle, reach * extent, &sides)?;
+            // If the first and last sight lines are free, only a whole ring can lie inside the fan.
             let sees = |p: DVec2| {
                 self.is_free(d, stretch[0], p, &[]) && self.is_free(d, stretch[last], p, &[])
             };
@@ -247,32 +271,32 @@ impl<'a> FrontRing<'a> {
                 .windows(2)
                 .map(|edge| [edge[0], edge[1], point])
                 .collect();
-            // Exactly: the clipping was not.
+            // Checked exactly, because the clipping is rounded.
             let fits = sides.iter().all(|&[a, b]| orient2d(a, b, point) > 0.0)
                 && sees(point)
-                && sees(middle + ROOM * (point - middle))
+                && sees(middle + CLEARANCE * (point - middle))
                 && !self.holds_ring(d, &fan);
             fits.then_some(point)
         })
     }
 
-    /// Whether the straight way from a vertex of the front to a point
-    /// touches no edge of the front but those at the vertex and at `others`.
+    /// Returns whether the straight segment from a front vertex to a point touches no edge of the
+    /// front, except edges at that vertex and at `others`.
     fn is_free(&self, d: usize, from: u32, to: DVec2, others: &[u32]) -> bool {
-        let way = [self.place(d, from), to];
-        !self.coarse.near[d].any(way, |edge| {
+        let segment = [self.place(d, from), to];
+        !self.coarse.near[d].any_near(segment, |edge| {
             !edge.contains(&from)
                 && !others.iter().any(|v| edge.contains(v))
-                && segments_touch(way, self.coarse.ends(d, edge))
+                && segments_touch(segment, self.coarse.ends(d, edge))
         })
     }
 
-    /// Whether another ring lies in one of the triangles.
+    /// Returns whether another ring of the front lies in one of the triangles.
     fn holds_ring(&self, d: usize, triangles: &[[DVec2; 3]]) -> bool {
         let rings = self.coarse.rings.iter().enumerate();
         let mut others = rings.filter(|(r, _)| *r != self.ring);
         others.any(|(_, ring)| {
-            // Rings touch no sight line, so that one point tells for all.
+            // Rings touch no sight line, so one point decides for the whole ring.
             let p = self.place(d, ring[0]);
             triangles.iter().any(|&[a, b, c]| {
                 [[a, b], [b, c], [c, a]]
@@ -283,13 +307,15 @@ impl<'a> FrontRing<'a> {
     }
 }
 
-/// The mean corner of what is left of all lines within a square.
+/// Clips a square by all lines and returns the mean of the remaining polygon's corners; `None` if
+/// nothing remains.
 fn centre_of_kernel(middle: DVec2, half: f64, sides: &[[DVec2; 2]]) -> Option<DVec2> {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let mut kernel: Vec<DVec2> = corners
         .iter()
         .map(|&(x, y)| middle + half * DVec2::new(x, y))
         .collect();
+    // Clips to the left of each line (Sutherland, Hodgman 1974).
     for &[a, b] in sides {
         let height = |p: DVec2| (b - a).perp_dot(p - a);
         let mut cut = Vec::with_capacity(kernel.len() + 1);

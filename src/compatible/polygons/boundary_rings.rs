@@ -1,5 +1,4 @@
-//! The boundary rings of one connected piece in one design, and whether they
-//! bound one.
+//! Boundary rings of one connected piece in one design, and the check that they bound one.
 
 use super::error::{PieceEdge, PieceMeshError};
 use super::ring_contacts::touching_edges;
@@ -7,15 +6,17 @@ use crate::geometry::{DVec2, Side, ring_edges, signed_area};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 use std::ops::Range;
 
-/// Boundary rings, one after the other.
+/// Boundary rings in one list of points, the outer one first.
 #[derive(Clone, Debug)]
 pub(super) struct BoundaryRings {
+    /// Points of all rings, ring after ring.
     pub(super) points: Vec<DVec2>,
-    /// Which of the points each ring has.
+    /// Index range of the points of each ring.
     pub(super) ranges: Vec<Range<usize>>,
 }
 
 impl BoundaryRings {
+    /// Collects rings.
     pub(super) fn of<R: AsRef<[DVec2]>>(rings: &[R]) -> Self {
         let mut end = 0;
         let range = |ring: &R| {
@@ -28,6 +29,7 @@ impl BoundaryRings {
         }
     }
 
+    /// The rings with all coordinates multiplied by `by`.
     pub(super) fn scaled(&self, by: f64) -> Self {
         Self {
             points: self.points.iter().map(|&p| p * by).collect(),
@@ -35,14 +37,14 @@ impl BoundaryRings {
         }
     }
 
-    /// The rings, each by its points.
-    pub(super) fn walks(&self) -> Vec<&[DVec2]> {
+    /// Points of each ring.
+    pub(super) fn loops(&self) -> Vec<&[DVec2]> {
         let ranges = self.ranges.iter().cloned();
         ranges.map(|range| &self.points[range]).collect()
     }
 
-    /// Where in its ring a point is.
-    pub(super) fn place(&self, point: usize) -> PieceEdge {
+    /// Returns the ring of a point and its index in that ring.
+    pub(super) fn edge_at(&self, point: usize) -> PieceEdge {
         let holds = |range: &Range<usize>| range.contains(&point);
         let ring = self.ranges.iter().position(holds).unwrap_or(0);
         let edge = point - self.ranges[ring].start;
@@ -50,36 +52,37 @@ impl BoundaryRings {
     }
 }
 
-/// Whether the rings bound one piece: an outer one, counter-clockwise, and
-/// holes in it, clockwise, that touch nothing but their own slits. O(n log n)
-/// where they do.
+/// Checks that the rings bound one piece: a counter-clockwise outer ring with clockwise holes
+/// inside, which touch nothing but their own slits. O(n log n) for valid rings.
 pub(super) fn check(rings: &BoundaryRings, side: Side) -> Result<(), PieceMeshError> {
-    let walks = rings.walks();
-    if walks.is_empty() {
+    let loops = rings.loops();
+    if loops.is_empty() {
         return Err(PieceMeshError::NoOutline);
     }
-    if let Some(ring) = walks.iter().position(|walk| walk.len() < 3) {
-        let points = walks[ring].len();
+    if let Some(ring) = loops.iter().position(|ring| ring.len() < 3) {
+        let points = loops[ring].len();
         return Err(PieceMeshError::TooFewPoints { ring, points });
     }
     if let Some(point) = rings.points.iter().position(|p| !p.is_finite()) {
         return Err(not_finite(rings, point, side));
     }
-    // It refuses all that is wrong, quickly; only then is it asked what.
-    match constrained_delaunay(&walks) {
+    // The triangulation quickly refuses all faults; only then is the cause searched for.
+    match constrained_delaunay(&loops) {
         Ok(_) => Ok(()),
         Err(TriangulationError::OutOfRange) => {
+            // The point farthest out is the likeliest cause.
             let size = |p: &DVec2| p.abs().max_element();
-            let far = (0..rings.points.len())
+            let farthest = (0..rings.points.len())
                 .max_by(|&a, &b| size(&rings.points[a]).total_cmp(&size(&rings.points[b])));
-            Err(not_finite(rings, far.unwrap_or(0), side))
+            Err(not_finite(rings, farthest.unwrap_or(0), side))
         }
-        Err(error) => Err(reason(rings, &walks, side, error)),
+        Err(error) => Err(find_fault(rings, &loops, side, error)),
     }
 }
 
+/// Error for a point whose coordinates are out of range.
 fn not_finite(rings: &BoundaryRings, point: usize, side: Side) -> PieceMeshError {
-    let PieceEdge { ring, edge } = rings.place(point);
+    let PieceEdge { ring, edge } = rings.edge_at(point);
     PieceMeshError::NotFinite {
         side,
         ring,
@@ -87,44 +90,44 @@ fn not_finite(rings: &BoundaryRings, point: usize, side: Side) -> PieceMeshError
     }
 }
 
-/// Why rings bound no piece, found the slow way.
-fn reason(
+/// Finds out why the rings bound no piece, by slow tests.
+fn find_fault(
     rings: &BoundaryRings,
-    walks: &[&[DVec2]],
+    loops: &[&[DVec2]],
     side: Side,
     error: TriangulationError,
 ) -> PieceMeshError {
-    // First: which way round crossing rings run says nothing.
-    if let Some(edges) = touching_edges(walks) {
+    // Contacts come first, because the orientation of crossing rings means nothing.
+    if let Some(edges) = touching_edges(loops) {
         return PieceMeshError::NotSimple {
             side,
             place: rings.points[edges[0]],
-            edges: edges.map(|edge| rings.place(edge)),
+            edges: edges.map(|edge| rings.edge_at(edge)),
         };
     }
-    if signed_area(walks[0]) < 0.0 {
+    if signed_area(loops[0]) < 0.0 {
         return PieceMeshError::Clockwise(side);
     }
-    match (1..walks.len()).find(|&hole| signed_area(walks[hole]) > 0.0) {
+    match (1..loops.len()).find(|&hole| signed_area(loops[hole]) > 0.0) {
         Some(hole) => PieceMeshError::CounterClockwise { side, hole },
-        None if walks.len() > 1 && error == TriangulationError::NotOnePiece => {
+        None if loops.len() > 1 && error == TriangulationError::NotOnePiece => {
             PieceMeshError::HoleOutside(side)
         }
         None => {
-            let shortest = shortest(walks);
-            PieceMeshError::Refused {
+            let shortest = shortest(loops);
+            PieceMeshError::NotTriangulated {
                 side,
                 place: rings.points[shortest],
-                shortest: rings.place(shortest),
+                shortest: rings.edge_at(shortest),
                 error,
             }
         }
     }
 }
 
-/// The point that the shortest edge begins at.
-fn shortest(walks: &[&[DVec2]]) -> usize {
-    let edges = walks.iter().flat_map(|walk| ring_edges(walk));
+/// Index of the point at which the shortest edge starts.
+fn shortest(loops: &[&[DVec2]]) -> usize {
+    let edges = loops.iter().flat_map(|ring| ring_edges(ring));
     let lengths = edges.map(|(a, b)| a.distance(b)).enumerate();
     let least = lengths.min_by(|a, b| a.1.total_cmp(&b.1));
     least.map_or(0, |(edge, _)| edge)
@@ -134,7 +137,7 @@ fn shortest(walks: &[&[DVec2]]) -> usize {
 mod tests {
     use super::*;
 
-    fn verdict<const N: usize>(rings: [&[(f64, f64)]; N]) -> Result<(), PieceMeshError> {
+    fn check_rings<const N: usize>(rings: [&[(f64, f64)]; N]) -> Result<(), PieceMeshError> {
         let rings = rings.map(|ring| ring.iter().copied().map(DVec2::from).collect::<Vec<_>>());
         check(&BoundaryRings::of(&rings), Side::Source)
     }
@@ -150,65 +153,74 @@ mod tests {
     const SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
 
     #[test]
-    fn points_on_a_straight_side_are_welcome() {
+    fn points_on_a_straight_side_are_allowed() {
         let square = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)];
-        assert_eq!(verdict([&square]), Ok(()));
+        assert_eq!(check_rings([&square]), Ok(()));
     }
 
     #[test]
     fn spikes_touches_and_wrong_direction_are_named() {
         let spike = [(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (1.0, 1.0)];
-        assert_eq!(verdict([&spike]), not_simple([(0, 0), (0, 1)], (0.0, 0.0)));
+        assert_eq!(
+            check_rings([&spike]),
+            not_simple([(0, 0), (0, 1)], (0.0, 0.0))
+        );
         let touch = [(0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (2.0, 0.0), (0.0, 2.0)];
-        assert_eq!(verdict([&touch]), not_simple([(0, 0), (0, 3)], (0.0, 0.0)));
+        assert_eq!(
+            check_rings([&touch]),
+            not_simple([(0, 0), (0, 3)], (0.0, 0.0))
+        );
         let twice = [(0.0, 0.0), (4.0, 0.0), (4.0, 0.0), (0.0, 2.0)];
-        assert_eq!(verdict([&twice]), not_simple([(0, 0), (0, 1)], (0.0, 0.0)));
+        assert_eq!(
+            check_rings([&twice]),
+            not_simple([(0, 0), (0, 1)], (0.0, 0.0))
+        );
         let clockwise = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0)];
         assert_eq!(
-            verdict([&clockwise]),
+            check_rings([&clockwise]),
             Err(PieceMeshError::Clockwise(Side::Source))
         );
     }
 
     #[test]
-    fn what_is_refused_without_a_fault_names_its_shortest_edge() {
-        // Below the arithmetic's range two points are one.
+    fn rings_refused_without_a_known_fault_name_their_shortest_edge() {
+        // 1e-200 underflows in the predicates, so two points count as one.
         let thin = [(0.0, 0.0), (1.0, 0.0), (1.0, 1e-200), (0.0, 1.0)];
-        let refused = PieceMeshError::Refused {
+        let refused = PieceMeshError::NotTriangulated {
             side: Side::Source,
             shortest: PieceEdge { ring: 0, edge: 1 },
             place: DVec2::X,
             error: TriangulationError::NotSimple,
         };
-        assert_eq!(verdict([&thin]), Err(refused));
+        assert_eq!(check_rings([&thin]), Err(refused));
     }
 
     #[test]
     fn holes_outside_reversed_or_touching_are_named() {
         let inside = [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
-        assert_eq!(verdict([&SQUARE, &inside]), Ok(()));
+        assert_eq!(check_rings([&SQUARE, &inside]), Ok(()));
         let outside = inside.map(|(x, y)| (x + 9.0, y));
         let side = Side::Source;
         assert_eq!(
-            verdict([&SQUARE, &outside]),
+            check_rings([&SQUARE, &outside]),
             Err(PieceMeshError::HoleOutside(side))
         );
         let reversed = [inside[2], inside[1], inside[0]];
         assert_eq!(
-            verdict([&SQUARE, &reversed]),
+            check_rings([&SQUARE, &reversed]),
             Err(PieceMeshError::CounterClockwise { side, hole: 1 })
         );
         let touching = inside.map(|(x, y)| (x - 1.0, y));
         assert_eq!(
-            verdict([&SQUARE, &touching]),
+            check_rings([&SQUARE, &touching]),
             not_simple([(0, 3), (1, 0)], (0.0, 4.0))
         );
         let corner = [(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)];
         assert_eq!(
-            verdict([&SQUARE, &corner]),
+            check_rings([&SQUARE, &corner]),
             not_simple([(0, 0), (1, 0)], (0.0, 0.0))
         );
         let same = [inside; 2];
-        assert!(verdict([&SQUARE, &same[0], &same[1]]).is_err());
+        assert!(check_rings([&SQUARE, &same[0], &same[1]]).is_err());
     }
 }

@@ -1,9 +1,9 @@
-//! The guaranteed base for a piece with holes: cut along corresponding
-//! bridges until one walk bounds it, triangulated as a disc, welded again.
+//! Guaranteed base mesh for a piece with holes: cut it open along corresponding bridges until it is
+//! a disc, triangulate the disc, and weld it along the bridges.
 //!
-//! A bridge is a straight diagonal in one design. In the other it runs
-//! through the triangulation from edge midpoint to edge midpoint, and the
-//! diagonal gets as many points. Its points become movable vertices.
+//! A bridge is a straight diagonal in one design. In the other design it runs through the
+//! triangulation from edge midpoint to edge midpoint, and the diagonal gets the same number of
+//! points. The points of bridges become movable vertices.
 
 use super::boundary_rings::BoundaryRings;
 use super::chords;
@@ -17,60 +17,63 @@ use crate::mesh::{Connectivity, sides};
 use crate::work::progress::{Progress, checkpoint};
 use std::collections::{HashMap, VecDeque};
 
-/// Diagonals tried for each bridge, shortest first. Each is a search through
-/// the other design's triangulation; a better bridge only saves points that
-/// are thinned out later.
-const TRIED: usize = 12;
+/// Maximum number of diagonals tried for each bridge, shortest first (resource limit: each needs a
+/// search through the other design's triangulation, and a better bridge only saves points that are
+/// thinned out later).
+const MAX_DIAGONALS: usize = 12;
 
-/// A corner of a walk in both designs and the vertex that it is.
+/// Corner of a boundary loop in both designs, with its vertex index.
 #[derive(Clone, Copy)]
 struct BridgeCorner {
-    at: [DVec2; 2],
+    places: [DVec2; 2],
     vertex: u32,
 }
 
-/// Both designs' walks, which bound pieces that correspond.
+/// Boundary loops of a piece in both designs: the outer one first, then the holes that are not
+/// bridged yet.
 struct PieceLoops(Vec<Vec<BridgeCorner>>);
 
-/// A bridge between two corners, by their places in all walks, with its
-/// inner points.
+/// Bridge between two corners, which are numbered through all loops, with its inner points in both
+/// designs.
 struct Bridge {
     ends: [usize; 2],
     inner: Vec<[DVec2; 2]>,
 }
 
-/// A mesh that is valid over the reals.
+/// Returns a mesh that is valid in exact arithmetic; rounding may flatten faces, which the caller
+/// checks.
 pub(super) fn bridged_base(
     source: &BoundaryRings,
     target: &BoundaryRings,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PieceMeshError> {
     let fixed = source.points.len();
-    let mut walks = PieceLoops::of(source, target);
+    let mut loops = PieceLoops::of(source, target);
     let mut whole = MeshAssembly {
         points: [source.points.clone(), target.points.clone()],
         faces: Vec::new(),
     };
-    // One hole at a time: the next bridge may start on this one's banks.
-    let holes = walks.0.len();
-    while walks.0.len() > 1 {
-        let done = 1.0 - walks.0.len() as f64 / holes as f64;
+    // One hole at a time, so that the next bridge may start on this one.
+    let holes = loops.0.len();
+    while loops.0.len() > 1 {
+        let done = 1.0 - loops.0.len() as f64 / holes as f64;
         checkpoint(progress, "bridging", done)?;
-        let bridge = walks.bridge()?;
+        let bridge = loops.bridge()?;
         let first = whole.points[0].len() as u32;
         for &[p, q] in &bridge.inner {
             whole.points[0].push(p);
             whole.points[1].push(q);
         }
-        walks.cut(&bridge, first);
+        loops.merge(&bridge, first);
     }
-    let disc = &walks.0[0];
-    let points = [0, 1].map(|d| disc.iter().map(|c| c.at[d]).collect::<Vec<_>>());
+    // A single loop bounds a disc, which needs no bridges.
+    let disc = &loops.0[0];
+    let points = [0, 1].map(|d| disc.iter().map(|c| c.places[d]).collect::<Vec<_>>());
     let triangulations = chords::triangulations(&points[0], &points[1], progress)?;
     let mesh = overlay(&points[0], &points[1], &triangulations, progress)?;
-    // Both banks of a bridge are one vertex again.
+    // Both banks of a bridge become one vertex again.
     let vertices: Vec<u32> = disc.iter().map(|corner| corner.vertex).collect();
-    whole.add(
+    whole.append(
         &vertices,
         mesh.points.each_ref().map(Vec::as_slice),
         mesh.faces(),
@@ -79,68 +82,74 @@ pub(super) fn bridged_base(
 }
 
 impl PieceLoops {
+    /// Pairs the loops of both designs; vertices are numbered ring after ring.
     fn of(source: &BoundaryRings, target: &BoundaryRings) -> Self {
         let pairs = source.points.iter().zip(&target.points);
-        let corner = |(vertex, (&p, &q))| BridgeCorner { at: [p, q], vertex };
+        let corner = |(vertex, (&p, &q))| BridgeCorner {
+            places: [p, q],
+            vertex,
+        };
         let mut corners = (0..).zip(pairs).map(corner);
-        let walks = source.walks().into_iter();
+        let loops = source.loops().into_iter();
         Self(
-            walks
-                .map(|walk| corners.by_ref().take(walk.len()).collect())
+            loops
+                .map(|ring| corners.by_ref().take(ring.len()).collect())
                 .collect(),
         )
     }
 
+    /// Corners of all loops, in order.
     fn corners(&self) -> impl Iterator<Item = &BridgeCorner> {
         self.0.iter().flatten()
     }
 
-    /// The bridge from the first walk to another one that needs the fewest
-    /// inner points, and is straight in one design.
+    /// Returns the bridge from the first loop to another one that needs the fewest inner points and
+    /// is straight in one design.
     fn bridge(&self) -> Result<Bridge, PieceMeshError> {
-        let nets = [
+        let graphs = [
             MidpointGraph::of(self, Side::Source)?,
             MidpointGraph::of(self, Side::Target)?,
         ];
-        let ways = (0..2).flat_map(|straight| {
-            let diagonals = self.diagonals(&nets[straight], straight).into_iter();
-            let bent = &nets[1 - straight];
+        let candidates = (0..2).flat_map(|straight| {
+            let diagonals = self.diagonals(&graphs[straight], straight).into_iter();
+            let bent = &graphs[1 - straight];
             diagonals.filter_map(move |ends| Some((straight, ends, bent.path(ends)?)))
         });
-        // Of equal ones the first: straight in the source, and the shortest.
-        let (straight, ends, bent) = ways
+        // Ties go to the first candidate: straight in the source, then the shortest.
+        let (straight, ends, bent) = candidates
             .min_by_key(|(_, _, bent)| bent.len())
             .ok_or(PieceMeshError::NoBridge)?;
-        let inner = self.along(ends, straight, &bent);
+        let inner = self.inner_points(ends, straight, &bent);
         Ok(Bridge { ends, inner })
     }
 
-    /// The shortest diagonals from the first walk to the others.
-    fn diagonals(&self, net: &MidpointGraph, design: usize) -> Vec<[usize; 2]> {
+    /// Returns the shortest diagonals from the first loop to the others in one design.
+    fn diagonals(&self, graph: &MidpointGraph, design: usize) -> Vec<[usize; 2]> {
+        // Corners with smaller numbers belong to the first loop.
         let outer = self.0[0].len() as u32;
         let corners: Vec<&BridgeCorner> = self.corners().collect();
         let length = |&[a, b]: &[usize; 2]| {
-            let [a, b] = [a, b].map(|k| corners[k].at[design]);
+            let [a, b] = [a, b].map(|k| corners[k].places[design]);
             a.distance_squared(b)
         };
-        let mut found: Vec<[usize; 2]> = net
+        let mut shortest: Vec<[usize; 2]> = graph
             .faces
             .iter()
             .flat_map(|&face| sides(face))
-            // Once each: the other face beside it runs the edge the other way.
+            // Once each: the face on the other side lists the edge in the opposite direction.
             .filter(|&[a, b]| a < outer && b >= outer)
             .map(|edge| edge.map(|k| k as usize))
             .collect();
-        found.sort_by(|a, b| length(a).total_cmp(&length(b)).then(a.cmp(b)));
-        found.truncate(TRIED);
-        found
+        shortest.sort_by(|a, b| length(a).total_cmp(&length(b)).then(a.cmp(b)));
+        shortest.truncate(MAX_DIAGONALS);
+        shortest
     }
 
-    /// The inner points of a bridge, given those in the design where it is
-    /// not straight.
-    fn along(&self, ends: [usize; 2], straight: usize, inner: &[DVec2]) -> Vec<[DVec2; 2]> {
+    /// Returns the inner points of a bridge in both designs, given those in the design where it is
+    /// bent. In the other design they are spaced evenly.
+    fn inner_points(&self, ends: [usize; 2], straight: usize, inner: &[DVec2]) -> Vec<[DVec2; 2]> {
         let corners: Vec<&BridgeCorner> = self.corners().collect();
-        let [a, b] = ends.map(|end| corners[end].at[straight]);
+        let [a, b] = ends.map(|end| corners[end].places[straight]);
         let count = inner.len() as f64 + 1.0;
         let place = |(k, &bent): (usize, &DVec2)| {
             let even = a.lerp(b, (k + 1) as f64 / count);
@@ -153,78 +162,82 @@ impl PieceLoops {
         inner.iter().enumerate().map(place).collect()
     }
 
-    /// Joins a walk to the first one by both banks of a bridge.
-    fn cut(&mut self, bridge: &Bridge, first: u32) {
+    /// Merges a hole's loop into the first loop along both banks of a bridge. `first_vertex` is the
+    /// index of the bridge's first inner point.
+    fn merge(&mut self, bridge: &Bridge, first_vertex: u32) {
         let [a, mut b] = bridge.ends;
-        let mut w = 0;
-        while b >= self.0[w].len() {
-            b -= self.0[w].len();
-            w += 1;
+        // Corners are numbered through all loops, so the loop of the far end has to be found.
+        let mut loop_index = 0;
+        while b >= self.0[loop_index].len() {
+            b -= self.0[loop_index].len();
+            loop_index += 1;
         }
-        let hole = self.0.remove(w);
+        let hole = self.0.remove(loop_index);
         let outer = std::mem::take(&mut self.0[0]);
-        let there: Vec<BridgeCorner> = bridge
+        let bridge_corners: Vec<BridgeCorner> = bridge
             .inner
             .iter()
-            .zip(first..)
-            .map(|(&at, vertex)| BridgeCorner { at, vertex })
+            .zip(first_vertex..)
+            .map(|(&places, vertex)| BridgeCorner { places, vertex })
             .collect();
-        // Both walks all around, first corner to first corner, so that either
-        // bank of the bridge has both its ends.
-        let around = |walk: &[BridgeCorner], from: usize| {
-            let n = walk.len();
-            (0..=n).map(|k| walk[(from + k) % n]).collect::<Vec<_>>()
+        // Each loop runs all around and repeats its first corner, so that either bank of the bridge
+        // has both ends.
+        let around = |ring: &[BridgeCorner], from: usize| {
+            let n = ring.len();
+            (0..=n).map(|k| ring[(from + k) % n]).collect::<Vec<_>>()
         };
-        let back = there.iter().rev().copied();
+        let back = bridge_corners.iter().rev().copied();
         self.0[0] = around(&outer, a)
             .into_iter()
-            .chain(there.iter().copied())
+            .chain(bridge_corners.iter().copied())
             .chain(around(&hole, b))
             .chain(back)
             .collect();
     }
 }
 
-/// A triangulation to find ways in: from corner to edge midpoint to edge
-/// midpoint to corner.
+/// Triangulation of the loops in one design, searched for paths from a corner through edge
+/// midpoints to another corner.
 struct MidpointGraph {
     faces: Vec<[u32; 3]>,
     connectivity: Connectivity,
     points: Vec<DVec2>,
 }
 
-/// For each face that was reached the face and its side by which, if it is
-/// not one of the first.
+/// For each face that was reached, the face and side from which; `None` for the faces at the start.
 type PredecessorMap = HashMap<usize, Option<(usize, usize)>>;
 
 impl MidpointGraph {
-    fn of(walks: &PieceLoops, side: Side) -> Result<Self, PieceMeshError> {
-        let points = |walk: &Vec<BridgeCorner>| walk.iter().map(|c| c.at[side]).collect::<Vec<_>>();
-        let walks: Vec<Vec<DVec2>> = walks.0.iter().map(points).collect();
+    /// Triangulates the loops in one design.
+    fn of(piece_loops: &PieceLoops, side: Side) -> Result<Self, PieceMeshError> {
+        let points =
+            |ring: &Vec<BridgeCorner>| ring.iter().map(|c| c.places[side]).collect::<Vec<_>>();
+        let loops: Vec<Vec<DVec2>> = piece_loops.0.iter().map(points).collect();
         let faces =
-            constrained_delaunay(&walks).map_err(|error| PieceMeshError::Base { side, error })?;
+            constrained_delaunay(&loops).map_err(|error| PieceMeshError::Base { side, error })?;
         let connectivity = Connectivity::new(&faces)
             .unwrap_or_else(|_| unreachable!("faces of a triangulation meet edge to edge"));
         Ok(Self {
             faces,
             connectivity,
-            points: walks.concat(),
+            points: loops.concat(),
         })
     }
 
-    /// The fewest midpoints on a way between two corners, in order; none
-    /// where an edge joins them.
+    /// Returns the edge midpoints on a path between two corners that has the fewest; none if an
+    /// edge joins the corners. `None` if no path exists.
     fn path(&self, ends: [usize; 2]) -> Option<Vec<DVec2>> {
         let [from, to] = ends.map(|end| end as u32);
-        // All faces at the start before any other, so that one that has the
-        // end too is found first.
+        // All faces at the start are queued first, so one that also contains the end is found
+        // before any longer path.
         let mut open: VecDeque<usize> = (0..self.faces.len())
             .filter(|&f| self.faces[f].contains(&from))
             .collect();
         let mut reached: PredecessorMap = open.iter().map(|&f| (f, None)).collect();
+        // Breadth first, so the first path found crosses the fewest edges.
         while let Some(f) = open.pop_front() {
             if self.faces[f].contains(&to) {
-                return Some(self.way(f, &reached));
+                return Some(self.midpoints_to(f, &reached));
             }
             for k in 0..3 {
                 if let Some(beyond) = self.connectivity.neighbour(f, k)
@@ -238,12 +251,12 @@ impl MidpointGraph {
         None
     }
 
-    fn way(&self, mut face: usize, reached: &PredecessorMap) -> Vec<DVec2> {
+    /// Returns the midpoints of the edges crossed on the way to `face`, in order.
+    fn midpoints_to(&self, mut face: usize, reached: &PredecessorMap) -> Vec<DVec2> {
         let mut points = Vec::new();
         while let Some(&Some((before, k))) = reached.get(&face) {
             let [a, b] = sides(self.faces[before])[k].map(|v| self.points[v as usize]);
-            // Halfway, the bridge is as far as can be from both ends: the parts
-            // that it leaves have room.
+            // The midpoint is as far as possible from both ends, which leaves room on either side.
             points.push(a.midpoint(b));
             face = before;
         }

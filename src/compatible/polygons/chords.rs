@@ -1,12 +1,11 @@
-//! Steiner-free triangulations of two polygons that cross as little as
+//! Triangulates two polygons without extra vertices so that the triangulations cross as little as
 //! possible when both are drawn on one convex polygon.
 //!
-//! Chords i–j that lie inside a polygon are found exactly; a triangulation of
-//! least total cost is found by the classic dynamic program over chords
-//! (Gilbert 1979, Klincsek 1980); the two polygons take turns, each
-//! minimising its crossings with the other's present choice. A local optimum
-//! is all that is promised; a chord valid in both costs nothing, so that two
-//! equal polygons end without crossings.
+//! Chords that lie inside a polygon are determined exactly. A triangulation with the least total
+//! chord cost is found by dynamic programming (Gilbert 1979, Klincsek 1980). The polygons take
+//! turns: each minimises its crossings with the other's current triangulation. The result is a
+//! local optimum. Chords that are valid in both polygons cost nothing, so two equal polygons end
+//! without crossings.
 
 use super::error::PieceMeshError;
 use crate::geometry::{DVec2, Side, orient2d, segments_touch};
@@ -14,39 +13,47 @@ use crate::mesh::sides;
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 use crate::work::progress::{Cancelled, Progress, still_wanted};
 
-/// Up to so many vertices crossings are minimised, in O(n³): 10 million
-/// triangles, each chord held against all diagonals, at every turn. Beyond,
-/// both polygons take their Delaunay triangulations.
-const SEARCHED: usize = 400;
-/// Turns of the two polygons; more changed nothing on random polygons.
+/// Maximum number of vertices for which crossings are minimised (resource limit: the search is
+/// O(n³), with 10 million triangles per turn at this size). Larger polygons take their Delaunay
+/// triangulations.
+const MAX_SEARCHED: usize = 400;
+/// Number of turns in which one polygon adapts to the other (heuristic).
 const TURNS: usize = 4;
-/// What a flat triangle costs, in crossings: shape only breaks ties, as long
-/// as there are fewer than a thousand triangles, and [`SEARCHED`] is 400.
+/// Cost of a flat triangle, in crossings (derived: at most [`MAX_SEARCHED`] triangles add up to
+/// less than one crossing, so shape only breaks ties).
 const SHAPE_COST: f64 = 1e-3;
-/// What a triangle costs that is flat but for rounding, as beside a point
-/// on a straight side: crossings in it would find no room.
+/// Cost, in crossings, of a triangle that is flat up to rounding, such as one at a point on a
+/// straight side (derived: more than the 158,000 crossings possible, since crossings inside it
+/// would find no room).
 const SLIVER_COST: f64 = 1e6;
-/// Flatness counts as rounding where what is missing to 1 is less than this:
-/// a height of some 6e-8 of the base, by which points on a side are off it
-/// that were once written in single precision.
+/// A triangle whose flatness is closer to 1 than this counts as flat up to rounding (tolerance: a
+/// height of about 6e-8 of the base, the error of points on a side that were written in single
+/// precision).
 const SLIVER: f64 = 1e-7;
 
-/// Two triangulations of the vertices 0..n, one for each polygon.
+/// Returns a triangulation of the vertices `0..n` for each polygon.
+///
+/// # Errors
+/// [`PieceMeshError`] if a polygon has no triangulation, or the work is cancelled.
 pub(super) fn triangulations(
     source: &[DVec2],
     target: &[DVec2],
     progress: &dyn Progress,
 ) -> Result<[Vec<[u32; 3]>; 2], PieceMeshError> {
-    let refused = |side, error| PieceMeshError::Base { side, error };
+    let base_error = |side, error| PieceMeshError::Base { side, error };
     let has_slits = |points| !coincident_corners(points).is_empty();
-    if source.len() > SEARCHED || has_slits(source) || has_slits(target) {
-        let alone = |side: Side, points| {
-            constrained_delaunay(&[points]).map_err(|error| refused(side, error))
+    // The search needs distinct corners, and those on slits coincide.
+    if source.len() > MAX_SEARCHED || has_slits(source) || has_slits(target) {
+        let delaunay = |side: Side, points| {
+            constrained_delaunay(&[points]).map_err(|error| base_error(side, error))
         };
-        return Ok([alone(Side::Source, source)?, alone(Side::Target, target)?]);
+        return Ok([
+            delaunay(Side::Source, source)?,
+            delaunay(Side::Target, target)?,
+        ]);
     }
-    // The source first takes what is a chord of both, and then they answer
-    // each other, the target first.
+    // The source first prefers chords that are valid in both; then the polygons take turns, the
+    // target first.
     let chords = [
         InteriorChords::of(source, progress)?,
         InteriorChords::of(target, progress)?,
@@ -55,24 +62,25 @@ pub(super) fn triangulations(
     let not_shared = |i, j| f64::from(u8::from(!chords[1].inside(i, j)));
     let first = cheapest(points[0], &chords[0], not_shared, progress)?;
     let mut faces = [first, Vec::new()];
+    // Odd turns change the target, even turns the source.
     for turn in 1..=TURNS {
         let (mine, other) = (turn % 2, (turn + 1) % 2);
         let diagonals = diagonals(&faces[other], source.len());
         let crossings = |i, j| crossings(&diagonals, i, j) as f64;
         faces[mine] = cheapest(points[mine], &chords[mine], crossings, progress)?;
     }
-    // Flat input beyond what the exact predicates see cannot occur: a simple
-    // polygon has a triangulation.
+    // A simple polygon always has a triangulation; this reports polygons that are not simple after
+    // all.
     let lacks = |side: &Side| faces[*side].len() + 2 != source.len();
     match Side::BOTH.into_iter().find(lacks) {
-        Some(side) => Err(refused(side, TriangulationError::NotSimple)),
+        Some(side) => Err(base_error(side, TriangulationError::NotSimple)),
         None => Ok(faces),
     }
 }
 
-/// The corners that share their place with another one: those of slits.
+/// Returns the corners that coincide with another corner, as those on slits do.
 pub(super) fn coincident_corners(points: &[DVec2]) -> Vec<u32> {
-    // Negative zero is zero.
+    // Adding zero turns -0 into 0.
     let at = |v: u32| points[v as usize] + 0.0;
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_by(|&a, &b| {
@@ -83,13 +91,15 @@ pub(super) fn coincident_corners(points: &[DVec2]) -> Vec<u32> {
     pairs.flatten().copied().collect()
 }
 
-/// Which chords lie inside a polygon.
+/// Chords between two vertices of a polygon that lie inside it.
 struct InteriorChords {
     n: usize,
+    /// `inside[i * n + j]` for i < j.
     inside: Vec<bool>,
 }
 
 impl InteriorChords {
+    /// Tests all chords of a polygon, in O(n³).
     fn of(points: &[DVec2], progress: &dyn Progress) -> Result<Self, Cancelled> {
         let n = points.len();
         let mut inside = vec![false; n * n];
@@ -102,12 +112,14 @@ impl InteriorChords {
         Ok(Self { n, inside })
     }
 
-    /// For i < j: whether the open chord is inside, or is an edge.
+    /// Returns whether the open chord `i`–`j`, i < j, lies inside the polygon or is one of its
+    /// edges.
     fn inside(&self, i: usize, j: usize) -> bool {
         self.inside[i * self.n + j]
     }
 }
 
+/// Returns whether the open chord lies inside the polygon and touches no edge except at its ends.
 fn is_inside(points: &[DVec2], i: usize, j: usize) -> bool {
     let n = points.len();
     let free_of = |k: usize| {
@@ -123,7 +135,7 @@ fn in_cone(points: &[DVec2], i: usize, j: usize) -> bool {
     let n = points.len();
     let (before, after) = (points[(i + n - 1) % n], points[(i + 1) % n]);
     let (a, b) = (points[i], points[j]);
-    // At a convex corner left of both edges, at another one not beyond both.
+    // Convex corner: the chord runs between both edges. Reflex corner: it avoids the outer cone.
     if orient2d(before, a, after) >= 0.0 {
         orient2d(a, b, before) > 0.0 && orient2d(b, a, after) > 0.0
     } else {
@@ -131,7 +143,7 @@ fn in_cone(points: &[DVec2], i: usize, j: usize) -> bool {
     }
 }
 
-/// The inner edges of a triangulation, smaller vertex first.
+/// Returns the inner edges of a triangulation of `0..n`, smaller vertex first, sorted.
 pub(super) fn diagonals(faces: &[[u32; 3]], n: usize) -> Vec<[u32; 2]> {
     let n = n as u32;
     let mut edges: Vec<[u32; 2]> = faces
@@ -143,17 +155,19 @@ pub(super) fn diagonals(faces: &[[u32; 3]], n: usize) -> Vec<[u32; 2]> {
     edges
 }
 
+/// Returns the number of diagonals that the chord crosses.
 fn crossings(diagonals: &[[u32; 2]], i: usize, j: usize) -> usize {
     let (i, j) = (i as u32, j as u32);
     diagonals.iter().filter(|d| interleave([i, j], **d)).count()
 }
 
-/// Whether two chords of a convex polygon cross, smaller ends first.
+/// Returns whether two chords of a convex polygon cross; each has its smaller end first.
 pub(super) fn interleave([a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
     (a < c && c < b && b < d) || (c < a && a < d && d < b)
 }
 
-/// The triangulation of least total `cost` of its diagonals.
+/// Returns the triangulation with the least total `cost` of its diagonals. Parts without a
+/// triangulation are left out.
 fn cheapest(
     points: &[DVec2],
     chords: &InteriorChords,
@@ -161,20 +175,21 @@ fn cheapest(
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 3]>, Cancelled> {
     let n = points.len();
-    // For each chord the least cost of the part from i to j, and its apex.
+    // For each chord, the least cost of the part from i to j and the apex of its triangle.
     let mut best = vec![(f64::INFINITY, 0); n * n];
     for i in 0..n {
         if i + 1 < n {
             best[i * n + i + 1].0 = 0.0;
         }
     }
+    // From short chords to long ones, so that the parts behind a chord are already solved.
     for length in 2..n {
         still_wanted(progress)?;
         for i in 0..n - length {
             let j = i + length;
             if chords.inside(i, j) {
                 let (apex_cost, apex) = best_apex(points, &best, i, j);
-                // The last chord is the polygon's closing edge.
+                // The longest chord is the polygon's closing edge, not a diagonal.
                 let own = if length == n - 1 { 0.0 } else { cost(i, j) };
                 best[i * n + j] = (apex_cost + own, apex);
             }
@@ -183,12 +198,13 @@ fn cheapest(
     Ok(collect(&best, n))
 }
 
+/// Returns the least cost of the part behind a chord, and the apex of its triangle.
 fn best_apex(points: &[DVec2], best: &[(f64, usize)], i: usize, j: usize) -> (f64, usize) {
     let n = points.len();
     let mut least = (f64::INFINITY, 0);
     for k in i + 1..j {
         let parts = best[i * n + k].0 + best[k * n + j].0;
-        // Three chords inside need no area: points on a side are in line.
+        // The sides of the triangle may all be inside while it is flat: points on a straight side.
         if parts < least.0 && orient2d(points[i], points[k], points[j]) > 0.0 {
             let flatness = flatness(points[i], points[k], points[j]);
             let sliver = if flatness > 1.0 - SLIVER {
@@ -205,23 +221,24 @@ fn best_apex(points: &[DVec2], best: &[(f64, usize)], i: usize, j: usize) -> (f6
     least
 }
 
-/// 0 for an equilateral triangle, towards 1 for a flat one.
+/// Flatness of a triangle: 0 if equilateral, towards 1 if flat.
 fn flatness(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let squares = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
     1.0 - 2.0 * 3f64.sqrt() * (b - a).perp_dot(c - a).abs() / squares
 }
 
+/// Reads the triangles from the table of the dynamic program.
 fn collect(best: &[(f64, usize)], n: usize) -> Vec<[u32; 3]> {
     let mut faces = Vec::with_capacity(n - 2);
-    let mut open = vec![(0, n - 1)];
-    while let Some((i, j)) = open.pop() {
-        // What has no triangulation is left open, and counted by the caller.
+    let mut pending = vec![(0, n - 1)];
+    while let Some((i, j)) = pending.pop() {
+        // A part without a triangulation is skipped; the caller notices by the number of faces.
         if j - i < 2 || best[i * n + j].0 == f64::INFINITY {
             continue;
         }
         let k = best[i * n + j].1;
         faces.push([i, k, j].map(|v| v as u32));
-        open.extend([(i, k), (k, j)]);
+        pending.extend([(i, k), (k, j)]);
     }
     faces
 }

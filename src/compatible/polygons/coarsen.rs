@@ -1,12 +1,11 @@
-//! Fewer boundary points for the guaranteed base: a front that starts on the
-//! boundary and moves inwards in both designs at once.
+//! Reduces the boundary points before the guaranteed base is built, by an advancing front that
+//! starts on the boundary and moves inwards in both designs at once.
 //!
-//! A stretch of the front that sees a common point in either design becomes
-//! two edges to that point, and the faces between are the mesh's; a corner
-//! that can be cut off in both designs is. Each step is checked exactly in
-//! both designs and left out where it does not fit, so that what remains
-//! bounds corresponding pieces again. It halves the number of points at each
-//! turn where the boundary has detail; how far it comes is not promised.
+//! A stretch of the front that sees a common point in each design is replaced by two edges to that
+//! point, and the triangles in between join the mesh. A corner that can be cut off in both designs
+//! is cut off. Each step is checked exactly in both designs and skipped if it does not fit, so the
+//! remaining front always bounds corresponding pieces. Where the boundary has detail, each turn
+//! halves the number of points; the final number is not guaranteed.
 
 use super::advancing_front::{AdvancingFront, FrontRing};
 use super::boundary_rings::BoundaryRings;
@@ -14,36 +13,33 @@ use super::chords::coincident_corners;
 use crate::work::progress::{Cancelled, Progress};
 use std::collections::HashSet;
 
-/// Turns of the front stop when fewer points than this share go: at each turn
-/// every sight line is held against every edge.
-const WORTHWHILE: f64 = 0.02;
-/// Most turns: at the slowest that is worthwhile, 0.98⁴⁰ of the points are
-/// left, less than half.
-const TURNS: usize = 40;
+/// The front stops when a turn removes less than this fraction of its points (heuristic).
+const MIN_GAIN: f64 = 0.02;
+/// Maximum number of turns (derived: at the smallest accepted gain, 0.98⁴⁰ of the points remain,
+/// less than half).
+const MAX_TURNS: usize = 40;
 
-/// Moves the front inwards until it has at most `enough` points or gets
-/// stuck.
+/// Moves the front inwards until it has at most `max_size` points or makes no more progress.
 pub(super) fn coarsen(
     source: &BoundaryRings,
     target: &BoundaryRings,
-    enough: usize,
+    max_size: usize,
     progress: &dyn Progress,
 ) -> Result<AdvancingFront, Cancelled> {
     let mut coarse = AdvancingFront::of(source, target);
-    // Corners of slits stay: one bank lies on the other, and a sight line from
-    // either would touch both.
-    let kept: HashSet<u32> = coarse
+    // Corners on slits stay: the banks lie on each other, so a sight line from one touches both.
+    let frozen: HashSet<u32> = coarse
         .points
         .iter()
         .flat_map(|p| coincident_corners(p))
         .collect();
-    for turn in 0..TURNS {
+    for turn in 0..MAX_TURNS {
         let before = coarse.size();
         for r in 0..coarse.rings.len() {
-            FrontRing::of(&mut coarse, r, &kept).advance(turn, progress)?;
+            FrontRing::of(&mut coarse, r, &frozen).advance(turn, progress)?;
         }
         let size = coarse.size();
-        if size <= enough || (before - size) as f64 <= WORTHWHILE * before as f64 {
+        if size <= max_size || (before - size) as f64 <= MIN_GAIN * before as f64 {
             break;
         }
     }
@@ -76,7 +72,7 @@ mod tests {
         let coarse = coarsen(&source, &target, 60, &Silent).expect("not cancelled");
         assert!(coarse.size() < 200, "{}", coarse.size());
         for (d, side) in Side::BOTH.into_iter().enumerate() {
-            assert_eq!(boundary_rings::check(&coarse.core(d), side), Ok(()));
+            assert_eq!(boundary_rings::check(&coarse.front_rings(d), side), Ok(()));
             for face in &coarse.faces {
                 assert!(face_cost::is_positive(
                     face.map(|v| coarse.points[d][v as usize])

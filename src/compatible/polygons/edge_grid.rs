@@ -1,50 +1,53 @@
-//! Which edges of a front are near a straight way: a grid of squares, each with
-//! the edges whose box it touches. Edges come and go as the front moves.
+//! Uniform grid over the edges of a front, for proximity queries while edges are added and removed.
 
 use crate::geometry::{Bounds, DVec2};
 
-/// Squares for each edge: about one edge in a square of an even front.
-const SQUARES: f64 = 1.0;
+/// Grid cells for each edge: about one edge in a cell of an even front (heuristic).
+const CELLS_PER_EDGE: f64 = 1.0;
 
-/// Most squares along a side: an edge across all of them is listed in each.
-const MOST: f64 = 256.0;
+/// Maximum number of cells along a side (resource limit: a long edge is listed in many cells).
+const MAX_CELLS_ALONG: f64 = 256.0;
 
-/// An edge by its vertices.
+/// Edge given by its two vertices.
 type GridEdge = [u32; 2];
 
+/// Grid whose cells list the edges with bounding boxes that touch them.
 #[derive(Clone, Debug)]
 pub(super) struct EdgeGrid {
     origin: DVec2,
-    square: f64,
+    cell_size: f64,
     columns: usize,
     rows: usize,
-    listed: Vec<Vec<GridEdge>>,
+    edges_in_cell: Vec<Vec<GridEdge>>,
 }
 
 impl EdgeGrid {
-    /// A grid for so many edges between points, none of them listed yet.
+    /// Creates an empty grid around `points` that suits the given number of edges.
     pub(super) fn around(points: &[DVec2], edges: usize) -> Self {
         let bounds = Bounds::of(points.iter().copied()).unwrap_or(Bounds::at(DVec2::ZERO));
         let size = bounds.size();
-        let across = (SQUARES * edges as f64).sqrt().clamp(1.0, MOST);
-        let square = size.max_element() / across;
-        let along = |length: f64| (length / square) as usize + 1;
+        let across = (CELLS_PER_EDGE * edges as f64)
+            .sqrt()
+            .clamp(1.0, MAX_CELLS_ALONG);
+        let cell_size = size.max_element() / across;
+        let along = |length: f64| (length / cell_size) as usize + 1;
         let (columns, rows) = (along(size.x), along(size.y));
         Self {
             origin: bounds.min,
-            square,
+            cell_size,
             columns,
             rows,
-            listed: vec![Vec::new(); columns * rows],
+            edges_in_cell: vec![Vec::new(); columns * rows],
         }
     }
 
-    /// The squares that the box of a segment touches; what lies beyond the
-    /// grid is in its outermost ones.
-    fn squares(&self, [a, b]: [DVec2; 2]) -> impl Iterator<Item = usize> + use<> {
+    /// Returns the cells that the bounding box of a segment touches. Whatever lies beyond the grid
+    /// counts to the outermost cells.
+    fn cells(&self, [a, b]: [DVec2; 2]) -> impl Iterator<Item = usize> + use<> {
         let at = |p: DVec2| {
-            let [x, y] = ((p - self.origin) / self.square).to_array();
-            // Below 0 is 0; so is NaN, where all points are one.
+            let [x, y] = ((p - self.origin) / self.cell_size).to_array();
+            // The cast saturates: negative numbers become 0, and so does NaN if all points
+            // coincide.
             [
                 (x as usize).min(self.columns - 1),
                 (y as usize).min(self.rows - 1),
@@ -55,22 +58,24 @@ impl EdgeGrid {
         (bottom..=top).flat_map(move |row| (left..=right).map(move |x| row * columns + x))
     }
 
+    /// Adds an edge with the given ends.
     pub(super) fn add(&mut self, edge: GridEdge, ends: [DVec2; 2]) {
-        for square in self.squares(ends) {
-            self.listed[square].push(edge);
+        for cell in self.cells(ends) {
+            self.edges_in_cell[cell].push(edge);
         }
     }
 
+    /// Removes an edge; `ends` must be those it was added with.
     pub(super) fn remove(&mut self, edge: GridEdge, ends: [DVec2; 2]) {
-        for square in self.squares(ends) {
-            self.listed[square].retain(|other| *other != edge);
+        for cell in self.cells(ends) {
+            self.edges_in_cell[cell].retain(|other| *other != edge);
         }
     }
 
-    /// Whether something is true of an edge whose box may meet that of a way;
-    /// of some it is asked more than once.
-    pub(super) fn any(&self, way: [DVec2; 2], is: impl Fn(GridEdge) -> bool) -> bool {
-        let mut squares = self.squares(way);
-        squares.any(|square| self.listed[square].iter().any(|&edge| is(edge)))
+    /// Returns whether `is` holds for an edge whose bounding box may meet that of the segment. Some
+    /// edges are tested more than once.
+    pub(super) fn any_near(&self, segment: [DVec2; 2], is: impl Fn(GridEdge) -> bool) -> bool {
+        let mut cells = self.cells(segment);
+        cells.any(|cell| self.edges_in_cell[cell].iter().any(|&edge| is(edge)))
     }
 }

@@ -1,16 +1,16 @@
-//! Why two pieces were not triangulated together.
+//! Errors of the compatible triangulation of one piece.
 
 use crate::compatible::validation::CompatibleError;
 use crate::geometry::{ApproxPoint, DVec2, Side};
 use crate::mesh::triangulation::TriangulationError;
 use crate::work::progress::Cancelled;
 
-/// An edge of a boundary ring, named by its first point.
+/// Edge of a boundary ring, identified by its first point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PieceEdge {
-    /// 0 for the outer boundary, 1 for the first hole.
+    /// Index of the ring: 0 for the outer boundary, 1 for the first hole.
     pub ring: usize,
-    /// The edge runs from this point of the ring to the next.
+    /// Index of the edge; it runs from this point of the ring to the next.
     pub edge: usize,
 }
 
@@ -20,6 +20,7 @@ impl std::fmt::Display for PieceEdge {
     }
 }
 
+/// "the outline" or "hole 1".
 fn ring_name(ring: usize) -> String {
     match ring {
         0 => "the outline".to_owned(),
@@ -27,51 +28,50 @@ fn ring_name(ring: usize) -> String {
     }
 }
 
-/// Why two pieces were not triangulated together. Numbers in messages start
-/// at 1.
+/// Reason why a piece has no compatible triangulation in two designs. Messages count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PieceMeshError {
-    /// No outer boundary.
+    /// There is no outer boundary.
     #[error("there is no outline; give at least one ring of points")]
     NoOutline,
-    /// Different numbers of boundary rings.
-    #[error("the source has {} boundary rings and the target {}; close or cut open the holes that have no partner", .0[0], .0[1])]
-    Rings([usize; 2]),
-    /// Different numbers of points.
+    /// The designs have different numbers of boundary rings.
+    #[error("the source has {} boundary rings and the target {}; close or cut open the unmatched holes", .0[0], .0[1])]
+    RingCounts([usize; 2]),
+    /// A ring has different numbers of points in the two designs.
     #[error("{} has {} points in the source and {} in the target; match them one to one", ring_name(*ring), points[0], points[1])]
-    Counts {
-        /// The boundary ring; 0 is the outer one.
+    PointCounts {
+        /// Boundary ring; 0 is the outer one.
         ring: usize,
-        /// Its points in source and target.
+        /// Numbers of points in source and target.
         points: [usize; 2],
     },
-    /// Fewer than three points.
+    /// A ring has fewer than three points.
     #[error("{} has {points} points; it needs at least 3", ring_name(*ring))]
     TooFewPoints {
-        /// The boundary ring; 0 is the outer one.
+        /// Boundary ring; 0 is the outer one.
         ring: usize,
-        /// How many points there are.
+        /// Number of its points.
         points: usize,
     },
-    /// A coordinate is NaN, infinite or out of proportion.
-    #[error("point {} of {} in the {side} is not finite or far out; correct its coordinates", vertex + 1, ring_name(*ring))]
+    /// A coordinate is NaN, infinite, or out of the triangulation's range.
+    #[error("point {} of {} in the {side} has a coordinate that is not finite or too large; correct it", vertex + 1, ring_name(*ring))]
     NotFinite {
-        /// In which design.
+        /// Design with the point.
         side: Side,
-        /// The boundary ring; 0 is the outer one.
+        /// Boundary ring; 0 is the outer one.
         ring: usize,
-        /// The point in its ring.
+        /// Index of the point in its ring.
         vertex: usize,
     },
-    /// Two edges touch, or points coincide, other than along a slit.
-    #[error("outlines of the {side} touch or cross {}, where they are matched by more points than they were drawn with: keep them further apart there, or choose another method", ApproxPoint(*place))]
+    /// Two edges touch or cross, or points coincide, other than along a slit.
+    #[error("outlines of the {side} touch or cross {}; move them apart there, or choose another method", ApproxPoint(*place))]
     NotSimple {
-        /// In which design.
+        /// Design with the edges.
         side: Side,
-        /// The edges, of the rings that were given.
+        /// The edges, in the rings as given.
         edges: [PieceEdge; 2],
-        /// Where the first of them begins.
+        /// Start of the first edge.
         place: DVec2,
     },
     /// The outer boundary runs clockwise.
@@ -80,62 +80,64 @@ pub enum PieceMeshError {
     /// A hole runs counter-clockwise.
     #[error("hole {hole} of the {side} runs counter-clockwise; reverse its points")]
     CounterClockwise {
-        /// In which design.
+        /// Design with the hole.
         side: Side,
-        /// The hole, the first is 1.
+        /// Number of the hole; the first is 1.
         hole: usize,
     },
-    /// A hole is not inside the outline, or inside another hole.
+    /// A hole lies outside the outline or inside another hole.
     #[error(
-        "a hole of the {0} lies outside its outline or in another hole; make it a part of its own"
+        "a hole of the {0} lies outside its outline or in another hole; make it a separate part"
     )]
     HoleOutside(Side),
-    /// The edge length is no positive number.
-    #[error("the edge length {0} is not a positive share of the diameter; use 0.05, say")]
-    EdgeLength(f64),
-    /// A design's rings were refused, and no fault of theirs was found.
+    /// The edge length is not a positive number.
     #[error(
-        "the outline of the {side} was not triangulated: {error}; it is finest {}, leave out a point there",
+        "the edge length {0} is not a positive fraction of the diameter; use 0.05, for example"
+    )]
+    EdgeLength(f64),
+    /// A design's rings cannot be triangulated, and no specific fault was found.
+    #[error(
+        "the outline of the {side} cannot be triangulated: {error}; its shortest edge is {}, remove a point there",
         ApproxPoint(*place)
     )]
-    Refused {
-        /// Which design.
+    NotTriangulated {
+        /// Design with the rings.
         side: Side,
-        /// Its shortest edge: the likeliest cause.
+        /// Its shortest edge, the likeliest cause.
         shortest: PieceEdge,
-        /// Where that begins.
+        /// Start of that edge.
         place: DVec2,
-        /// What the triangulation says.
+        /// Error of the triangulation.
         error: TriangulationError,
     },
-    /// No bridge between the outline and a hole runs inside both designs.
+    /// No bridge between the outline and a hole lies inside both designs.
     #[error(
-        "no cut leads from the outline to a hole in both designs; thicken the walls between them, or leave the hole out"
+        "no cut from the outline to a hole is possible in both designs; thicken the walls between them, or leave the hole out"
     )]
     NoBridge,
-    /// One design's part of the guaranteed base was not found.
+    /// One design's part of the guaranteed base could not be triangulated.
     #[error(
-        "the {side} was not triangulated by itself ({error}): it is thinner in a place than its coordinates are exact; thicken its thinnest part, or move the match there"
+        "the {side} cannot be triangulated ({error}): part of it is thinner than floating-point precision; thicken its thinnest part, or move the match there"
     )]
     Base {
-        /// Which design.
+        /// Design that failed.
         side: Side,
-        /// What the triangulation says.
+        /// Error of the triangulation.
         error: TriangulationError,
     },
-    /// Faces of the guaranteed base that rounding left without area.
-    #[error("{} without area in the {side}, {}: the outline is thinner there than its coordinates are exact; thicken it there, or move the match of that place", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, ApproxPoint(*place))]
+    /// Rounding left faces of the guaranteed base without area.
+    #[error("{} without area in the {side}, {}: the outline is thinner there than floating-point precision; thicken it, or move the match there", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, ApproxPoint(*place))]
     Folded {
-        /// In which design.
+        /// Design with the faces.
         side: Side,
-        /// How many.
+        /// Number of these faces.
         faces: usize,
-        /// The middle of the first.
+        /// Centroid of the first one.
         place: DVec2,
     },
     /// The mesh is not valid in the designs' own coordinates.
     #[error(
-        "the common triangulation lost its validity in the designs' own coordinates: {0}; or scale both designs to an ordinary size"
+        "the common triangulation is not valid in the designs' own coordinates: {0}; or scale both designs to a moderate size"
     )]
     Mesh(CompatibleError),
     /// The work was cancelled.
@@ -144,7 +146,7 @@ pub enum PieceMeshError {
 }
 
 impl PieceMeshError {
-    /// The same said of the designs exchanged.
+    /// The error with the designs exchanged.
     pub(super) fn swapped(mut self) -> Self {
         if let Self::Base { side, .. } | Self::Folded { side, .. } = &mut self {
             *side = side.other();
@@ -152,11 +154,11 @@ impl PieceMeshError {
         self
     }
 
-    /// The same said of designs so many times as large.
-    pub(super) fn enlarged(mut self, by: [f64; 2]) -> Self {
+    /// The error with each design's coordinates multiplied by `by`.
+    pub(super) fn scaled(mut self, by: [f64; 2]) -> Self {
         if let Self::Folded { side, place, .. }
         | Self::NotSimple { side, place, .. }
-        | Self::Refused { side, place, .. } = &mut self
+        | Self::NotTriangulated { side, place, .. } = &mut self
         {
             *place *= by[*side];
         }

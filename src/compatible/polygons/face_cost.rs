@@ -1,37 +1,32 @@
-//! What one face costs in its two embeddings, with gradients.
+//! Cost of one face in its two embeddings, with gradients.
 //!
-//! The cost is symmetric in the two designs: the fourth power of the conformal
-//! distortion of the map between them (Hormann, Greiner 2000), the squared
-//! shape of the face in each, and a little of the change of area. It grows
-//! beyond all bounds as a face flattens in either design.
-//!
-//! By the fourth power and the shapes as they are, instead of the square and a twentieth
-//! of the shapes, conformal distortion (95th percentile, median and worst tenth) of 60
-//! pairs of outlines went from 3.0 and 11.4 to 2.4 and 5.9, of 200 of letters from 3.8 and
-//! 8.0 to 2.7 and 5.4, of 60 of icons from 5.1 and 22 to 4.0 and 23. By the sixth power
-//! the last is 33; with a twentieth of the shapes, faces are thinner by a half.
+//! The cost is symmetric in the two designs. It is the fourth power of the conformal distortion of
+//! the map between them (Hormann, Greiner 2000), plus the squared shape term of the face in each
+//! design, plus a small term for the change of area. The fourth power, instead of the square,
+//! weighs the worst faces more. The cost tends to infinity as a face flattens in either design.
 
 use crate::geometry::{DVec2, orient2d, twice_signed_area};
 
+/// Corner positions of a face in one design.
 pub(super) type FaceCorners = [DVec2; 3];
 
-/// What the change of area counts. Little, since parts do grow and shrink;
-/// without it faces could trade their areas for nothing.
+/// Default weight of the area-change term (heuristic: small, since parts do grow and shrink, but
+/// not 0, or faces could trade area at no cost).
 pub(super) const AREA_WEIGHT: f64 = 0.02;
 
-/// A cost and its gradients by the corners in the source and in the target.
+/// Cost of a face, with its gradients with respect to the corners in source and target.
 pub(super) struct FaceCost {
     pub(super) value: f64,
     pub(super) gradients: [FaceCorners; 2],
 }
 
-/// Twice the area in plain floating point.
+/// Twice the signed area, in plain floating point.
 pub(super) fn twice_area(p: FaceCorners) -> f64 {
     twice_signed_area(p[0], p[1], p[2])
 }
 
-/// Squared edges over the area, 1 for an equilateral triangle; infinite for
-/// one that is not positive.
+/// Shape term: sum of squared edges over area, scaled to 1 for an equilateral triangle; infinite if
+/// the face is not positive.
 pub(super) fn shape(p: FaceCorners) -> f64 {
     let det = twice_area(p);
     if det > 0.0 {
@@ -41,18 +36,19 @@ pub(super) fn shape(p: FaceCorners) -> f64 {
     }
 }
 
-/// Whether a face is positive, exactly.
+/// Returns whether a face is positive, by exact predicates.
 pub(super) fn is_positive(p: FaceCorners) -> bool {
     orient2d(p[0], p[1], p[2]) > 0.0
 }
 
-/// The cost alone; infinite where a face is not positive in both.
+/// Cost without gradients; infinite if the face is not positive in both designs.
 pub(super) fn value(p: FaceCorners, q: FaceCorners) -> f64 {
     evaluate(p, q, AREA_WEIGHT).map_or(f64::INFINITY, |cost| cost.value)
 }
 
-/// The cost with its gradients, at this price of the change of area; `None` where a face is not positive in both.
-pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area: f64) -> Option<FaceCost> {
+/// Cost with gradients; `None` if the face is not positive in both designs. `area_weight` is the
+/// weight of the area-change term.
+pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Option<FaceCost> {
     let det = [p, q].map(twice_area);
     if !(det[0] > 0.0 && det[1] > 0.0) {
         return None;
@@ -61,19 +57,19 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area: f64) -> Option<Face
     let products = e.map(products);
     let inverse = det.map(|det| 1.0 / det);
     let both = 0.5 * inverse[0] * inverse[1];
-    // (σ₁/σ₂ + σ₂/σ₁) / 2 = |J|² / (2 det J), where det J = det[1] / det[0].
+    // Conformal distortion: (σ₁/σ₂ + σ₂/σ₁) / 2 = |J|² / (2 det J), with det J = det[1] / det[0].
     let conformal = dirichlet(products[0], e[1]) * both;
     let squared = conformal * conformal;
     let ratios = [det[0] * inverse[1], det[1] * inverse[0]];
     let mut gradients = [[DVec2::ZERO; 3]; 2];
     let mut shapes = [0.0; 2];
     for d in 0..2 {
-        // Sides of 1 have squares of 3 over a doubled area of √3 / 2.
+        // An equilateral triangle of side 1: squared edges add up to 3, twice its area is √3 / 2.
         let equilateral = inverse[d] / (2.0 * 3f64.sqrt());
         shapes[d] = squares(e[d]) * equilateral;
-        // By the doubled area, which both squares are divided by.
+        // Derivative with respect to this design's doubled area, which divides every term.
         let by_det = -4.0 * squared * squared - 2.0 * shapes[d] * shapes[d]
-            + area * 0.5 * (ratios[d] - ratios[1 - d]);
+            + area_weight * 0.5 * (ratios[d] - ratios[1 - d]);
         let by_det = by_det * inverse[d];
         let (by_dirichlet, by_squares) = (
             8.0 * squared * conformal * both,
@@ -82,22 +78,21 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area: f64) -> Option<Face
         let pulls = products[1 - d].map(|product| by_dirichlet * product + by_squares);
         for k in 0..3 {
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-            // A corner pulls its two sides; the area grows with its height over
-            // the third.
+            // A corner changes its two sides, and the area by its height over the third side.
             gradients[d][k] =
                 pulls[next] * e[d][next] - pulls[last] * e[d][last] + by_det * e[d][k].perp();
         }
     }
     let value = squared * squared
         + (shapes[0] * shapes[0] + shapes[1] * shapes[1])
-        + area * 0.5 * (ratios[0] + ratios[1]);
-    // An area may be so small that its inverse is not finite.
+        + area_weight * 0.5 * (ratios[0] + ratios[1]);
+    // A tiny area may have an infinite inverse.
     value.is_finite().then_some(FaceCost { value, gradients })
 }
 
-/// The second derivative of the cost by each design's edges, where areas and
-/// the other design are kept: a stiffness for each edge. That of one edge may
-/// be negative, that of the face is not.
+/// Second derivative of the cost with respect to each design's edges, with areas and the other
+/// design fixed: one stiffness for each edge. A single stiffness may be negative, but the stiffness
+/// matrix of the face is positive semidefinite.
 pub(super) fn stiffness(p: FaceCorners, q: FaceCorners) -> [[f64; 3]; 2] {
     let det = [p, q].map(twice_area);
     let e = [edges(p), edges(q)];
@@ -112,22 +107,22 @@ pub(super) fn stiffness(p: FaceCorners, q: FaceCorners) -> [[f64; 3]; 2] {
     })
 }
 
-/// Edge k lies opposite corner k; the three add up to zero.
+/// Edges of a face. Edge k lies opposite corner k; the three add up to zero.
 fn edges(p: FaceCorners) -> FaceCorners {
     [p[2] - p[1], p[0] - p[2], p[1] - p[0]]
 }
 
+/// Sum of the squared edge lengths.
 fn squares(e: FaceCorners) -> f64 {
     e.iter().map(|e| e.length_squared()).sum()
 }
 
-/// For each corner the product of its two edges: its cotangent times the
-/// doubled area.
+/// For each corner the dot product of its two edges: its cotangent times twice the area.
 fn products(e: FaceCorners) -> [f64; 3] {
     [-e[1].dot(e[2]), -e[2].dot(e[0]), -e[0].dot(e[1])]
 }
 
-/// |J|² / det J times both doubled areas, symmetric in the two.
+/// |J|² / det J times both doubled areas; symmetric in the two designs.
 fn dirichlet(products: [f64; 3], e: FaceCorners) -> f64 {
     (0..3).map(|k| products[k] * e[k].length_squared()).sum()
 }

@@ -1,12 +1,11 @@
-//! A mesh of the whole frame whose pins lie where they are in each design.
+//! Mesh of the whole frame in which each pin is a vertex, at its place in each design.
 //!
-//! The frame's border stays where it is. Between it and the pins points are
-//! spread evenly and triangulated (Delaunay) in the source; carried to the
-//! target harmonically, and without folds (see [`crate::compatible::polygons::transfer`]).
+//! The border of the frame stays where it is. The space between border and pins is filled evenly
+//! with points, which are triangulated (Delaunay) in the source. The mesh is then moved to the
+//! target in steps, and folds are removed after each step (see [`super::transfer`]).
 //!
-//! Guaranteed: pins are met bit by bit, faces are positive in both designs.
-//! Not guaranteed: that every set of pins can be met; pins that cross have no
-//! such mesh, and are named.
+//! Guaranteed: pins are met bit by bit, and faces are positive in both designs. Not guaranteed:
+//! that every set of pins can be met. Pins that cross have no such mesh and are named in the error.
 
 use super::options::PolygonOptions;
 use super::pair_mesh::{PairMesh, unit_scale};
@@ -18,75 +17,74 @@ use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{TriangulationError, delaunay};
 use crate::work::progress::{Cancelled, Progress, ProgressSpan, checkpoint, still_wanted};
 
-/// Points along the longer side of the frame: some 700 in all in a square one.
-/// About pins that are near each other they stand closer anyway.
-const ALONG: f64 = 24.0;
+/// Number of points along the longer side of the frame: about 700 in a square frame (heuristic).
+const POINTS_ALONG: f64 = 24.0;
 
-/// How near to another point, in spacings, none is put: less than the 0.87
-/// between two rows, and as much of it as keeps faces from being thin.
-const CLEAR: f64 = 0.6;
+/// Minimum distance between points, in spacings; less than the 0.87 between two rows (heuristic).
+const MIN_DISTANCE: f64 = 0.6;
 
-/// The narrowest spacing between a pin and the next one, as a share of their
-/// distance, and by how much it widens with the distance from the pin: a row
-/// or two between two pins, and sizes that less than double in two rows.
-const NARROWER: f64 = 0.35;
+/// Narrowest spacing around a pin, as a fraction of the distance to the nearest other pin, which
+/// leaves one or two rows between them (heuristic).
+const PIN_SPACING: f64 = 0.35;
+/// Growth of the spacing per unit of distance from a pin: less than a doubling in two rows
+/// (heuristic).
 const GRADING: f64 = 0.35;
 
-/// Rows may be narrower by powers of two: down to 1/32, which is what pins ask
-/// for that are 1/270 of the frame apart.
+/// Number of spacings, each half as wide as the one before, down to 1/32; pins 1/270 of the frame
+/// apart need the narrowest (resource limit).
 const LEVELS: u32 = 6;
 
-/// Most points in all: each place is held against all points before it.
-const MOST_POINTS: usize = 8_000;
+/// Maximum number of points (resource limit: each candidate is compared with all points before it).
+const MAX_POINTS: usize = 8_000;
 
-/// Steps on the way to the target. Each is a minimisation of its own; in one
-/// step the edges would stay those of the source.
+/// Number of steps on the way to the target, between which edges can be flipped (heuristic).
 const STEPS: u32 = 6;
 
-/// How much of the work is done at the target, as it is told.
-const CARRIED: f64 = 0.7;
+/// Fraction of progress reported when the mesh has reached the target (heuristic).
+const PROGRESS_AT_TARGET: f64 = 0.7;
 
-/// Pins nearer than this share of the frame in either design are one: no
-/// hand puts them so near, and between them faces would be slivers.
-const SAME: f64 = 1e-6;
+/// Distance up to which two pins coincide in a design, as a fraction of the frame's diameter
+/// (tolerance: too close to be placed by hand, and faces between them would be slivers).
+const SAME_PIN: f64 = 1e-6;
 
-/// Why the frame was not triangulated. Pins are counted from 1 in messages.
+/// Reason why the frame has no mesh around the pins. Messages count pins from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FramePinsError {
-    /// A pin is not finite, or not inside the frame.
+    /// A pin is not finite or not inside the frame.
     #[error("pin {} lies outside the frame of the {side} design; move it inside", pin + 1)]
     Outside {
-        /// Counted from 0.
+        /// Index of the pin, from 0.
         pin: usize,
-        /// In which design.
+        /// Design in which it lies outside.
         side: Side,
     },
-    /// Two pins coincide in one design and not in the other.
-    #[error("pins {} and {} are one point in the {side} design and two in the other; delete one of them", pins[0] + 1, pins[1] + 1)]
+    /// Two pins coincide in one design but not in the other.
+    #[error("pins {} and {} lie at the same point in the {side} design but not in the other; delete one of them", pins[0] + 1, pins[1] + 1)]
     Coincide {
-        /// Counted from 0.
+        /// Indices of the pins, from 0.
         pins: [usize; 2],
-        /// Where they coincide.
+        /// Design in which they coincide.
         side: Side,
     },
     /// No map without folds was found that meets all pins.
-    #[error("the plane would have to fold about {}; move or delete {}", listed(pins), if pins.len() == 1 { "it" } else { "some of them" })]
+    #[error("the plane would have to fold near {}; move or delete {}", listed(pins), if pins.len() == 1 { "it" } else { "some of them" })]
     Folds {
-        /// Those at the folds, counted from 0.
+        /// Indices of the pins at the folds, from 0.
         pins: Vec<usize>,
     },
-    /// Sizes that floating point cannot measure.
+    /// The frame's size is out of the triangulation's range.
     #[error(transparent)]
     Triangulation(#[from] TriangulationError),
     /// The mesh is not valid in the frame's own coordinates.
-    #[error("the mesh about the pins lost its validity: {0}")]
+    #[error("the mesh around the pins is not valid in the frame's coordinates: {0}")]
     Mesh(#[from] CompatibleError),
-    /// Nobody wants the result.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
+/// Formats pin indices as "pin 3" or "pins 3, 5".
 fn listed(pins: &[usize]) -> String {
     let numbers: Vec<String> = pins.iter().map(|pin| (pin + 1).to_string()).collect();
     let pin = if numbers.len() == 1 { "pin" } else { "pins" };
@@ -94,13 +92,13 @@ fn listed(pins: &[usize]) -> String {
 }
 
 impl CompatibleMesh {
-    /// Triangulates a rectangle so that each pin is a vertex, at its place in
-    /// the source and at its place in the target; the border is the same in
-    /// both. The border's vertices come first, then the pins.
+    /// Triangulates a rectangle so that each pin is a vertex, at its source place in the source and
+    /// at its target place in the target. The border is the same in both designs. Border vertices
+    /// come first, then the pins.
     ///
     /// # Errors
-    /// [`FramePinsError`] for pins outside the rectangle and for pins that no map
-    /// without folds can meet, or if the work is cancelled.
+    /// [`FramePinsError`] for pins outside the rectangle, for pins that no map without folds can
+    /// meet, or if the work is cancelled.
     ///
     /// ```
     /// use morphospace::compatible::CompatibleMesh;
@@ -112,7 +110,7 @@ impl CompatibleMesh {
     /// let mesh = CompatibleMesh::around_pins(&frame, &[pin], &Silent)?;
     /// let k = mesh.source().iter().position(|p| *p == pin.source).expect("a vertex");
     /// assert_eq!(mesh.target()[k], pin.target);
-    /// # Ok::<(), morphospace::compatible::PinnedError>(())
+    /// # Ok::<(), morphospace::compatible::FramePinsError>(())
     /// ```
     pub fn around_pins(
         frame: &Bounds,
@@ -121,30 +119,40 @@ impl CompatibleMesh {
     ) -> Result<Self, FramePinsError> {
         let pins = distinct(frame, pins)?;
         let border = border_points(frame, spacing(frame));
-        let ends = |side: Side| {
-            let ends = pins.iter().map(|(_, pin)| pin[side]);
-            border.iter().copied().chain(ends).collect::<Vec<DVec2>>()
+        let fixed_points = |side: Side| {
+            let fixed_points = pins.iter().map(|(_, pin)| pin[side]);
+            border
+                .iter()
+                .copied()
+                .chain(fixed_points)
+                .collect::<Vec<DVec2>>()
         };
-        let given = Side::BOTH.map(ends);
+        let given = Side::BOTH.map(fixed_points);
         let fixed = given[0].len();
         let mut source = given[0].clone();
         source.extend(filling(frame, border.len(), &given, progress)?);
         let scale = unit_scale(&source);
         let scaled = |points: &[DVec2]| points.iter().map(|p| *p * scale).collect::<Vec<_>>();
-        let (source, to) = (scaled(&source), scaled(&given[1]));
+        let (source, fixed_targets) = (scaled(&source), scaled(&given[1]));
         let faces = delaunay(&source)?;
         let mut mesh = PairMesh::new(fixed, [source.clone(), source], faces);
+        // Faces between fixed vertices alone could not follow the pins.
         transfer::split_chords(&mut mesh);
-        // Step by step, so that edges can be flipped on the way.
+        // In several steps, so that edges can be flipped on the way.
         for step in 1..=STEPS {
             let along = f64::from(step) / f64::from(STEPS);
-            // As many as are fixed: the border's, which stay, and the pins.
-            let part: Vec<DVec2> = (mesh.points[0].iter().zip(&to))
+            // `fixed_targets` ends the iteration: only the border, which stays, and the pins are
+            // moved.
+            let waypoints: Vec<DVec2> = (mesh.points[0].iter().zip(&fixed_targets))
                 .map(|(p, q)| *p + (*q - *p) * along)
                 .collect();
             let before = f64::from(step - 1) / f64::from(STEPS);
-            let step = ProgressSpan::new(progress, before * CARRIED, along * CARRIED);
-            transfer::continue_transfer(&mut mesh, &part, &step)?;
+            let step = ProgressSpan::new(
+                progress,
+                before * PROGRESS_AT_TARGET,
+                along * PROGRESS_AT_TARGET,
+            );
+            transfer::continue_transfer(&mut mesh, &waypoints, &step)?;
             if !mesh.is_valid() {
                 return Err(FramePinsError::Folds {
                     pins: at_folds(&mesh, border.len(), &pins),
@@ -152,17 +160,18 @@ impl CompatibleMesh {
             }
             quality::settle(&mut mesh, progress)?;
         }
-        let rest = ProgressSpan::new(progress, CARRIED, 1.0);
-        quality::improve(&mut mesh, &PolygonOptions::default(), &rest)?;
+        let remaining = ProgressSpan::new(progress, PROGRESS_AT_TARGET, 1.0);
+        quality::improve(&mut mesh, &PolygonOptions::default(), &remaining)?;
         checkpoint(progress, "triangulating", 1.0)?;
         let given = given.each_ref().map(Vec::as_slice);
-        Ok(mesh.finished([scale; 2], given)?)
+        Ok(mesh.to_compatible_mesh([scale; 2], given)?)
     }
 }
 
-/// Pins that are different, each after its number; of equal ones the first.
+/// Returns the distinct pins with their indices; of equal pins the first.
 fn distinct(frame: &Bounds, pins: &[PointPair]) -> Result<Vec<(usize, PointPair)>, FramePinsError> {
-    let same = SAME * frame.diameter();
+    let same = SAME_PIN * frame.diameter();
+    // Pins on the border would leave no room for faces.
     let inside = frame.padded(-same);
     let mut kept: Vec<(usize, PointPair)> = Vec::new();
     for (pin, pair) in pins.iter().enumerate() {
@@ -173,10 +182,11 @@ fn distinct(frame: &Bounds, pins: &[PointPair]) -> Result<Vec<(usize, PointPair)
         }
         let near =
             |other: &PointPair| Side::BOTH.map(|side| other[side].distance(pair[side]) <= same);
+        // A pin may repeat an earlier one exactly, but may not coincide with it in one design only.
         let mut others = kept.iter().map(|(number, other)| (*number, near(other)));
         match others.find(|(_, near)| near.contains(&true)) {
             None => kept.push((pin, *pair)),
-            // One pin that is given twice is one.
+            // A pin that is given twice counts once.
             Some((_, [true, true])) => {}
             Some((other, near)) => {
                 let side = if near[0] { Side::Source } else { Side::Target };
@@ -188,12 +198,13 @@ fn distinct(frame: &Bounds, pins: &[PointPair]) -> Result<Vec<(usize, PointPair)
     Ok(kept)
 }
 
+/// Widest spacing between points.
 fn spacing(frame: &Bounds) -> f64 {
-    frame.size().max_element() / ALONG
+    frame.size().max_element() / POINTS_ALONG
 }
 
-/// Points in rows of triangles between those that are there: as wide as the
-/// border's, narrower about pins that are near each other in either design.
+/// Returns points on triangular lattices between border and pins: spaced like the border's points,
+/// but more closely around pins that are near each other in either design.
 fn filling(
     frame: &Bounds,
     border: usize,
@@ -201,35 +212,35 @@ fn filling(
     progress: &dyn Progress,
 ) -> Result<Vec<DVec2>, Cancelled> {
     let widest = spacing(frame);
-    let narrow = |k: usize| {
-        let others = (0..ends[0].len()).filter(|&other| other != k);
+    let pin_spacing = |k: usize| {
+        let other_points = (0..ends[0].len()).filter(|&other| other != k);
         let far = |other: usize| {
             let [a, b] = [0, 1].map(|d: usize| ends[d][k].distance(ends[d][other]));
             a.min(b)
         };
-        others.map(far).fold(f64::INFINITY, f64::min) * NARROWER
+        other_points.map(far).fold(f64::INFINITY, f64::min) * PIN_SPACING
     };
     let pins: Vec<(DVec2, f64)> = (border..ends[0].len())
-        .map(|k| (ends[0][k], narrow(k)))
+        .map(|k| (ends[0][k], pin_spacing(k)))
         .collect();
-    let wanted = |p: DVec2| {
+    let wanted_spacing = |p: DVec2| {
         let about = |&(pin, least): &(DVec2, f64)| least + GRADING * p.distance(pin);
         pins.iter().map(about).fold(widest, f64::min)
     };
     let mut points = ends[0].clone();
-    // The narrowest rows first, so that wide ones keep off them.
+    // The narrowest rows come first, so that wider rows keep their distance from them.
     for level in (0..LEVELS).rev() {
         let step = widest / f64::from(1u32 << level);
         let is_last = level + 1 == LEVELS;
         for p in rows(frame, step) {
             still_wanted(progress)?;
-            // Each place is filled by the one level whose rows fit it; what is
-            // wanted beyond either end, by the last of that end.
-            let size = wanted(p);
+            // Each place is filled by the one level whose spacing fits. Spacings beyond the range
+            // are left to the widest or the narrowest level.
+            let size = wanted_spacing(p);
             let fits = size < 2.0 * step && (size >= step || is_last) || level == 0 && size >= step;
-            let clear = CLEAR * step;
-            let is_free = |q: &DVec2| p.distance_squared(*q) > clear * clear;
-            if fits && points.len() < MOST_POINTS && points.iter().all(is_free) {
+            let min_distance = MIN_DISTANCE * step;
+            let is_free = |q: &DVec2| p.distance_squared(*q) > min_distance * min_distance;
+            if fits && points.len() < MAX_POINTS && points.iter().all(is_free) {
                 points.push(p);
             }
         }
@@ -237,24 +248,24 @@ fn filling(
     Ok(points.split_off(ends[0].len()))
 }
 
-/// Points in rows of triangles inside the frame.
+/// Points of a triangular lattice inside the frame; `side` is the length of its edges.
 fn rows(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> {
     let step = DVec2::new(side, side * 0.75f64.sqrt());
     let size = frame.size();
     let (columns, count) = ((size.x / step.x) as u32 + 1, (size.y / step.y) as u32);
     let low = frame.min;
     let place = move |i: u32, j: u32| {
-        // Every other row half a step on: triangles of equal sides.
+        // Every other row is shifted by half a step, so that the triangles are equilateral.
         let shift = if j.is_multiple_of(2) { 0.25 } else { 0.75 };
         low + step * DVec2::new(f64::from(i) + shift, f64::from(j) + 0.5)
     };
-    let room = frame.padded(-0.5 * CLEAR * side);
+    let room = frame.padded(-0.5 * MIN_DISTANCE * side);
     (0..=count)
         .flat_map(move |j| (0..=columns).map(move |i| place(i, j)))
         .filter(move |p| room.contains(*p))
 }
 
-/// The pins nearest to each folded face, each once.
+/// Indices of the pins nearest to the folded faces, each once.
 fn at_folds(mesh: &PairMesh, first: usize, all: &[(usize, PointPair)]) -> Vec<usize> {
     let targets = &mesh.points[1];
     let mut pins: Vec<usize> = (mesh.faces())
@@ -298,10 +309,10 @@ mod tests {
     }
 
     #[test]
-    fn pins_that_exchange_places_along_a_line_are_met_around_each_other() {
+    fn pins_that_exchange_places_are_met_or_named() {
         let pins = [pin((0.0, 3.0), (3.0, 3.0)), pin((3.0, 3.0), (0.0, 3.0))];
         let mesh = CompatibleMesh::around_pins(&FRAME, &pins, &Silent);
-        // Half a turn of the middle can do that; where it is not found, both are named.
+        // A half turn between the pins meets them; if it is not found, the error names them.
         match mesh {
             Ok(mesh) => assert!(mesh.target().contains(&pins[0].target)),
             Err(FramePinsError::Folds { pins }) => assert!(!pins.is_empty()),
@@ -310,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_is_named() {
+    fn impossible_pins_are_named_in_the_error() {
         let out = CompatibleMesh::around_pins(&FRAME, &[pin((0.0, 3.0), (9.0, 3.0))], &Silent);
         let side = Side::Target;
         assert_eq!(out.err(), Some(FramePinsError::Outside { pin: 0, side }));

@@ -1,10 +1,10 @@
-//! One triangulation of a piece in many designs at once.
+//! Triangulates one piece in many designs at once.
 //!
-//! A refined triangulation of the piece in one of them is carried to all others, one
-//! after the other: [`super::transfer`]. Whose it is, is tried in turn.
+//! A refined triangulation of the piece in one design is transferred to all others
+//! ([`super::transfer`]); each design is tried in turn as the start.
 //!
-//! Guaranteed: every face is positive in every design, exactly, and the first vertices
-//! are the rings' points, bit by bit. Not guaranteed: that one is found.
+//! Guaranteed: every face is positive in every design, by exact predicates, and the first vertices
+//! are the ring points, bit by bit. Not guaranteed: that a common triangulation is found.
 
 use super::boundary_rings;
 use super::boundary_rings::BoundaryRings;
@@ -19,21 +19,22 @@ use crate::mesh::triangulation::{RefinementOptions, refined_delaunay};
 use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
 use rayon::prelude::*;
 
-/// Faces, and for each design where their vertices are.
+/// Faces, and the vertices of each design.
 type SharedTriangulation = (Vec<[u32; 3]>, Vec<Vec<DVec2>>);
 
-/// Triangulations that fold nowhere are compared until they have been carried so often in
-/// all: three of four designs, and of twelve, where each takes two seconds, the first.
-const CARRIED: usize = 12;
+/// The search ends when the valid triangulations found so far have been transferred to this many
+/// designs in total (resource limit: three triangulations of four designs, one of twelve).
+const ENOUGH_TRANSFERS: usize = 12;
 
-/// Rounds of lowering the distortion of each mesh that was carried.
-const SETTLED: usize = 3;
+/// Rounds of distortion reduction after each transfer (heuristic).
+const REDUCTION_ROUNDS: usize = 3;
 
-/// The rings of one piece, each with its points in every design, triangulated; `first`
-/// is the design that is tried first.
+/// Triangulates the rings of one piece in all designs. `rings[ring][design]` is a list of points;
+/// `first` is the design to start from.
 ///
 /// # Errors
-/// The design whose rings bound no piece, and why; or that none was found.
+/// A design whose rings bound no piece, with the reason; or design 0 without a reason if no common
+/// triangulation was found.
 pub(in crate::compatible) fn triangulate_many(
     rings: &[Vec<Vec<DVec2>>],
     first: usize,
@@ -46,7 +47,7 @@ pub(in crate::compatible) fn triangulate_many(
             BoundaryRings::of(&rings.iter().map(|ring| &ring[design]).collect::<Vec<_>>())
         })
         .collect();
-    // Near 1 no product under- or overflows, which exact signs need.
+    // Near size 1 no product over- or underflows, as exact predicates require.
     let scales: Vec<f64> = given
         .iter()
         .map(|rings| unit_scale(&rings.points))
@@ -55,19 +56,20 @@ pub(in crate::compatible) fn triangulate_many(
     let scaled: Vec<BoundaryRings> = scaled.map(|(rings, &by)| rings.scaled(by)).collect();
     for (design, (rings, scale)) in scaled.iter().zip(&scales).enumerate() {
         boundary_rings::check(rings, Side::Source)
-            .map_err(|error| (design, Some(error.enlarged([scale.recip(); 2]))))?;
+            .map_err(|error| (design, Some(error.scaled([scale.recip(); 2]))))?;
     }
-    let first = found(&scaled, first, options, progress).map_err(cancelled)?;
-    let (faces, mut places) = first.ok_or((0, None))?;
+    let best = best_triangulation(&scaled, first, options, progress).map_err(cancelled)?;
+    let (faces, mut places) = best.ok_or((0, None))?;
     for ((places, given), scale) in places.iter_mut().zip(&given).zip(&scales) {
         places.iter_mut().for_each(|p| *p /= *scale);
+        // Restores the ring points bit by bit.
         places[..given.points.len()].copy_from_slice(&given.points);
     }
     Ok((faces, places))
 }
 
-/// A triangulation that folds in none of the designs, the best of the first few of them.
-fn found(
+/// Returns the best of the first few triangulations that fold in no design.
+fn best_triangulation(
     designs: &[BoundaryRings],
     first: usize,
     options: &PolygonOptions,
@@ -75,21 +77,21 @@ fn found(
 ) -> Result<Option<SharedTriangulation>, Cancelled> {
     let count = designs.len();
     let order = std::iter::once(first).chain((0..count).filter(|&k| k != first));
-    let mut found = Vec::new();
+    let mut candidates = Vec::new();
     for (tried, from) in order.clone().enumerate() {
         checkpoint(progress, "triangulating", tried as f64 / count as f64)?;
-        let Some(start) = alone(&designs[from], options, progress)? else {
+        let Some(start) = refined_mesh(&designs[from], options, progress)? else {
             continue;
         };
-        found.extend(carried(&start, (from, None), designs, progress)?);
-        if found.len() * count >= CARRIED {
+        candidates.extend(transfer_to_all(&start, (from, None), designs, progress)?);
+        if candidates.len() * count >= ENOUGH_TRANSFERS {
             break;
         }
     }
-    // Where one design is hard, its mesh with the first, which is always found, may be
-    // carried to the others, which are not.
+    // If no design works alone: the mesh of the first and a hard design together is always found,
+    // and may transfer to the others.
     for hard in order.skip(1) {
-        if !found.is_empty() {
+        if !candidates.is_empty() {
             break;
         }
         let pair = triangulate_pair(&designs[first], &designs[hard], options, progress);
@@ -100,18 +102,19 @@ fn found(
         let (faces, [own, theirs]) = pair.compacted();
         let start = PairMesh::new(pair.fixed, [own.clone(), own], faces);
         let known = Some((hard, theirs));
-        found.extend(carried(&start, (first, known), designs, progress)?);
+        candidates.extend(transfer_to_all(&start, (first, known), designs, progress)?);
     }
-    let best = found.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    let best = candidates.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     Ok(best.map(|(_, mesh)| mesh))
 }
 
+/// The error of a cancelled triangulation.
 fn cancelled(cancelled: Cancelled) -> (usize, Option<PieceMeshError>) {
     (0, Some(cancelled.into()))
 }
 
-/// The refined triangulation of one design; none where it has none.
-fn alone(
+/// Returns the refined triangulation of one design; `None` if it cannot be triangulated.
+fn refined_mesh(
     rings: &BoundaryRings,
     options: &PolygonOptions,
     progress: &dyn Progress,
@@ -121,9 +124,9 @@ fn alone(
         max_edge: options
             .edge_length
             .map(|share| share * Bounds::diameter_of(&rings.points)),
-        max_points: options.most_points(n),
+        max_points: options.max_inner_points(n),
     };
-    let start = refined_delaunay(&rings.walks(), &refinement, progress);
+    let start = refined_delaunay(&rings.loops(), &refinement, progress);
     still_wanted(progress)?;
     let Ok(start) = start else {
         return Ok(None);
@@ -134,10 +137,10 @@ fn alone(
     Ok(Some(mesh))
 }
 
-/// Lowers the distortion of a mesh that was carried, and folds nowhere: the harmonic map
-/// of what needed no more is a poor one.
-fn settle(mesh: &mut PairMesh, progress: &dyn Progress) {
-    for _ in 0..SETTLED {
+/// Reduces the distortion of a transferred mesh that folds nowhere. A transfer that meets no folds
+/// ends with the harmonic map, which distorts more than necessary.
+fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
+    for _ in 0..REDUCTION_ROUNDS {
         let before = mesh.points[1].clone();
         let moved = mesh.is_valid() && untangle(mesh, progress);
         if !moved {
@@ -150,37 +153,43 @@ fn settle(mesh: &mut PairMesh, progress: &dyn Progress) {
     }
 }
 
-/// A triangulation of one design carried to all others but that in which it is known,
-/// with what it costs; none where it folds in one of them.
-fn carried(
+/// Transfers a triangulation of one design to all others. Returns its total cost and the result;
+/// `None` if it folds in one of them.
+///
+/// `known` is a further design in which the vertices are already known.
+fn transfer_to_all(
     base: &PairMesh,
     (from, known): (usize, Option<(usize, Vec<DVec2>)>),
     designs: &[BoundaryRings],
     progress: &dyn Progress,
 ) -> Result<Option<(f64, SharedTriangulation)>, Cancelled> {
-    let to = |design: usize| {
+    let transferred = |design: usize| {
         let own = &base.points[0];
         let known = known.as_ref().filter(|(hard, _)| *hard == design);
         let mut mesh = base.clone();
         match known {
+            // The design of the start keeps its own vertices, without distortion.
             _ if design == from => return Ok(Some((0.0, own.clone()))),
             Some((_, places)) => mesh.points[1].clone_from(places),
             None => {
                 transfer_onto(&mut mesh, &designs[design].points, progress)?;
-                settle(&mut mesh, progress);
+                reduce_distortion(&mut mesh, progress);
             }
         }
         let is_valid = mesh.is_valid();
         Ok(is_valid.then(|| (mean_cost(&mesh), mesh.points[1].clone())))
     };
-    let all: Vec<_> = (0..designs.len()).into_par_iter().map(to).collect();
+    let all: Vec<_> = (0..designs.len())
+        .into_par_iter()
+        .map(transferred)
+        .collect();
     let all = all
         .into_iter()
         .collect::<Result<Option<Vec<_>>, Cancelled>>();
     let Some(all) = all? else {
         return Ok(None);
     };
-    let worth = all.iter().map(|(worth, _)| worth).sum();
+    let cost = all.iter().map(|(cost, _)| cost).sum();
     let places = all.into_iter().map(|(_, places)| places).collect();
-    Ok(Some((worth, (base.faces().collect(), places))))
+    Ok(Some((cost, (base.faces().collect(), places))))
 }

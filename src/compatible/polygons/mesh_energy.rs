@@ -1,9 +1,8 @@
-//! All that may move of a mesh, and the weighted sum of its faces' costs by
-//! that: inner vertices freely in both designs, those of the outlines along
-//! them where they slide.
+//! Cost of a mesh, the weighted sum of its face costs, as a function of everything that may move:
+//! inner vertices in both designs, and boundary vertices that slide along the outlines.
 //!
-//! Unknowns are displacements of the inner vertices (first design x, first y,
-//! second x, second y), then how far each slider slides.
+//! Unknowns are the displacements of the inner vertices (first design x, first y, second x, second
+//! y), then the slide of each sliding vertex.
 
 use super::face_cost;
 use super::pair_mesh::PairMesh;
@@ -12,30 +11,35 @@ use crate::geometry::DVec2;
 use crate::numerics::lbfgs::minimise;
 use crate::work::progress::Progress;
 
-/// A vertex that slides along both outlines, half the way in either, against
-/// each other.
+/// Boundary vertex that slides along both outlines, by half of its slide in each design, in
+/// opposite directions.
 #[derive(Clone, Debug)]
 pub(super) struct SlidingVertex<'a> {
+    /// Index of the vertex.
     pub(super) vertex: u32,
+    /// Outline of each design.
     pub(super) curves: [&'a BoundaryCurve; 2],
-    /// Where it is on them.
+    /// Position on each outline, in curve units (the whole curve is 1).
     pub(super) places: [f64; 2],
 }
 
-/// By how much of a slide the place in each design changes.
-const SHARES: [f64; 2] = [-0.5, 0.5];
+/// Change of the position in each design per unit of slide (derived: half each, so that both
+/// designs are treated alike).
+const SLIDE_SHARES: [f64; 2] = [-0.5, 0.5];
 
 impl SlidingVertex<'_> {
-    /// Takes its place after it slid so far.
+    /// Moves the vertex by a slide.
     pub(super) fn slide(&mut self, by: f64) {
         self.places = [0, 1].map(|design| self.place(by, design));
     }
 
+    /// Position in one design after a slide.
     fn place(&self, by: f64, design: usize) -> f64 {
-        self.places[design] + SHARES[design] * by
+        self.places[design] + SLIDE_SHARES[design] * by
     }
 }
 
+/// Cost of a mesh as a function of its unknowns, with scratch memory for evaluations.
 pub(super) struct MeshEnergy<'a> {
     mesh: &'a PairMesh,
     /// Faces with their weights.
@@ -43,21 +47,22 @@ pub(super) struct MeshEnergy<'a> {
     /// The inner vertices, ascending.
     pub(super) inner: Vec<u32>,
     sliders: &'a [SlidingVertex<'a>],
-    /// How many times as large as its curves each design is.
+    /// Scale of each design relative to its curves.
     scales: [f64; 2],
-    /// What the change of area costs.
+    /// Weight of the area-change term.
     area: f64,
-    /// Scratch: the vertices and the cost's gradients by them.
-    at: [Vec<DVec2>; 2],
+    /// Scratch: vertices for the current unknowns, and gradients with respect to them.
+    current: [Vec<DVec2>; 2],
     gradients: [Vec<DVec2>; 2],
 }
 
 impl<'a> MeshEnergy<'a> {
-    /// Of the inner vertices alone.
-    pub(super) fn of_inner(mesh: &'a PairMesh, area: f64) -> Self {
+    /// Cost as a function of the inner vertices only.
+    pub(super) fn of_inner_vertices(mesh: &'a PairMesh, area: f64) -> Self {
         Self::new(mesh, &[], [1.0; 2], area)
     }
 
+    /// Cost as a function of the inner vertices and the sliding ones.
     pub(super) fn new(
         mesh: &'a PairMesh,
         sliders: &'a [SlidingVertex<'a>],
@@ -68,7 +73,7 @@ impl<'a> MeshEnergy<'a> {
         Self {
             faces: weighted_faces(mesh),
             inner: mesh.steiner(),
-            at: mesh.points.clone(),
+            current: mesh.points.clone(),
             gradients: [zero.clone(), zero],
             mesh,
             sliders,
@@ -77,12 +82,12 @@ impl<'a> MeshEnergy<'a> {
         }
     }
 
+    /// Number of unknowns.
     pub(super) fn unknowns(&self) -> usize {
         4 * self.inner.len() + self.sliders.len()
     }
 
-    /// At most so many steps downhill: where the vertices are then, and how
-    /// far the sliders slid.
+    /// Takes at most `steps` steps downhill; returns the vertices and the slides reached.
     pub(super) fn minimised(
         mut self,
         steps: usize,
@@ -92,31 +97,32 @@ impl<'a> MeshEnergy<'a> {
         let mut x = vec![0.0; self.unknowns()];
         let energy = |x: &[f64], gradient: &mut [f64]| self.energy(x, gradient);
         minimise(&mut x, steps, 1e-5, precondition, energy, progress);
-        self.place(&x);
-        (self.at, x.split_off(4 * self.inner.len()))
+        self.apply(&x);
+        // The slides are the last unknowns.
+        (self.current, x.split_off(4 * self.inner.len()))
     }
 
-    /// How a slider's point moves in a design as it slides.
+    /// Derivative of a sliding vertex's position in one design with respect to its slide.
     pub(super) fn velocity(&self, slider: usize, by: f64, design: usize) -> DVec2 {
         let slider = &self.sliders[slider];
         let along = slider.curves[design].velocity_at(slider.place(by, design));
-        along * (SHARES[design] * self.scales[design])
+        along * (SLIDE_SHARES[design] * self.scales[design])
     }
 
-    /// Puts the vertices where displacements bring them.
-    fn place(&mut self, x: &[f64]) {
+    /// Moves the vertices to where the unknowns `x` put them.
+    fn apply(&mut self, x: &[f64]) {
         let n = self.inner.len();
         for d in 0..2 {
             let start = &self.mesh.points[d];
             let (along_x, along_y) = x[2 * d * n..2 * (d + 1) * n].split_at(n);
             for (i, &v) in self.inner.iter().enumerate() {
                 let by = DVec2::new(along_x[i], along_y[i]);
-                self.at[d][v as usize] = start[v as usize] + by;
+                self.current[d][v as usize] = start[v as usize] + by;
             }
             for (slider, &by) in self.sliders.iter().zip(&x[4 * n..]) {
                 let v = slider.vertex as usize;
-                self.at[d][v] = if by == 0.0 {
-                    start[v] // exact, so that the start is as valid as it was
+                self.current[d][v] = if by == 0.0 {
+                    start[v] // exact, so that the start stays valid
                 } else {
                     slider.curves[d].point_at(slider.place(by, d)) * self.scales[d]
                 };
@@ -124,15 +130,16 @@ impl<'a> MeshEnergy<'a> {
         }
     }
 
+    /// Returns the cost at `x` and fills its gradient; infinite if a face is not positive.
     fn energy(&mut self, x: &[f64], gradient: &mut [f64]) -> f64 {
-        self.place(x);
+        self.apply(x);
         for gradients in &mut self.gradients {
             gradients.fill(DVec2::ZERO);
         }
         let mut total = 0.0;
         for &(face, weight) in &self.faces {
-            let [p, q] = [0, 1].map(|d| face.map(|v| self.at[d][v as usize]));
-            // The gradient is of no use then: the search only shortens its step.
+            let [p, q] = [0, 1].map(|d| face.map(|v| self.current[d][v as usize]));
+            // No gradient is needed: the line search only shortens its step.
             let Some(cost) = face_cost::evaluate(p, q, self.area) else {
                 return f64::INFINITY;
             };
@@ -153,6 +160,7 @@ impl<'a> MeshEnergy<'a> {
         }
         for (i, slider) in self.sliders.iter().enumerate() {
             let (v, by) = (slider.vertex as usize, x[4 * n + i]);
+            // Chain rule: one slide moves the vertex in both designs.
             let along = |d: usize| self.gradients[d][v].dot(self.velocity(i, by, d));
             gradient[4 * n + i] = along(0) + along(1);
         }
@@ -160,7 +168,8 @@ impl<'a> MeshEnergy<'a> {
     }
 }
 
-/// Faces weighted half by their mean share of both areas, half alike.
+/// Returns the faces with weights that add up to 1. Half of a weight is the face's mean share of
+/// both areas, and half is the same for all faces.
 pub(super) fn weighted_faces(mesh: &PairMesh) -> Vec<([u32; 3], f64)> {
     let areas = |face| mesh.corners(face).map(face_cost::twice_area);
     let mut total = [0.0; 2];
@@ -170,7 +179,7 @@ pub(super) fn weighted_faces(mesh: &PairMesh) -> Vec<([u32; 3], f64)> {
         total = [total[0] + area[0], total[1] + area[1]];
         count += 1.0;
     }
-    // By area alone the small faces of a detail would have hardly a say.
+    // By area alone, the small faces of details would hardly count.
     let weight = |face| {
         let area = areas(face);
         0.25 * (area[0] / total[0] + area[1] / total[1]) + 0.5 / count

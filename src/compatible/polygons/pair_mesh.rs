@@ -1,9 +1,8 @@
-//! A mesh in two embeddings that can be edited and stays valid.
+//! Mesh with two embeddings that is edited by flips, splits and collapses without becoming invalid.
 //!
-//! Guaranteed: an edit is made only if every face it makes is positive in
-//! both designs, exactly; the polygon's vertices, the first ones, never move
-//! and its edges are never cut. A mesh that starts invalid stays as it is
-//! there.
+//! Guaranteed: an edit is made only if every face it creates is positive in both designs, by exact
+//! predicates; polygon vertices (the first ones) never move, and polygon edges are never split or
+//! flipped. Faces that start out invalid stay as they are.
 
 use super::face_cost;
 use super::face_cost::FaceCorners;
@@ -11,21 +10,23 @@ use crate::compatible::{CompatibleError, CompatibleMesh};
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::sides;
 
-/// A face that was removed.
-const GONE: [u32; 3] = [u32::MAX; 3];
+/// Marker in place of a removed face.
+const REMOVED: [u32; 3] = [u32::MAX; 3];
 
+/// Mesh with two embeddings, indexed for local edits.
 #[derive(Clone, Debug)]
 pub(super) struct PairMesh {
-    /// How many vertices, the first ones, are the polygon's.
+    /// Number of polygon vertices; they come first and never move.
     pub(super) fixed: usize,
-    /// The vertices in source and target.
+    /// Vertices in source and target.
     pub(super) points: [Vec<DVec2>; 2],
+    /// Faces, with [`REMOVED`] in unused slots.
     faces: Vec<[u32; 3]>,
-    /// For each vertex its faces.
+    /// Indices of the faces at each vertex.
     around: Vec<Vec<u32>>,
 }
 
-/// Two faces beside an inner edge a → b: left (a, b, left), right (b, a, right).
+/// Faces on both sides of an inner edge a → b: (a, b, left) and (b, a, right).
 struct EdgeFaces {
     faces: [u32; 2],
     left: u32,
@@ -33,6 +34,7 @@ struct EdgeFaces {
 }
 
 impl PairMesh {
+    /// Creates a mesh without checking that it is valid.
     pub(super) fn new(fixed: usize, points: [Vec<DVec2>; 2], faces: Vec<[u32; 3]>) -> Self {
         let mut around = vec![Vec::new(); points[0].len()];
         for (f, face) in faces.iter().enumerate() {
@@ -48,31 +50,33 @@ impl PairMesh {
         }
     }
 
-    /// The faces that are there.
+    /// Faces, without removed ones.
     pub(super) fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        self.faces.iter().copied().filter(|face| *face != GONE)
+        self.faces.iter().copied().filter(|face| *face != REMOVED)
     }
 
+    /// Corners of a face in source and target.
     pub(super) fn corners(&self, face: [u32; 3]) -> [FaceCorners; 2] {
         [0, 1].map(|d| face.map(|v| self.points[d][v as usize]))
     }
 
+    /// Returns whether a face is positive in both designs, by exact predicates.
     fn is_valid_face(&self, face: [u32; 3]) -> bool {
         self.corners(face).into_iter().all(face_cost::is_positive)
     }
 
-    /// Whether every face is positive in both designs, exactly.
+    /// Returns whether every face is positive in both designs, by exact predicates.
     pub(super) fn is_valid(&self) -> bool {
         self.faces().all(|face| self.is_valid_face(face))
     }
 
-    /// How many faces are not positive in both.
+    /// Number of faces that are not positive in both designs.
     pub(super) fn folds(&self) -> usize {
-        let folded = |face: &[u32; 3]| !self.is_valid_face(*face);
-        self.faces().filter(folded).count()
+        let is_folded = |face: &[u32; 3]| !self.is_valid_face(*face);
+        self.faces().filter(is_folded).count()
     }
 
-    /// What a face costs; infinite if it is not positive in both.
+    /// Cost of a face; infinite if it is not positive in both designs.
     pub(super) fn cost(&self, face: [u32; 3]) -> f64 {
         let [p, q] = self.corners(face);
         if face_cost::is_positive(p) && face_cost::is_positive(q) {
@@ -82,9 +86,10 @@ impl PairMesh {
         }
     }
 
-    /// Puts the vertices there, unless a face is then not positive; whether it
-    /// was done. Costs know areas in plain floating point: a face that is flat
-    /// but for rounding may be positive to them.
+    /// Moves all vertices to `points` unless that invalidates a face; returns whether it did.
+    ///
+    /// The check is exact, because costs are computed in floating point and may accept a face that
+    /// is flat up to rounding.
     pub(super) fn move_to(&mut self, points: [Vec<DVec2>; 2]) -> bool {
         let before = std::mem::replace(&mut self.points, points);
         let is_valid = self.is_valid();
@@ -94,46 +99,46 @@ impl PairMesh {
         is_valid
     }
 
-    /// The movable vertices that are there, in ascending order.
+    /// Movable vertices that belong to a face, in ascending order.
     pub(super) fn steiner(&self) -> Vec<u32> {
         (self.fixed as u32..self.around.len() as u32)
             .filter(|&v| !self.around[v as usize].is_empty())
             .collect()
     }
 
-    /// The faces at a vertex.
+    /// Faces at a vertex.
     pub(super) fn faces_at(&self, v: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
         self.around[v as usize]
             .iter()
             .map(|&f| self.faces[f as usize])
     }
 
-    /// The vertices joined to `v` by an edge, in ascending order.
+    /// Vertices joined to `v` by an edge, in ascending order.
     pub(super) fn neighbours(&self, v: u32) -> Vec<u32> {
-        let mut found: Vec<u32> = self.faces_at(v).flatten().filter(|&u| u != v).collect();
-        found.sort_unstable();
-        found.dedup();
-        found
+        let mut neighbours: Vec<u32> = self.faces_at(v).flatten().filter(|&u| u != v).collect();
+        neighbours.sort_unstable();
+        neighbours.dedup();
+        neighbours
     }
 
-    /// All edges with a face on either side, smaller vertex first.
+    /// Edges with a face on either side, smaller vertex first, sorted.
     pub(super) fn inner_edges(&self) -> Vec<[u32; 2]> {
         let mut edges: Vec<[u32; 2]> = self
             .faces()
             .flat_map(sides)
-            // Once each, from the face that runs it upwards.
+            // Once each, from the face that lists it from the smaller to the larger vertex.
             .filter(|&[a, b]| a < b && self.opposite(b, a).is_some())
             .collect();
         edges.sort_unstable();
         edges
     }
 
-    /// Whether an edge has a face on either side.
+    /// Returns whether an edge has a face on either side.
     pub(super) fn is_inner(&self, [a, b]: [u32; 2]) -> bool {
         self.opposite(a, b).is_some() && self.opposite(b, a).is_some()
     }
 
-    /// The face that runs a → b, and its third vertex.
+    /// Returns the index of the face that contains the directed edge a → b, and its third vertex.
     fn opposite(&self, a: u32, b: u32) -> Option<(u32, u32)> {
         self.around[a as usize].iter().find_map(|&f| {
             let face = self.faces[f as usize];
@@ -142,6 +147,7 @@ impl PairMesh {
         })
     }
 
+    /// Returns the faces on both sides of an inner edge.
     fn beside(&self, [a, b]: [u32; 2]) -> Option<EdgeFaces> {
         let (f, left) = self.opposite(a, b)?;
         let (g, right) = self.opposite(b, a)?;
@@ -152,6 +158,7 @@ impl PairMesh {
         })
     }
 
+    /// Highest cost among the faces.
     fn worst(&self, faces: &[[u32; 3]]) -> f64 {
         faces
             .iter()
@@ -159,44 +166,45 @@ impl PairMesh {
             .fold(0.0, f64::max)
     }
 
-    /// Turns an inner edge if the worse of its two faces gets better.
+    /// Flips an inner edge if that lowers the higher cost of its two faces; returns whether it did.
     pub(super) fn flip_if_better(&mut self, edge: [u32; 2]) -> bool {
         let [a, b] = edge;
-        let Some(at) = self.beside(edge) else {
+        let Some(edge_faces) = self.beside(edge) else {
             return false;
         };
-        // The turned edge may be there already, beyond a vertex of three faces.
-        if self.opposite(at.left, at.right).is_some() || self.opposite(at.right, at.left).is_some()
-        {
+        // The flipped edge may already exist, beyond a vertex with three faces.
+        let (left, right) = (edge_faces.left, edge_faces.right);
+        if self.opposite(left, right).is_some() || self.opposite(right, left).is_some() {
             return false;
         }
-        let new = [[a, at.right, at.left], [at.right, b, at.left]];
-        let old = at.faces.map(|f| self.faces[f as usize]);
-        // By more than rounding: else an edge could turn to and fro.
-        let better = self.worst(&new) < self.worst(&old) * (1.0 - 1e-9);
-        if better {
-            self.replace(at.faces.to_vec(), &new);
+        let new = [[a, right, left], [right, b, left]];
+        let old = edge_faces.faces.map(|f| self.faces[f as usize]);
+        // By more than rounding, or an edge could flip back and forth.
+        let is_better = self.worst(&new) < self.worst(&old) * (1.0 - 1e-9);
+        if is_better {
+            self.replace(edge_faces.faces.to_vec(), &new);
         }
-        better
+        is_better
     }
 
-    /// Puts a vertex into the middle of an inner edge, in both designs.
+    /// Inserts a vertex at the midpoint of an inner edge, in both designs; `None` if a valid face
+    /// would fold.
     pub(super) fn split(&mut self, edge: [u32; 2]) -> Option<u32> {
         let [a, b] = edge;
-        let at = self.beside(edge)?;
+        let edge_faces = self.beside(edge)?;
         let middle = self.around.len() as u32;
         for points in &mut self.points {
             points.push(points[a as usize].midpoint(points[b as usize]));
         }
         self.around.push(Vec::new());
         let new = [
-            [a, middle, at.left],
-            [middle, b, at.left],
-            [b, middle, at.right],
-            [middle, a, at.right],
+            [a, middle, edge_faces.left],
+            [middle, b, edge_faces.left],
+            [b, middle, edge_faces.right],
+            [middle, a, edge_faces.right],
         ];
-        // What was folded already may stay so; nothing else may fold.
-        let was_valid = at
+        // Faces that were folded may stay folded, but valid ones must stay valid.
+        let was_valid = edge_faces
             .faces
             .iter()
             .all(|&f| self.is_valid_face(self.faces[f as usize]));
@@ -207,12 +215,12 @@ impl PairMesh {
             self.around.truncate(middle as usize);
             return None;
         }
-        self.replace(at.faces.to_vec(), &new);
+        self.replace(edge_faces.faces.to_vec(), &new);
         Some(middle)
     }
 
-    /// The worst cost there would be around `v` moved onto its neighbour
-    /// `onto`; infinite if that is not allowed.
+    /// Highest cost around `v` if it is moved onto its neighbour `onto`; infinite if the collapse
+    /// is not allowed.
     pub(super) fn collapse_cost(&self, v: u32, onto: u32) -> f64 {
         let shared = self.neighbours(onto);
         let common = self
@@ -220,8 +228,8 @@ impl PairMesh {
             .iter()
             .filter(|u| shared.contains(u))
             .count();
-        // Else the collapse would pinch the mesh or close a hole (Dey,
-        // Edelsbrunner, Guha, Nekhayev 1999, the link condition).
+        // Otherwise the collapse would pinch the mesh or close a hole (link condition; Dey,
+        // Edelsbrunner, Guha, Nekhayev 1999).
         if common != 2 {
             return f64::INFINITY;
         }
@@ -230,25 +238,27 @@ impl PairMesh {
             .fold(0.0, f64::max)
     }
 
+    /// Faces at `v` that remain after the collapse onto a neighbour, with their new corners.
     fn collapsed(&self, v: u32, onto: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
         self.faces_at(v)
             .filter(move |face| !face.contains(&onto))
             .map(move |face| face.map(|u| if u == v { onto } else { u }))
     }
 
-    /// Moves `v` onto its neighbour; the caller has asked what it costs.
+    /// Moves `v` onto its neighbour; the caller has checked [`Self::collapse_cost`].
     pub(super) fn collapse(&mut self, v: u32, onto: u32) {
         let new: Vec<[u32; 3]> = self.collapsed(v, onto).collect();
         self.replace(self.around[v as usize].clone(), &new);
     }
 
+    /// Replaces faces by new ones.
     fn replace(&mut self, old: Vec<u32>, new: &[[u32; 3]]) {
         for &f in &old {
-            for v in std::mem::replace(&mut self.faces[f as usize], GONE) {
+            for v in std::mem::replace(&mut self.faces[f as usize], REMOVED) {
                 self.around[v as usize].retain(|&g| g != f);
             }
         }
-        // Numbers are used again, so that they stay small; a split needs two more.
+        // Indices are reused so that they stay small; a split needs two more than it frees.
         let mut free = old.into_iter();
         for &face in new {
             let f = free.next().unwrap_or(self.faces.len() as u32);
@@ -263,29 +273,32 @@ impl PairMesh {
         }
     }
 
-    /// The designs exchanged.
+    /// Returns the mesh with the designs exchanged.
     pub(super) fn swapped(mut self) -> Self {
         self.points.swap(0, 1);
         self
     }
 
-    /// Faces and vertices without gaps.
+    /// Faces and vertices renumbered without gaps.
     pub(super) fn compacted(&self) -> (Vec<[u32; 3]>, [Vec<DVec2>; 2]) {
-        let kept: Vec<u32> = (0..self.fixed as u32).chain(self.steiner()).collect();
+        let used: Vec<u32> = (0..self.fixed as u32).chain(self.steiner()).collect();
         let mut new_number = vec![u32::MAX; self.around.len()];
-        for (new, &old) in kept.iter().enumerate() {
+        for (new, &old) in used.iter().enumerate() {
             new_number[old as usize] = new as u32;
         }
         let faces = self
             .faces()
             .map(|face| face.map(|v| new_number[v as usize]));
-        let points = [0, 1].map(|d| kept.iter().map(|&v| self.points[d][v as usize]).collect());
+        let points = [0, 1].map(|d| used.iter().map(|&v| self.points[d][v as usize]).collect());
         (faces.collect(), points)
     }
 
-    /// The mesh in the coordinates that were given, of which its own are so
-    /// many times as large: the first vertices are met to the last bit.
-    pub(super) fn finished(
+    /// Converts the mesh to the given coordinates, by division by `scales`. The first vertices are
+    /// copied from `given`, so they are met to the last bit.
+    ///
+    /// # Errors
+    /// [`CompatibleError`] if rounding in these coordinates invalidates a face.
+    pub(super) fn to_compatible_mesh(
         &self,
         scales: [f64; 2],
         given: [&[DVec2]; 2],
@@ -300,7 +313,7 @@ impl PairMesh {
     }
 }
 
-/// A power of two, so that scaling is exact, that brings the diameter near 1.
+/// Returns the power of two that brings the diameter near 1; such a scale is exact.
 pub(super) fn unit_scale(points: &[DVec2]) -> f64 {
     let size = Bounds::diameter_of(points);
     if size.is_normal() {
@@ -324,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn split_then_collapse_is_where_it_began() {
+    fn a_collapse_undoes_a_split() {
         let mut mesh = square();
         let middle = mesh.split([0, 2]).expect("inner edge");
         assert_eq!((mesh.faces().count(), middle), (4, 4));
@@ -337,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn polygon_edges_are_never_cut_or_turned() {
+    fn polygon_edges_are_never_split_or_flipped() {
         let mut mesh = square();
         assert_eq!(mesh.split([0, 1]), None);
         assert!(!mesh.flip_if_better([1, 2]));

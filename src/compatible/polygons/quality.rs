@@ -1,6 +1,6 @@
-//! Better angles in both designs at once, never leaving validity: flips,
-//! collapses of needless vertices, splits, and moves that lower the cost of
-//! the faces (see [`super::face_cost`]) in both embeddings together.
+//! Improves angles in both designs at once without losing validity: flips, collapses of unneeded
+//! vertices, splits, and moves that lower the face costs ([`super::face_cost`]) of both embeddings
+//! together.
 
 use super::face_cost;
 use super::options::PolygonOptions;
@@ -12,42 +12,41 @@ use crate::mesh::sides;
 use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
 use std::collections::HashSet;
 
-/// Rounds of flips and moves. A trade, as all steps here: further rounds cost
-/// the time of the first, and flips find less in each.
+/// Rounds of flips, splits and moves (heuristic).
 const ROUNDS: usize = 5;
-/// Steps of the moves before two meshes are compared: enough to tell which is
-/// the better one, since only that one is improved.
+/// Steps of the moves before two candidate meshes are compared; only the better one is improved
+/// further (heuristic).
 const FIRST_STEPS: usize = 20;
-/// Steps of the moves in the last round, and in those before it, after which
-/// the mesh is changed once more.
-const STEPS: usize = 60;
+/// Steps of the moves in the last round (heuristic).
+const LAST_STEPS: usize = 60;
+/// Steps of the moves in earlier rounds, after which the mesh changes once more (heuristic).
 const EARLY_STEPS: usize = 8;
-/// Most steps times faces in each round: only meshes far larger than their
-/// boundary, from the hardest matches, feel it.
-const MOST_WORK: usize = 1_200_000;
-/// Faces that cost more are split while there is room: where they are equilateral in both
-/// designs, which costs 3, a distortion of about 1.3. By 20 instead, outlines of
-/// one class are distorted by 1.87 and not by 1.77.
+/// Maximum product of steps and faces in a round (resource limit: reached only by meshes far larger
+/// than their boundary).
+const MAX_WORK: usize = 1_200_000;
+/// Faces that cost more than this are split while there is room for vertices; an undistorted
+/// equilateral face costs 3 (heuristic).
 const COSTLY: f64 = 6.0;
-/// Most faces times rounds before it is left as it is: two polygons of 200
-/// corners that cross 39,000 times get the two rounds that come first.
-const MOST_THINNED: usize = 150_000;
-/// Rounds in which the base loses its needless vertices.
-const THINNING_ROUNDS: usize = 12;
+/// Maximum product of faces and rounds of thinning, after which the base is left as it is (resource
+/// limit).
+const MAX_THINNING_WORK: usize = 150_000;
+/// Maximum number of rounds in which the base loses unneeded vertices (resource limit).
+const MAX_THINNING_ROUNDS: usize = 12;
 
-/// Flips, moves and splits until little changes.
+/// Improves a mesh by several rounds of flips, splits and moves.
 pub(super) fn improve(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
-    let most = (MOST_WORK / (1 + mesh.faces().count())).max(1);
+    // Large meshes get fewer steps.
+    let max_steps = (MAX_WORK / (1 + mesh.faces().count())).max(1);
     for round in 0..ROUNDS {
         checkpoint(progress, "improving", round as f64 / ROUNDS as f64)?;
         flip_all(mesh, progress)?;
-        // Flips may have made edges between boundary points.
+        // Flips may have joined boundary points by chords, whose faces have no freedom.
         split_chords(mesh);
-        // The last round only settles.
+        // The last round adds no vertices.
         if round + 1 < ROUNDS {
             split_long(mesh, options, progress)?;
             split_costly(mesh, options, progress)?;
@@ -56,15 +55,14 @@ pub(super) fn improve(
         let steps = if round + 1 < ROUNDS {
             EARLY_STEPS
         } else {
-            STEPS
+            LAST_STEPS
         };
-        relax(mesh, steps.min(most), progress);
+        relax(mesh, steps.min(max_steps), progress);
     }
     still_wanted(progress)
 }
 
-/// Flips, and splits of what is costly: the mesh changed to what its vertices
-/// have become.
+/// Adapts the mesh to vertices that have moved: flips edges and splits costly faces.
 pub(super) fn refit(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
@@ -76,33 +74,36 @@ pub(super) fn refit(
     flip_all(mesh, progress)
 }
 
-/// One round, without new vertices.
+/// One round of flips and moves, without new vertices.
 pub(super) fn settle(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     flip_all(mesh, progress)?;
     relax(mesh, FIRST_STEPS, progress);
     still_wanted(progress)
 }
 
-/// Splits the worst faces: more freedom where it is needed. Splitting many
-/// more doubled the vertices of public pairs and changed no median.
+/// Splits the costliest faces, to add freedom where it is needed.
 fn split_costly(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
     let n = mesh.fixed;
-    let room = options.most_points(n).saturating_sub(mesh.steiner().len());
+    let room = options
+        .max_inner_points(n)
+        .saturating_sub(mesh.steiner().len());
     let mut costly: Vec<([u32; 3], f64)> = mesh
         .faces()
         .map(|face| (face, mesh.cost(face)))
         .filter(|(_, cost)| *cost > COSTLY)
         .collect();
-    // Worst first, and of neighbours one: the others change with it.
+    // The costliest first, and only one of neighbouring faces, since a split changes the others
+    // too.
     costly.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut touched = HashSet::new();
     let mut splits = 0;
     for (face, _) in costly {
         still_wanted(progress)?;
+        // Only a few in each round, because costs change after every split.
         if splits >= room.min(1 + n / 8) {
             break;
         }
@@ -118,9 +119,10 @@ fn split_costly(
     Ok(())
 }
 
-/// In the design where the face is thinner.
+/// Returns a face's longest inner edge, measured in the design where the face is thinner.
 fn longest_inner_edge(mesh: &PairMesh, face: [u32; 3]) -> Option<[u32; 2]> {
     let [p, q] = mesh.corners(face).map(face_cost::shape);
+    // A larger shape term means a thinner face.
     let points = &mesh.points[usize::from(p <= q)];
     let length = |[a, b]: [u32; 2]| points[a as usize].distance_squared(points[b as usize]);
     sides(face)
@@ -129,16 +131,16 @@ fn longest_inner_edge(mesh: &PairMesh, face: [u32; 3]) -> Option<[u32; 2]> {
         .max_by(|&a, &b| length(a).total_cmp(&length(b)))
 }
 
-/// Takes needless vertices out of a mesh that has far too many.
+/// Removes unneeded vertices from a mesh that has far too many.
 pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
-    for round in 0..THINNING_ROUNDS {
+    for round in 0..MAX_THINNING_ROUNDS {
         checkpoint(
             progress,
             "simplifying",
-            round as f64 / THINNING_ROUNDS as f64,
+            round as f64 / MAX_THINNING_ROUNDS as f64,
         )?;
-        // Two rounds come first: the second collapses what the first has moved.
-        if round > 1 && round * mesh.faces().count() > MOST_THINNED {
+        // The first two rounds always run: the second collapses vertices that the first has moved.
+        if round > 1 && round * mesh.faces().count() > MAX_THINNING_WORK {
             break;
         }
         flip_all(mesh, progress)?;
@@ -151,13 +153,15 @@ pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(
     Ok(())
 }
 
+/// Flips all edges that improve their faces.
 fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
-    const PASSES: usize = 6;
-    for _ in 0..PASSES {
+    /// Maximum number of passes over all edges (resource limit).
+    const MAX_PASSES: usize = 6;
+    for _ in 0..MAX_PASSES {
         let mut flipped = 0;
         for edge in mesh.inner_edges() {
             still_wanted(progress)?;
-            // A flip takes away no listed edge but its own.
+            // A flip removes no other listed edge.
             flipped += usize::from(mesh.flip_if_better(edge));
         }
         if flipped == 0 {
@@ -167,11 +171,13 @@ fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelle
     Ok(())
 }
 
+/// Collapses movable vertices where that does not raise the highest cost around them; returns how
+/// many.
 fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, Cancelled> {
     let mut removed = 0;
     for v in mesh.steiner() {
         still_wanted(progress)?;
-        let present = mesh
+        let current_cost = mesh
             .faces_at(v)
             .map(|face| mesh.cost(face))
             .fold(0.0, f64::max);
@@ -180,7 +186,8 @@ fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, C
             .into_iter()
             .map(|u| (mesh.collapse_cost(v, u), u))
             .min_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((cost, onto)) = best.filter(|(cost, _)| *cost <= present)
+        // Must not make the worst face around the vertex worse.
+        if let Some((cost, onto)) = best.filter(|(cost, _)| *cost <= current_cost)
             && cost.is_finite()
         {
             mesh.collapse(v, onto);
@@ -190,7 +197,7 @@ fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, C
     Ok(removed)
 }
 
-/// Splits edges longer than asked for in either design.
+/// Splits edges that are longer than requested in either design.
 fn split_long(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
@@ -200,24 +207,24 @@ fn split_long(
         return Ok(());
     };
     let n = mesh.fixed;
-    // Halves of an edge that is 1.5 times as long as wanted are nearer to what
-    // is wanted than the edge is.
+    // From 1.5 times the requested length on, the halves are closer to it than the whole edge is.
     let longest = [0, 1].map(|d| 1.5 * share * Bounds::diameter_of(&mesh.points[d][..n]));
-    let most = options.most_points(n);
+    let max_count = options.max_inner_points(n);
     let mut count = mesh.steiner().len();
     for [a, b] in mesh.inner_edges() {
         still_wanted(progress)?;
-        let long = (0..2)
+        let is_long = (0..2)
             .any(|d| mesh.points[d][a as usize].distance(mesh.points[d][b as usize]) > longest[d]);
-        if long && count < most && mesh.split([a, b]).is_some() {
+        if is_long && count < max_count && mesh.split([a, b]).is_some() {
             count += 1;
         }
     }
     Ok(())
 }
 
-/// Each movable vertex in turn moved downhill, in both designs at once.
+/// Moves each movable vertex in turn downhill, in both designs at once.
 fn nudge_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
+    /// Number of passes over all vertices (heuristic).
     const PASSES: usize = 3;
     for _ in 0..PASSES {
         for v in mesh.steiner() {
@@ -228,19 +235,22 @@ fn nudge_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancell
     Ok(())
 }
 
+/// Moves one vertex downhill by backtracking; it stays if no trial lowers the cost.
 fn nudge(mesh: &mut PairMesh, v: u32) {
-    // The last step is 0.5 · 0.25⁵ of the way to the nearest neighbour, 1/2000.
-    const TRIALS: usize = 6;
+    /// Maximum number of trial steps (resource limit: the last is 0.5 · 0.25⁵ of the way to the
+    /// nearest neighbour, 1/2000).
+    const MAX_TRIALS: usize = 6;
     let faces: Vec<[u32; 3]> = mesh.faces_at(v).collect();
     let total = |mesh: &PairMesh| faces.iter().map(|&face| mesh.cost(face)).sum::<f64>();
     let before = total(mesh);
+    // Around an invalid face there is no descent direction.
     if !before.is_finite() {
         return;
     }
     let start = [0, 1].map(|d| mesh.points[d][v as usize]);
     let directions = descent(mesh, v, &faces);
     let mut length = 0.5;
-    for _ in 0..TRIALS {
+    for _ in 0..MAX_TRIALS {
         for d in 0..2 {
             mesh.points[d][v as usize] = start[d] + length * directions[d];
         }
@@ -254,7 +264,7 @@ fn nudge(mesh: &mut PairMesh, v: u32) {
     }
 }
 
-/// Downhill in each design, as long as the nearest neighbour is far.
+/// Descent direction in each design, with the length of the distance to the nearest neighbour.
 fn descent(mesh: &PairMesh, v: u32, faces: &[[u32; 3]]) -> [DVec2; 2] {
     let mut gradients = [DVec2::ZERO; 2];
     let mut reach = [f64::INFINITY; 2];

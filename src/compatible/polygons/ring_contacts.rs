@@ -1,41 +1,46 @@
-//! Where closed walks touch themselves or each other, exactly.
+//! Finds edges of closed boundary loops that touch or cross where they must not, exactly.
 
 use crate::geometry::{DVec2, orient2d, segments_touch};
 use std::collections::HashSet;
 
-/// The walks' edges, numbered through.
+/// Edges of all loops, numbered consecutively.
 struct LoopEdges {
     points: Vec<DVec2>,
-    /// For each corner the next one of its walk.
+    /// Next corner on the same loop, for each corner.
     next: Vec<usize>,
 }
 
 impl LoopEdges {
-    fn of(walks: &[&[DVec2]]) -> Self {
+    /// Numbers the edges of all loops.
+    fn of(loops: &[&[DVec2]]) -> Self {
         let mut next = Vec::new();
-        for walk in walks {
-            let (start, n) = (next.len(), walk.len());
+        for ring in loops {
+            let (start, n) = (next.len(), ring.len());
             next.extend((0..n).map(|i| start + (i + 1) % n));
         }
-        let points = walks.concat();
+        let points = loops.concat();
         Self { points, next }
     }
 
+    /// Start and end of an edge.
     fn ends(&self, edge: usize) -> [DVec2; 2] {
         [self.points[edge], self.points[self.next[edge]]]
     }
 
-    /// Whether two edges share more than they may: neighbours a vertex, the
-    /// banks of a slit everything, others a vertex if `lenient`.
+    /// Returns whether two edges share more than allowed. Neighbours may share a vertex, the banks
+    /// of a slit everything; if `lenient`, other edges may share a vertex too.
     fn touch(&self, i: usize, j: usize, lenient: bool) -> bool {
         let ([a, b], [c, d]) = (self.ends(i), self.ends(j));
+        // An edge without length touches its neighbours everywhere.
         if a == b || c == d {
             return true;
         }
+        // The same edge in both directions: a slit, or a spike if the edges are neighbours.
         if a == d && b == c {
             return !lenient && (self.next[i] == j || self.next[j] == i);
         }
         let neighbours = self.next[i] == j || self.next[j] == i;
+        // Edges that share a vertex touch elsewhere only if one folds back onto the other.
         if b == c && (neighbours || lenient) {
             return folds_back(a, b, d);
         }
@@ -52,34 +57,41 @@ impl LoopEdges {
     }
 }
 
-/// Two edges that touch where they must not, by a sweep along x. Crossings
-/// come first, then points that meet beside no slit.
-pub(super) fn touching_edges(walks: &[&[DVec2]]) -> Option<[usize; 2]> {
-    let edges = LoopEdges::of(walks);
+/// Returns two edges that touch or cross where they must not, found by a sweep along x. Crossings
+/// come first, then vertices that coincide without a slit.
+pub(super) fn touching_edges(loops: &[&[DVec2]]) -> Option<[usize; 2]> {
+    let edges = LoopEdges::of(loops);
     let all: Vec<usize> = (0..edges.next.len()).collect();
-    // Lenient first: where vertices meet is passed over, so that what crosses
-    // is named before it.
-    found(&edges, all, true).or_else(|| {
-        // Negative zero is zero.
+    // Lenient first: coinciding vertices are ignored, so that crossings are found before them.
+    first_contact(&edges, all, true).or_else(|| {
+        // Adding zero turns -0 into 0.
         let key = |[a, b]: [DVec2; 2]| [a.x, a.y, b.x, b.y].map(|x| (x + 0.0).to_bits());
-        let walked: HashSet<[u64; 4]> = (0..edges.next.len()).map(|e| key(edges.ends(e))).collect();
-        let slit: Vec<bool> = (0..edges.next.len())
+        let directed: HashSet<[u64; 4]> =
+            (0..edges.next.len()).map(|e| key(edges.ends(e))).collect();
+        // An edge lies on a slit if another edge runs back along it.
+        let is_slit: Vec<bool> = (0..edges.next.len())
             .map(|e| {
                 let [a, b] = edges.ends(e);
-                walked.contains(&key([b, a]))
+                directed.contains(&key([b, a]))
             })
             .collect();
-        let beside = |e: &usize| !slit[*e] && !slit[edges.next[*e]];
-        found(&edges, (0..slit.len()).filter(beside).collect(), false)
+        let is_off_slits = |e: &usize| !is_slit[*e] && !is_slit[edges.next[*e]];
+        first_contact(
+            &edges,
+            (0..is_slit.len()).filter(is_off_slits).collect(),
+            false,
+        )
     })
 }
 
-fn found(edges: &LoopEdges, mut order: Vec<usize>, lenient: bool) -> Option<[usize; 2]> {
+/// Sweeps along x and returns the first two edges that touch.
+fn first_contact(edges: &LoopEdges, mut order: Vec<usize>, lenient: bool) -> Option<[usize; 2]> {
     let left = |i: usize| edges.ends(i)[0].x.min(edges.ends(i)[1].x);
     let right = |i: usize| edges.ends(i)[0].x.max(edges.ends(i)[1].x);
     order.sort_by(|&i, &j| left(i).total_cmp(&left(j)));
     let mut active: Vec<usize> = Vec::new();
     for &i in &order {
+        // Edges that end before this one starts cannot touch it.
         active.retain(|&j| right(j) >= left(i));
         if let Some(&j) = active.iter().find(|&&j| edges.touch(i, j, lenient)) {
             return Some([i.min(j), i.max(j)]);
@@ -89,13 +101,12 @@ fn found(edges: &LoopEdges, mut order: Vec<usize>, lenient: bool) -> Option<[usi
     None
 }
 
-/// Whether the path a, b, c returns onto itself or stands still.
+/// Returns whether the path a, b, c runs back onto itself or does not move.
 fn folds_back(a: DVec2, b: DVec2, c: DVec2) -> bool {
     a == b || b == c || (orient2d(a, b, c) == 0.0 && (within(b, a, c) || within(b, c, a)))
 }
 
-/// For collinear points: whether `p` lies between `a` and `b`, ends included,
-/// seen from `a`.
+/// Returns whether `p` lies between `a` and `b`, ends included; all three must be collinear.
 fn within(a: DVec2, p: DVec2, b: DVec2) -> bool {
     let (low, high) = (a.min(b), a.max(b));
     p.cmpge(low).all() && p.cmple(high).all()

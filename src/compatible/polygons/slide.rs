@@ -1,13 +1,11 @@
-//! Correspondence and map improved together: the vertices of both outlines
-//! slide along them while the inner ones follow and the mesh is changed with
-//! them, so that the map between the designs distorts less.
+//! Improves correspondence and map together: the vertices of both outlines slide along them, inner
+//! vertices follow and the mesh adapts, so that the map between the designs distorts less.
 //!
-//! What slides over a corner cuts it off; the rings are made anew at the
-//! places found, corners and all.
+//! A vertex that slides over a corner cuts it off; the caller rebuilds the rings, including their
+//! corners, from the returned places.
 //!
-//! Guaranteed: pinned vertices stay; the designs exchanged give the same
-//! places exchanged, bit by bit. Not guaranteed: that the places are in order
-//! around corners, or a minimum.
+//! Guaranteed: pinned vertices stay; exchanging the designs exchanges the places, bit by bit. Not
+//! guaranteed: that places stay in order around corners, or a minimum.
 
 use super::boundary_rings::BoundaryRings;
 use super::face_cost;
@@ -22,24 +20,22 @@ use crate::geometry::Side;
 use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
 use crate::work::progress::Progress;
 
-/// What the change of area costs against the fourth power of the conformal distortion:
-/// without it a map without distortion would crowd whole limbs into a point. Of 60 pairs of
-/// outlines of one class the 95th percentile of conformal distortion is 1.84 in the median
-/// with 1, 1.77 with this; of 200 of letters, area up and down is 0.026 and 0.045 in the
-/// worst tenth.
+/// Weight of the area-change term; without it a map without angular distortion could shrink whole
+/// limbs to a point (heuristic).
 const AREA: f64 = 0.45;
 
-/// Share of its own stiffness that holds each unknown: as for springs.
-const HELD: f64 = 1e-6;
+/// Fraction of its own stiffness that is added to the diagonal entry of each unknown (tolerance:
+/// keeps the matrix definite where springs cancel).
+const REGULARISATION: f64 = 1e-6;
 
-/// Steps of all that moves before the mesh is changed, and how often that is
-/// done.
+/// Descent steps before the mesh is adapted (heuristic).
 const STEPS: usize = 20;
+/// Number of rounds of steps and adaptation (heuristic).
 const ROUNDS: usize = 4;
 
-/// For each ring of a piece the places of its vertices, as
-/// `Course::places`, by which the map distorts less than by those that it
-/// has in this mesh of it; none where nothing slides.
+/// Returns, for each ring of the piece, places of its vertices for which the map distorts less than
+/// for those of `mesh`. They have the form of `MatchedCurves::places`. `None` if no vertex can
+/// slide, if rounding invalidates the mesh, or on a cancel.
 pub(crate) fn slide_outlines(
     piece: &PieceMatch,
     mesh: &CompatibleMesh,
@@ -50,52 +46,53 @@ pub(crate) fn slide_outlines(
         let rings = piece.rings.iter().map(|r| [&r.source, &r.target][side]);
         BoundaryRings::of(&rings.collect::<Vec<_>>())
     });
+    // A fixed order of the designs gives the same result when they are exchanged.
     let sides = if precedes(&rings[0], &rings[1]) {
         Side::BOTH
     } else {
         [Side::Target, Side::Source]
     };
     let (mut pair, scales) = of_one_area(mesh, rings[0].points.len(), sides);
-    let mut sliders = sliders(piece, sides);
-    if sliders.is_empty() {
+    let mut sliding = sliders(piece, sides);
+    if sliding.is_empty() {
         return None;
     }
     for _ in 0..ROUNDS {
-        let motion = MeshEnergy::new(&pair, &sliders, scales, AREA);
-        let mut proxy = QuadraticProxy::of(&motion, &pair, &sliders, progress)?;
-        let (at, slid) = motion.minimised(STEPS, |forces| proxy.solve(forces), progress);
-        if !pair.move_to(at) {
+        let energy = MeshEnergy::new(&pair, &sliding, scales, AREA);
+        let mut proxy = QuadraticProxy::of(&energy, &pair, &sliding, progress)?;
+        let (points, slides) = energy.minimised(STEPS, |forces| proxy.solve(forces), progress);
+        if !pair.move_to(points) {
             return None;
         }
-        for (slider, by) in sliders.iter_mut().zip(slid) {
+        for (slider, by) in sliding.iter_mut().zip(slides) {
             slider.slide(by);
         }
         refit(&mut pair, options, progress).ok()?;
     }
-    Some(places(piece, sides, &sliders))
+    Some(places(piece, sides, &sliding))
 }
 
-/// A slider for each vertex on a matched ring that nobody pinned.
+/// Returns a sliding vertex for each unpinned vertex on a matched ring.
 fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<SlidingVertex<'_>> {
-    let mut first = 0;
+    let mut ring_start = 0;
     let mut all = Vec::new();
     for ring in &piece.rings {
         if let Some(course) = &ring.course {
             let free = (0..course.places().len()).filter(|&k| !course.is_pinned(k));
             all.extend(free.map(|k| SlidingVertex {
-                vertex: (first + k) as u32,
+                vertex: (ring_start + k) as u32,
                 curves: sides.map(|side| &course.curves()[side]),
                 places: sides.map(|side| course.places()[k][side]),
             }));
         }
-        first += ring.source.len();
+        ring_start += ring.source.len();
     }
     all
 }
 
-/// The places of all vertices, ring by ring, once the sliders slid.
+/// Returns the places of all vertices after the slides, ring by ring.
 fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[SlidingVertex]) -> Vec<Vec<[f64; 2]>> {
-    let mut first = 0;
+    let mut ring_start = 0;
     let mut sliders = sliders.iter().peekable();
     let rings = piece.rings.iter().map(|ring| {
         let mut places = ring
@@ -103,19 +100,19 @@ fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[SlidingVertex]) -> Ve
             .as_ref()
             .map_or(Vec::new(), |c| c.places().to_vec());
         for (k, places) in places.iter_mut().enumerate() {
-            if let Some(slider) = sliders.next_if(|s| s.vertex as usize == first + k) {
-                // Exchanged twice is as it was.
+            if let Some(slider) = sliders.next_if(|s| s.vertex as usize == ring_start + k) {
+                // `sides` is its own inverse, so this restores the order source, target.
                 *places = sides.map(|side| slider.places[side]);
             }
         }
-        first += ring.source.len();
+        ring_start += ring.source.len();
         places
     });
     rings.collect()
 }
 
-/// The piece's mesh, sides in this order, with both designs of one area: what
-/// grows as a whole is not distorted. With how many times as large each is.
+/// Returns the piece's mesh with its designs in the order `sides`, scaled to equal area so that
+/// uniform growth does not count as distortion, and the scale of each design.
 fn of_one_area(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (PairMesh, [f64; 2]) {
     let points = [mesh.source(), mesh.target()];
     let scales = sides.map(|side| {
@@ -131,54 +128,54 @@ fn of_one_area(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (PairMe
     (pair, scales)
 }
 
-/// The curvature of the cost where areas are kept, over all unknowns: springs
-/// between vertices, of which those on the outlines have one way to go in both
-/// designs.
+/// Quadratic proxy of the cost at fixed areas, over all unknowns: springs between vertices. A
+/// boundary vertex has a single unknown, which moves it in both designs.
 struct QuadraticProxy {
     factor: Cholesky,
     workspace: CholeskyWorkspace,
 }
 
 impl QuadraticProxy {
-    /// None where the springs do not hold, or on a cancel.
+    /// Assembles and factors the springs; `None` if they are not positive definite, or on a cancel.
     fn of(
-        motion: &MeshEnergy,
+        energy: &MeshEnergy,
         mesh: &PairMesh,
         sliders: &[SlidingVertex],
         progress: &dyn Progress,
     ) -> Option<Self> {
-        let n = motion.inner.len();
+        let n = energy.inner.len();
         let mut inner_of = vec![None; mesh.points[0].len()];
         let mut slider_of = inner_of.clone();
-        for (i, &v) in motion.inner.iter().enumerate() {
+        for (i, &v) in energy.inner.iter().enumerate() {
             inner_of[v as usize] = Some(i);
         }
         for (i, slider) in sliders.iter().enumerate() {
             slider_of[slider.vertex as usize] = Some(i);
         }
-        // What moves a vertex along an axis: an unknown, and how much.
-        let moved = |v: u32, d: usize, axis: usize| -> Option<(u32, f64)> {
+        // For a vertex and an axis: the unknown that moves it, and by how much.
+        let unknown_of = |v: u32, d: usize, axis: usize| -> Option<(u32, f64)> {
             if let Some(i) = inner_of[v as usize] {
                 return Some((((2 * d + axis) * n + i) as u32, 1.0));
             }
             let i = slider_of[v as usize]?;
-            Some(((4 * n + i) as u32, motion.velocity(i, 0.0, d)[axis]))
+            Some(((4 * n + i) as u32, energy.velocity(i, 0.0, d)[axis]))
         };
-        let unknowns = motion.unknowns();
-        // Two designs, two axes, three edges, three entries each.
-        let mut matrix = SymmetricMatrix::zero(unknowns, 36 * motion.faces.len() + unknowns);
-        let mut own = vec![f64::MIN_POSITIVE; unknowns];
-        for &(face, weight) in &motion.faces {
+        let unknowns = energy.unknowns();
+        // Two designs × two axes × three edges × three entries for each face.
+        let mut matrix = SymmetricMatrix::zero(unknowns, 36 * energy.faces.len() + unknowns);
+        // Positive, so that an unknown without springs keeps a positive diagonal entry.
+        let mut stiffness_of = vec![f64::MIN_POSITIVE; unknowns];
+        for &(face, weight) in &energy.faces {
             let [p, q] = mesh.corners(face);
             for (d, stiffness) in face_cost::stiffness(p, q).iter().enumerate() {
                 for k in 0..3 {
                     let spring = weight * stiffness[k];
                     let ends = [face[(k + 1) % 3], face[(k + 2) % 3]];
                     for axis in 0..2 {
-                        let ends = ends.map(|v| moved(v, d, axis));
+                        let ends = ends.map(|v| unknown_of(v, d, axis));
                         for (i, by) in ends.into_iter().flatten() {
                             matrix.add(i, i, spring * by * by);
-                            own[i as usize] += (spring * by * by).abs();
+                            stiffness_of[i as usize] += (spring * by * by).abs();
                         }
                         if let [Some((i, by)), Some((j, other))] = ends {
                             matrix.add(i, j, -spring * by * other);
@@ -187,15 +184,15 @@ impl QuadraticProxy {
                 }
             }
         }
-        for (i, own) in own.into_iter().enumerate() {
-            matrix.add(i as u32, i as u32, HELD * own);
+        for (i, stiffness_of) in stiffness_of.into_iter().enumerate() {
+            matrix.add(i as u32, i as u32, REGULARISATION * stiffness_of);
         }
-        let factor = Cholesky::factor_if_wanted(&matrix, progress).ok()?.ok()?;
+        let factor = Cholesky::factor_cancellable(&matrix, progress).ok()?.ok()?;
         let workspace = factor.workspace(1);
         Some(Self { factor, workspace })
     }
 
-    /// Forces become displacements.
+    /// Turns forces into displacements, in place.
     fn solve(&mut self, forces: &mut [f64]) {
         self.factor.solve_in_place(forces, &mut self.workspace);
     }
@@ -245,11 +242,11 @@ mod tests {
     fn slid(piece: &PieceMatch) -> PieceMatch {
         let places =
             super::slide_outlines(piece, &mesh(piece), &PolygonOptions::default(), &Silent);
-        piece.moved(&places.expect("something slides"))
+        piece.with_ring_places(&places.expect("something slides"))
     }
 
     #[test]
-    fn what_slid_distorts_less_and_keeps_the_outlines() {
+    fn sliding_reduces_distortion_and_keeps_the_outlines() {
         let before = piece([&block(), &key()], vec![]);
         let after = slid(&before);
         let [worse, better] = [&before, &after].map(|piece| mesh(piece).distortion(0.1));
@@ -279,19 +276,19 @@ mod tests {
     }
 
     #[test]
-    fn the_designs_exchanged_slide_to_the_same_places() {
+    fn exchanged_designs_slide_to_the_same_places() {
         let pieces = [[&block(), &key()], [&key(), &block()]].map(|designs| piece(designs, vec![]));
-        let apart = |[there, back]: [&PieceMatch; 2]| {
+        let max_distance = |[there, back]: [&PieceMatch; 2]| {
             let [there, back] = [there, back].map(|piece| &piece.rings[0]);
             let there = there.source.iter().zip(&there.target);
             let back = back.target.iter().zip(&back.source);
-            let apart = there
+            let distances = there
                 .zip(back)
                 .map(|((p, q), (a, b))| a.distance(*p) + b.distance(*q));
-            apart.fold(0.0, f64::max)
+            distances.fold(0.0, f64::max)
         };
-        assert_eq!(apart(pieces.each_ref()), 0.0);
+        assert_eq!(max_distance(pieces.each_ref()), 0.0);
         let slid = pieces.each_ref().map(slid);
-        assert_eq!(apart(slid.each_ref()), 0.0);
+        assert_eq!(max_distance(slid.each_ref()), 0.0);
     }
 }

@@ -1,25 +1,25 @@
-//! Springs along the edges of a mesh: the sparse matrix that says how a
-//! minimisation's steps are to be measured, so that their number does not
-//! grow with the mesh (Kovalsky, Galun, Lipman 2016, "Accelerated quadratic
-//! proxy for geometric optimization").
+//! Springs along the edges of a mesh: a sparse preconditioner with which the number of minimisation
+//! steps does not grow with the mesh (Kovalsky, Galun, Lipman 2016, "Accelerated quadratic proxy
+//! for geometric optimization").
 
 use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
 use crate::work::progress::Progress;
 
-/// Share of the mean stiffness that holds each vertex on its own: keeps the
-/// matrix definite where springs cancel. Six digits below the springs it
-/// hardly shortens a step, ten above rounding it is there.
-const HELD: f64 = 1e-6;
+/// Fraction of the mean stiffness that is added to each diagonal entry (tolerance: keeps the matrix
+/// definite where springs cancel; far below the springs, so steps hardly shorten, and far above
+/// rounding).
+const REGULARISATION: f64 = 1e-6;
 
+/// Factored stiffness matrix of a network of springs.
 pub(super) struct Springs {
     factor: Cholesky,
     workspace: CholeskyWorkspace,
 }
 
 impl Springs {
-    /// From springs between vertices, with their stiffness. Only `movable`
-    /// ones move, in ascending order; they are the unknowns. None where the
-    /// springs do not hold, or on a cancel.
+    /// Assembles and factors springs with the given ends and stiffness. The unknowns are the
+    /// `movable` vertices, in ascending order; all others are fixed. `None` if the matrix is not
+    /// positive definite, or on a cancel.
     pub(super) fn new(
         movable: &[u32],
         springs: impl Iterator<Item = ([u32; 2], f64)>,
@@ -29,7 +29,7 @@ impl Springs {
         let mut matrix = SymmetricMatrix::zero(movable.len(), 16 * movable.len());
         let mut sum = 0.0;
         for (ends, stiffness) in springs {
-            // Obtuse corners push: their springs are negative.
+            // Springs opposite obtuse corners have negative stiffness.
             sum += stiffness.abs();
             let ends = ends.map(unknown);
             for v in ends.into_iter().flatten() {
@@ -39,16 +39,16 @@ impl Springs {
                 matrix.add(a, b, -stiffness);
             }
         }
-        let held = HELD * sum / movable.len().max(1) as f64;
+        let regularisation = REGULARISATION * sum / movable.len().max(1) as f64;
         for v in 0..movable.len() as u32 {
-            matrix.add(v, v, held);
+            matrix.add(v, v, regularisation);
         }
-        let factor = Cholesky::factor_if_wanted(&matrix, progress).ok()?.ok()?;
+        let factor = Cholesky::factor_cancellable(&matrix, progress).ok()?.ok()?;
         let workspace = factor.workspace(2);
         Some(Self { factor, workspace })
     }
 
-    /// Forces along both axes, all of x first, become displacements.
+    /// Turns forces into displacements, in place: first all x components, then all y components.
     pub(super) fn solve(&mut self, forces: &mut [f64]) {
         self.factor.solve_in_place(forces, &mut self.workspace);
     }

@@ -1,4 +1,5 @@
-//! Random simple polygons, bad matches and exact oracles.
+//! Compatible triangulation of random simple polygons with arbitrary matches, checked against exact
+//! oracles.
 
 mod pieces;
 
@@ -15,7 +16,7 @@ use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Numbers in [0, 1) that follow from a seed (SplitMix64).
+/// Pseudo-random numbers in [0, 1) from a seed (SplitMix64).
 struct Random(u64);
 
 impl Random {
@@ -32,12 +33,13 @@ fn polar(radius: f64, angle: f64) -> DVec2 {
     radius * DVec2::from_angle(angle)
 }
 
+/// Random star-shaped polygon about the origin.
 fn star(n: usize, random: &mut Random) -> Vec<DVec2> {
-    let radius = |i| polar(0.05 + random.next(), TAU * f64::from(i) / n as f64);
-    (0..n as u32).map(radius).collect()
+    let point = |i| polar(0.05 + random.next(), TAU * f64::from(i) / n as f64);
+    (0..n as u32).map(point).collect()
 }
 
-/// Random points in an order without crossings, by turning pieces round.
+/// Random points in an order without crossings, by reversing sections (2-opt).
 fn two_opt(n: usize, random: &mut Random) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = (0..n)
         .map(|_| DVec2::new(random.next(), random.next()))
@@ -55,6 +57,7 @@ fn counter_clockwise(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points
 }
 
+/// Comb with the given number of teeth.
 fn comb(teeth: usize, depth: f64) -> Vec<DVec2> {
     let mut points = vec![DVec2::ZERO, DVec2::new(teeth as f64, 0.0)];
     for tooth in (0..teeth).rev() {
@@ -65,18 +68,18 @@ fn comb(teeth: usize, depth: f64) -> Vec<DVec2> {
     points
 }
 
-/// A band that winds round itself.
+/// Band that winds around itself.
 fn spiral(steps: usize, turns: f64) -> Vec<DVec2> {
-    let at = |i: usize, out: f64| {
+    let at = |i: usize, offset: f64| {
         let share = i as f64 / steps as f64;
-        polar(0.2 + turns * share + out, TAU * turns * share)
+        polar(0.2 + turns * share + offset, TAU * turns * share)
     };
     let outer = (0..=steps).map(|i| at(i, 0.6));
     let inner = (0..=steps).rev().map(|i| at(i, 0.0));
     outer.chain(inner).collect::<Vec<_>>()
 }
 
-/// A square whose sides hold points almost in line.
+/// Square whose sides carry points that are almost collinear.
 fn nearly_straight(n: usize, by: f64, random: &mut Random) -> Vec<DVec2> {
     let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
     let mut points = Vec::new();
@@ -91,7 +94,7 @@ fn nearly_straight(n: usize, by: f64, random: &mut Random) -> Vec<DVec2> {
     points
 }
 
-/// With so many points, by halving the longest edges.
+/// Halves the longest edges until there are `n` points.
 fn with_points(mut points: Vec<DVec2>, n: usize) -> Vec<DVec2> {
     while points.len() < n {
         let k = points.len();
@@ -103,6 +106,7 @@ fn with_points(mut points: Vec<DVec2>, n: usize) -> Vec<DVec2> {
     points
 }
 
+/// Random polygon of one of six kinds, with at least `n` points.
 fn shape(kind: usize, n: usize, random: &mut Random) -> Vec<DVec2> {
     let points = match kind {
         0 => star(n, random),
@@ -118,16 +122,19 @@ fn shape(kind: usize, n: usize, random: &mut Random) -> Vec<DVec2> {
     with_points(points, n)
 }
 
-/// Everything that is promised, held against slow and obvious oracles.
-fn hold(mesh: &CompatibleMesh, source: &[DVec2], target: &[DVec2]) {
-    hold_piece(mesh, &[source], &[target]);
+/// Checks everything that is guaranteed, against slow and simple oracles.
+fn assert_valid(mesh: &CompatibleMesh, source: &[DVec2], target: &[DVec2]) {
+    assert_valid_piece(mesh, &[source], &[target]);
 }
 
-fn hold_piece<R: AsRef<[DVec2]>>(mesh: &CompatibleMesh, source: &[R], target: &[R]) {
+/// As [`assert_valid`], for a piece with holes.
+fn assert_valid_piece<R: AsRef<[DVec2]>>(mesh: &CompatibleMesh, source: &[R], target: &[R]) {
     let mut loops = mesh.boundary_loops();
-    for walk in &mut loops {
-        let first = (0..walk.len()).min_by_key(|&k| walk[k]).expect("not empty");
-        walk.rotate_left(first);
+    for boundary in &mut loops {
+        let first = (0..boundary.len())
+            .min_by_key(|&k| boundary[k])
+            .expect("not empty");
+        boundary.rotate_left(first);
     }
     loops.sort_unstable();
     let mut n = 0;
@@ -145,29 +152,31 @@ fn hold_piece<R: AsRef<[DVec2]>>(mesh: &CompatibleMesh, source: &[R], target: &[
     for (points, rings) in [(mesh.source(), source), (mesh.target(), target)] {
         let given: Vec<DVec2> = rings.iter().flat_map(|r| r.as_ref()).copied().collect();
         assert_eq!(points[..n], given);
-        let mut doubled = 0.0;
+        let mut twice_area = 0.0;
         for face in mesh.faces().iter() {
             let [a, b, c] = face.map(|v| points[v as usize]);
             assert!(orient2d(a, b, c) > 0.0, "{face:?}");
-            doubled += (b - a).perp_dot(c - a);
+            twice_area += (b - a).perp_dot(c - a);
         }
         let ring = |r: &R| Ring::new(r.as_ref().to_vec()).expect("a ring");
         let area: f64 = rings.iter().map(|r| ring(r).signed_area()).sum();
         assert!(
-            (0.5 * doubled - area).abs() < 1e-9 * area,
-            "{doubled} {area}"
+            (0.5 * twice_area - area).abs() < 1e-9 * area,
+            "{twice_area} {area}"
         );
     }
 }
 
+/// Triangulates two polygons together and checks the result.
 fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
     let mesh =
         CompatibleMesh::from_piece(&[source], &[target], &PolygonOptions::default(), &Silent)
             .expect("simple polygons");
-    hold(&mesh, source, target);
+    assert_valid(&mesh, source, target);
     mesh
 }
 
+/// Builds the guaranteed base of two polygons, checks it and returns it.
 fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
     let mesh = from_base(
         &BoundaryRings::of(&[source]),
@@ -176,7 +185,7 @@ fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
     )
     .expect("simple");
     let (faces, [p, q]) = mesh.compacted();
-    hold(
+    assert_valid(
         &CompatibleMesh::new(faces, p, q, vec![]).expect("valid"),
         source,
         target,
@@ -184,6 +193,7 @@ fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
     mesh
 }
 
+/// Two random polygons with the same number of points; `None` unless both are simple.
 fn pair(kinds: (usize, usize), n: usize, seed: u64) -> Option<[Vec<DVec2>; 2]> {
     let mut random = Random(seed);
     let source = shape(kinds.0, n, &mut random);
@@ -257,12 +267,12 @@ fn a_shorter_edge_length_gives_shorter_edges() {
         edge_length: Some(0.05),
     };
     let mesh = CompatibleMesh::from_piece(&[&square], &[&square], &fine, &Silent).expect("simple");
-    hold(&mesh, &square, &square);
+    assert_valid(&mesh, &square, &square);
     assert!(mesh.source().len() > 2 * together(&square, &square).source().len());
 }
 
 #[test]
-fn what_cannot_be_triangulated_is_named() {
+fn invalid_input_is_named_in_the_error() {
     let square = shape(5, 8, &mut Random(1));
     let options = PolygonOptions::default();
     let of = |a: &[DVec2], b: &[DVec2], options| {
@@ -270,7 +280,7 @@ fn what_cannot_be_triangulated_is_named() {
     };
     assert_eq!(
         of(&square, &square[1..], &options),
-        Err(PieceMeshError::Counts {
+        Err(PieceMeshError::PointCounts {
             ring: 0,
             points: [8, 7]
         })

@@ -1,10 +1,8 @@
-//! The foldover-free transfer: one polygon's refined triangulation carried
-//! to the other.
+//! Fold-free transfer: carries one polygon's refined triangulation to another polygon.
 //!
-//! The boundary goes where it must, the interior follows harmonically (Tutte
-//! 1963), and fold-overs are removed ([`super::untangle`]). It gives good
-//! angles cheaply and guarantees nothing: where folds remain there is no
-//! result.
+//! The boundary is placed on the other polygon, the interior follows harmonically (Tutte 1963), and
+//! folds are removed ([`super::untangle`]). This gives good angles at low cost. Nothing is
+//! guaranteed: if folds remain, there is no result.
 
 use super::boundary_rings::BoundaryRings;
 use super::options::PolygonOptions;
@@ -15,28 +13,26 @@ use crate::mesh::triangulation::{RefinementOptions, refined_delaunay};
 use crate::numerics::{Cholesky, SymmetricMatrix};
 use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
 
-/// Rounds of shrinking ε: a bound for those that win a fold now and then; as a
-/// rule [`PATIENCE`] ends it.
+/// Maximum number of untangling rounds; [`PATIENCE`] usually ends earlier (resource limit).
 pub(super) const MAX_ROUNDS: usize = 60;
-/// Rounds after which a transfer is not gone on with, if that in the other direction is
-/// done by then.
+/// Number of rounds after which a transfer stops if the one in the other direction is fold-free by
+/// then (heuristic).
 pub(super) const FIRST_ROUNDS: usize = PATIENCE;
-/// Rounds in which the folds become fewer by a quarter, or it is given up: a trade,
-/// since the other direction and the base are left. Of 1404 transfers between icons 112
-/// stay folded; to see it of them took 3.0 s, now 1.7 s, and three others are given up as
-/// well, whose folds went away in 16 to 39 rounds.
+/// Number of rounds in which the folds must decrease to the fraction [`MAX_REMAINING`], or the
+/// transfer is given up (heuristic).
 const PATIENCE: usize = 6;
-const LEFT: f64 = 0.75;
+/// Fraction of the folds that may remain after [`PATIENCE`] rounds (heuristic).
+const MAX_REMAINING: f64 = 0.75;
 
-/// One polygon's refined triangulation on its way to the other.
+/// Refined triangulation of one polygon on its way to another.
 pub(super) struct Transfer {
     mesh: PairMesh,
     folds: FoldHistory,
 }
 
 impl Transfer {
-    /// Both polygons' common mesh, refined in the first and laid over the second, where
-    /// it may fold; `None` where there is none.
+    /// Refines a triangulation of the first polygon and lays it over the second, where it may fold;
+    /// `None` if that is impossible.
     pub(super) fn begin(
         from: &BoundaryRings,
         to: &BoundaryRings,
@@ -47,10 +43,10 @@ impl Transfer {
             max_edge: options
                 .edge_length
                 .map(|share| share * Bounds::diameter_of(&from.points)),
-            max_points: options.most_points(from.points.len()),
+            max_points: options.max_inner_points(from.points.len()),
         };
-        // The base is made of the same walks, and says what is wrong with them.
-        let start = refined_delaunay(&from.walks(), &refinement, progress);
+        // The guaranteed base uses the same rings and reports what is wrong with them.
+        let start = refined_delaunay(&from.loops(), &refinement, progress);
         still_wanted(progress)?;
         let Ok(start) = start else {
             return Ok(None);
@@ -58,12 +54,12 @@ impl Transfer {
         let (n, points) = (from.points.len(), start.points);
         let mut mesh = PairMesh::new(n, [points.clone(), points], start.faces);
         split_chords(&mut mesh);
-        let is_laid = laid_over(&mut mesh, &to.points, progress)?;
+        let is_possible = laid_over(&mut mesh, &to.points, progress)?;
         let folds = FoldHistory::default();
-        Ok(is_laid.then_some(Self { mesh, folds }))
+        Ok(is_possible.then_some(Self { mesh, folds }))
     }
 
-    /// As far as it gets in so many rounds in all.
+    /// Removes folds, for at most `rounds` rounds in total over all calls.
     pub(super) fn unfold(
         &mut self,
         rounds: usize,
@@ -72,19 +68,18 @@ impl Transfer {
         self.folds.remove(&mut self.mesh, rounds, progress)
     }
 
-    /// No face is folded.
-    pub(super) fn is_done(&self) -> bool {
+    /// Returns whether no face is folded.
+    pub(super) fn is_fold_free(&self) -> bool {
         self.mesh.is_valid()
     }
 
-    /// The mesh, if no face of it is folded.
-    pub(super) fn done(self) -> Option<PairMesh> {
-        self.is_done().then_some(self.mesh)
+    /// Returns the mesh if no face is folded.
+    pub(super) fn into_valid_mesh(self) -> Option<PairMesh> {
+        self.is_fold_free().then_some(self.mesh)
     }
 }
 
-/// Carries a mesh whose first vertices belong at `to` in the second design;
-/// folds may remain.
+/// Carries a mesh to the second design, where its first vertices belong at `to`. Folds may remain.
 pub(super) fn transfer_onto(
     mesh: &mut PairMesh,
     to: &[DVec2],
@@ -96,14 +91,14 @@ pub(super) fn transfer_onto(
     Ok(())
 }
 
-/// Lays a mesh whose first vertices belong at `to` over the second design; whether there
-/// is a way to.
+/// Lays a mesh over the second design, where its first vertices belong at `to`. Returns whether
+/// that was possible.
 fn laid_over(
     mesh: &mut PairMesh,
     to: &[DVec2],
     progress: &dyn Progress,
 ) -> Result<bool, Cancelled> {
-    // The harmonic map would distort even what is only laid elsewhere.
+    // Tried first, because a harmonic map would distort even a polygon that is merely moved.
     lay(mesh, to);
     if mesh.is_valid() {
         return Ok(true);
@@ -116,8 +111,8 @@ fn laid_over(
     Ok(true)
 }
 
-/// Carries a valid mesh on: its first vertices move to `to` in the second
-/// design, the others start from where they are; folds may remain.
+/// Moves a mesh that is valid on: its first vertices go to `to` in the second design, and folds are
+/// removed. Inner vertices start from where they are. Folds may remain.
 pub(super) fn continue_transfer(
     mesh: &mut PairMesh,
     to: &[DVec2],
@@ -127,16 +122,17 @@ pub(super) fn continue_transfer(
     FoldHistory::default().remove(mesh, MAX_ROUNDS, progress)
 }
 
-/// The folds of a mesh, as they become fewer.
+/// Progress of fold removal.
 #[derive(Default)]
 struct FoldHistory {
-    /// The fewest before each round.
+    /// Fewest folds so far, before each round.
     fewest: Vec<usize>,
+    /// Whether no further round is worthwhile.
     is_given_up: bool,
 }
 
 impl FoldHistory {
-    /// Goes on until there are none, it is of no use, or so many rounds are done in all.
+    /// Removes folds until none is left, progress stalls, or `rounds` rounds are done in total.
     fn remove(
         &mut self,
         mesh: &mut PairMesh,
@@ -152,49 +148,49 @@ impl FoldHistory {
             checkpoint(progress, "removing folds", round as f64 / MAX_ROUNDS as f64)?;
             let fewest = self.fewest.last().map_or(folds, |&least| least.min(folds));
             self.fewest.push(fewest);
-            self.is_given_up = self.is_of_no_use() || !untangle(mesh, progress);
+            self.is_given_up = self.is_stalled() || !untangle(mesh, progress);
         }
         still_wanted(progress)
     }
 
-    fn is_of_no_use(&self) -> bool {
+    /// Returns whether the last [`PATIENCE`] rounds removed too few folds.
+    fn is_stalled(&self) -> bool {
         let now = self.fewest.len() - 1;
-        now >= PATIENCE && self.fewest[now] as f64 > LEFT * self.fewest[now - PATIENCE] as f64
+        now >= PATIENCE
+            && self.fewest[now] as f64 > MAX_REMAINING * self.fewest[now - PATIENCE] as f64
     }
 }
 
-/// Splits every inner edge between two polygon vertices: the faces beside it
-/// would have no freedom.
+/// Splits every inner edge between two polygon vertices, because its faces would have no freedom.
 pub(super) fn split_chords(mesh: &mut PairMesh) {
     let n = mesh.fixed as u32;
     for edge in mesh.inner_edges() {
         if edge.iter().all(|&v| v < n) {
-            // A chord too short to have a middle stays.
+            // A chord too short to have a distinct midpoint stays.
             mesh.split(edge);
         }
     }
 }
 
-/// Lays a mesh onto `to` in the second design, inner vertices by the
-/// similarity that fits the polygons best: similar polygons stay undistorted.
+/// Lays a mesh onto `to` in the second design, with inner vertices moved by the similarity that
+/// fits the polygons best. Similar polygons stay undistorted.
 fn lay(mesh: &mut PairMesh, to: &[DVec2]) {
     let n = mesh.fixed;
     let [points, placed] = &mut mesh.points;
     placed[..n].copy_from_slice(to);
-    // What has no size has no similarity; it is no valid mesh either.
+    // Points without extent have no similarity, and no valid mesh either.
     let Some(fit) = SimilarityFit::of(&points[..n], to) else {
         return;
     };
     let [from, to] = fit.means;
-    // As a change, so that equal polygons leave every bit as it is.
+    // Applied as a difference, so that equal polygons keep every bit.
     let turn = fit.factor - DVec2::X;
     for (place, &p) in placed[n..].iter_mut().zip(&points[n..]) {
         *place = p + turn.rotate(p - from) + (to - from);
     }
 }
 
-/// All vertices in the second design, inner ones the mean of their
-/// neighbours.
+/// Returns the vertices in the second design, each inner one at the mean of its neighbours.
 fn harmonic(mesh: &PairMesh, to: &[DVec2], progress: &dyn Progress) -> Option<Vec<DVec2>> {
     let n = mesh.fixed;
     let inner = mesh.points[0].len() - n;
@@ -202,16 +198,17 @@ fn harmonic(mesh: &PairMesh, to: &[DVec2], progress: &dyn Progress) -> Option<Ve
     let mut rhs = vec![DVec2::ZERO; inner];
     for (i, sum) in rhs.iter_mut().enumerate() {
         for u in mesh.neighbours((i + n) as u32) {
+            // Uniform weights keep the matrix definite, whatever the shapes of the faces.
             matrix.add(i as u32, i as u32, 1.0);
             match (u as usize).checked_sub(n) {
-                // Each edge is met from both ends, and added once.
+                // Each edge is visited from both ends but added once.
                 Some(j) if j < i => matrix.add(i as u32, j as u32, -1.0),
                 Some(_) => {}
                 None => *sum += to[u as usize],
             }
         }
     }
-    let factor = Cholesky::factor_if_wanted(&matrix, progress).ok()?.ok()?;
+    let factor = Cholesky::factor_cancellable(&matrix, progress).ok()?.ok()?;
     let solve = |side: fn(&DVec2) -> f64| factor.solve(&rhs.iter().map(side).collect::<Vec<_>>());
     let (x, y) = (solve(|p| p.x), solve(|p| p.y));
     let placed = x.into_iter().zip(y).map(|(x, y)| DVec2::new(x, y));

@@ -1,5 +1,5 @@
-//! The steps by which two polygons are triangulated together: transfer in
-//! both directions, the guaranteed base where both fail, then quality.
+//! Pipeline of the compatible triangulation of two designs: transfer in both directions, the
+//! guaranteed base if both fail, then quality.
 
 use super::boundary_rings;
 use super::boundary_rings::BoundaryRings;
@@ -14,39 +14,37 @@ use crate::geometry::{DVec2, Side, lexicographic};
 use crate::work::progress::{Cancelled, Progress, ProgressShares, ProgressSpan, checkpoint};
 use rayon::prelude::*;
 
-/// With more boundary points the base is made of what a front leaves: 200
-/// corners already cross up to 39,000 times, in as many vertices.
-const FEW: usize = 200;
+/// Maximum number of boundary points for which the base is built directly; larger pieces are
+/// coarsened first (resource limit: 200 corners can cause 39,000 crossings, each a vertex).
+const MAX_BASE_POINTS: usize = 200;
 
-/// How much of the work is done once the transfers are, and once the base is,
-/// as it is told. Of some pairs' time; no harm is done where it is otherwise.
-const CARRIED: f64 = 0.5;
-const BASED: f64 = 0.7;
+/// Fraction of progress reported after the transfers (heuristic).
+const PROGRESS_AFTER_TRANSFER: f64 = 0.5;
+/// Fraction of progress reported after the base (heuristic).
+const PROGRESS_AFTER_BASE: f64 = 0.7;
 
 impl CompatibleMesh {
-    /// Triangulates one connected piece in two designs together. Ring 0 is
-    /// its outer boundary, counter-clockwise, the others are its holes,
-    /// clockwise; point i of a ring is point i of that ring in the other
-    /// design. The mesh's first vertices are the rings' points, ring after
-    /// ring; inner ones follow.
+    /// Triangulates one connected piece in two designs together.
     ///
-    /// A ring may run along a slit in either design or in both, there and
-    /// back over bit-equal points, as that of a letter D cut open: both banks
-    /// are vertices of their own.
+    /// Ring 0 is the outer boundary, counter-clockwise; the others are holes, clockwise. Point i of
+    /// a ring corresponds to point i of that ring in the other design. The mesh's first vertices
+    /// are the ring points, ring after ring; inner vertices follow.
+    ///
+    /// In either design or in both, a ring may run along a slit, there and back over bit-equal
+    /// points, as in a letter D that is cut open. The two banks become separate vertices.
     ///
     /// # Errors
-    /// [`PieceMeshError`] for what bounds no single piece, or if the work is
-    /// cancelled.
+    /// [`PieceMeshError`] if the rings bound no single piece, or if the work is cancelled.
     ///
     /// ```
     /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
-    /// use morphospace::{geometry::DVec2, progress::Silent};
+    /// use morphospace::{geometry::DVec2, work::progress::Silent};
     /// let square = |r: f64| [(-r, -r), (r, -r), (r, r), (-r, r)].map(DVec2::from).to_vec();
     /// let hole = |r: f64| square(r).into_iter().rev().collect();
     /// let (thin, thick) = ([square(2.0), hole(1.5)], [square(2.0), hole(0.5)]);
     /// let mesh = CompatibleMesh::from_piece(&thin, &thick, &PolygonOptions::default(), &Silent)?;
     /// assert_eq!(mesh.boundary_loops().len(), 2);
-    /// # Ok::<(), morphospace::compatible::PolygonsError>(())
+    /// # Ok::<(), morphospace::compatible::PieceMeshError>(())
     /// ```
     pub fn from_piece<R: AsRef<[DVec2]>>(
         source: &[R],
@@ -56,12 +54,13 @@ impl CompatibleMesh {
     ) -> Result<Self, PieceMeshError> {
         check(source, target, options)?;
         let given = [source, target].map(BoundaryRings::of);
-        // Near 1 no product under- or overflows, which exact signs need.
+        // Near size 1 no product over- or underflows, as exact predicates require.
         let scales = [&given[0], &given[1]].map(|rings| unit_scale(&rings.points));
         let [p, q] = [0, 1].map(|d| given[d].scaled(scales[d]));
-        let enlarged = |error: PieceMeshError| error.enlarged(scales.map(f64::recip));
+        let enlarged = |error: PieceMeshError| error.scaled(scales.map(f64::recip));
         boundary_rings::check(&p, Side::Source).map_err(enlarged)?;
         boundary_rings::check(&q, Side::Target).map_err(enlarged)?;
+        // Always solved in the same order, and exchanged back if necessary.
         let mesh = if precedes(&p, &q) {
             triangulate_pair(&p, &q, options, progress)
         } else {
@@ -70,23 +69,25 @@ impl CompatibleMesh {
         };
         let mesh = mesh.map_err(enlarged)?;
         let given = given.each_ref().map(|rings| &rings.points[..]);
-        mesh.finished(scales, given).map_err(PieceMeshError::Mesh)
+        mesh.to_compatible_mesh(scales, given)
+            .map_err(PieceMeshError::Mesh)
     }
 }
 
+/// Checks the options and that the rings of both designs have the same numbers of points.
 fn check<R: AsRef<[DVec2]>>(
     source: &[R],
     target: &[R],
     options: &PolygonOptions,
 ) -> Result<(), PieceMeshError> {
     if source.len() != target.len() {
-        return Err(PieceMeshError::Rings([source.len(), target.len()]));
+        return Err(PieceMeshError::RingCounts([source.len(), target.len()]));
     }
     let lengths = |rings: &[R]| rings.iter().map(|r| r.as_ref().len()).collect::<Vec<_>>();
     for (ring, (a, b)) in lengths(source).into_iter().zip(lengths(target)).enumerate() {
         if a != b {
             let points = [a, b];
-            return Err(PieceMeshError::Counts { ring, points });
+            return Err(PieceMeshError::PointCounts { ring, points });
         }
     }
     match options.edge_length {
@@ -95,10 +96,10 @@ fn check<R: AsRef<[DVec2]>>(
     }
 }
 
-/// A total order, so that a pair is solved in one order whichever way it is
-/// asked for.
+/// Total order of designs. A pair is solved in this order, so that exchanging its designs gives the
+/// same mesh.
 pub(super) fn precedes(a: &BoundaryRings, b: &BoundaryRings) -> bool {
-    // Negative zero is zero.
+    // Adding zero turns -0 into 0.
     let coordinates = |rings: &BoundaryRings| -> Vec<f64> {
         let points = rings.points.iter();
         points.flat_map(|p| (*p + 0.0).to_array()).collect()
@@ -106,6 +107,7 @@ pub(super) fn precedes(a: &BoundaryRings, b: &BoundaryRings) -> bool {
     lexicographic(coordinates(a), coordinates(b)).is_le()
 }
 
+/// Triangulates a checked piece together in two designs, the one that goes first as the source.
 pub(super) fn triangulate_pair(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -113,17 +115,25 @@ pub(super) fn triangulate_pair(
     progress: &dyn Progress,
 ) -> Result<PairMesh, PieceMeshError> {
     checkpoint(progress, "triangulating", 0.0)?;
-    let carrying = ProgressSpan::new(progress, 0.0, CARRIED);
-    let best = transferred(source, target, options, &carrying)?;
+    let transfer_progress = ProgressSpan::new(progress, 0.0, PROGRESS_AFTER_TRANSFER);
+    let best = transferred(source, target, options, &transfer_progress)?;
     let mut mesh = match best {
         Some(mesh) => mesh,
-        None => from_base(source, target, &ProgressSpan::new(progress, CARRIED, BASED))?,
+        None => from_base(
+            source,
+            target,
+            &ProgressSpan::new(progress, PROGRESS_AFTER_TRANSFER, PROGRESS_AFTER_BASE),
+        )?,
     };
-    quality::improve(&mut mesh, options, &ProgressSpan::new(progress, BASED, 1.0))?;
+    quality::improve(
+        &mut mesh,
+        options,
+        &ProgressSpan::new(progress, PROGRESS_AFTER_BASE, 1.0),
+    )?;
     Ok(mesh)
 }
 
-/// The better of the transfers in both directions; none where both stay folded.
+/// Returns the better of the transfers in both directions; `None` if both stay folded.
 fn transferred(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -132,49 +142,54 @@ fn transferred(
 ) -> Result<Option<PairMesh>, Cancelled> {
     let shares = ProgressShares::new(progress, 2);
     let shares = [shares.part(0), shares.part(1)];
-    // Which of both is the better one is not to be seen from the outlines.
-    let ways = [(source, target), (target, source)].into_par_iter();
-    let begun = ways
+    // The outlines do not show which direction is better, so both are tried.
+    let directions = [(source, target), (target, source)].into_par_iter();
+    let laid_over = directions
         .zip(&shares)
         .map(|((from, to), share)| Transfer::begin(from, to, options, share));
-    let mut both: Vec<Option<Transfer>> = begun.collect::<Result<_, _>>()?;
+    let mut transfers: Vec<Option<Transfer>> = laid_over.collect::<Result<_, _>>()?;
+    // A few rounds in both directions; more only if neither is free of folds by then.
     for rounds in [FIRST_ROUNDS, MAX_ROUNDS] {
-        let ways = both.par_iter_mut().zip(&shares);
-        ways.try_for_each(|(way, share)| match way {
-            Some(way) => way.unfold(rounds, share),
+        let pending = transfers.par_iter_mut().zip(&shares);
+        pending.try_for_each(|(transfer, share)| match transfer {
+            Some(transfer) => transfer.unfold(rounds, share),
             None => Ok(()),
         })?;
-        // What takes much longer than the other comes out worse, if at all.
-        if both.iter().flatten().any(Transfer::is_done) {
+        // A direction that takes much longer than the other ends up worse, if it succeeds at all.
+        if transfers.iter().flatten().any(Transfer::is_fold_free) {
             break;
         }
     }
-    let settled = both.into_par_iter().zip(&shares).map(|(way, share)| {
-        let mut mesh = way.and_then(Transfer::done);
-        if let Some(mesh) = &mut mesh {
-            // Just so far that they can be compared.
-            quality::settle(mesh, share)?;
-        }
-        Ok(mesh)
-    });
-    let mut settled = settled.collect::<Result<Vec<Option<PairMesh>>, Cancelled>>()?;
-    let backwards = settled.pop().flatten().map(PairMesh::swapped);
-    let best = settled.into_iter().flatten().chain(backwards);
+    let improved = transfers
+        .into_par_iter()
+        .zip(&shares)
+        .map(|(transfer, share)| {
+            let mut mesh = transfer.and_then(Transfer::into_valid_mesh);
+            if let Some(mesh) = &mut mesh {
+                // Only as far as the comparison needs.
+                quality::settle(mesh, share)?;
+            }
+            Ok(mesh)
+        });
+    let mut candidates = improved.collect::<Result<Vec<Option<PairMesh>>, Cancelled>>()?;
+    let backwards = candidates.pop().flatten().map(PairMesh::swapped);
+    let best = candidates.into_iter().flatten().chain(backwards);
     Ok(best.min_by(|a, b| mean_cost(a).total_cmp(&mean_cost(b))))
 }
 
+/// Builds the guaranteed base and thins it out.
 pub(super) fn from_base(
     source: &BoundaryRings,
     target: &BoundaryRings,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PieceMeshError> {
     let first = ProgressSpan::new(progress, 0.0, 0.5);
-    let mut mesh = if source.points.len() > FEW {
+    let mut mesh = if source.points.len() > MAX_BASE_POINTS {
         coarse_base(source, target, &first)?
     } else {
         bridges::bridged_base(source, target, &first)?
     };
-    // Over the reals there are none, and no later step mends one.
+    // In exact arithmetic no face is folded, and no later step repairs one.
     if let Some(error) = folded(&mesh) {
         return Err(error);
     }
@@ -182,7 +197,7 @@ pub(super) fn from_base(
     Ok(mesh)
 }
 
-/// Where rounding left faces of a base without area.
+/// Error for faces of a base that rounding left without area; `None` if there are none.
 fn folded(mesh: &PairMesh) -> Option<PieceMeshError> {
     Side::BOTH.into_iter().find_map(|side| {
         let corners = mesh.faces().map(|face| mesh.corners(face)[side]);
@@ -196,22 +211,22 @@ fn folded(mesh: &PairMesh) -> Option<PieceMeshError> {
     })
 }
 
-/// The base of what a front leaves, and the faces behind the front.
+/// Builds the base of what a front leaves, and joins it to the faces behind the front.
 fn coarse_base(
     source: &BoundaryRings,
     target: &BoundaryRings,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PieceMeshError> {
-    // Half of it, since bridges to holes add corners again.
+    // Half the limit, because bridges to holes add corners again.
     checkpoint(progress, "simplifying", 0.0)?;
-    let coarse = coarsen::coarsen(source, target, FEW / 2, progress)?;
-    let core = bridges::bridged_base(&coarse.core(0), &coarse.core(1), progress)?;
+    let coarse = coarsen::coarsen(source, target, MAX_BASE_POINTS / 2, progress)?;
+    let core = bridges::bridged_base(&coarse.front_rings(0), &coarse.front_rings(1), progress)?;
     let front: Vec<u32> = coarse.rings.concat();
     let mut whole = MeshAssembly {
         points: coarse.points,
         faces: coarse.faces,
     };
-    whole.add(
+    whole.append(
         &front,
         core.points.each_ref().map(Vec::as_slice),
         core.faces(),
@@ -223,8 +238,7 @@ fn coarse_base(
     ))
 }
 
-/// Mean cost of the faces by their area in both designs: what one mesh is
-/// preferred to another by.
+/// Weighted mean of the face costs, by which meshes are compared.
 pub(super) fn mean_cost(mesh: &PairMesh) -> f64 {
     let weighted = mesh_energy::weighted_faces(mesh);
     weighted
@@ -238,17 +252,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_base_with_flat_faces_says_where_they_are() {
+    fn a_base_with_flat_faces_names_their_place() {
         let square = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)].map(DVec2::from);
         let flat = square.map(|p| DVec2::new(p.x + p.y, p.y));
         let flat = [flat[0], flat[1], 2.0 * flat[1], flat[3]].to_vec();
         let faces = vec![[0, 1, 2], [0, 2, 3]];
         let mesh = PairMesh::new(4, [square.to_vec(), flat], faces);
         let error = folded(&mesh).expect("a flat face");
-        let told = error.swapped().enlarged([2.0, 1.0]);
+        let reported = error.swapped().scaled([2.0, 1.0]);
         let (side, place) = (Side::Source, DVec2::new(6.0, 0.0));
         let faces = 1;
-        assert_eq!(told, PieceMeshError::Folded { side, faces, place });
-        assert!(told.to_string().contains("in the source, about (6, 0):"));
+        assert_eq!(reported, PieceMeshError::Folded { side, faces, place });
+        assert!(reported.to_string().contains("in the source, near (6, 0):"));
     }
 }

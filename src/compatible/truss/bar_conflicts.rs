@@ -1,30 +1,30 @@
-//! Which bars meet away from a common node, and which of them to keep.
+//! Finds bars that meet away from a common node, and selects bars without such conflicts.
 
 use super::error::TrussError;
 use crate::geometry::{DVec2, SourceTarget, orient2d, segments_touch};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::{Cancelled, Progress, still_wanted};
 
-/// Two bars that cannot both stay; short, since all bars may cross all others.
+/// Two bars that cannot both be edges. Kept small, because every bar may cross every other.
 pub(super) type BarConflict = [u32; 2];
 
-/// Pairs of bars, the smaller index first, that cross, touch or lie on each
-/// other in at least one of the designs, other than by ending at one node.
+/// Returns the pairs of bars, smaller index first, that cross, touch or overlap in at least one of
+/// the designs, other than by ending at a common node.
 pub(super) fn find_conflicts(
     bars: &[[u32; 2]],
     nodes: SourceTarget<&[DVec2]>,
     progress: &dyn Progress,
 ) -> Result<Vec<BarConflict>, TrussError> {
-    let mut conflicts = in_one(bars, nodes.source, progress)?;
-    conflicts.extend(in_one(bars, nodes.target, progress)?);
+    let mut conflicts = conflicts_in(bars, nodes.source, progress)?;
+    conflicts.extend(conflicts_in(bars, nodes.target, progress)?);
     conflicts.sort_unstable();
     conflicts.dedup();
     Ok(conflicts)
 }
 
-/// Bars sorted by their left ends, each tested against those that begin
-/// before it ends.
-fn in_one(
+/// Returns the conflicts in one design. Bars are sorted by their left ends, and each is compared
+/// with those that start before it ends.
+fn conflicts_in(
     bars: &[[u32; 2]],
     nodes: &[DVec2],
     progress: &dyn Progress,
@@ -35,64 +35,66 @@ fn in_one(
     };
     let mut order: Vec<usize> = (0..bars.len()).collect();
     order.sort_by(|&i, &j| range(i).0.total_cmp(&range(j).0));
-    let mut found = Vec::new();
+    let mut conflicts = Vec::new();
     for (place, &i) in order.iter().enumerate() {
         still_wanted(progress)?;
-        WorkloadKind::CrossingBars.allow(found.len(), progress)?;
+        // All pairs may conflict, so the list is checked against the resource limit.
+        WorkloadKind::CrossingBars.check(conflicts.len(), progress)?;
         let right = range(i).1;
-        let rest = order[place + 1..].iter();
-        for &j in rest.take_while(|&&j| range(j).0 <= right) {
-            // Most that overlap along x still lie above each other: the test's
-            // boxes tell that before its exact signs do.
+        let later = order[place + 1..].iter();
+        for &j in later.take_while(|&&j| range(j).0 <= right) {
+            // Most bars that overlap along x lie above each other; the bounding-box test rejects
+            // these before the exact predicates run.
             if meet(bars[i], bars[j], nodes) {
-                found.push([i.min(j), i.max(j)].map(|bar| bar as u32));
+                conflicts.push([i.min(j), i.max(j)].map(|bar| bar as u32));
             }
         }
     }
-    Ok(found)
+    Ok(conflicts)
 }
 
+/// Returns whether two bars meet other than at a common end.
 fn meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
     let at = |node: u32| nodes[node as usize];
     if let Some(&shared) = first.iter().find(|node| second.contains(node)) {
         let other = |bar: [u32; 2]| at(if bar[0] == shared { bar[1] } else { bar[0] });
         let (n, p, q) = (at(shared), other(first), other(second));
-        // Two bars of one node meet again only if they lie on each other.
+        // Bars with a common node meet elsewhere only if they overlap.
         return orient2d(n, p, q) == 0.0 && (p - n).dot(q - n) > 0.0;
     }
     segments_touch(first.map(at), second.map(at))
 }
 
-/// Keeps as many bars as the greedy rule leaves: the one with the most
-/// conflicts goes first, of equal ones the last.
+/// Removes bars until no conflict is left: the one with the most conflicts first, of equal ones the
+/// last. Returns for each bar whether it remains.
 pub(super) fn remove_greedily(
     bars: usize,
     conflicts: &[BarConflict],
     progress: &dyn Progress,
 ) -> Result<Vec<bool>, Cancelled> {
-    let mut against: Vec<Vec<u32>> = vec![Vec::new(); bars];
+    let mut opponents: Vec<Vec<u32>> = vec![Vec::new(); bars];
     for &[i, j] in conflicts {
-        against[i as usize].push(j);
-        against[j as usize].push(i);
+        opponents[i as usize].push(j);
+        opponents[j as usize].push(i);
     }
     let mut kept = vec![true; bars];
-    let mut open: Vec<usize> = against.iter().map(Vec::len).collect();
-    while let Some(worst) = (0..bars).max_by_key(|&bar| (open[bar], bar))
-        && open[worst] > 0
+    let mut open_conflicts: Vec<usize> = opponents.iter().map(Vec::len).collect();
+    while let Some(worst) = (0..bars).max_by_key(|&bar| (open_conflicts[bar], bar))
+        && open_conflicts[worst] > 0
     {
         still_wanted(progress)?;
         kept[worst] = false;
-        open[worst] = 0;
-        for &other in &against[worst] {
-            // What went before has none left.
-            let open = &mut open[other as usize];
-            *open = open.saturating_sub(1);
+        open_conflicts[worst] = 0;
+        for &other in &opponents[worst] {
+            // Bars that were removed earlier have no conflicts left.
+            let count = &mut open_conflicts[other as usize];
+            *count = count.saturating_sub(1);
         }
     }
     Ok(kept)
 }
 
-/// Keeps the bars without any conflict.
+/// Returns for each bar whether it has no conflict.
 pub(super) fn keep_uncrossed(bars: usize, conflicts: &[BarConflict]) -> Vec<bool> {
     let mut kept = vec![true; bars];
     for &bar in conflicts.iter().flatten() {
@@ -120,9 +122,9 @@ mod tests {
         ]
         .map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
         let meets = |a, b| {
-            let (one, other) = (meet(a, b, &nodes), meet(b, a, &nodes));
-            assert_eq!(one, other);
-            one
+            let (there, back) = (meet(a, b, &nodes), meet(b, a, &nodes));
+            assert_eq!(there, back);
+            there
         };
         assert!(meets([0, 1], [2, 3]), "crossing");
         assert!(meets([0, 1], [4, 7]), "a node on a bar");

@@ -1,43 +1,43 @@
-//! A plane graph taken apart into pieces without cut nodes, and their faces.
+//! Splits a plane graph into its blocks (maximal pieces without cut nodes) and finds their faces.
 //!
-//! A walk around a face of the graph passes a cut node more than once. Parted
-//! wherever it comes back to a node, it falls into simple cycles: each is a
-//! face of one piece, or a bar walked there and back.
+//! The boundary loop around a face of the graph passes a cut node more than once. Split wherever it
+//! returns to a node, it falls into simple cycles: each is a face of one block, or a bar passed in
+//! both directions.
 
 use crate::geometry::{DVec2, orient2d, ring_edges};
 use crate::mesh::{components, undirected};
 use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 
-/// What a plane graph consists of.
+/// Blocks of a plane graph.
 pub(super) struct PlanarBlocks {
-    /// Bounded faces, counter-clockwise from their smallest node on.
+    /// Bounded faces, each counter-clockwise from its smallest node.
     pub(super) panels: Vec<Vec<u32>>,
-    /// Bars that are pieces of their own: bridges and dangling ends.
+    /// Bars that are blocks of their own: bridges and dangling ends.
     pub(super) bridges: Vec<[u32; 2]>,
-    /// For each node of a panel the pieces that it is in.
-    pieces_of: HashMap<u32, Vec<u32>>,
+    /// For each node of a panel, the blocks that contain it.
+    blocks_of: HashMap<u32, Vec<u32>>,
 }
 
 impl PlanarBlocks {
-    /// Takes the graph apart. No two bars may cross.
+    /// Splits the graph into blocks. No two bars may cross.
     pub(super) fn of(bars: &[[u32; 2]], nodes: &[DVec2]) -> Self {
         let panels = bounded_faces(bars, nodes);
         let mut panel_at: HashMap<[u32; 2], u32> = HashMap::new();
         let mut links = Vec::new();
         for (panel, cycle) in (0..).zip(&panels) {
             for (a, b) in ring_edges(cycle) {
-                let beside = panel_at.insert(undirected([a, b]), panel);
-                links.extend(beside.map(|other| [panel, other]));
+                // A bar between two panels links them.
+                let neighbour = panel_at.insert(undirected([a, b]), panel);
+                links.extend(neighbour.map(|other| [panel, other]));
             }
         }
-        // The panels of one piece hang together by bars: its faces meet across
-        // them, and taking out the outer face of a piece without cut nodes
-        // leaves the others connected.
-        let mut pieces_of: HashMap<u32, Vec<u32>> = HashMap::new();
-        for (cycle, piece) in panels.iter().zip(components(panels.len(), links)) {
+        // The panels of a block are connected across bars: all its faces are, and without cut nodes
+        // the others stay connected when the outer face is removed.
+        let mut blocks_of: HashMap<u32, Vec<u32>> = HashMap::new();
+        for (cycle, block) in panels.iter().zip(components(panels.len(), links)) {
             for &node in cycle {
-                pieces_of.entry(node).or_default().push(piece);
+                blocks_of.entry(node).or_default().push(block);
             }
         }
         let in_no_panel = |bar: &[u32; 2]| !panel_at.contains_key(&undirected(*bar));
@@ -46,69 +46,72 @@ impl PlanarBlocks {
         Self {
             panels,
             bridges,
-            pieces_of,
+            blocks_of,
         }
     }
 
-    /// Whether one piece with panels has both nodes of a bar.
-    pub(super) fn hold(&self, [a, b]: [u32; 2]) -> bool {
-        let of = |node| self.pieces_of.get(&node).map_or(&[][..], Vec::as_slice);
-        of(a).iter().any(|piece| of(b).contains(piece))
+    /// Returns whether one block with panels contains both nodes of a bar.
+    pub(super) fn contain_both_ends(&self, [a, b]: [u32; 2]) -> bool {
+        let of = |node| self.blocks_of.get(&node).map_or(&[][..], Vec::as_slice);
+        of(a).iter().any(|block| of(b).contains(block))
     }
 }
 
-/// All faces of all pieces but their outer ones.
+/// Returns the bounded faces of all blocks.
 fn bounded_faces(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<Vec<u32>> {
-    let follows = successors(bars, nodes);
+    let successor = successors(bars, nodes);
     let mut seen = HashSet::new();
     let mut faces = Vec::new();
-    // Where in the path each node is: a tree is walked there and back as one.
-    let mut place = vec![None; nodes.len()];
-    for &start in follows.keys() {
+    // Position of each node in the current path.
+    let mut position = vec![None; nodes.len()];
+    for &start in successor.keys() {
         let mut path = Vec::new();
         let mut edge = start;
+        // Each directed bar belongs to exactly one face.
         while seen.insert(edge) {
             let [from, to] = edge;
-            place[from as usize] = Some(path.len());
+            position[from as usize] = Some(path.len());
             path.push(from);
-            // Back at a node: what was walked since is a cycle of its own.
-            if let Some(back) = place[to as usize] {
+            // Back at a node: the path since then is a cycle of its own.
+            if let Some(back) = position[to as usize] {
                 let mut cycle = path.split_off(back);
-                cycle.iter().for_each(|&node| place[node as usize] = None);
-                // Outer faces run clockwise; a bar there and back turns nowhere.
+                cycle
+                    .iter()
+                    .for_each(|&node| position[node as usize] = None);
+                // Outer faces run clockwise; a bar passed in both directions has no orientation.
                 if is_counter_clockwise(&cycle, nodes) {
                     let first = (0..cycle.len()).min_by_key(|&i| cycle[i]).unwrap_or(0);
                     cycle.rotate_left(first);
                     faces.push(cycle);
                 }
             }
-            edge = follows[&edge];
+            edge = successor[&edge];
         }
     }
-    // The starts came in no order.
+    // The hash map yields the start edges in no fixed order.
     faces.sort_unstable();
     faces
 }
 
-/// For each bar in each direction the next one around the face on its left:
-/// the first clockwise from the way back.
+/// For each directed bar, the next one around the face on its left: the first clockwise from the
+/// reversed bar.
 fn successors(edges: &[[u32; 2]], nodes: &[DVec2]) -> HashMap<[u32; 2], [u32; 2]> {
     let mut around: HashMap<u32, Vec<u32>> = HashMap::new();
     for &[a, b] in edges {
         around.entry(a).or_default().push(b);
         around.entry(b).or_default().push(a);
     }
-    let mut follows = HashMap::new();
+    let mut successor = HashMap::new();
     for (&node, ends) in &mut around {
         let centre = nodes[node as usize];
         ends.sort_by(|&p, &q| by_angle(centre, nodes[p as usize], nodes[q as usize]));
         for (i, &end) in ends.iter().enumerate() {
-            // The last one counter-clockwise is the first one clockwise.
+            // The ends are sorted counter-clockwise, so the previous one is the first clockwise.
             let before = ends[(i + ends.len() - 1) % ends.len()];
-            follows.insert([end, node], [node, before]);
+            successor.insert([end, node], [node, before]);
         }
     }
-    follows
+    successor
 }
 
 /// Exact order by angle around `centre`, counter-clockwise from the x axis.
@@ -119,11 +122,11 @@ fn by_angle(centre: DVec2, p: DVec2, q: DVec2) -> Ordering {
         .then_with(|| 0.0f64.total_cmp(&orient2d(centre, p, q)))
 }
 
-/// The sense of a simple polygon, from its lowest of leftmost corners, which
-/// is convex.
+/// Returns whether a simple polygon runs counter-clockwise, decided at its leftmost corner (ties:
+/// the lowest), which is convex.
 fn is_counter_clockwise(cycle: &[u32], nodes: &[DVec2]) -> bool {
     let at = |i: usize| nodes[cycle[i % cycle.len()] as usize];
-    // The sign of the area would be rounded; that of one corner is exact.
+    // The sign of the whole area would be rounded; that of one corner is exact.
     let corner = (0..cycle.len()).min_by(|&i, &j| {
         let (p, q) = (at(i), at(j));
         p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))

@@ -1,14 +1,13 @@
-//! One polygon in two embeddings, cut into triangles.
+//! Triangulates one polygon in two embeddings at once with the largest possible smallest angle.
 
 use crate::geometry::{DVec2, SourceTarget, orient2d};
 use crate::work::progress::{Cancelled, Progress, still_wanted};
 
-/// No triangulation of a part of the polygon: less than any sine of its angles.
-const NONE: f64 = -1.0;
+/// Marks a part of the polygon without a triangulation: less than the sine of any angle.
+const NO_TRIANGULATION: f64 = -1.0;
 
-/// Triangles between the nodes of a counter-clockwise cycle, all positive in
-/// both designs, with the largest possible smallest angle; `None` if there
-/// are none.
+/// Returns triangles between the nodes of a counter-clockwise cycle, all positive in both designs,
+/// with the largest possible smallest angle; `None` if there are none.
 pub(super) fn triangulate_panel(
     cycle: &[u32],
     nodes: SourceTarget<&[DVec2]>,
@@ -19,29 +18,31 @@ pub(super) fn triangulate_panel(
         return Ok(None);
     };
     let mut faces = Vec::new();
-    let mut open = vec![(0, last)];
-    while let Some((i, j)) = open.pop() {
+    let mut pending = vec![(0, last)];
+    while let Some((i, j)) = pending.pop() {
         if j - i < 2 {
             continue;
         }
-        let (worth, k) = table.cells[table.cell(i, j)];
-        if worth == NONE {
+        let (sine, k) = table.cells[table.cell(i, j)];
+        if sine == NO_TRIANGULATION {
             return Ok(None);
         }
         faces.push([i, k, j].map(|corner| cycle[corner]));
-        open.extend([(k, j), (i, k)]);
+        pending.extend([(k, j), (i, k)]);
     }
     Ok(Some(faces))
 }
 
-/// For each chord i < j what the part from i to j is worth, and the third
-/// corner of the triangle at the chord.
+/// Table of the dynamic program. For each chord i < j it holds the sine of the smallest angle in
+/// the best triangulation of the part from i to j, and the third corner of the triangle at the
+/// chord.
 struct ChordTable {
     size: usize,
     cells: Vec<(f64, usize)>,
 }
 
 impl ChordTable {
+    /// Fills the table from short chords to long ones.
     fn filled(
         cycle: &[u32],
         nodes: SourceTarget<&[DVec2]>,
@@ -50,7 +51,7 @@ impl ChordTable {
         let size = cycle.len();
         let mut table = Self {
             size,
-            // The polygon's own edges have nothing behind them that could be bad.
+            // Nothing lies behind the polygon's own edges, so they limit no angle.
             cells: vec![(f64::INFINITY, 0); size * size],
         };
         for length in 2..size {
@@ -64,10 +65,12 @@ impl ChordTable {
         Ok(table)
     }
 
+    /// Index of the cell of a chord.
     fn cell(&self, i: usize, j: usize) -> usize {
         i * self.size + j
     }
 
+    /// Returns the best third corner for the chord i–j, with the smallest sine it leads to.
     fn best(
         &self,
         cycle: &[u32],
@@ -75,36 +78,37 @@ impl ChordTable {
         i: usize,
         j: usize,
     ) -> (f64, usize) {
-        let mut best = (NONE, i);
+        let mut best = (NO_TRIANGULATION, i);
         for k in i + 1..j {
-            let sides = self.cells[self.cell(i, k)]
+            let parts = self.cells[self.cell(i, k)]
                 .0
                 .min(self.cells[self.cell(k, j)].0);
-            // Before the exact signs, which are slow: no triangle mends a side.
-            if sides <= best.0 {
+            // Checked before the slow exact predicates: no triangle makes up for a bad part.
+            if parts <= best.0 {
                 continue;
             }
             let corners = [i, k, j].map(|corner| cycle[corner] as usize);
-            let here = worth(corners, nodes.source).min(worth(corners, nodes.target));
-            if sides.min(here) > best.0 {
-                best = (sides.min(here), k);
+            let own =
+                smallest_sine(corners, nodes.source).min(smallest_sine(corners, nodes.target));
+            if parts.min(own) > best.0 {
+                best = (parts.min(own), k);
             }
         }
         best
     }
 }
 
-/// The sine of the smallest angle, [`NONE`] unless the triangle is positive.
-fn worth(corners: [usize; 3], nodes: &[DVec2]) -> f64 {
+/// Returns the sine of a triangle's smallest angle; [`NO_TRIANGULATION`] unless it is positive.
+fn smallest_sine(corners: [usize; 3], nodes: &[DVec2]) -> f64 {
     let [a, b, c] = corners.map(|corner| nodes[corner]);
     let twice_area = orient2d(a, b, c);
     if twice_area <= 0.0 {
-        return NONE;
+        return NO_TRIANGULATION;
     }
     let mut sides = [a.distance(b), b.distance(c), c.distance(a)];
     sides.sort_by(f64::total_cmp);
-    // The smallest angle lies opposite the shortest side, between the others.
+    // The smallest angle lies opposite the shortest side, between the two others.
     let sine = twice_area / (sides[1] * sides[2]);
-    // Lengths may underflow where the exact sign does not.
+    // Lengths may underflow although the exact sign does not.
     if sine.is_finite() { sine } else { 0.0 }
 }

@@ -1,12 +1,16 @@
+//! Tests of the common triangulation of trusses: panels, bridges, crossed bars, errors.
+
 use super::*;
 use crate::geometry::orient2d;
 use crate::work::progress::Silent;
 
+/// Truss from coordinates and bars.
 fn truss(nodes: &[(f64, f64)], bars: &[[u32; 2]]) -> Truss {
     let nodes = nodes.iter().map(|&p| p.into()).collect();
     Truss::new(nodes, bars.to_vec()).expect("a truss")
 }
 
+/// Returns whether all faces are positive in a truss.
 fn positive(faces: &[[u32; 3]], truss: &Truss) -> bool {
     faces.iter().all(|f| {
         let [a, b, c] = f.map(|node| truss.nodes()[node as usize]);
@@ -14,30 +18,31 @@ fn positive(faces: &[[u32; 3]], truss: &Truss) -> bool {
     })
 }
 
+/// [`super::triangulate_panels`] without progress reports.
 fn panels(source: &Truss, target: &Truss) -> Result<PanelMesh, TrussError> {
     super::triangulate_panels(source, target, &Silent)
 }
 
-/// Both orders of the designs give the same, valid result.
+/// Checks that both orders of the designs give the same valid result, and returns it.
 fn both_ways(source: &Truss, target: &Truss) -> PanelMesh {
-    let found = panels(source, target).expect("panels");
-    assert!(positive(&found.0, source) && positive(&found.0, target));
-    assert_eq!(panels(target, source), Ok(found.clone()));
+    let mesh = panels(source, target).expect("panels");
+    assert!(positive(&mesh.0, source) && positive(&mesh.0, target));
+    assert_eq!(panels(target, source), Ok(mesh.clone()));
     for node in 0..source.nodes().len() as u32 {
-        let in_face = found.0.iter().any(|face| face.contains(&node));
+        let in_face = mesh.0.iter().any(|face| face.contains(&node));
         assert!(
-            in_face || found.1.iter().any(|bar| bar.contains(&node)),
+            in_face || mesh.1.iter().any(|bar| bar.contains(&node)),
             "{node}"
         );
     }
-    found
+    mesh
 }
 
 const SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
-const RIM: [[u32; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
+const SQUARE_BARS: [[u32; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
 
 #[test]
-fn triangles_bridges_and_ends_are_told_apart() {
+fn triangles_bridges_and_dangling_bars_are_distinguished() {
     // Two triangles joined by a bridge, one with a dangling bar inside.
     let nodes = [
         (0.0, 0.0),
@@ -67,7 +72,10 @@ fn triangles_bridges_and_ends_are_told_apart() {
 #[test]
 fn a_mechanism_square_gets_the_diagonal_that_is_good_in_both() {
     let sheared = [(0.0, 0.0), (1.0, 0.0), (1.8, 0.6), (0.8, 0.6)];
-    let (faces, elements) = both_ways(&truss(&SQUARE, &RIM), &truss(&sheared, &RIM));
+    let (faces, elements) = both_ways(
+        &truss(&SQUARE, &SQUARE_BARS),
+        &truss(&sheared, &SQUARE_BARS),
+    );
     assert_eq!(faces.len(), 2);
     assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));
     assert!(elements.is_empty());
@@ -75,21 +83,22 @@ fn a_mechanism_square_gets_the_diagonal_that_is_good_in_both() {
 
 #[test]
 fn a_concave_panel_takes_diagonals_valid_in_both() {
-    // Concave at node 3 in the source and convex in the target: only 1–3 will do.
+    // Concave at node 3 in the source, convex in the target: only the diagonal 1–3 is valid in
+    // both.
     let dart = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.2, 0.8)];
-    let (faces, _) = both_ways(&truss(&dart, &RIM), &truss(&SQUARE, &RIM));
+    let (faces, _) = both_ways(&truss(&dart, &SQUARE_BARS), &truss(&SQUARE, &SQUARE_BARS));
     assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));
-    // Concave at neighbouring nodes: no diagonal serves both.
+    // Concave at neighbouring nodes: no diagonal is valid in both.
     let other = [(0.0, 0.0), (2.0, 0.0), (0.8, 0.6), (0.0, 2.0)];
     assert_eq!(
-        panels(&truss(&dart, &RIM), &truss(&other, &RIM)),
+        panels(&truss(&dart, &SQUARE_BARS), &truss(&other, &SQUARE_BARS)),
         Err(TrussError::NoTriangulation(vec![0, 1, 2, 3]))
     );
 }
 
 #[test]
 fn outer_pockets_stay_open() {
-    // A U of three squares' outline, with rungs.
+    // U-shaped outline of three squares, with rungs.
     let nodes = [
         (0.0, 0.0),
         (3.0, 0.0),
@@ -123,7 +132,8 @@ fn crossed_braces_keep_one_and_carry_the_other() {
     let (faces, elements) = both_ways(&truss(&SQUARE, &bars), &truss(&SQUARE, &bars));
     assert_eq!(faces, [[0, 1, 2], [0, 2, 3]]);
     assert!(elements.is_empty());
-    // In a dart the kept brace 0–2 lies outside: both are let go, 1–3 is found.
+    // In a dart the brace 0–2 lies outside. Both braces are removed, and 1–3 is found as a
+    // diagonal.
     let dart = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.2, 0.8)];
     let (faces, elements) = both_ways(&truss(&SQUARE, &bars), &truss(&dart, &bars));
     assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));
@@ -157,7 +167,7 @@ fn crossing_bars_between_panels_become_elements() {
 }
 
 #[test]
-fn a_panel_hung_into_another_at_one_node_is_a_panel_of_its_own() {
+fn a_panel_attached_to_another_at_one_node_is_a_panel_of_its_own() {
     let nodes = [
         (0.0, 0.0),
         (9.0, 0.0),
@@ -175,14 +185,14 @@ fn a_panel_hung_into_another_at_one_node_is_a_panel_of_its_own() {
 }
 
 #[test]
-fn differences_and_turned_panels_are_named() {
-    let square = truss(&SQUARE, &RIM);
+fn differences_and_reversed_panels_are_named_in_the_error() {
+    let square = truss(&SQUARE, &SQUARE_BARS);
     let more = truss(
         &[SQUARE.as_slice(), &[(2.0, 2.0)]].concat(),
-        &[RIM.as_slice(), &[[2, 4]]].concat(),
+        &[SQUARE_BARS.as_slice(), &[[2, 4]]].concat(),
     );
     assert_eq!(panels(&square, &more), Err(TrussError::NodeCounts([4, 5])));
-    let braced = truss(&SQUARE, &[RIM.as_slice(), &[[0, 2]]].concat());
+    let braced = truss(&SQUARE, &[SQUARE_BARS.as_slice(), &[[0, 2]]].concat());
     let error = panels(&square, &braced).expect_err("another bar");
     assert_eq!(
         error,
@@ -196,20 +206,23 @@ fn differences_and_turned_panels_are_named() {
     assert!(panels(&square, &reordered).is_ok());
     let mirror = SQUARE.map(|(x, y)| (-x, y));
     assert_eq!(
-        panels(&square, &truss(&mirror, &RIM)),
+        panels(&square, &truss(&mirror, &SQUARE_BARS)),
         Err(TrussError::Mirrored)
     );
-    // Node 4 swings over the edge that its triangle stands on.
+    // Node 4 moves across the edge of its triangle.
     let house = |y| {
         let nodes = [SQUARE.as_slice(), &[(0.5, y)]].concat();
-        truss(&nodes, &[RIM.as_slice(), &[[2, 4], [3, 4]]].concat())
+        truss(
+            &nodes,
+            &[SQUARE_BARS.as_slice(), &[[2, 4], [3, 4]]].concat(),
+        )
     };
     let error = panels(&house(2.0), &house(0.5)).expect_err("turned over");
     assert_eq!(error, TrussError::Flipped(vec![2, 4, 3]));
 }
 
-/// Every triangulation of a small polygon tried.
-fn brute(cycle: &[u32], pair: SourceTarget<&[DVec2]>) -> Option<f64> {
+/// Oracle: tries every triangulation of a small polygon; returns the best smallest sine.
+fn best_by_brute_force(cycle: &[u32], pair: SourceTarget<&[DVec2]>) -> Option<f64> {
     if cycle.len() < 3 {
         return Some(f64::INFINITY);
     }
@@ -217,13 +230,14 @@ fn brute(cycle: &[u32], pair: SourceTarget<&[DVec2]>) -> Option<f64> {
     (1..last)
         .filter_map(|k| {
             let sines = sines([cycle[0], cycle[k], cycle[last]], pair)?;
-            let left = brute(&cycle[..=k], pair)?;
-            let right = brute(&cycle[k..], pair)?;
+            let left = best_by_brute_force(&cycle[..=k], pair)?;
+            let right = best_by_brute_force(&cycle[k..], pair)?;
             Some(sines.min(left).min(right))
         })
         .max_by(f64::total_cmp)
 }
 
+/// Smallest sine of a face's angles in both designs; `None` unless it is positive in both.
 fn sines(face: [u32; 3], pair: SourceTarget<&[DVec2]>) -> Option<f64> {
     let mut least = f64::INFINITY;
     for nodes in [pair.source, pair.target] {
@@ -257,7 +271,7 @@ proptest::proptest! {
         let found = found.map(|faces| {
             faces.iter().map(|&f| sines(f, pair).unwrap_or(-1.0)).fold(f64::INFINITY, f64::min)
         });
-        match (found, brute(&cycle, pair)) {
+        match (found, best_by_brute_force(&cycle, pair)) {
             (Some(a), Some(b)) => proptest::prop_assert!((a - b).abs() < 1e-9, "{a} {b}"),
             (a, b) => proptest::prop_assert_eq!(a.is_some(), b.is_some()),
         }

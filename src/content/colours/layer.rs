@@ -1,4 +1,4 @@
-//! One of the two pictures, to be looked up anywhere in the plane.
+//! A picture in linear light with a mipmap pyramid, sampled bilinearly anywhere in the plane.
 
 use super::super::placement_scan::AffinePlane;
 use super::linear_light::{LinearLight, coded_premultiplied, decoded, mean, mixed};
@@ -9,28 +9,29 @@ use image::RgbaImage;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// A picture in linear light, in its own size and smaller ones, where it lies
-/// in the plane. Cloning is cheap.
+/// A picture in linear light with its mipmap pyramid and its place in the plane. Cloning is cheap.
 #[derive(Clone, Debug)]
 pub struct PictureLayer {
     picture: Picture,
+    /// Pyramid levels, from full resolution down to a single pixel.
     levels: Arc<Vec<MipLevel>>,
-    /// From the plane to the picture's own coordinates: x across, y down.
+    /// Map from the plane to pixels of the picture: x right, y down, origin in its upper left
+    /// corner.
     from_plane: DAffine2,
 }
 
-/// The picture at one size, row by row from above.
+/// One level of the mipmap pyramid.
 #[derive(Debug)]
 pub(super) struct MipLevel {
     width: usize,
     height: usize,
-    /// One pixel for each and, so that every pixel has one to its right and one
-    /// below, another row and one more.
+    /// Pixels row by row from above, followed by one more row and one more pixel, so that every
+    /// pixel has a neighbour to its right and one below.
     light: Vec<LinearLight>,
 }
 
 impl PictureLayer {
-    /// Decodes a picture. Takes 22 bytes a pixel.
+    /// Decodes a picture and builds its pyramid. Needs 22 bytes per pixel.
     #[must_use]
     pub fn new(picture: &Picture) -> Self {
         let mut levels = vec![MipLevel::of(picture.pixels())];
@@ -39,7 +40,7 @@ impl PictureLayer {
         }
         let inverse = picture.place().inverse();
         let height = f64::from(picture.pixels().height());
-        // Pictures have y down and their origin above, the plane has not.
+        // Pictures have y down and their origin at the top, the plane has y up.
         let flip = scaled(DVec2::new(1.0, -1.0), DVec2::new(0.0, height));
         let own = DAffine2::from_mat2_translation(inverse.linear(), inverse.apply(DVec2::ZERO));
         Self {
@@ -49,28 +50,26 @@ impl PictureLayer {
         }
     }
 
-    /// The picture that this is.
+    /// The original picture.
     #[must_use]
     pub fn picture(&self) -> &Picture {
         &self.picture
     }
 
-    /// The box around it in the plane.
+    /// Bounding box in the plane.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.picture.bounds()
     }
 
-    /// The plane in the picture's own coordinates: pixels from its upper left
-    /// corner, y down.
+    /// Converts a point of the plane to pixels from the upper left corner of the picture, y down.
     #[must_use]
     pub fn pixel_from_plane(&self, p: DVec2) -> DVec2 {
         self.from_plane.transform_point2(p)
     }
 
-    /// All sizes, the largest first and each row by row from above: coded in
-    /// sRGB, alpha premultiplied in linear light, four bytes a pixel; and how
-    /// many sizes there are.
+    /// Returns the bytes of all pyramid levels, largest first, and their number. Each level is
+    /// stored row by row from above as sRGB premultiplied in linear light, four bytes per pixel.
     #[must_use]
     pub fn texture(&self) -> (Vec<u8>, u32) {
         let lights = self.levels.iter().flat_map(MipLevel::pixels);
@@ -78,76 +77,74 @@ impl PictureLayer {
         (bytes.collect(), self.levels.len() as u32)
     }
 
-    /// The size of one of its pixels in the plane.
+    /// Side length of a pixel in the plane.
     fn pixel(&self) -> f64 {
         self.picture.place().scale
     }
 
-    /// Made to be looked up for pixels of the given size in the plane: of the
-    /// smaller sizes the one whose pixels are not much finer, so that nothing
-    /// flickers where many of the picture's go into one.
+    /// Returns a sampler for output pixels with side length `size` in the plane. It reads the
+    /// pyramid level whose pixels are about as large, so that nothing flickers where many pixels of
+    /// the picture fall into one.
     pub(super) fn sampler(&self, size: f64) -> PictureSampler<'_> {
         let ratio = (size / self.pixel()).max(1.0);
-        // A picture may have been shrunk to nothing.
-        let wanted = if ratio.is_finite() {
-            // Up to 1.7 of a level's pixels go into one of the output (2^0.75),
-            // then the next level is taken.
+        // The scale of a picture may be 0.
+        let index = if ratio.is_finite() {
+            // A level is used up to 2^0.75 ≈ 1.7 of its pixels per output pixel; then the next one.
             (ratio.log2() + 0.25) as usize
         } else {
             0
         };
-        let level = wanted.min(self.levels.len() - 1);
-        let level = &self.levels[level];
+        let level = &self.levels[index.min(self.levels.len() - 1)];
         let scale = level.size() / self.levels[0].size();
-        // A sample is at the centre of its pixel, half a one from the corner.
+        // Samples lie at pixel centres, half a pixel from the corner.
         let from_plane = scaled(scale, DVec2::splat(-0.5)) * self.from_plane;
         PictureSampler { level, from_plane }
     }
 }
 
-/// Stretches along the axes, then moves.
+/// The map that scales along the axes, then translates.
 fn scaled(by: DVec2, offset: DVec2) -> DAffine2 {
     DAffine2::from_mat2_translation(DMat2::from_diagonal(by), offset)
 }
 
-/// A layer at one of its sizes.
+/// One level of a picture, ready to be sampled.
 #[derive(Clone, Copy)]
 pub(super) struct PictureSampler<'a> {
     level: &'a MipLevel,
     from_plane: DAffine2,
 }
 
-/// Fixed point: what a step from one pixel to the next is.
+/// One pixel in 32.32 fixed point.
 const ONE: f64 = (1u64 << 32) as f64;
 
-/// How far from a picture a place is told from others, in its pixels; beyond
-/// there is nothing but the edge. Twice as far away does not overflow.
+/// Distance from a picture, in its pixels, to which positions are clamped (resource limit: twice
+/// that distance does not overflow the fixed-point format).
 const FAR: f64 = (1u64 << 29) as f64;
 
 impl<'a> PictureSampler<'a> {
-    /// Made to be looked up where samples near `first`, up to `reach` columns
-    /// and rows further on, see it.
+    /// Prepares the sampling of a face whose samples start at `first` and extend up to `max_offset`
+    /// columns and rows.
     ///
-    /// Places are exact to `reach` · 2⁻³⁰ pixels where from one sample to the
-    /// next they are up to 2²⁸ / `reach` pixels apart. Longer steps, which
-    /// meet pixels that have nothing to do with each other, are shortened.
-    pub fn across(
+    /// Positions are exact to `max_offset` · 2⁻³⁰ pixels as long as consecutive samples are at most
+    /// 2²⁸ / `max_offset` pixels apart. Longer steps are shortened; they would skip unrelated
+    /// pixels anyway.
+    pub fn footprint(
         &self,
         plane: &AffinePlane,
         first: [usize; 2],
-        reach: usize,
+        max_offset: usize,
     ) -> PixelFootprint<'a> {
-        // From the start, at most FAR away, `reach` steps across and as many
-        // down leave it at most twice as far.
-        let farthest = 0.5 * FAR / reach.max(1) as f64;
-        // NaN goes to 0.
+        // The start is at most FAR away; `max_offset` steps across and as many down at most double
+        // that.
+        let max_step = 0.5 * FAR / max_offset.max(1) as f64;
+        // `as` maps NaN to 0.
         let fixed = |at: DVec2, limit: f64| {
             let at = at.to_array();
             at.map(|x| (x.clamp(-limit, limit) * ONE) as i64)
         };
         let level = self.level;
         let last = |count: usize| ((count - 1) as i64) << 32;
-        let at = |by: DVec2| self.from_plane.transform_vector2(by);
+        let step = |by: DVec2| self.from_plane.transform_vector2(by);
         let start = self
             .from_plane
             .transform_point2(plane.at(first[0], first[1]));
@@ -157,14 +154,13 @@ impl<'a> PictureSampler<'a> {
             last: [last(level.width), last(level.height)],
             first,
             start: fixed(start, FAR),
-            by_x: fixed(at(plane.by_x), farthest),
-            by_y: fixed(at(plane.by_y), farthest),
+            by_x: fixed(step(plane.by_x), max_step),
+            by_y: fixed(step(plane.by_y), max_step),
         }
     }
 }
 
-/// A picture as the samples of a face see it. Places are in fixed point: 32
-/// bits are behind the point.
+/// A picture sampled along an affine map, with positions in 32.32 fixed point.
 pub(super) struct PixelFootprint<'a> {
     light: &'a [LinearLight],
     width: usize,
@@ -176,18 +172,19 @@ pub(super) struct PixelFootprint<'a> {
 }
 
 impl PixelFootprint<'_> {
-    /// For each of `lights` what `with` makes of it and of the light that the
-    /// samples of row `y` see from column `x` on: bilinear between pixel
-    /// centres, beyond the picture its mirror image.
+    /// Samples the picture for the samples of row `y` from column `x` on, bilinearly between pixel
+    /// centres and mirrored beyond the edges.
+    ///
+    /// Each element of `lights` is replaced by `with(element, sampled light)`.
     #[inline]
-    pub fn look(
+    pub fn sample_row(
         &self,
         [x, y]: [usize; 2],
         lights: &mut [LinearLight],
         with: impl Fn(LinearLight, LinearLight) -> LinearLight,
     ) {
-        // Counted from the face's own first sample: that keeps the products
-        // small, and what they lose.
+        // Relative to the face's first sample, which keeps the products and their rounding errors
+        // small.
         let right = (x - self.first[0]) as i64;
         let down = (y - self.first[1]) as i64;
         let place = |k: usize| self.start[k] + right * self.by_x[k] + down * self.by_y[k];
@@ -198,13 +195,14 @@ impl PixelFootprint<'_> {
         }
     }
 
+    /// Light at a position in fixed point.
     #[inline]
     fn at(&self, x: i64, y: i64) -> LinearLight {
         let (x, y) = (mirrored(x, self.last[0]), mirrored(y, self.last[1]));
         let at = (y >> 32) as usize * self.width + (x >> 32) as usize;
-        let (u, v) = (behind_the_point(x), behind_the_point(y));
-        // In the last column u = 0: what is right of it does not matter. So it
-        // is with the last row.
+        let (u, v) = (fractional_part(x), fractional_part(y));
+        // In the last column u = 0, so its right neighbour has no weight; likewise for the last
+        // row.
         let row = |at: usize| {
             let two = &self.light[at..at + 2];
             mixed(two[0], two[1], u)
@@ -213,15 +211,15 @@ impl PixelFootprint<'_> {
     }
 }
 
-/// Half a pixel in fixed point.
+/// Half a pixel in 32.32 fixed point.
 const HALF: i64 = 1 << 31;
 
-/// The place between the first pixel's centre and the last's that mirrors at
-/// the picture's edges bring to `x`, however often.
+/// Reflects `x` at the picture's edges, as often as needed, into the range between the centres of
+/// the first and the last pixel.
 #[inline]
 fn mirrored(x: i64, last: i64) -> i64 {
-    // Nearly all samples lie in the picture, and a division takes longer than
-    // the rest of the look-up.
+    // Fast path: nearly all samples lie in the picture, and a division costs more than the rest of
+    // the lookup.
     if (0..=last).contains(&x) {
         return x;
     }
@@ -231,19 +229,21 @@ fn mirrored(x: i64, last: i64) -> i64 {
     (folded - HALF).clamp(0, last)
 }
 
-/// What a number in fixed point has over a whole one; to 24 bits.
+/// Fractional part of a fixed-point number, to 24 bits.
 #[inline]
-fn behind_the_point(x: i64) -> f32 {
+fn fractional_part(x: i64) -> f32 {
+    /// Steps per pixel of the fractional part.
     const BITS: f32 = (1 << 24) as f32;
     ((x as u32) >> 8) as i32 as f32 * (1.0 / BITS)
 }
 
 impl MipLevel {
+    /// Adds the padding to the pixels of a level.
     fn new(width: usize, height: usize, mut light: Vec<LinearLight>) -> Self {
-        let whole = width * height + width + 1;
-        // `resize` alone would make room for twice as much.
-        light.reserve_exact(whole - light.len());
-        light.resize(whole, LinearLight::ZERO);
+        let padded_len = width * height + width + 1;
+        // `resize` alone may allocate twice as much.
+        light.reserve_exact(padded_len - light.len());
+        light.resize(padded_len, LinearLight::ZERO);
         Self {
             width,
             height,
@@ -251,6 +251,7 @@ impl MipLevel {
         }
     }
 
+    /// Decodes a picture at full resolution.
     fn of(pixels: &RgbaImage) -> Self {
         let (width, height) = (pixels.width() as usize, pixels.height() as usize);
         let raw = pixels.as_raw().par_chunks_exact(4);
@@ -258,17 +259,18 @@ impl MipLevel {
         Self::new(width, height, light.collect())
     }
 
-    /// Width and height.
+    /// Width and height in pixels.
     fn size(&self) -> DVec2 {
         DVec2::new(self.width as f64, self.height as f64)
     }
 
+    /// Pixels without the padding.
     fn pixels(&self) -> &[LinearLight] {
         &self.light[..self.width * self.height]
     }
 
-    /// Half as wide and high, rounded down as graphics cards do; `None` at a
-    /// single pixel.
+    /// Returns the next level: half as wide and high, rounded down as graphics cards do; `None` for
+    /// a single pixel.
     fn halved(&self) -> Option<Self> {
         if self.width * self.height <= 1 {
             return None;
@@ -276,7 +278,7 @@ impl MipLevel {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let row = |y: usize| {
             (0..width).map(move |x| {
-                // A side of one pixel has no second one: it counts twice.
+                // A side of one pixel has no second one, so the first counts twice.
                 let (right, below) = (
                     (2 * x + 1).min(self.width - 1),
                     (2 * y + 1).min(self.height - 1),
@@ -301,7 +303,7 @@ mod tests {
     use super::*;
     use image::Rgba;
 
-    /// The light at one point.
+    /// Light at one point of the plane.
     fn at(sampler: &PictureSampler<'_>, first: DVec2) -> LinearLight {
         let plane = AffinePlane {
             origin: first,
@@ -309,17 +311,17 @@ mod tests {
             by_y: DVec2::ZERO,
         };
         let mut light = [LinearLight::ZERO];
-        let sight = sampler.across(&plane, [0, 0], 1);
-        sight.look([0, 0], &mut light, |_, light| light);
+        let footprint = sampler.footprint(&plane, [0, 0], 1);
+        footprint.sample_row([0, 0], &mut light, |_, light| light);
         light[0]
     }
 
     fn encoded(light: LinearLight) -> Rgba<u8> {
-        SrgbEncoder::new().encoded(light)
+        SrgbEncoder::new().encode(light)
     }
 
     #[test]
-    fn pixels_are_met_at_their_centres_and_edges_are_mirrors() {
+    fn samples_at_centres_are_pixels_and_edges_mirror() {
         let image = RgbaImage::from_fn(5, 3, |x, y| Rgba([50 * x as u8, 80 * y as u8, 7, 255]));
         let layer = PictureLayer::new(&Picture::new(image.clone()));
         let sampler = layer.sampler(1.0);
@@ -335,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn seen_small_a_fine_pattern_is_its_mean() {
+    fn a_fine_pattern_seen_small_is_its_mean() {
         let image = RgbaImage::from_fn(64, 64, |x, y| {
             let v = if (x + y) % 2 == 0 { 255 } else { 0 };
             Rgba([v, v, v, 255])

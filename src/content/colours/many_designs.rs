@@ -1,9 +1,9 @@
-//! Pictures of many designs, and how they mix: c = Σ w_j c_j in linear light, each picture
-//! looked up through a map of its own.
+//! Cross-dissolve of any number of pictures: c = Σ wⱼ cⱼ in linear light, each picture sampled
+//! through its own map.
 //!
-//! Guaranteed: with all weight on one design its own picture, and of two designs with the
-//! weights (1 − t, t) what a [`PicturePair`](super::PicturePair) shows at t, to one step of
-//! the 255 of a channel; what has no weight is not looked up.
+//! Guaranteed: with all weight on one design the result is its picture; for two designs with
+//! weights (1 − t, t) it equals a [`PicturePair`](super::PicturePair) at t up to one of the 255
+//! steps of a channel. Pictures with weight 0 are not sampled.
 
 use super::layer::PictureLayer;
 use super::linear_light::{LinearLight, SrgbEncoder};
@@ -16,7 +16,7 @@ use image::RgbaImage;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Pictures, at least one, and their mix. Cloning is cheap.
+/// One or more pictures, and how they are mixed. Cloning is cheap.
 #[derive(Clone, Debug)]
 pub struct PictureSet {
     layers: Arc<[PictureLayer]>,
@@ -24,10 +24,10 @@ pub struct PictureSet {
 }
 
 impl PictureSet {
-    /// None of no pictures.
+    /// Decodes the pictures. Returns `None` if there are none.
     ///
     /// # Errors
-    /// Where the span of the mix is none.
+    /// Returns an error if the range of the mix is invalid.
     pub fn new(pictures: &[&Picture], mix: ColourMix) -> Result<Option<Self>, ColourMixError> {
         mix.check()?;
         let layers: Vec<PictureLayer> = pictures.par_iter().map(|p| PictureLayer::new(p)).collect();
@@ -37,21 +37,21 @@ impl PictureSet {
         }))
     }
 
-    /// The pictures, one for each design.
+    /// Pictures, one per design.
     #[must_use]
     pub fn layers(&self) -> &[PictureLayer] {
         &self.layers
     }
 
-    /// The rectangle that is shown with these weights; beyond the designs that of the
-    /// nearest blend, as it might turn inside out.
+    /// Returns the visible rectangle for these weights: the weighted mean of the pictures' bounds.
+    /// Weights outside [0, 1] are clamped, because an extrapolated rectangle may turn inside out.
     ///
     /// # Panics
-    /// If there are not as many weights as pictures.
+    /// Panics if the number of weights differs from the number of pictures.
     #[must_use]
     pub fn window(&self, weights: &[f64]) -> Bounds {
         let [mut min, mut max] = [DVec2::ZERO; 2];
-        for (layer, share) in self.layers.iter().zip(self.evened(weights, |w| w)) {
+        for (layer, share) in self.layers.iter().zip(self.normalised(weights, |w| w)) {
             let own = layer.bounds();
             if share == 1.0 {
                 return own;
@@ -62,33 +62,36 @@ impl PictureSet {
         Bounds { min, max }
     }
 
-    /// How much of each picture is seen: its weight by the curve of the mix, of what all
-    /// have. Weights outside [0, 1] count as the nearer of these.
+    /// Fraction of each picture in the mix: its weight after the curve of the mix, divided by the
+    /// sum over all pictures. Weights outside [0, 1] are clamped.
     fn shares(&self, weights: &[f64]) -> Vec<f64> {
-        self.evened(weights, |weight| self.mix.share(weight))
+        self.normalised(weights, |weight| self.mix.target_fraction(weight))
     }
 
-    fn evened(&self, weights: &[f64], curve: impl Fn(f64) -> f64) -> Vec<f64> {
+    /// Applies `curve` to the clamped weights and normalises the results to the sum 1.
+    fn normalised(&self, weights: &[f64], curve: impl Fn(f64) -> f64) -> Vec<f64> {
         assert_eq!(
             weights.len(),
             self.layers.len(),
             "a weight for each picture"
         );
-        let own: Vec<f64> = weights.iter().map(|w| curve(w.clamp(0.0, 1.0))).collect();
-        let sum: f64 = own.iter().sum();
+        let curved: Vec<f64> = weights.iter().map(|w| curve(w.clamp(0.0, 1.0))).collect();
+        let sum: f64 = curved.iter().sum();
         if sum > 0.0 {
-            own.into_iter().map(|share| share / sum).collect()
+            curved.into_iter().map(|share| share / sum).collect()
         } else {
-            // By a curve that begins late nothing may be seen of many: then all alike.
-            vec![1.0 / own.len() as f64; own.len()]
+            // A curve that starts late may give 0 for every weight; then all pictures count
+            // equally.
+            vec![1.0 / curved.len() as f64; curved.len()]
         }
     }
 
-    /// What is seen with these weights where each picture is looked up at its own places:
-    /// sRGB with straight alpha, transparent where nothing is.
+    /// Renders the mix for these weights, each picture sampled through its own map: sRGB with
+    /// straight alpha, transparent where there is nothing.
     ///
     /// # Panics
-    /// If there are not as many weights, or designs with places, as pictures.
+    /// Panics if the number of weights, or of designs in `places`, differs from the number of
+    /// pictures.
     #[must_use]
     pub fn render(
         &self,
@@ -97,41 +100,50 @@ impl PictureSet {
         raster: &PictureRaster,
     ) -> RgbaImage {
         let [width, height] = raster.size;
-        let to_lattice = |p: DVec2| raster.located(p) - 0.5;
+        let to_lattice = |p: DVec2| raster.pixel_from_plane(p) - 0.5;
         let mut lights = vec![LinearLight::ZERO; width as usize * height as usize];
         for ((k, layer), share) in self.layers.iter().enumerate().zip(self.shares(weights)) {
             if share == 0.0 {
                 continue;
             }
             let placement = places.of(k);
-            let sampler = layer.sampler(raster.pixel);
-            let reach = raster.size.into_iter().max().unwrap_or_default() as usize;
+            let sampler = layer.sampler(raster.pixel_size);
+            let max_offset = raster.size.into_iter().max().unwrap_or_default() as usize;
             let share = share as f32;
             let filler = |facet: SourceFacet| {
-                let sight = sampler.across(&facet.source, facet.first, reach);
+                let footprint = sampler.footprint(&facet.source, facet.first_sample, max_offset);
                 move |x: usize, y: usize, row: &mut [LinearLight]| {
-                    sight.look([x, y], row, |_, light| share * light);
+                    footprint.sample_row([x, y], row, |_, light| share * light);
                 }
             };
-            // Apart from the others: what lies on an edge is given by both faces beside it.
-            let mut own = vec![LinearLight::ZERO; lights.len()];
-            scan(&placement, to_lattice, width as usize, &mut own, filler);
-            let all = lights.par_iter_mut().zip(&own);
-            all.for_each(|(sum, light)| *sum += *light);
+            // Each picture in its own buffer: samples on an edge are written by both adjacent faces
+            // and must not be added twice.
+            let mut picture_lights = vec![LinearLight::ZERO; lights.len()];
+            scan(
+                &placement,
+                to_lattice,
+                width as usize,
+                &mut picture_lights,
+                filler,
+            );
+            let sums = lights.par_iter_mut().zip(&picture_lights);
+            sums.for_each(|(sum, light)| *sum += *light);
         }
         let [columns, rows] = shown(self.window(weights), raster);
         let mut out = RgbaImage::new(width, height);
         let (pixels, _) = out.as_chunks_mut::<4>();
         let encoder = SrgbEncoder::new();
         let width = width as usize;
-        let lines = pixels
+        let rows_of_pixels = pixels
             .par_chunks_mut(width.max(1))
             .zip(lights.par_chunks(width.max(1)));
-        lines.zip(&rows).for_each(|((pixels, lights), row)| {
-            for ((pixel, light), column) in pixels.iter_mut().zip(lights).zip(&columns) {
-                *pixel = encoder.encoded(*light * (row * column)).0;
-            }
-        });
+        rows_of_pixels
+            .zip(&rows)
+            .for_each(|((pixels, lights), row)| {
+                for ((pixel, light), column) in pixels.iter_mut().zip(lights).zip(&columns) {
+                    *pixel = encoder.encode(*light * (row * column)).0;
+                }
+            });
         out
     }
 }

@@ -1,9 +1,8 @@
-//! Distance fields that a warp has carried: pulled back into the frame.
+//! Contours of distance fields carried by a warp.
 //!
-//! For each sample of the fields' own grid a placement says which point of the
-//! source and which of the target is there; the fields are read at those and
-//! blended as ever. Pulled-back values are no distances any more; L is applied
-//! to them as they are.
+//! At each sample of the frame's grid, the placement gives the corresponding point of the source
+//! and of the target. The fields are read at those two points and blended as usual. The values read
+//! this way are no longer exact distances in the frame; L is applied to them unchanged.
 
 use super::super::placement_scan::scan;
 use super::FieldPair;
@@ -11,35 +10,35 @@ use crate::field::{SampledField, contour};
 use crate::geometry::{Bounds, DVec2};
 use crate::warp::Placement;
 
-/// What no face of the placement covers is outside, this many cells deep: as
-/// deep as a sample beside the boundary.
-const OUTSIDE: f64 = -1.0;
+/// Distance, in cells, of samples that no face of the placement covers: outside, as deep as a
+/// sample next to a boundary.
+const UNCOVERED_DISTANCE: f64 = -1.0;
 
-/// How far beyond the fields' grid parts are followed, in its longer sides. Of
-/// a square grid that makes up to four times as many samples.
-const BEYOND: f64 = 0.5;
+/// Maximum extension of the sampled area beyond the fields' grid on each side, as a fraction of its
+/// longer side (resource limit: a square grid then has four times as many samples).
+const MAX_EXTENSION: f64 = 0.5;
 
 impl FieldPair {
-    /// What is drawn at `t` where a warp has carried the fields, as closed
-    /// polygons in the plane: outer ones counter-clockwise, holes clockwise.
-    /// Between samples of the grid the blend is taken as bilinear, and what no
-    /// face covers as outside. What moves out of the grid is followed for half
-    /// its longer side.
+    /// Returns the contour at `t` of the fields carried by `placement`, as closed polygons in the
+    /// plane: outer ones counter-clockwise, holes clockwise.
+    ///
+    /// Between samples the blend is interpolated bilinearly. Area that no face covers is outside.
+    /// Shapes that leave the grid are followed for up to half its longer side.
     ///
     /// # Panics
-    /// Where a face of the placement has a vertex without a place.
+    /// Panics if a face of the placement has a vertex without a position.
     #[must_use]
     pub fn contour_carried(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         let (grid, blend) = (self.grid(), &self.blend);
         let level = blend.level();
-        // Samples are relative to the level, so that single precision is
-        // finest where the contour runs.
-        let outside = (blend.curve(OUTSIDE + blend.threshold.min(0.0)) - level) as f32;
-        // The grid grows by the same number on all sides: a shift is all that
-        // tells the two apart.
-        let more = self.cells_beyond(placement);
-        let [width, height] = [grid.width, grid.height].map(|n| n + 2 * more);
-        let shift = DVec2::splat(f64::from(more));
+        // Samples are stored relative to the level, so that single precision is finest near the
+        // contour.
+        let outside = (blend.curve(UNCOVERED_DISTANCE + blend.threshold.min(0.0)) - level) as f32;
+        // The extended grid has the same margin on all sides, so the two lattices differ by a shift
+        // only.
+        let margin_cells = self.cells_beyond(placement);
+        let [width, height] = [grid.width, grid.height].map(|n| n + 2 * margin_cells);
+        let shift = DVec2::splat(f64::from(margin_cells));
         let mut samples = vec![outside; width as usize * height as usize];
         let (source, target) = (self.source.samples(), self.target.samples());
         scan(
@@ -59,7 +58,7 @@ impl FieldPair {
                 }
             },
         );
-        // Never so: a grid has a cell at least, and there are as many samples.
+        // Unreachable: the lattice has at least one cell, and as many samples as cells.
         let Ok(samples) = SampledField::new(width, height, &samples) else {
             return Vec::new();
         };
@@ -70,23 +69,27 @@ impl FieldPair {
         rings
     }
 
-    /// By how many cells a placement reaches beyond the grid, on any side.
+    /// Number of cells by which shapes in `placement` reach beyond the grid, the maximum over all
+    /// sides.
     fn cells_beyond(&self, placement: &Placement) -> u32 {
         let grid = self.grid();
         let bounds = grid.bounds();
-        // What neither field knows is outside, wherever it goes.
-        let looks = placement.in_source.iter().zip(&placement.in_target);
-        let known = placement.in_frame.iter().zip(looks);
-        let known = known.filter(|(_, (a, b))| bounds.contains(**a) || bounds.contains(**b));
-        let Some(reach) = Bounds::of(known.map(|(p, _)| *p)) else {
+        // Vertices outside the grid in both designs are outside both fields, wherever they move.
+        let design_points = placement.in_source.iter().zip(&placement.in_target);
+        let in_fields = placement
+            .in_frame
+            .iter()
+            .zip(design_points)
+            .filter(|(_, (a, b))| bounds.contains(**a) || bounds.contains(**b));
+        let Some(reach) = Bounds::of(in_fields.map(|(p, _)| *p)) else {
             return 0;
         };
         let beyond = (bounds.min - reach.min).max(reach.max - bounds.max);
         let cells = (beyond.max_element() / grid.cell).ceil();
-        let most = BEYOND * f64::from(grid.width.max(grid.height));
-        // NaN and less than nothing count as nothing.
+        let max_cells = MAX_EXTENSION * f64::from(grid.width.max(grid.height));
+        // NaN and negative values become 0.
         if cells > 0.0 {
-            cells.min(most) as u32
+            cells.min(max_cells) as u32
         } else {
             0
         }

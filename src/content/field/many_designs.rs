@@ -1,7 +1,7 @@
-//! Fields of many designs, and how they mix: F = Σ w_j L(f_j), drawn where F ≥ L(τ).
+//! Blends of the distance fields of any number of designs: F = Σ wⱼ L(fⱼ), filled where F ≥ L(τ).
 //!
-//! Guaranteed: with all weight on one design its own contour, and of two designs with
-//! the weights (1 − t, t) that of a [`super::FieldPair`] at t.
+//! Guaranteed: with all weight on one design the contour is its own; for two designs with weights
+//! (1 − t, t) it is that of a [`super::FieldPair`] at t.
 
 use super::{FieldBlend, FieldPairError};
 use crate::field::{DistanceField, Grid, contour};
@@ -9,7 +9,7 @@ use crate::geometry::DVec2;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Distance fields on one grid, at least one, and their blend. Cloning is cheap.
+/// One or more distance fields on one grid, and their blend. Cloning is cheap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldSet {
     fields: Arc<[DistanceField]>,
@@ -17,10 +17,10 @@ pub struct FieldSet {
 }
 
 impl FieldSet {
-    /// None of no fields.
+    /// Combines fields on one grid. Returns `None` if there are no fields.
     ///
     /// # Errors
-    /// Where the grids differ, or the blend is none.
+    /// Returns an error if the grids differ or the blend is invalid.
     pub fn new(
         fields: Vec<DistanceField>,
         blend: FieldBlend,
@@ -29,7 +29,7 @@ impl FieldSet {
         let Some(first) = fields.first() else {
             return Ok(None);
         };
-        // Distances are in cells: those of another grid would mean something else.
+        // Distances are in cells, so fields of different grids have different units.
         if let Some(other) = fields.iter().find(|field| field.grid() != first.grid()) {
             return Err(FieldPairError::Grids {
                 source_grid: *first.grid(),
@@ -40,84 +40,91 @@ impl FieldSet {
         Ok(Some(Self { fields, blend }))
     }
 
-    /// The grid of all fields.
+    /// Grid of all fields.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         self.fields[0].grid()
     }
 
-    /// How they mix.
+    /// Parameters of the blend.
     #[must_use]
     pub fn blend(&self) -> FieldBlend {
         self.blend
     }
 
-    /// The fields, one for each design.
+    /// Fields, one per design.
     #[must_use]
     pub fn fields(&self) -> &[DistanceField] {
         &self.fields
     }
 
-    /// The field whose L is the blend with these weights: what is between two such fields
-    /// is what is between their weights. With all weight on one design it is its own.
+    /// Returns the field whose L is the blend with these weights. Blending two such fields is the
+    /// same as blending their weights. With all weight on one design the field is its own,
+    /// unchanged.
     ///
     /// # Panics
-    /// If there are not as many weights as fields.
+    /// Panics if the number of weights differs from the number of fields.
     #[must_use]
     pub fn blended(&self, weights: &[f64]) -> DistanceField {
         assert_eq!(weights.len(), self.fields.len(), "a weight for each field");
-        if let Some(alone) = weights.iter().position(|&weight| weight == 1.0)
+        if let Some(only) = weights.iter().position(|&weight| weight == 1.0)
             && weights.iter().filter(|&&weight| weight != 0.0).count() == 1
         {
-            return self.fields[alone].clone();
+            return self.fields[only].clone();
         }
-        let each = self.fields.iter().zip(weights);
-        let read: Vec<_> = each.filter(|&(_, &weight)| weight != 0.0).collect();
+        let weighted: Vec<_> = self
+            .fields
+            .iter()
+            .zip(weights)
+            .filter(|&(_, &weight)| weight != 0.0)
+            .collect();
         let count = self.fields[0].values().len();
-        let at = |k: usize| {
-            let level = read
+        let value_at = |k: usize| {
+            let terms = weighted
                 .iter()
                 .map(|(field, weight)| **weight * self.blend.curve(f64::from(field.values()[k])));
-            self.blend.distance(level.sum()) as f32
+            self.blend.inverse_curve(terms.sum()) as f32
         };
-        let values = (0..count).into_par_iter().map(at).collect();
+        let values = (0..count).into_par_iter().map(value_at).collect();
         DistanceField::new(*self.grid(), values)
             .unwrap_or_else(|_| unreachable!("blends of finite numbers are finite"))
     }
 
-    /// What is drawn with these weights, as closed polygons in the plane: outer ones
-    /// counter-clockwise, holes clockwise, cut off at the grid's rectangle. What has no
-    /// weight is not read.
+    /// Returns the contour for these weights as closed polygons in the plane: outer ones
+    /// counter-clockwise, holes clockwise, clipped to the grid's rectangle. Fields with weight 0
+    /// are not read.
     ///
     /// # Panics
-    /// If there are not as many weights as fields.
+    /// Panics if the number of weights differs from the number of fields.
     #[must_use]
     pub fn contour(&self, weights: &[f64]) -> Vec<Vec<DVec2>> {
         assert_eq!(weights.len(), self.fields.len(), "a weight for each field");
         let (grid, blend) = (self.grid(), &self.blend);
-        let read: Vec<(&DistanceField, f64)> = self
+        let weighted: Vec<(&DistanceField, f64)> = self
             .fields
             .iter()
             .zip(weights.iter().copied())
             .filter(|&(_, weight)| weight != 0.0)
             .collect();
         let value = |x, y| -> f64 {
-            let each = read.iter();
-            each.map(|(field, weight)| weight * blend.curve(field.samples().bilinear(x, y)))
+            let terms = weighted.iter();
+            terms
+                .map(|(field, weight)| weight * blend.curve(field.samples().bilinear(x, y)))
                 .sum()
         };
-        // L is monotone: what all fields have on one side of the threshold is there.
+        // L is monotone, so with non-negative weights a sample that lies on the same side of the
+        // threshold in all fields needs no evaluation.
         let is_between = weights.iter().all(|&weight| weight >= 0.0);
-        let known = |column: usize, row: usize| {
-            let at = row * grid.width as usize + column;
-            let mut sides = read
+        let known_side = |column: usize, row: usize| {
+            let index = row * grid.width as usize + column;
+            let mut sides = weighted
                 .iter()
-                .map(|(field, _)| f64::from(field.values()[at]) >= blend.threshold);
+                .map(|(field, _)| f64::from(field.values()[index]) >= blend.threshold);
             let first = sides.next()?;
             (is_between && sides.all(|side| side == first)).then_some(first)
         };
         let mut rings =
-            contour::trace_knowing(grid.width, grid.height, known, value, blend.level());
+            contour::trace_knowing(grid.width, grid.height, known_side, value, blend.level());
         for p in rings.iter_mut().flatten() {
             *p = grid.plane_from_lattice(*p);
         }
@@ -146,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn two_are_the_pair() {
+    fn two_designs_give_the_contour_of_the_pair() {
         let pair = FieldPair::new(field(2..14), field(9..20), FieldBlend::default());
         let (pair, set) = (pair.expect("one grid"), set(&[2..14, 9..20]));
         for t in [0.0, 0.25, 0.5, 1.0, 1.25] {
@@ -155,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn between_two_blends_is_what_is_between_their_weights() {
+    fn blending_two_blends_blends_their_weights() {
         let abc = set(&[2..14, 9..20, 5..16]);
         let ends = [[0.5, 0.25, 0.25], [0.0, 1.0, 0.0]].map(|weights| abc.blended(&weights));
         assert_eq!(ends[1], field(9..20));
@@ -165,17 +172,18 @@ mod tests {
             abc.contour(&[0.25, 0.625, 0.125]),
         ];
         let [near, far] = [near.concat(), far.concat()];
-        // Both are read between the same samples, the one before and the other after L.
+        // The pair interpolates before L is applied, the set after, so the contours differ
+        // slightly.
         let gap = |p: &DVec2| far.iter().map(|q| p.distance(*q)).fold(9.0, f64::min);
         assert!(near.iter().map(gap).all(|gap| gap < 0.2) && near.len() > 10);
     }
 
     #[test]
-    fn each_is_itself_and_their_order_means_nothing() {
+    fn full_weight_gives_the_design_and_order_does_not_matter() {
         let abc = set(&[2..14, 9..20, 5..16]);
-        let alone = FieldSet::new(vec![field(9..20)], FieldBlend::default());
-        let alone = alone.expect("one grid").expect("a field");
-        assert_eq!(abc.contour(&[0.0, 1.0, 0.0]), alone.contour(&[1.0]));
+        let single = FieldSet::new(vec![field(9..20)], FieldBlend::default());
+        let single = single.expect("one grid").expect("a field");
+        assert_eq!(abc.contour(&[0.0, 1.0, 0.0]), single.contour(&[1.0]));
         let cab = set(&[5..16, 2..14, 9..20]);
         let [first, again] = [
             abc.contour(&[0.5, 0.25, 0.25]),
@@ -190,7 +198,7 @@ mod tests {
     #[test]
     fn fields_on_two_grids_are_refused() {
         let grid = Grid::new(4, 4, DVec2::ZERO, 1.0).expect("a grid");
-        let other = DistanceField::even(grid, 1.0);
+        let other = DistanceField::uniform(grid, 1.0);
         let refused = FieldSet::new(vec![field(2..4), other], FieldBlend::default());
         assert!(matches!(refused, Err(FieldPairError::Grids { .. })));
         assert_eq!(FieldSet::new(vec![], FieldBlend::default()), Ok(None));

@@ -1,3 +1,5 @@
+//! Tests of field blends: the paper's formula, exact ends, thresholds, topology and refused input.
+
 use super::*;
 use crate::geometry::{Bounds, FillRule, Regions, signed_area};
 use crate::work::progress::Silent;
@@ -14,7 +16,7 @@ fn regions(rings: &[Vec<DVec2>]) -> Regions {
     Regions::from_rings(rings, FillRule::EvenOdd).expect("an area")
 }
 
-/// The area of what is drawn, holes taken off.
+/// Area of the shape at `t`, holes subtracted.
 fn drawn_area(pair: &FieldPair, t: f64) -> f64 {
     pair.contour(t).iter().map(|ring| signed_area(ring)).sum()
 }
@@ -39,6 +41,7 @@ fn log(epsilon: f64) -> FieldBlend {
     }
 }
 
+/// A blend on the linear scale.
 const REAL: FieldBlend = FieldBlend {
     space: BlendSpace::Real,
     epsilon: 1.0,
@@ -47,7 +50,7 @@ const REAL: FieldBlend = FieldBlend {
 
 proptest! {
     #[test]
-    fn at_epsilon_1_it_is_the_formula_of_the_paper(
+    fn at_epsilon_1_the_blend_is_the_formula_of_the_paper(
         x in -3000.0..3000.0_f64,
         y in -3000.0..3000.0_f64,
         t in 0.0..1.0_f64,
@@ -98,11 +101,11 @@ fn the_ends_are_the_designs() {
     for blend in [log(1.0), log(0.05), REAL] {
         let pair = pair(&ring, &disc, 128, blend);
         for (t, design, rings) in [(0.0, &ring, 2), (1.0, &disc, 1)] {
-            let found = pair.contour(t);
-            assert_eq!(found.len(), rings);
+            let contour = pair.contour(t);
+            assert_eq!(contour.len(), rings);
             assert!((drawn_area(&pair, t) / design.area() - 1.0).abs() < 2e-3);
             let cell = pair.grid().cell;
-            for &p in found.iter().flatten() {
+            for &p in contour.iter().flatten() {
                 let edges = design.rings().flat_map(|r| r.edges());
                 let to_edge = |(a, b): (DVec2, DVec2)| {
                     let s = (p - a).dot(b - a) / (b - a).length_squared();
@@ -128,7 +131,7 @@ fn at_the_ends_the_other_design_does_not_matter() {
 }
 
 #[test]
-fn swapping_the_designs_gives_the_film_backwards() {
+fn swapping_the_designs_reverses_time() {
     let a = regions(&[circle(DVec2::new(-2.0, 1.0), 4.0)]);
     let b = regions(&[circle(DVec2::new(3.0, 0.0), 6.0)]);
     let (there, back) = (pair(&a, &b, 64, log(1.0)), pair(&b, &a, 64, log(1.0)));
@@ -138,7 +141,7 @@ fn swapping_the_designs_gives_the_film_backwards() {
 }
 
 #[test]
-fn source_equal_to_target_stands_still() {
+fn equal_source_and_target_stand_still() {
     let a = regions(&[circle(DVec2::ZERO, 6.0), circle(DVec2::Y, 2.0)]);
     let still = pair(&a, &a, 64, log(0.5));
     let area = drawn_area(&still, 0.0);
@@ -200,7 +203,7 @@ fn holes_run_clockwise_and_topology_may_change() {
 }
 
 #[test]
-fn points_are_drawn_just_where_the_contour_encloses_them() {
+fn points_are_inside_exactly_where_the_contour_encloses_them() {
     let a = regions(&[circle(DVec2::new(-2.0, 1.0), 4.0)]);
     let b = regions(&[circle(DVec2::ZERO, 8.0), circle(DVec2::ZERO, 4.0)]);
     let pair = pair(&a, &b, 96, log(0.4));
@@ -210,7 +213,7 @@ fn points_are_drawn_just_where_the_contour_encloses_them() {
         for i in 0..60 {
             for j in 0..60 {
                 let p = DVec2::new(f64::from(i), f64::from(j)) / 3.0 - DVec2::splat(9.9);
-                // Within a fiftieth of the level the chord of a cell decides.
+                // Within 0.02 of the level, the chord of a contour cell decides.
                 if (pair.value(p, t) - pair.blend().level()).abs() > 0.02 {
                     assert_eq!(pair.is_inside(p, t), drawn.contains(p), "{p} at {t}");
                     inside += i32::from(drawn.contains(p));
@@ -222,17 +225,17 @@ fn points_are_drawn_just_where_the_contour_encloses_them() {
 }
 
 #[test]
-fn a_design_beyond_its_frame_is_cut_off_there() {
+fn a_design_beyond_its_grid_is_clipped() {
     let vast = regions(&[circle(DVec2::ZERO, 40.0)]);
     let pair = pair(&vast, &vast, 32, log(1.0));
-    let found = pair.contour(0.5);
-    assert_eq!(found.len(), 1);
+    let contour = pair.contour(0.5);
+    assert_eq!(contour.len(), 1);
     assert!((drawn_area(&pair, 0.5) - 400.0).abs() < 1e-9);
     assert!(!pair.is_inside(DVec2::new(0.0, 10.5), 0.5));
 }
 
 #[test]
-fn blends_and_pairs_that_are_none_are_refused() {
+fn invalid_blends_and_pairs_are_refused() {
     let disc = regions(&[circle(DVec2::ZERO, 6.0)]);
     let legal = pair(&disc, &disc, 16, REAL);
     for epsilon in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -253,7 +256,7 @@ fn blends_and_pairs_that_are_none_are_refused() {
 }
 
 #[test]
-fn a_blend_is_written_in_words_and_refuses_unknown_ones() {
+fn a_blend_is_serialised_by_name_and_refuses_unknown_fields() {
     let written = serde_json::to_string(&REAL).expect("text");
     assert_eq!(written, r#"{"space":"real","epsilon":1.0,"threshold":0.0}"#);
     let read: FieldBlend = serde_json::from_str(r#"{"epsilon":0.5}"#).expect("a blend");

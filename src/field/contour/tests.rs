@@ -1,7 +1,9 @@
+//! Tests of contour tracing: exact shapes, borders, saddles, orientation and threads.
+
 use super::*;
 use std::f64::consts::PI;
 
-/// Twice the usual orientation sum, halved: positive where counter-clockwise.
+/// Signed area, positive for a counter-clockwise polygon.
 fn area(points: &[DVec2]) -> f64 {
     let next = points.iter().cycle().skip(1);
     0.5 * points
@@ -11,7 +13,7 @@ fn area(points: &[DVec2]) -> f64 {
         .sum::<f64>()
 }
 
-/// Reads an ASCII picture, first line uppermost: `#` is 1, anything else −1.
+/// Parses an ASCII picture whose first line is the top row: `#` is 1, anything else −1.
 fn picture(text: &str) -> (u32, u32, Vec<f32>) {
     let rows: Vec<&str> = text.split_whitespace().rev().collect();
     let value = |c: char| if c == '#' { 1.0 } else { -1.0 };
@@ -33,8 +35,8 @@ fn a_disc_has_its_area_and_lies_on_its_circle() {
     for p in &disc[0] {
         assert!((p.distance(centre) - 20.0).abs() < 1e-10, "{p}");
     }
-    // An inscribed polygon with chords up to √2 loses less than 1/12 · c³ / r
-    // for each; 0.1 % is above that.
+    // An inscribed polygon with chords c up to √2 loses less than c³ / 12r per chord; 0.1 % is
+    // above the sum.
     let exact = PI * 400.0;
     assert!(area(&disc[0]) < exact);
     assert!(area(&disc[0]) > exact * 0.999);
@@ -42,11 +44,11 @@ fn a_disc_has_its_area_and_lies_on_its_circle() {
 
 #[test]
 fn crossings_are_roots_of_the_function_and_not_of_a_chord() {
-    // x³ − 0.2 between samples 0 and 1: the chord's root would be 0.2.
-    let found = trace(2, 1, |x, _| x.powi(3) - 0.2, 0.0);
+    // x³ − 0.2 between samples 0 and 1; the root of the chord would be 0.2.
+    let traced = trace(2, 1, |x, _| x.powi(3) - 0.2, 0.0);
     let root = 0.2_f64.cbrt();
-    assert_eq!(found.len(), 1);
-    let left = found[0].iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
+    assert_eq!(traced.len(), 1);
+    let left = traced[0].iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
     assert!((left - root).abs() < 1e-10, "{left} is not {root}");
 }
 
@@ -60,7 +62,7 @@ fn a_function_that_stalls_regula_falsi_is_still_solved() {
 }
 
 #[test]
-fn a_full_picture_is_its_border() {
+fn the_contour_of_a_full_picture_is_its_border() {
     let full = trace(5, 3, |_, _| 1.0, 0.0);
     assert_eq!(full.len(), 1);
     assert_eq!(area(&full[0]), 15.0);
@@ -76,7 +78,7 @@ fn an_empty_picture_has_no_contour() {
 
 #[test]
 fn a_shape_at_the_border_is_closed_along_it() {
-    // Left half of the picture, and a bit of each border.
+    // Left half of the picture, and a part of each border.
     let half = trace(4, 4, |x, _| 1.25 - x, 0.0);
     assert_eq!(half.len(), 1);
     assert!((area(&half[0]) - 1.75 * 4.0).abs() < 1e-9);
@@ -84,7 +86,7 @@ fn a_shape_at_the_border_is_closed_along_it() {
 
 #[test]
 fn holes_run_clockwise_and_islands_counter_clockwise() {
-    let found = contours(
+    let traced = contours(
         "
         .........
         .#######.
@@ -94,10 +96,10 @@ fn holes_run_clockwise_and_islands_counter_clockwise() {
         .#######.
         .........",
     );
-    let mut areas: Vec<f64> = found.iter().map(|c| area(c)).collect();
+    let mut areas: Vec<f64> = traced.iter().map(|c| area(c)).collect();
     areas.sort_by(f64::total_cmp);
-    // Corners are cut by an eighth of a cell each. From the sizes between
-    // samples: a hole of 5 × 3, an island of 1 (a diamond of ½), 7 × 5 outside.
+    // Each corner is cut by an eighth of a cell. Sizes between samples: a hole of 5 × 3, an island
+    // of 1 (a diamond of area ½), and 7 × 5 outside.
     let expected = [-(5.0 * 3.0 - 4.0 / 8.0), 0.5, 7.0 * 5.0 - 4.0 / 8.0];
     assert_eq!(areas.len(), 3, "{areas:?}");
     for (a, e) in areas.iter().zip(expected) {
@@ -106,8 +108,8 @@ fn holes_run_clockwise_and_islands_counter_clockwise() {
 }
 
 #[test]
-fn saddles_go_by_the_value_at_the_centre() {
-    // xy on the square around the saddle: both ways, by its sign at the centre.
+fn saddles_are_resolved_by_the_value_at_the_centre() {
+    // xy around the saddle: its sign at the centre decides how the corners are joined.
     let saddle = |lift: f64| {
         trace(
             2,
@@ -118,7 +120,7 @@ fn saddles_go_by_the_value_at_the_centre() {
     };
     assert_eq!(saddle(0.1).len(), 1, "the two corners are joined");
     assert_eq!(saddle(-0.1).len(), 2, "the two corners are apart");
-    // The other diagonal.
+    // Other diagonal.
     let other = |lift: f64| {
         trace(
             2,
@@ -133,8 +135,8 @@ fn saddles_go_by_the_value_at_the_centre() {
 
 #[test]
 fn the_area_inside_a_random_picture_is_that_of_its_contours() {
-    // Every contour closes, whatever the picture: the total area of the
-    // contours is that of the marching squares, summed square by square.
+    // Every contour must close, whatever the picture: the total area of the contours equals that of
+    // marching squares, summed square by square.
     let mut state = 12345_u32;
     let mut bit = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -149,8 +151,8 @@ fn the_area_inside_a_random_picture_is_that_of_its_contours() {
     }
 }
 
-/// Marching squares area of a ±1 picture, by quarter cells: each square's
-/// inside is decided by its corners and, for saddles, its centre.
+/// Area of a ±1 picture by marching squares: each square's area follows from its corners and, for
+/// saddles, its centre.
 fn area_by_squares(samples: &SampledField) -> f64 {
     let (w, h) = (f64::from(samples.width()), f64::from(samples.height()));
     let axis = |count: f64| {
@@ -166,7 +168,7 @@ fn area_by_squares(samples: &SampledField) -> f64 {
             let corner = |i: usize, j: usize| samples.bilinear(x[i], y[j]) >= 0.0;
             let corners = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
             let centre = samples.bilinear(0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1])) >= 0.0;
-            let share = match corners.iter().filter(|&&c| c).count() {
+            let fraction = match corners.iter().filter(|&&c| c).count() {
                 0 => 0.0,
                 1 => 0.125,
                 2 if corners[0] != corners[2] => 0.5,
@@ -175,7 +177,7 @@ fn area_by_squares(samples: &SampledField) -> f64 {
                 3 => 0.875,
                 _ => 1.0,
             };
-            total += share * (x[1] - x[0]) * (y[1] - y[0]);
+            total += fraction * (x[1] - x[0]) * (y[1] - y[0]);
         }
     }
     total
@@ -184,8 +186,8 @@ fn area_by_squares(samples: &SampledField) -> f64 {
 #[test]
 fn a_level_shifts_the_contour() {
     let cone = |level: f64| {
-        let found = trace(41, 41, |x, y| 15.0 - (x - 20.0).hypot(y - 20.0), level);
-        area(&found[0])
+        let traced = trace(41, 41, |x, y| 15.0 - (x - 20.0).hypot(y - 20.0), level);
+        area(&traced[0])
     };
     for (level, radius) in [(5.0, 10.0), (-3.0, 18.0)] {
         let exact = PI * radius * radius;
@@ -194,16 +196,16 @@ fn a_level_shifts_the_contour() {
 }
 
 #[test]
-fn one_thread_and_many_find_the_same() -> Result<(), rayon::ThreadPoolBuildError> {
+fn one_thread_and_many_give_equal_results() -> Result<(), rayon::ThreadPoolBuildError> {
     let waves = |x: f64, y: f64| (0.7 * x).sin() + (0.5 * y).cos() - 0.2;
-    let on = |threads: usize| {
+    let traced_on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()?;
         Ok::<_, rayon::ThreadPoolBuildError>(pool.install(|| trace(50, 40, waves, 0.0)))
     };
-    let one = on(1)?;
+    let one = traced_on(1)?;
     assert!(one.len() > 5);
-    assert_eq!(one, on(4)?);
+    assert_eq!(one, traced_on(4)?);
     Ok(())
 }

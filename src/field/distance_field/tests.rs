@@ -1,10 +1,12 @@
+//! Tests of distance fields: brute force as oracle, units, signs, refused input and cancellation.
+
 use super::*;
 use crate::geometry::FillRule;
 use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// The oracle: the nearest point of all edges, and the winding number.
+/// Oracle: the minimum distance over all edges, with the sign of the winding number.
 fn brute_force(regions: &Regions, grid: &Grid) -> Vec<f64> {
     let to_edge = |p: DVec2, (a, b): (DVec2, DVec2)| {
         let s = (p - a).dot(b - a) / (b - a).length_squared();
@@ -49,7 +51,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_polygons_have_the_distance_of_their_brute_force(
+    fn random_polygons_equal_brute_force(
         points in proptest::collection::vec((-1.0..9.0_f64, -1.0..7.0_f64), 3..12),
         width in 1..40_u32,
         height in 1..40_u32,
@@ -64,7 +66,7 @@ proptest! {
 }
 
 #[test]
-fn a_star_with_a_hole_and_many_edges_has_the_distance_of_its_brute_force() {
+fn a_star_with_a_hole_and_many_edges_equals_brute_force() {
     let wavy = |angle: f64| 10.0 + 2.0 * (9.0 * angle).sin();
     let star = regions(&[
         ring(600, wavy, DVec2::new(3.0, -2.0)),
@@ -80,7 +82,7 @@ fn a_star_with_a_hole_and_many_edges_has_the_distance_of_its_brute_force() {
 }
 
 #[test]
-fn the_centre_of_a_circle_keeps_all_its_edges_in_question() {
+fn the_centre_of_a_circle_keeps_all_its_edges_as_candidates() {
     let circle = regions(&[ring(500, |_| 20.0, DVec2::ZERO)]);
     let grid = Grid::new(64, 64, DVec2::splat(-32.0), 1.0).expect("a grid");
     assert_near(&exact(&circle, grid), &brute_force(&circle, &grid));

@@ -1,9 +1,12 @@
+//! Tests of the distance transforms: brute force as oracle, limits, threads and cancellation.
+
 use super::super::testing::mask;
 use super::*;
 use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// All metrics.
 const METRICS: [Metric; 4] = [
     Metric::Euclidean,
     Metric::CityBlock,
@@ -11,19 +14,19 @@ const METRICS: [Metric; 4] = [
     Metric::QuasiEuclidean,
 ];
 
-/// The formula of each metric, as its definition gives it.
+/// Distance between two cells by the definition of each metric.
 fn distance(metric: Metric, dx: f64, dy: f64) -> f64 {
-    let (most, least) = (dx.max(dy), dx.min(dy));
+    let (max, min) = (dx.max(dy), dx.min(dy));
     match metric {
         Metric::Euclidean => (dx * dx + dy * dy).sqrt(),
         Metric::CityBlock => dx + dy,
-        Metric::Chessboard => most,
-        Metric::QuasiEuclidean => most + (SQRT_2 - 1.0) * least,
+        Metric::Chessboard => max,
+        Metric::QuasiEuclidean => max + (SQRT_2 - 1.0) * min,
     }
 }
 
-/// The oracle: for each cell, the nearest of all cells of the other side, in
-/// the picture and in a ring of outside cells around it.
+/// Oracle: for each cell, the nearest of all cells of the other side, in the picture and in the
+/// ring of outside cells around it.
 fn brute_force(mask: &Mask, metric: Metric) -> Vec<f64> {
     let (width, height) = (i64::from(mask.width()), i64::from(mask.height()));
     let inside = |x: i64, y: i64| {
@@ -34,7 +37,7 @@ fn brute_force(mask: &Mask, metric: Metric) -> Vec<f64> {
     let nearest = |x: i64, y: i64| {
         let ring = |p: i64, count: i64| p < 0 || p >= count;
         all()
-            // For an outside cell the ring is of its own side.
+            // The ring is outside, so it matters only to inside cells.
             .filter(|&(i, j)| inside(i, j) != inside(x, y))
             .filter(|&(i, j)| inside(x, y) || !(ring(i, width) || ring(j, height)))
             .map(|(i, j)| distance(metric, (i - x).abs() as f64, (j - y).abs() as f64))
@@ -49,11 +52,12 @@ fn brute_force(mask: &Mask, metric: Metric) -> Vec<f64> {
         .collect()
 }
 
-fn check(mask: &Mask, metric: Metric, found: &[f32]) {
+/// Asserts that a transform equals the oracle.
+fn check(mask: &Mask, metric: Metric, values: &[f32]) {
     let expected = brute_force(mask, metric);
-    assert_eq!(found.len(), expected.len());
-    for (i, (&f, &e)) in found.iter().zip(&expected).enumerate() {
-        // The sums of √2 differ in their last bits; all else is exact.
+    assert_eq!(values.len(), expected.len());
+    for (i, (&f, &e)) in values.iter().zip(&expected).enumerate() {
+        // Sums of √2 differ in their last bits; everything else is exact.
         let near = match metric {
             Metric::QuasiEuclidean => (f64::from(f) - e).abs() <= 1e-6 * e.abs(),
             _ => f == e as f32,
@@ -66,16 +70,16 @@ fn transform(mask: &Mask, metric: Metric) -> Vec<f32> {
     distance_transform(mask, metric, &Silent).expect("never cancelled")
 }
 
-/// Masks with few, some or many cells of either side.
+/// Random masks with few, some or many cells on each side.
 fn masks(side: u32) -> impl Strategy<Value = Mask> {
-    (1..=side, 1..=side, 0.02..0.98_f64).prop_flat_map(|(width, height, share)| {
+    (1..=side, 1..=side, 0.02..0.98_f64).prop_flat_map(|(width, height, inside_fraction)| {
         let cells = (width * height) as usize;
         (
-            proptest::collection::vec(proptest::bool::weighted(share), cells),
+            proptest::collection::vec(proptest::bool::weighted(inside_fraction), cells),
             0..cells,
         )
-            .prop_map(move |(mut bits, sure)| {
-                bits[sure] = true;
+            .prop_map(move |(mut bits, inside_cell)| {
+                bits[inside_cell] = true;
                 Mask::new(width, height, bits).expect("a legal mask")
             })
     })
@@ -85,14 +89,14 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_metric_is_its_brute_force(mask in masks(20)) {
+    fn every_metric_equals_brute_force(mask in masks(20)) {
         for metric in METRICS {
             check(&mask, metric, &transform(&mask, metric));
         }
     }
 
     #[test]
-    fn a_few_cells_in_a_large_picture_are_their_brute_force(
+    fn a_few_cells_in_a_large_picture_equal_brute_force(
         seeds in proptest::collection::vec((0..44_u32, 0..33_u32), 1..5),
         invert in proptest::bool::ANY,
     ) {
@@ -108,7 +112,7 @@ proptest! {
 }
 
 #[test]
-fn a_small_figure_has_the_distances_that_one_counts() {
+fn a_small_figure_has_the_distances_counted_by_hand() {
     let figure = mask(
         "
         .......
@@ -117,7 +121,7 @@ fn a_small_figure_has_the_distances_that_one_counts() {
         .####..
         .......",
     );
-    // From the lowest row up; doubled, so that halves are whole.
+    // From the lowest row up; doubled, so that halves are integers.
     let doubled = |metric| -> Vec<i32> {
         let values = transform(&figure, metric);
         values.iter().map(|v| (2.0 * v) as i32).collect()
@@ -162,12 +166,12 @@ fn a_full_mask_is_the_limit_of_one_with_a_hole() {
     let pierced = Mask::new(40, 40, bits).expect("a legal mask");
     for metric in METRICS {
         let (a, b) = (transform(&full, metric), transform(&pierced, metric));
-        let most = a
+        let max_change = a
             .iter()
             .zip(&b)
             .map(|(a, b)| (a - b).abs())
             .fold(0.0, f32::max);
-        assert!(most <= 1.0, "{metric:?}: {most}");
+        assert!(max_change <= 1.0, "{metric:?}: {max_change}");
     }
 }
 
@@ -206,27 +210,28 @@ fn swapping_the_sides_swaps_the_signs_away_from_the_border() {
 }
 
 #[test]
-fn one_thread_and_many_find_the_same() -> Result<(), rayon::ThreadPoolBuildError> {
+fn one_thread_and_many_give_equal_results() -> Result<(), rayon::ThreadPoolBuildError> {
     let bits = (0..300 * 200_u32).map(|i| i.wrapping_mul(2_654_435_761) > 3_900_000_000);
     let mask = Mask::new(300, 200, bits.collect()).expect("a legal mask");
-    let on = |threads: usize| {
+    let transform_on = |threads: usize| {
         let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = builder.build()?;
-        let found = pool.install(|| transform(&mask, Metric::Euclidean));
-        Ok::<_, rayon::ThreadPoolBuildError>(found)
+        let values = pool.install(|| transform(&mask, Metric::Euclidean));
+        Ok::<_, rayon::ThreadPoolBuildError>(values)
     };
-    assert_eq!(on(1)?, on(3)?);
+    assert_eq!(transform_on(1)?, transform_on(3)?);
     Ok(())
 }
 
-/// Cancelled after so many reports.
+/// Progress that is cancelled after the given number of reports.
 struct CancelAfter(AtomicUsize);
 
 impl Progress for CancelAfter {
     fn report(&self, _stage: &'static str, fraction: f64) {
         assert!((0.0..=1.0).contains(&fraction));
-        let left = self.0.load(Ordering::Relaxed);
-        self.0.store(left.saturating_sub(1), Ordering::Relaxed);
+        let reports_left = self.0.load(Ordering::Relaxed);
+        self.0
+            .store(reports_left.saturating_sub(1), Ordering::Relaxed);
     }
 
     fn is_cancelled(&self) -> bool {
@@ -235,13 +240,13 @@ impl Progress for CancelAfter {
 }
 
 #[test]
-fn every_metric_can_be_cancelled_on_its_way() {
+fn every_metric_can_be_cancelled_midway() {
     let mask = Mask::new(200, 300, vec![true; 200 * 300]).expect("a legal mask");
     for metric in METRICS {
         for reports in [1, 3] {
-            let patience = CancelAfter(AtomicUsize::new(reports));
-            let found = distance_transform(&mask, metric, &patience);
-            assert_eq!(found, Err(Cancelled), "{metric:?} after {reports}");
+            let progress = CancelAfter(AtomicUsize::new(reports));
+            let result = distance_transform(&mask, metric, &progress);
+            assert_eq!(result, Err(Cancelled), "{metric:?} after {reports}");
         }
     }
 }

@@ -1,10 +1,11 @@
-//! Pieces with holes and slits.
+//! Compatible triangulation of pieces with holes and slits.
 
 use super::*;
 
+/// Boundary rings of a piece, the outer one first.
 type TestPiece = Vec<Vec<DVec2>>;
 
-/// A star-shaped ring about a centre, clockwise for a hole.
+/// Random star-shaped ring around a centre, counter-clockwise.
 fn ring(centre: DVec2, radius: f64, n: usize, turn: f64, random: &mut Random) -> Vec<DVec2> {
     let at = |k: usize| {
         let angle = turn + TAU * k as f64 / n as f64;
@@ -13,16 +14,19 @@ fn ring(centre: DVec2, radius: f64, n: usize, turn: f64, random: &mut Random) ->
     (0..n).map(at).collect()
 }
 
+/// Reverses a ring, since holes run clockwise.
 fn hole(mut ring: Vec<DVec2>) -> Vec<DVec2> {
     ring.reverse();
     ring
 }
 
+/// Regular polygon around a centre, counter-clockwise.
 fn circle(centre: DVec2, radius: f64, n: usize, turn: f64) -> Vec<DVec2> {
     let at = |k: usize| centre + polar(radius, turn + TAU * k as f64 / n as f64);
     (0..n).map(at).collect()
 }
 
+/// Mesh of the guaranteed base alone.
 fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
     let base = from_base(
         &BoundaryRings::of(source),
@@ -34,16 +38,17 @@ fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
     CompatibleMesh::new(faces, p, q, vec![]).expect("valid")
 }
 
-/// Both ways to a mesh, and the designs exchanged.
-fn all_ways(source: &TestPiece, target: &TestPiece) {
+/// Checks the full pipeline and the guaranteed base alone, in both orders of the designs.
+fn assert_all_ways(source: &TestPiece, target: &TestPiece) {
     let options = PolygonOptions::default();
     for (p, q) in [(source, target), (target, source)] {
         let mesh = CompatibleMesh::from_piece(p, q, &options, &Silent).expect("a piece");
-        hold_piece(&mesh, p, q);
-        hold_piece(&from_the_base(p, q), p, q);
+        assert_valid_piece(&mesh, p, q);
+        assert_valid_piece(&from_the_base(p, q), p, q);
     }
 }
 
+/// Ring between two circles; the hole's points are turned against the outline's.
 fn annulus(turn: f64) -> TestPiece {
     let outer = circle(DVec2::ZERO, 2.0, 24, 0.0);
     vec![outer, hole(circle(DVec2::ZERO, 1.0, 16, turn))]
@@ -52,7 +57,7 @@ fn annulus(turn: f64) -> TestPiece {
 #[test]
 fn an_annulus_whose_hole_turns() {
     for turn in [0.0, 0.5, 2.0, 3.1] {
-        all_ways(&annulus(0.0), &annulus(turn));
+        assert_all_ways(&annulus(0.0), &annulus(turn));
     }
 }
 
@@ -62,14 +67,14 @@ fn a_hole_that_closes_to_a_point() {
     for point in &mut q[1] {
         *point = DVec2::new(0.3, 0.2) + 1e-4 * *point;
     }
-    all_ways(&p, &q);
+    assert_all_ways(&p, &q);
     for point in &mut p[1] {
         *point = DVec2::new(0.99, 0.0) + 0.999 * *point;
     }
-    all_ways(&p, &q);
+    assert_all_ways(&p, &q);
 }
 
-/// A letter with two holes.
+/// Letter B: a piece with two holes.
 fn b(waist: f64, lean: f64) -> TestPiece {
     let outer = [
         (0.0, 0.0),
@@ -91,18 +96,17 @@ fn b(waist: f64, lean: f64) -> TestPiece {
 
 #[test]
 fn a_letter_with_two_holes() {
-    all_ways(&b(3.8, 0.0), &b(2.8, 0.4));
+    assert_all_ways(&b(3.8, 0.0), &b(2.8, 0.4));
     let other = b(3.8, 0.0);
     let exchanged = vec![
         other[0].clone(),
         with_points(other[2].clone(), 5),
         other[1][..4].to_vec(),
     ];
-    all_ways(&b(3.8, 0.0), &exchanged);
+    assert_all_ways(&b(3.8, 0.0), &exchanged);
 }
 
-/// A thick letter D, cut open across its stem or its bowl, and as many
-/// points along a bent strip.
+/// Thick ring that is cut open at one place, and a bent strip with the same number of points.
 fn d_cut_open(cut: usize) -> (TestPiece, TestPiece) {
     let m = 16;
     let at = |k: usize, r: f64| polar(r, TAU * ((cut + k) % m) as f64 / m as f64);
@@ -126,8 +130,8 @@ fn d_cut_open(cut: usize) -> (TestPiece, TestPiece) {
 fn a_ring_cut_open_becomes_a_strip() {
     for cut in [0, 5] {
         let (d, s) = d_cut_open(cut);
-        all_ways(&d, &s);
-        all_ways(&d, &d_cut_open(cut + 3).0);
+        assert_all_ways(&d, &s);
+        assert_all_ways(&d, &d_cut_open(cut + 3).0);
     }
 }
 
@@ -148,7 +152,7 @@ fn a_slit_with_an_end_inside_opens_to_a_notch() {
     notch[3].0 = 3.0;
     notch[4].0 = 2.5;
     let piece = |points: [(f64, f64); 9]| vec![points.map(DVec2::from).to_vec()];
-    all_ways(&piece(slit), &piece(notch));
+    assert_all_ways(&piece(slit), &piece(notch));
 }
 
 #[test]
@@ -158,14 +162,15 @@ fn a_hole_close_to_the_boundary() {
         vec![outer, hole(circle(DVec2::new(x, 0.0), 0.5, 12, 0.0))]
     };
     for gap in [1e-2, 1e-4, 1e-7] {
-        all_ways(&near(0.0), &near(1.5 - gap));
-        all_ways(&near(gap - 1.4), &near(1.5 - gap));
+        assert_all_ways(&near(0.0), &near(1.5 - gap));
+        assert_all_ways(&near(gap - 1.4), &near(1.5 - gap));
     }
 }
 
 fn random_piece(counts: &[usize], random: &mut Random) -> TestPiece {
     let outer = ring(DVec2::ZERO, 4.0, counts[0], 0.0, random);
-    // Rays from the centre stay clear of the outline within 0.6 · 4 cos(π/n).
+    // Points this close to the centre lie inside the outline, whose inner radius is at least 0.6 ·
+    // 4 cos(π/n).
     let places = [(0.0, 0.0), (1.2, 0.0), (0.0, 1.2), (-0.9, -0.9)];
     let mut rings = vec![outer];
     let first = (4.0 * random.next()) as usize;
@@ -192,7 +197,7 @@ proptest! {
     ) {
         let mut random = Random(seed);
         let (p, q) = (random_piece(&counts, &mut random), random_piece(&counts, &mut random));
-        all_ways(&p, &q);
+        assert_all_ways(&p, &q);
     }
 }
 
@@ -203,10 +208,13 @@ fn holes_without_a_partner_are_named() {
         CompatibleMesh::from_piece(p, q, &options, &Silent).map(|_| ())
     };
     let ring = annulus(0.0);
-    assert_eq!(of(&ring, &ring[..1]), Err(PieceMeshError::Rings([2, 1])));
+    assert_eq!(
+        of(&ring, &ring[..1]),
+        Err(PieceMeshError::RingCounts([2, 1]))
+    );
     assert_eq!(of(&[], &[]), Err(PieceMeshError::NoOutline));
     let fewer = vec![ring[0].clone(), ring[1][1..].to_vec()];
-    let counts = PieceMeshError::Counts {
+    let counts = PieceMeshError::PointCounts {
         ring: 1,
         points: [16, 15],
     };

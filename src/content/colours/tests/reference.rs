@@ -1,20 +1,21 @@
-//! Pictures through placements, slow and obvious, and what is fast held
-//! against it.
+//! A slow, direct implementation of picture rendering, against which the fast one is tested.
 
 use super::super::*;
 use image::Rgba;
 use proptest::prelude::*;
 
-/// Pixels nearer than this to a side of a face may be given either face.
-const BESIDE: f64 = 1e-5;
+/// Distance, in pixels, to an edge of a face below which a pixel may be assigned to either face
+/// (tolerance: far above the rounding of both implementations).
+const UNDECIDED: f64 = 1e-5;
 
+/// Output pixels at a fraction of a pixel from those of the pictures.
 const RASTER: PictureRaster = PictureRaster {
     size: [50, 40],
     corner: DVec2::new(-3.25, 36.5),
-    pixel: 1.0,
+    pixel_size: 1.0,
 };
 
-/// Opaque and transparent parts, every colour, one pixel unlike the next.
+/// A picture with opaque and transparent parts in which neighbouring pixels differ.
 fn picture(width: u32, height: u32, seed: u32) -> Picture {
     let pixel = |x: u32, y: u32| {
         let value = |k: u32| ((x * x * 37 + y * 91 + x * y * k * 53 + seed * 17) % 256) as u8;
@@ -24,7 +25,7 @@ fn picture(width: u32, height: u32, seed: u32) -> Picture {
     Picture::new(RgbaImage::from_fn(width, height, pixel))
 }
 
-/// Red, green and blue in linear light times alpha, and alpha.
+/// Converts sRGB with straight alpha to linear light with premultiplied alpha.
 fn decoded(pixel: Rgba<u8>) -> [f64; 4] {
     let [.., alpha] = pixel.0.map(|v| f64::from(v) / 255.0);
     let light = |k: usize| {
@@ -39,6 +40,7 @@ fn decoded(pixel: Rgba<u8>) -> [f64; 4] {
     [light(0), light(1), light(2), alpha]
 }
 
+/// Converts linear light with premultiplied alpha to sRGB with straight alpha.
 fn encoded(light: [f64; 4]) -> [u8; 4] {
     let alpha = light[3];
     let channel = |k: usize| {
@@ -61,8 +63,8 @@ fn sum(parts: &[(f64, [f64; 4])]) -> [f64; 4] {
     std::array::from_fn(|k| parts.iter().map(|(share, light)| share * light[k]).sum())
 }
 
-/// Bilinear between pixel centres, mirrored at the edges; pixels of the plane
-/// are those of the picture.
+/// Looks up a picture at a point of the plane: bilinear between pixel centres, mirrored at the
+/// edges. Pixels have side length 1.
 fn look(picture: &Picture, p: DVec2) -> [f64; 4] {
     let pixels = picture.pixels();
     let last = DVec2::new(
@@ -90,10 +92,10 @@ fn look(picture: &Picture, p: DVec2) -> [f64; 4] {
     ])
 }
 
-/// The last face that covers a place, as shares of its corners; `None` where
-/// the place is too near to a side of a face to tell.
+/// Returns the last face that covers a point, with barycentric coordinates. `Some(None)` means that
+/// no face covers it, `None` that the point is too close to an edge to decide.
 fn face_at(placement: &Placement, p: DVec2) -> Option<Option<([u32; 3], [f64; 3])>> {
-    let mut found = None;
+    let mut last_cover = None;
     for &face in placement.faces.iter() {
         let [a, b, c] = face.map(|v| placement.in_frame[v as usize]);
         let det = (b - a).perp_dot(c - a);
@@ -102,18 +104,18 @@ fn face_at(placement: &Placement, p: DVec2) -> Option<Option<([u32; 3], [f64; 3]
         let sides = [b.distance(c), c.distance(a), a.distance(b)];
         let to_side = |k: usize| parts[k] * det.abs() / sides[k];
         let depth = to_side(0).min(to_side(1)).min(to_side(2));
-        if depth.abs() < BESIDE {
+        if depth.abs() < UNDECIDED {
             return None;
         }
         if depth > 0.0 {
-            found = Some((face, parts));
+            last_cover = Some((face, parts));
         }
     }
-    Some(found)
+    Some(last_cover)
 }
 
-/// What the pixel at (x, y) shows; `None` where the reference cannot tell.
-fn shown(
+/// Returns the expected pixel (x, y); `None` if the reference cannot decide.
+fn expected_pixel(
     pictures: &[Picture; 2],
     placement: &Placement,
     t: f64,
@@ -138,11 +140,11 @@ fn shown(
     Some(encoded(sum(&[(across.max(0.0) * down.max(0.0), light)])))
 }
 
-/// A grid over the pictures, all of whose corners are somewhere near.
+/// A grid of faces over the pictures, each vertex displaced in frame, source and target.
 fn placement(moves: &[[(f64, f64); 3]]) -> Placement {
     let at = |k: usize| 9.0 * DVec2::new((k % 6) as f64, (k / 6) as f64);
-    let moved = |of: usize| {
-        let place = |(k, by): (usize, &[(f64, f64); 3])| at(k) + DVec2::from(by[of]);
+    let moved = |list: usize| {
+        let place = |(k, by): (usize, &[(f64, f64); 3])| at(k) + DVec2::from(by[list]);
         moves.iter().enumerate().map(place).collect()
     };
     let cell = |k: u32| [[k, k + 1, k + 7], [k, k + 7, k + 6]];
@@ -168,7 +170,7 @@ fn pictures() -> [Picture; 2] {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// Whatever folds over whatever, through transparent parts.
+    /// Random placements with folds and overlaps, through transparent parts.
     #[test]
     fn pixels_are_those_of_the_reference(
         moves in prop::collection::vec(prop::array::uniform3((-9.0f64..9.0, -9.0f64..9.0)), 30),
@@ -176,27 +178,27 @@ proptest! {
     ) {
         let (pictures, placement) = (pictures(), placement(&moves));
         let fast = rendered(&pictures, &placement, t);
-        let mut told = 0;
+        let mut compared = 0;
         for (x, y, pixel) in fast.enumerate_pixels() {
-            let Some(slow) = shown(&pictures, &placement, t, [x, y]) else { continue };
+            let Some(slow) = expected_pixel(&pictures, &placement, t, [x, y]) else { continue };
             let off = (0..4).map(|k| slow[k].abs_diff(pixel[k])).max();
             prop_assert!(off <= Some(1), "({x}, {y}): {slow:?}, {pixel:?}");
-            told += 1;
+            compared += 1;
         }
-        prop_assert!(told > 1900, "the reference tells {told} pixels");
+        prop_assert!(compared > 1900, "only {compared} pixels were compared");
     }
 }
 
-/// Corners at infinity, at no place at all, far away, or all in one place.
+/// Vertices at infinity, NaN, far away, or all in one point.
 #[test]
 fn any_placement_is_rendered() {
     let pictures = pictures();
     let values = [f64::NAN, f64::INFINITY, -1e300, 1e18, 1e-300, 7.0];
     for (k, &value) in values.iter().enumerate() {
-        for of in 0..3 {
+        for list in 0..3 {
             let mut moves = [[(0.5, 0.25); 3]; 30];
-            moves[8 + k][of] = (value, -value);
-            moves[20][of].1 = value;
+            moves[8 + k][list] = (value, -value);
+            moves[20][list].1 = value;
             rendered(&pictures, &placement(&moves), 0.4);
         }
     }
@@ -209,12 +211,16 @@ fn threads_do_not_matter() {
         .map(|k| [k, 2 * k, 3 * k].map(|k| (f64::from(k % 7), f64::from(k % 5))))
         .collect();
     let placement = placement(&moves);
-    let on = |threads: usize| {
+    let rendered_on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("a pool")
             .install(|| rendered(&pictures, &placement, 0.3))
     };
-    let one = on(1);
+    let one = rendered_on(1);
     assert!(one.pixels().any(|p| p[3] > 0));
-    assert!([2, 3, 7].into_iter().all(|threads| on(threads) == one));
+    assert!(
+        [2, 3, 7]
+            .into_iter()
+            .all(|threads| rendered_on(threads) == one)
+    );
 }
