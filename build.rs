@@ -1,34 +1,38 @@
-//! The gallery is held in the binary: a file that comes or goes there must
-//! build it anew, which the compiler does not notice by itself. And the
-//! linker is told to pack what it would write out at length.
+//! Build script: rebuilds when the embedded gallery changes, and shrinks the release binary.
+//!
+//! The gallery is embedded with `include_dir!`, which does not notice added or removed files,
+//! so this script makes cargo watch the folder. For native release builds on x86-64 Linux, linker
+//! flags fold identical functions and pack relocations.
 
 use std::env::{self, VarError};
 use std::process::Command;
 
-/// Functions that came out the same are kept once, 4.6 MB of 80 less.
-const FOLDED: &str = "-Wl,--icf=all";
+/// Linker flag that merges identical functions; it saves 4.6 MB of 80.
+const FOLD_FUNCTIONS: &str = "-Wl,--icf=all";
 
-/// Addresses that are set when the program is loaded, packed: 10.3 MB less.
-const PACKED: &str = "-Wl,-z,pack-relative-relocs";
+/// Linker flag that stores relative relocations in packed form; it saves 10.3 MB.
+const PACK_RELOCATIONS: &str = "-Wl,-z,pack-relative-relocs";
 
-/// The first glibc whose loader reads packed addresses.
-const READS_PACKED: [u32; 2] = [2, 36];
+/// Oldest glibc version (major, minor) whose loader supports packed relocations.
+const MIN_GLIBC: [u32; 2] = [2, 36];
 
 fn main() {
     println!("cargo:rerun-if-changed=assets/gallery");
     println!("cargo:rerun-if-env-changed=RUSTC_LINKER");
-    if !is_own_linker() {
+    if !uses_bundled_linker() {
         return;
     }
-    println!("cargo:rustc-link-arg-bin=morphospace={FOLDED}");
-    if glibc().is_some_and(|version| version >= READS_PACKED) {
-        println!("cargo:rustc-link-arg-bin=morphospace={PACKED}");
+    println!("cargo:rustc-link-arg-bin=morphospace={FOLD_FUNCTIONS}");
+    if glibc().is_some_and(|version| version >= MIN_GLIBC) {
+        println!("cargo:rustc-link-arg-bin=morphospace={PACK_RELOCATIONS}");
     }
 }
 
-/// Whether a program for this machine is linked by the linker that Rust brings
-/// along on this system, which knows these arguments.
-fn is_own_linker() -> bool {
+/// Returns whether this is a native release build with the linker bundled with Rust.
+///
+/// Only that linker is known to support both flags.
+fn uses_bundled_linker() -> bool {
+    /// Target triple for which the flags were tested.
     const LINUX: &str = "x86_64-unknown-linux-gnu";
     let is = |name: &str, value: &str| env::var(name).as_deref() == Ok(value);
     let is_unset =
@@ -40,10 +44,10 @@ fn is_own_linker() -> bool {
         && is_unset("CARGO_ENCODED_RUSTFLAGS")
 }
 
-/// The version of the C library here, if it is glibc.
+/// Returns the major and minor version of the C library of this machine, if it is glibc.
 fn glibc() -> Option<[u32; 2]> {
-    let told = Command::new("getconf").arg("GNU_LIBC_VERSION").output();
-    let told = String::from_utf8(told.ok()?.stdout).ok()?;
-    let (major, minor) = told.trim().strip_prefix("glibc ")?.split_once('.')?;
+    let output = Command::new("getconf").arg("GNU_LIBC_VERSION").output();
+    let text = String::from_utf8(output.ok()?.stdout).ok()?;
+    let (major, minor) = text.trim().strip_prefix("glibc ")?.split_once('.')?;
     Some([major.parse().ok()?, minor.parse().ok()?])
 }

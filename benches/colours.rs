@@ -1,5 +1,5 @@
-//! A frame of two pictures of 1920 by 1080 on the CPU: the warp by 40 pairs of
-//! lines, and the pixels.
+//! Times a frame of two pictures of 1920 × 1080 pixels on the CPU: the warp by 40 pairs of lines,
+//! and the pixels.
 //!
 //! `cargo bench --no-default-features --bench colours`
 
@@ -12,6 +12,7 @@ use morphospace::geometry::{Bounds, DVec2};
 use morphospace::warp::{GridWarp, LineOptions, LineWarp, PlaneGrid, Warp};
 use std::error::Error;
 
+/// Size of the pictures in pixels.
 const SIZE: [u32; 2] = [1920, 1080];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -34,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let raster = PictureRaster {
         size: SIZE,
         corner: DVec2::new(0.0, f64::from(height)),
-        pixel: 1.0,
+        pixel_size: 1.0,
     };
     criterion.bench_function("warp, 40 lines", |bencher| {
         bencher.iter(|| placer.place(0.5))
@@ -53,15 +54,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Spread over the frame by the golden ratio, each moved and turned a little.
+/// Pair of lines number `k`: spread over the frame by an additive recurrence, moved and rotated
+/// slightly.
 fn line(k: u32) -> LinePair {
     let k = f64::from(k);
-    let along = DVec2::new((k * 0.618_034).fract(), (k * 0.754_878).fract());
-    let middle = along * DVec2::new(1800.0, 960.0) + 60.0;
+    let position = DVec2::new((k * 0.618_034).fract(), (k * 0.754_878).fract());
+    let centre = position * DVec2::new(1800.0, 960.0) + 60.0;
     let half = DVec2::from_angle(k) * (30.0 + 2.0 * k);
-    let by = DVec2::from_angle(2.0 * k) * 25.0;
+    let shift = DVec2::from_angle(2.0 * k) * 25.0;
     LinePair {
-        source: [middle - half, middle + half],
-        target: [middle + by - half.perp() * 0.2 - half, middle + by + half],
+        source: [centre - half, centre + half],
+        target: [
+            centre + shift - half.perp() * 0.2 - half,
+            centre + shift + half,
+        ],
     }
 }

@@ -1,8 +1,7 @@
-//! Distance transforms, exact polygon fields and contours.
+//! Times distance transforms, exact distance fields of polygons, and contours.
 //!
-//! `cargo bench --no-default-features --bench field`. The masks of the signed
-//! transform are those of `benches/field_edt.py`, which times `edt.sdf` from
-//! PyPI on them, side by side.
+//! `cargo bench --no-default-features --bench field`. For comparison, `benches/field_edt.py` times
+//! `edt.sdf` (PyPI package edt) on the same masks.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use morphospace::content::{FieldBlend, FieldPair};
@@ -26,16 +25,16 @@ fn main() -> Result<()> {
 /// A gear of 24 teeth with a hole.
 fn gear(side: u32) -> Result<Mask> {
     let half = f64::from(side / 2);
-    let inside = |x: u32, y: u32| {
+    let is_inside = |x: u32, y: u32| {
         let p = DVec2::new(f64::from(x), f64::from(y)) - half;
         let radius = p.length() / half;
         let tooth = (24.0 * p.y.atan2(p.x)).sin() >= 0.0;
         radius > 0.3 && radius < if tooth { 0.76 } else { 0.6 }
     };
-    mask(side, inside)
+    mask(side, is_inside)
 }
 
-/// Every other cell, at random: the most and the shortest runs.
+/// Random cells, half of them inside: as many and as short runs as possible.
 fn noise(side: u32) -> Result<Mask> {
     mask(side, |x, y| {
         let hash = (x + side * y).wrapping_mul(2_654_435_761);
@@ -43,8 +42,8 @@ fn noise(side: u32) -> Result<Mask> {
     })
 }
 
-fn mask(side: u32, inside: impl Fn(u32, u32) -> bool + Copy) -> Result<Mask> {
-    let bits = (0..side).flat_map(|y| (0..side).map(move |x| inside(x, y)));
+fn mask(side: u32, is_inside: impl Fn(u32, u32) -> bool + Copy) -> Result<Mask> {
+    let bits = (0..side).flat_map(|y| (0..side).map(move |x| is_inside(x, y)));
     Ok(Mask::new(side, side, bits.collect())?)
 }
 
@@ -81,10 +80,10 @@ fn signed_transform(criterion: &mut Criterion) -> Result<()> {
     Ok(())
 }
 
-/// A wavy ring of so many edges.
+/// A wavy ring with the given number of edges.
 fn wavy(edges: u32, waves: f64) -> Result<Regions> {
-    let ring = (0..edges).map(|i| f64::from(i) * TAU / f64::from(edges));
-    let ring = ring.map(|a| DVec2::from_angle(a) * (8.0 + 2.0 * (waves * a).sin()));
+    let angles = (0..edges).map(|i| f64::from(i) * TAU / f64::from(edges));
+    let ring = angles.map(|a| DVec2::from_angle(a) * (8.0 + 2.0 * (waves * a).sin()));
     Ok(Regions::from_rings(&[ring.collect()], FillRule::NonZero)?)
 }
 

@@ -1,10 +1,9 @@
-"""Times edt.sdf (PyPI: edt, numpy) on the masks of benches/field.rs.
+"""Times the signed distance transform edt.sdf (PyPI: edt, numpy) on the masks of benches/field.rs.
 
     pip install edt numpy
     python3 benches/field_edt.py
 
-Prints the best and the median of 15 runs, in milliseconds, for one and two
-threads.
+Prints the best and the median time of 15 runs, in milliseconds, for one and two threads.
 """
 
 import statistics
@@ -38,10 +37,10 @@ def milliseconds(mask, threads, runs=15):
 
 
 for side in (512, 1024, 2048):
-    for name, make in (("gear", gear), ("noise", noise)):
-        mask = make(side)
+    for name, make_mask in (("gear", gear), ("noise", noise)):
+        mask = make_mask(side)
         for kind in (np.uint8, bool):
             for threads in (1, 2):
                 best, median = milliseconds(mask.astype(kind), threads)
-                words = f"{name}/{threads} thread/{side} ({np.dtype(kind).name})"
-                print(f"{words:40} best {best:7.2f}  median {median:7.2f}")
+                label = f"{name}/{threads} thread/{side} ({np.dtype(kind).name})"
+                print(f"{label:40} best {best:7.2f}  median {median:7.2f}")

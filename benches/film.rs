@@ -1,11 +1,11 @@
-//! Films of 100k and of a million vertices: recorded once, and played.
+//! Times recording and playing of transitions with 100,000 and a million vertices.
 //!
-//! `cargo bench --no-default-features --bench film`. Where the variable
-//! `FILM_CHOLMOD` is set, `benches/film_cholmod.sh` times CHOLMOD's back-substitution
-//! on the same matrix in the same run, just before the film is played.
+//! `cargo bench --no-default-features --bench film`. If the variable `FILM_CHOLMOD` is set,
+//! `benches/film_cholmod.sh` times the back-substitution of CHOLMOD on the same matrix in the same
+//! run.
 //!
-//! - `solved`: a whole frame that is solved: right-hand sides, solve, placement
-//! - `played`: the same frame from a film, on all threads and on one
+//! - `solved`: a whole solved frame: right-hand sides, solve, vertex positions
+//! - `played`: the same frame from the recording, on all threads and on one
 
 use criterion::{BenchmarkId, Criterion};
 use morphospace::compatible::CompatibleMesh;
@@ -23,7 +23,7 @@ use std::time::Instant;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// A square sheet of `side`² vertices, and the same bent into a half ring.
+/// A square sheet of `side`² vertices, bent into a half ring.
 fn sheet(side: u32) -> Result<CompatibleMesh> {
     let step = 1.0 / f64::from(side - 1);
     let source: Vec<DVec2> = (0..side * side)
@@ -40,8 +40,8 @@ fn sheet(side: u32) -> Result<CompatibleMesh> {
     Ok(CompatibleMesh::new(faces, source, target, Vec::new())?)
 }
 
-/// The median of CHOLMOD's times in milliseconds.
-fn cholmod(arap: &Arap, times: u32) -> Result<f64> {
+/// Median time of `runs` back-substitutions by CHOLMOD, in milliseconds.
+fn cholmod_ms(arap: &Arap, runs: u32) -> Result<f64> {
     let matrix = arap.system();
     let path = std::env::temp_dir().join(format!("morphospace-film-{}.mtx", std::process::id()));
     let mut file = BufWriter::new(std::fs::File::create(&path)?);
@@ -59,7 +59,7 @@ fn cholmod(arap: &Arap, times: u32) -> Result<f64> {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/film_cholmod.sh");
     let out = Command::new(script)
         .arg(&path)
-        .arg(times.to_string())
+        .arg(runs.to_string())
         .output()?;
     std::fs::remove_file(&path)?;
     if !out.status.success() {
@@ -68,6 +68,7 @@ fn cholmod(arap: &Arap, times: u32) -> Result<f64> {
     Ok(String::from_utf8(out.stdout)?.trim().parse()?)
 }
 
+/// Times frames at changing t.
 fn play(criterion: &mut Criterion, id: BenchmarkId, mut placer: Placer, threads: &ThreadPool) {
     let mut group = criterion.benchmark_group("film");
     group.sample_size(20);
@@ -83,7 +84,7 @@ fn play(criterion: &mut Criterion, id: BenchmarkId, mut placer: Placer, threads:
 
 #[expect(
     clippy::print_stdout,
-    reason = "what is recorded is told beside what is played"
+    reason = "recording is timed once, not by criterion"
 )]
 fn main() -> Result<()> {
     let mut criterion = Criterion::default().configure_from_args();
@@ -91,21 +92,24 @@ fn main() -> Result<()> {
     let (one, all) = (one?, all?);
     for (name, side) in [("100k", 317), ("1M", 1000)] {
         let arap = Arap::build(&sheet(side)?, &ArapOptions::default(), &Silent)?;
-        let begun = Instant::now();
-        let film = Recording::record(
+        let start = Instant::now();
+        let recording = Recording::record(
             Arc::new(arap.clone()),
             &RecordingOptions::default(),
             &Silent,
         )?;
         println!(
-            "film of {name}: recorded in {:.3} s by {} solves, {} bytes a vertex, error {:.1e}",
-            begun.elapsed().as_secs_f64(),
-            film.solves(),
-            film.bytes() / (side * side) as usize,
-            film.error(),
+            "{name}: recorded in {:.3} s by {} solves, {} bytes a vertex, error {:.1e}",
+            start.elapsed().as_secs_f64(),
+            recording.evaluation_count(),
+            recording.bytes() / (side * side) as usize,
+            recording.error(),
         );
         if std::env::var_os("FILM_CHOLMOD").is_some() {
-            println!("CHOLMOD, simplicial, {name}: {:.3} ms", cholmod(&arap, 15)?);
+            println!(
+                "CHOLMOD, simplicial, {name}: {:.3} ms",
+                cholmod_ms(&arap, 15)?
+            );
         }
         let mut play = |kind: &str, placer: Placer, threads: &ThreadPool| {
             play(
@@ -116,8 +120,8 @@ fn main() -> Result<()> {
             );
         };
         play("solved", arap.placer(), &all);
-        play("played", film.placer(), &all);
-        play("played, 1 thread", film.placer(), &one);
+        play("played", recording.placer(), &all);
+        play("played, 1 thread", recording.placer(), &one);
     }
     criterion.final_summary();
     Ok(())

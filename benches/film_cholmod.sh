@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# film_cholmod.sh MATRIX TIMES: the back-substitution of CHOLMOD, simplicial, with
-# two right-hand sides and memory that is kept, on a matrix in Matrix Market's
-# format; prints the median of so many in milliseconds. Wants gcc and SuiteSparse's
-# headers (Debian: gcc libsuitesparse-dev).
+# Times the simplicial back-substitution of CHOLMOD with two right-hand sides and reused memory.
+#
+#   film_cholmod.sh MATRIX RUNS    MATRIX is a file in Matrix Market format
+#
+# Prints the median time of RUNS runs in milliseconds. Needs gcc and the headers of SuiteSparse
+# (Debian: gcc libsuitesparse-dev).
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -1,13 +1,12 @@
-//! Building and playing rigidity-preserving interpolations of 1k, 10k and
-//! 100k vertices, with faer's bare back-substitution on the same matrix in
-//! the same run.
+//! Times building and playing as-rigid-as-possible interpolations with 1,000, 10,000 and 100,000
+//! vertices, and faer's own back-substitution on the same matrix in the same run.
 //!
 //! `cargo bench --no-default-features --bench frame`
 //!
 //! - `build`: local maps, assembly and factorisation
-//! - `bare`: faer's own solve with kept memory, two right-hand sides
+//! - `bare`: faer's own solve with reused memory, two right-hand sides
 //! - `solve`: the same through this library
-//! - `frame`: a whole frame: right-hand sides, solve, placement
+//! - `frame`: a whole frame: right-hand sides, solve, vertex positions
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -25,7 +24,7 @@ use morphospace::warp::{Arap, ArapOptions, Warp};
 use morphospace::work::progress::Silent;
 use std::hint::black_box;
 
-/// A square sheet of `side`² vertices, and the same bent into a half ring.
+/// A square sheet of `side`² vertices, bent into a half ring.
 fn sheet(side: u32) -> CompatibleMesh {
     let step = 1.0 / f64::from(side - 1);
     let source: Vec<DVec2> = (0..side * side)
@@ -42,14 +41,14 @@ fn sheet(side: u32) -> CompatibleMesh {
     CompatibleMesh::new(faces, source, target, Vec::new()).expect("a valid sheet")
 }
 
-/// faer used directly, without this library.
-struct Bare {
+/// faer's Cholesky factor, used without this library.
+struct FaerCholesky {
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,
     memory: MemBuffer,
 }
 
-impl Bare {
+impl FaerCholesky {
     fn new(matrix: &SymmetricMatrix, threshold: SupernodalThreshold) -> Self {
         let n = matrix.size();
         let entries: Vec<_> = matrix
@@ -116,7 +115,7 @@ fn frames(c: &mut Criterion) {
             ("simplicial", SupernodalThreshold::FORCE_SIMPLICIAL),
             ("supernodal", SupernodalThreshold::FORCE_SUPERNODAL),
         ] {
-            let mut bare = Bare::new(&matrix, threshold);
+            let mut bare = FaerCholesky::new(&matrix, threshold);
             group.bench_function(BenchmarkId::new(format!("bare {kind}"), name), |b| {
                 b.iter(|| {
                     x.copy_from_slice(&rhs);

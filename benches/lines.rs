@@ -1,12 +1,10 @@
-//! A whole frame of two pictures of 1024 by 1024 through 40 pairs of lines,
-//! as the program makes it: the warp on its grid, and the pixels.
+//! Times a whole frame of two pictures of 1024 × 1024 pixels, warped by 40 pairs of lines: both the
+//! warp on its grid and the pixels.
 //!
-//! `cargo bench --no-default-features --bench lines`. Where the variable
-//! `LINES_NUMPY` names a Python that has NumPy, `benches/lines_numpy.py` makes
-//! the same frame before, and its times, those of the program in the same
-//! minute, and how far the two are apart are printed. NumPy looks the lines up
-//! at every pixel; the program does so at the corners of its grid and is
-//! linear between them.
+//! `cargo bench --no-default-features --bench lines`. If the variable `LINES_NUMPY` names a Python
+//! with NumPy, `benches/lines_numpy.py` makes the same frame first; the times of both and the
+//! differences of their results are printed. NumPy evaluates the lines at every pixel; the program
+//! does so at the vertices of its grid and interpolates linearly between them.
 
 use criterion::Criterion;
 use image::{DynamicImage, ImageFormat, Rgba, RgbaImage};
@@ -25,14 +23,17 @@ use std::time::Instant;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
+/// Side of the pictures in pixels.
 const SIDE: usize = 1024;
+
+/// Number of pairs of lines.
 const COUNT: u32 = 40;
 
-/// The frame, its pixels in the plane.
+/// Pixels of the frame in the plane.
 const PIXELS: PictureRaster = PictureRaster {
     size: [SIDE as u32; 2],
     corner: DVec2::new(0.0, SIDE as f64),
-    pixel: 1.0,
+    pixel_size: 1.0,
 };
 
 fn main() -> Result<()> {
@@ -41,31 +42,33 @@ fn main() -> Result<()> {
         compare(&python, &transition)?;
     }
     let mut criterion = Criterion::default().configure_from_args();
-    whole(&mut criterion, &transition)?;
+    whole_frame(&mut criterion, &transition)?;
     warp(&mut criterion)?;
     criterion.final_summary();
     Ok(())
 }
 
-fn line(middle: DVec2, angle: f64, length: f64) -> [DVec2; 2] {
+/// Ends of a line with the given midpoint, angle and length.
+fn line(midpoint: DVec2, angle: f64, length: f64) -> [DVec2; 2] {
     let half = DVec2::from_angle(angle) * (0.5 * length);
-    [middle - half, middle + half]
+    [midpoint - half, midpoint + half]
 }
 
+/// Pair of lines number `i`; the same as in `benches/lines_numpy.py`.
 fn pair(i: u32) -> LinePair {
     let i = f64::from(i);
-    let middle = DVec2::new(0.5 + i * 0.7548776662, 0.5 + i * 0.5698402910).fract() * SIDE as f64;
+    let midpoint = DVec2::new(0.5 + i * 0.7548776662, 0.5 + i * 0.5698402910).fract() * SIDE as f64;
     let angle = 2.4 * i;
     let length = 60.0 + 240.0 * (i * 0.6180339887).fract();
-    let moved = middle + 40.0 * DVec2::new((1.7 * i).cos(), (1.3 * i).sin());
+    let moved = midpoint + 40.0 * DVec2::new((1.7 * i).cos(), (1.3 * i).sin());
     let stretched = length * (1.0 + 0.3 * (2.1 * i).cos());
     LinePair {
-        source: line(middle, angle, length),
+        source: line(midpoint, angle, length),
         target: line(moved, angle + 0.5 * i.sin(), stretched),
     }
 }
 
-/// An opaque picture of slow waves.
+/// An opaque picture of smooth waves.
 fn design(shift: u32) -> Result<Arc<Design>> {
     let wave = |x: u32, k: u32| ((x * (k + 1) + shift * 57) % 511).abs_diff(255) as u8;
     let pixel = |x, y| Rgba([wave(x, 0), wave(y, 1), wave(x + y, 2), 255]);
@@ -78,19 +81,19 @@ fn design(shift: u32) -> Result<Arc<Design>> {
 
 fn transition() -> Result<Transition> {
     let mut spec = TransitionSpec::new(design(0)?, design(1)?);
-    spec.cell = TransitionMethod::new(WarpKind::Lines, ContentKind::Colours)?;
+    spec.method = TransitionMethod::new(WarpKind::Lines, ContentKind::Colours)?;
     spec.options.matching.lines = (0..COUNT).map(pair).collect();
     Ok(Transition::build(&spec, &Silent)?)
 }
 
-/// Of a frame of pictures there is one.
+/// The picture at t = ½; `None` if the transition has no pictures.
 fn picture(frame: &mut Frame) -> Option<RgbaImage> {
     frame.seek(0.5);
     frame.picture(&PIXELS)
 }
 
-/// Times NumPy, then the program, and holds what they make against each other.
-#[expect(clippy::print_stdout, reason = "it is what the variable asks for")]
+/// Times NumPy and the program, and prints the differences of their results.
+#[expect(clippy::print_stdout, reason = "a benchmark prints its results")]
 fn compare(python: &std::ffi::OsStr, transition: &Transition) -> Result<()> {
     let out = std::env::temp_dir().join(format!("lines_numpy_{}.bin", std::process::id()));
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/lines_numpy.py");
@@ -120,54 +123,56 @@ fn compare(python: &std::ffi::OsStr, transition: &Transition) -> Result<()> {
         println!("program, {threads} threads: best {best:.1} ms, median {median:.1} ms");
     }
     let mut frame = transition.frame(0.0);
-    let seen = picture(&mut frame).ok_or("a frame without colours")?;
+    let rendered = picture(&mut frame).ok_or("a frame without colours")?;
     let (planes, colours) = expected.split_at(4 * SIDE * SIDE);
-    let differences = apart(frame.placement(), planes);
-    let (most, mean) = most_and_mean(&differences);
-    println!("the maps are at most {most:.2} px apart, {mean:.4} px in the mean");
-    let levels = seen.as_raw().chunks_exact(4).zip(colours.as_chunks().0);
-    let off = |(a, b): (&[u8], &[f64; 3])| [0, 1, 2].map(|k| (f64::from(a[k]) - b[k]).abs());
-    let (most, mean) = most_and_mean(&levels.flat_map(off).collect::<Vec<_>>());
-    println!("the pictures are at most {most} levels of 255 apart, {mean:.4} in the mean");
+    let distances = map_distances(frame.placement(), planes);
+    let (max, mean) = max_and_mean(&distances);
+    println!("the maps are at most {max:.2} px apart, {mean:.4} px on average");
+    let levels = rendered.as_raw().chunks_exact(4).zip(colours.as_chunks().0);
+    let differences =
+        |(a, b): (&[u8], &[f64; 3])| [0, 1, 2].map(|k| (f64::from(a[k]) - b[k]).abs());
+    let (max, mean) = max_and_mean(&levels.flat_map(differences).collect::<Vec<_>>());
+    println!("the pictures are at most {max} levels of 255 apart, {mean:.4} on average");
     Ok(())
 }
 
-fn most_and_mean(values: &[f64]) -> (f64, f64) {
-    let most = values.iter().copied().fold(0.0, f64::max);
-    (most, values.iter().sum::<f64>() / values.len() as f64)
+fn max_and_mean(values: &[f64]) -> (f64, f64) {
+    let max = values.iter().copied().fold(0.0, f64::max);
+    (max, values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// How far each pixel's places in both designs are from those expected: four
-/// planes, x and y in the source and in the target.
-fn apart(placement: &Placement, expected: &[f64]) -> Vec<f64> {
-    let mut apart = vec![f64::INFINITY; 2 * SIDE * SIDE];
+/// Distances of the positions that each pixel has in both designs from those expected: four planes,
+/// x and y in the source and in the target.
+fn map_distances(placement: &Placement, expected: &[f64]) -> Vec<f64> {
+    let mut distances = vec![f64::INFINITY; 2 * SIDE * SIDE];
     for face in placement.faces.iter() {
-        let of = |points: &[DVec2]| face.map(|v| points[v as usize]);
-        let [a, b, c] = of(&placement.in_frame);
+        let corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
+        let [a, b, c] = corners(&placement.in_frame);
         let det = (b - a).perp_dot(c - a);
         let (low, high) = (a.min(b).min(c).floor(), a.max(b).max(c).ceil());
         let pixels = |low: f64, high: f64| low.max(0.0) as usize..(high as usize).min(SIDE);
-        for up in pixels(low.y, high.y) {
+        for row in pixels(low.y, high.y) {
             for column in pixels(low.x, high.x) {
-                let p = DVec2::new(column as f64, up as f64) + 0.5 - a;
+                let p = DVec2::new(column as f64, row as f64) + 0.5 - a;
                 let [u, v] = [p.perp_dot(c - a), (b - a).perp_dot(p)].map(|area| area / det);
                 if u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9 {
                     continue;
                 }
-                let pixel = (SIDE - 1 - up) * SIDE + column;
-                let designs = [of(&placement.in_source), of(&placement.in_target)];
+                let pixel = (SIDE - 1 - row) * SIDE + column;
+                let designs = [corners(&placement.in_source), corners(&placement.in_target)];
                 for (k, [a, b, c]) in designs.into_iter().enumerate() {
                     let plane = |axis: usize| expected[(2 * k + axis) * SIDE * SIDE + pixel];
-                    let place = a + u * (b - a) + v * (c - a);
-                    apart[2 * pixel + k] = place.distance(DVec2::new(plane(0), plane(1)));
+                    let position = a + u * (b - a) + v * (c - a);
+                    distances[2 * pixel + k] = position.distance(DVec2::new(plane(0), plane(1)));
                 }
             }
         }
     }
-    apart
+    distances
 }
 
-fn whole(criterion: &mut Criterion, transition: &Transition) -> Result<()> {
+/// Times whole frames on one and on two threads.
+fn whole_frame(criterion: &mut Criterion, transition: &Transition) -> Result<()> {
     for threads in [1, 2] {
         let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = builder.build()?;
@@ -180,7 +185,7 @@ fn whole(criterion: &mut Criterion, transition: &Transition) -> Result<()> {
     Ok(())
 }
 
-/// The warp alone, on a grid of some 33 000 places.
+/// Times the warp alone, on a grid of about 33,000 points.
 fn warp(criterion: &mut Criterion) -> Result<()> {
     let bounds = Bounds {
         min: DVec2::ZERO,

@@ -1,18 +1,19 @@
-"""A frame of two pictures through pairs of lines in plain NumPy: that of
-benches/lines.rs, which runs this.
+"""Times a frame of two pictures warped by pairs of lines in plain NumPy.
 
     pip install numpy
     LINES_NUMPY=python3 cargo bench --no-default-features --bench lines
 
-Beier, Neely, "Feature-based image metamorphosis" (1992), at t = 0.5: for every
-pixel centre of 1024 by 1024 the places in both designs by 40 pairs of lines,
-b = 2, p = 0.5 and a a hundredth of the frame's diameter, the frame reaching a
-fiftieth of the pictures' diameter beyond them; bilinear looks at both pictures
-in linear light; their mean; sRGB. Arrays of pixels, a loop over lines; decoding
-and all that does not depend on t is done before. The pictures are opaque, so
-that alpha, which the program carries along, is left out. Prints the best and
-the median of 7 runs in milliseconds. OUT gets doubles: the places, x and y in
-the source and in the target, y up; then red, green and blue of each pixel.
+The same frame as in benches/lines.rs, which runs this script: Beier, Neely, "Feature-based image
+metamorphosis" (1992), at t = 0.5. For every pixel centre of 1024 x 1024, 40 pairs of lines give the
+positions in both designs, with b = 2, p = 0.5 and a = 1/100 of the diameter of the frame, which
+extends beyond the pictures by 1/50 of their diameter. Both pictures are sampled bilinearly in
+linear light, averaged, and encoded as sRGB. The code loops over lines and works on arrays of
+pixels; decoding and everything independent of t is done before timing. The pictures are opaque, so
+alpha, which the program computes, is omitted.
+
+Prints the best and the median time of 7 runs in milliseconds. The file named by the argument
+receives doubles: the positions, x and y in the source and in the target, y up; then red, green and
+blue of each pixel.
 """
 
 import math
@@ -29,7 +30,7 @@ A = 0.01 * (DIAMETER + 2.0 * math.sqrt(2.0) * 0.02 * DIAMETER)
 
 
 def pair(i):
-    """Line i in both designs, by its middle, angle and length."""
+    """Line i in both designs: midpoint, angle and length."""
     x = SIDE * math.modf(0.5 + i * 0.7548776662)[0]
     y = SIDE * math.modf(0.5 + i * 0.5698402910)[0]
     angle = 2.4 * i
@@ -41,30 +42,31 @@ def pair(i):
 
 
 def ends(x, y, angle, length):
+    """End points of a line."""
     dx, dy = 0.5 * length * math.cos(angle), 0.5 * length * math.sin(angle)
     return (x - dx, y - dy), (x + dx, y + dy)
 
 
 def warp(x, y, pairs):
-    """Where each place of the frame is looked up; x is a row, y a column."""
+    """Positions in a design of the points of the frame; x is a row vector, y a column vector."""
     sum_x, sum_y, total = (np.zeros((y.size, x.size)) for _ in range(3))
     for ((px, py), (qx, qy)), ((rx, ry), (sx, sy)) in pairs:
         dx, dy = qx - px, qy - py
         ex, ey = sx - rx, sy - ry
-        length, other = math.hypot(dx, dy), math.hypot(ex, ey)
+        length, target_length = math.hypot(dx, dy), math.hypot(ex, ey)
         u = ((x - px) * dx + (y - py) * dy) / length**2
         v = ((y - py) * dx - (x - px) * dy) / length
         beyond = (u - np.clip(u, 0.0, 1.0)) * length
         distance = np.sqrt(beyond**2 + v**2)
         weight = (length**P / (A + distance)) ** B
-        sum_x += weight * (rx + u * ex - v * (ey / other) - x)
-        sum_y += weight * (ry + u * ey + v * (ex / other) - y)
+        sum_x += weight * (rx + u * ex - v * (ey / target_length) - x)
+        sum_y += weight * (ry + u * ey + v * (ex / target_length) - y)
         total += weight
     return x + sum_x / total, y + sum_y / total
 
 
 def picture(shift):
-    """In linear light."""
+    """A picture of smooth waves in linear light."""
     y, x = np.mgrid[0:SIDE, 0:SIDE]
     waves = [(x, 0), (y, 1), (x + y, 2)]
     levels = [np.abs((z * (k + 1) + shift * 57) % 511 - 255) for z, k in waves]
@@ -76,7 +78,7 @@ def picture(shift):
 
 
 def encoding():
-    """sRGB of 65536 steps of light."""
+    """Table of sRGB values of 65536 steps of linear light."""
     light = np.arange(65536) / 65535.0
     encoded = np.where(
         light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055
@@ -84,8 +86,8 @@ def encoding():
     return np.round(255.0 * encoded).astype(np.uint8)
 
 
-def look(image, x, y):
-    """Bilinear between pixel centres, beyond them as at the edge."""
+def sample(image, x, y):
+    """Bilinear interpolation between pixel centres; the edge is extended outwards."""
     column = np.clip(x - 0.5, 0.0, SIDE - 1.0)
     row = np.clip(SIDE - 0.5 - y, 0.0, SIDE - 1.0)
     i = np.minimum(column.astype(np.intp), SIDE - 2)
@@ -98,6 +100,7 @@ def look(image, x, y):
 
 
 def frame(lines, images, table, t):
+    """Positions in both designs, and the blended sRGB image."""
     x = np.arange(SIDE)[None, :] + 0.5
     y = SIDE - np.arange(SIDE)[:, None] - 0.5
     between = [
@@ -105,10 +108,10 @@ def frame(lines, images, table, t):
         for line in lines
     ]
     places = [
-        warp(x, y, [(at, ends(*line[k])) for at, line in zip(between, lines)])
+        warp(x, y, [(line_at_t, ends(*line[k])) for line_at_t, line in zip(between, lines)])
         for k in (0, 1)
     ]
-    source, target = (look(image, *at) for image, at in zip(images, places))
+    source, target = (sample(image, *position) for image, position in zip(images, places))
     light = source + np.float32(t) * (target - source)
     return places, table[(light * 65535.0 + 0.5).astype(np.uint16)]
 

@@ -1,4 +1,4 @@
-//! Matching of two outlines and the polygons that share their vertices.
+//! Times the matching of two outlines, and the construction of polygons with shared vertices.
 //!
 //! `cargo bench --no-default-features --bench matching`
 
@@ -30,7 +30,7 @@ fn lobes(count: u32, lobes: f64) -> Result<BoundaryCurve> {
     )?)?)
 }
 
-/// Two outlines of the same number of points, by samples and by points.
+/// Matching by number of points and of samples; both outlines have equally many points.
 fn matching(criterion: &mut Criterion) -> Result<()> {
     let mut group = criterion.benchmark_group("match_curves");
     group.sample_size(20);

@@ -1,10 +1,9 @@
-//! Warps by scattered points and by lattices: frames on a raster and on a
-//! grid.
+//! Times warps by scattered points and by lattices: frames on a raster and on a grid.
 //!
-//! `cargo bench --no-default-features --bench scattered`. The pairs of the
-//! rasters are those of `benches/scattered_scipy.py`, which solves and looks
-//! up the same two maps, into the source and into the target, by
-//! `scipy.interpolate.RBFInterpolator`, side by side.
+//! `cargo bench --no-default-features --bench scattered`. For comparison,
+//! `benches/scattered_scipy.py` solves and evaluates the same two maps, into the source and into
+//! the target, with `scipy.interpolate.RBFInterpolator`, for the same point pairs as the rasters
+//! here.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use morphospace::correspondence::PointPair;
@@ -16,6 +15,7 @@ use std::error::Error;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
+/// Frame of the warps: the unit square.
 const SQUARE: Bounds = Bounds {
     min: DVec2::ZERO,
     max: DVec2::ONE,
@@ -29,18 +29,20 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Points of the additive recurrence by the plastic number.
+/// Evenly spread points: the additive recurrence by the plastic number.
 fn spread(count: u32, shift: f64) -> Vec<DVec2> {
     let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
     let point = |k| ((f64::from(k) + shift) * step).fract();
     (1..=count).map(point).collect()
 }
 
-fn value(p: &DVec2) -> DVec2 {
+/// Target of a point: a smooth function.
+fn target_of(p: &DVec2) -> DVec2 {
     DVec2::new((3.0 * p.x).sin() + p.y * p.y, p.x * (2.0 * p.y).cos())
 }
 
-fn with(basis: RadialBasis) -> ScatteredOptions {
+/// Options with a radial basis and its width.
+fn with_basis(basis: RadialBasis) -> ScatteredOptions {
     ScatteredOptions {
         basis,
         width: 0.25 / std::f64::consts::SQRT_2, // a quarter of the side
@@ -48,8 +50,7 @@ fn with(basis: RadialBasis) -> ScatteredOptions {
     }
 }
 
-/// Frames halfway on a raster of 512 × 512 places: both maps are solved for,
-/// and looked up.
+/// Times frames at t = ½ on a raster of 512 × 512 points: both maps are solved and evaluated.
 fn rasters(criterion: &mut Criterion) -> Result<()> {
     let raster: Vec<DVec2> = (0..512 * 512)
         .map(|k| DVec2::new(f64::from(k % 512), f64::from(k / 512)) / 511.0)
@@ -68,10 +69,10 @@ fn rasters(criterion: &mut Criterion) -> Result<()> {
             let pairs: Vec<_> = centres
                 .map(|source| PointPair {
                     source,
-                    target: value(&source),
+                    target: target_of(&source),
                 })
                 .collect();
-            let mut warp = ScatteredWarp::new(&SQUARE, &pairs, &[], with(basis))?;
+            let mut warp = ScatteredWarp::new(&SQUARE, &pairs, &[], with_basis(basis))?;
             for threads in [1, 2] {
                 let pool = rayon::ThreadPoolBuilder::new()
                     .num_threads(threads)
@@ -91,16 +92,17 @@ fn rasters(criterion: &mut Criterion) -> Result<()> {
     Ok(())
 }
 
-/// Features that move by up to a tenth of the frame.
+/// Point pairs that move by at most a tenth of the frame in x and y.
 fn pairs(count: u32) -> Vec<PointPair> {
     let ends = spread(count, 0.0).into_iter().zip(spread(count, 0.3));
-    let pair = |(source, by): (DVec2, DVec2)| PointPair {
+    let pair = |(source, shift): (DVec2, DVec2)| PointPair {
         source,
-        target: source + 0.2 * (by - 0.5),
+        target: source + 0.2 * (shift - 0.5),
     };
     ends.map(pair).collect()
 }
 
+/// Times frames on a grid, by number of point pairs.
 fn frames(criterion: &mut Criterion) -> Result<()> {
     let mut group = criterion.benchmark_group("frame");
     group.sample_size(10);
@@ -110,7 +112,7 @@ fn frames(criterion: &mut Criterion) -> Result<()> {
             RadialBasis::Gaussian,
             RadialBasis::Multiquadric,
         ] {
-            let warp = ScatteredWarp::new(&SQUARE, &pairs(count), &[], with(basis))?;
+            let warp = ScatteredWarp::new(&SQUARE, &pairs(count), &[], with_basis(basis))?;
             group.bench_function(BenchmarkId::new(format!("{basis:?}"), count), |b| {
                 b.iter(frame(&warp));
             });
@@ -131,7 +133,7 @@ fn frames(criterion: &mut Criterion) -> Result<()> {
     Ok(())
 }
 
-/// One frame of a grid of 64 × 64 cells, at another t each time.
+/// A function that computes a frame on a grid of 64 × 64 cells, at another t in each call.
 fn frame<W: PlaneWarp>(warp: &W) -> impl FnMut() {
     let places = PlaneGrid::covering(&SQUARE, 64).places().to_vec();
     let (mut source, mut target) = (places.clone(), places.clone());

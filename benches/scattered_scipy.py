@@ -1,11 +1,11 @@
-"""Thin plates and Gaussians of SciPy: values for tests, and times.
+"""Radial basis functions of SciPy: reference values for tests, and times.
 
     pip install numpy scipy
-    python3 benches/scattered_scipy.py          # times, beside benches/scattered.rs
-    python3 benches/scattered_scipy.py table    # src/warp/scattered/scipy.csv
+    python3 benches/scattered_scipy.py          # times, to compare with benches/scattered.rs
+    python3 benches/scattered_scipy.py table    # writes src/warp/scattered/scipy.csv to stdout
 
-Smoothing is in squared units of the points, as SciPy has it; here the unit
-is 1. The points are those of the bench and of the unit tests.
+Smoothing has the squared unit of the points, as in SciPy; the unit is 1 here. The points are those
+of the benchmark and of the unit tests.
 """
 
 import statistics
@@ -17,12 +17,13 @@ from scipy.interpolate import RBFInterpolator
 
 
 def spread(count, shift=0.0):
-    """Points of the additive recurrence by the plastic number."""
+    """Evenly spread points: the additive recurrence by the plastic number."""
     k = np.arange(1, count + 1)[:, None] + shift
     return (k * np.array([0.7548776662466927, 0.5698402909980532])) % 1.0
 
 
 def values(points):
+    """Targets of points: a smooth function."""
     x, y = points.T
     return np.stack([np.sin(3.0 * x) + y * y, x * np.cos(2.0 * y)], axis=1)
 
@@ -36,6 +37,7 @@ KINDS = [
 
 
 def table():
+    """Prints reference values as CSV."""
     centres, queries = spread(12), 1.5 * spread(20, 100.5) - 0.25
     columns = [queries]
     for kind in KINDS:
@@ -45,17 +47,17 @@ def table():
         print(",".join(f"{number:.17g}" for number in row))
 
 
-def milliseconds(work, runs=5):
+def milliseconds(function, runs=5):
     times = []
     for _ in range(runs):
         start = time.perf_counter()
-        work()
+        function()
         times.append(1e3 * (time.perf_counter() - start))
     return f"best {min(times):9.2f}  median {statistics.median(times):9.2f}"
 
 
 def times():
-    """A frame halfway: both maps are solved for together, and looked up."""
+    """Times frames at t = 0.5: both maps are solved together and evaluated."""
     side = np.arange(512) / 511.0
     raster = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
     for count in (50, 200, 500):

@@ -1,5 +1,5 @@
-//! A move of the puck over the map of six outlines of some 150 points: the weights of the
-//! place, the blend as rigid parts, and its picture as the window draws it.
+//! Times a move of the marker on the map of six outlines of 150 points each: the weights at the
+//! marker, the blend as rigid parts, and its image as the window draws it.
 //!
 //! `cargo bench --no-default-features --bench space`
 
@@ -15,29 +15,29 @@ use std::error::Error;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Points of each outline.
+/// Number of points of each outline.
 const POINTS: u32 = 150;
 
-/// The blend in a window of 1280 by 720, in pixels.
+/// Size of the blend in a window of 1280 × 720, in pixels.
 const SIZE: [u32; 2] = [360, 472];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = Criterion::default().configure_from_args().sample_size(30);
     let designs: Vec<Arc<Design>> = (0..6).map(flower).collect::<Result<_, _>>()?;
     let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent)?;
-    // Fields would be another figure.
+    // Without a common mesh the space would blend fields, which is timed differently.
     space.family().ok_or("no common mesh")?;
-    let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness()))?;
+    let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances()))?;
     let mut frame = space.frame();
     let mut weights = [0.0; 6];
     let mut k = 0;
-    let mut place = || {
+    let mut next_position = || {
         k += 1;
         DVec2::from_angle(f64::from(k) * 2.4) * (0.8 * (f64::from(k) * 0.618).fract().sqrt())
     };
     criterion.bench_function("weights and solve, 6 designs", |bencher| {
         bencher.iter(|| {
-            map.weights(place(), &mut weights);
+            map.weights(next_position(), &mut weights);
             frame.seek(&weights);
         });
     });
@@ -46,23 +46,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     let view = PlaneView::fit(bounds.padded(0.04 * bounds.diameter()), size);
     criterion.bench_function("weights, solve and draw, 6 designs", |bencher| {
         bencher.iter(|| {
-            map.weights(place(), &mut weights);
+            map.weights(next_position(), &mut weights);
             frame.seek(&weights);
             let mut drawing = Drawing::new(size, None);
-            let tint = space.tint(&weights);
+            let tint = space.colour_fraction(&weights);
             drawing.push_figure(&frame.figure(), tint, &TransitionStyle::default(), &view);
             rasterise(&drawing)
         });
     });
     let mut slow = Criterion::default().configure_from_args().sample_size(10);
     slow.bench_function("64 x 64 measures of the map", |bencher| {
-        bencher.iter(|| MapLandscape::of((&space, &map), 64, 1.2, &Silent));
+        bencher.iter(|| MapLandscape::measure(&space, &map, 64, 1.2, &Silent));
     });
     slow.final_summary();
     Ok(())
 }
 
-/// A rounded form with as many lobes as its number says, and two more.
+/// A rounded outline with `k` + 2 lobes.
 fn flower(k: u32) -> Result<Arc<Design>, Box<dyn Error>> {
     let lobes = f64::from(k + 2);
     let corner = |i: u32| {
@@ -71,5 +71,5 @@ fn flower(k: u32) -> Result<Arc<Design>, Box<dyn Error>> {
         DVec2::from_angle(angle) * radius
     };
     let ring: Vec<DVec2> = (0..POINTS).map(corner).collect();
-    Ok(Arc::new(Design::of_rings(format!("flower {k}"), [ring])?))
+    Ok(Arc::new(Design::from_rings(format!("flower {k}"), [ring])?))
 }

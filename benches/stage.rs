@@ -1,18 +1,17 @@
-//! The stage at 25 thousand to a million vertices, without a window: the gallery's rotor,
-//! subdivided further and further, and a sheet that is bent into a half ring.
+//! Times the stage with 25,000 to a million vertices, without a window.
 //!
-//! `cargo bench --bench stage`, of those alone that are named after `--`. A picture is
-//! 1280 × 720, drawn and read back.
+//! The cases are the gallery's rotor with growing subdivision, and a sheet that is bent into a half
+//! ring. `cargo bench --bench stage`; names after `--` select cases. Images are 1280 × 720 pixels,
+//! rendered and read back.
 //!
-//! - `first picture`: from the designs to what is seen of them
-//! - `recorded`: after which the graphics card plays
-//! - `solve`, `draw`: what the processor does in a frame, as F3 tells it: solved in each
-//!   frame, and played
-//! - `picture`: a whole frame
+//! - `first image`: from the designs to the first rendered image
+//! - `recorded`: recording, after which the GPU plays
+//! - `solve`, `draw`: CPU times of a frame, as F3 shows them; once solved and once played
+//! - `image`: a whole frame
 
-#[path = "../tests/gpu/studio.rs"]
-#[expect(dead_code, reason = "most of it is for the tests")]
-mod studio;
+#[path = "../tests/gpu/offscreen.rs"]
+#[expect(dead_code, reason = "most functions are used by the tests")]
+mod offscreen;
 
 use morphospace::design::Design;
 use morphospace::geometry::DVec2;
@@ -21,22 +20,22 @@ use morphospace::project::gallery;
 use morphospace::recording::RecordingOptions;
 use morphospace::transition::{Transition, TransitionSpec};
 use morphospace::work::progress::Silent;
+use offscreen::{OffscreenRenderer, RenderedScene};
 use std::error::Error;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use studio::{Scene, Studio};
 
-/// Frames of which the median is told.
+/// Number of frames of which the median is printed.
 const FRAMES: u32 = 40;
 
-#[expect(clippy::print_stdout, reason = "a bench tells on stdout")]
+#[expect(clippy::print_stdout, reason = "a benchmark prints its results")]
 fn main() -> ExitCode {
-    let Some(mut studio) = Studio::open(None) else {
-        println!("There is no graphics adapter: nothing to measure.");
+    let Some(mut renderer) = OffscreenRenderer::open(None) else {
+        println!("No graphics adapter was found: nothing to measure.");
         return ExitCode::SUCCESS;
     };
-    println!("{}", studio.adapter());
+    println!("{}", renderer.adapter());
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     let is_wanted = |name: &str| {
         let mut names = wanted
@@ -45,8 +44,8 @@ fn main() -> ExitCode {
             .peekable();
         names.peek().is_none() || names.any(|word| word == name)
     };
-    for (name, made) in CASES.iter().filter(|(name, _)| is_wanted(name)) {
-        match measured(&mut studio, *made) {
+    for (name, make_spec) in CASES.iter().filter(|(name, _)| is_wanted(name)) {
+        match measure(&mut renderer, *make_spec) {
             Ok(row) => println!("{name}: {row}"),
             Err(error) => {
                 println!("{name}: {error}");
@@ -57,22 +56,25 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-type Made = fn() -> Result<TransitionSpec, Box<dyn Error>>;
+/// Function that creates the transition of a case.
+type MakeSpec = fn() -> Result<TransitionSpec, Box<dyn Error>>;
 
-const CASES: [(&str, Made); 4] = [
+/// Names and transitions of the cases.
+const CASES: [(&str, MakeSpec); 4] = [
     ("rotor3", || rotor(3)),
     ("rotor4", || rotor(4)),
     ("rotor5", || rotor(5)),
     ("sheet", sheet),
 ];
 
+/// The gallery's rotor with the given number of subdivisions.
 fn rotor(subdivisions: u32) -> Result<TransitionSpec, Box<dyn Error>> {
     let mut spec = gallery::load("rotor")?.spec()?;
     spec.options.arap.subdivisions = subdivisions;
     Ok(spec)
 }
 
-/// A square of a million vertices, and the same bent by three radians.
+/// A square of a million vertices, bent by three radians.
 fn sheet() -> Result<TransitionSpec, Box<dyn Error>> {
     const SIDE: u32 = 1000;
     let step = 1.0 / f64::from(SIDE - 1);
@@ -94,48 +96,55 @@ fn sheet() -> Result<TransitionSpec, Box<dyn Error>> {
     Ok(TransitionSpec::new(source?, target?))
 }
 
-fn measured(studio: &mut Studio, made: Made) -> Result<String, Box<dyn Error>> {
-    let mut spec = made()?;
+/// Times a case; returns its results as text.
+fn measure(
+    renderer: &mut OffscreenRenderer,
+    make_spec: MakeSpec,
+) -> Result<String, Box<dyn Error>> {
+    let mut spec = make_spec()?;
     spec.patient = true;
-    let begun = Instant::now();
+    let start = Instant::now();
     let transition = Transition::build(&spec, &Silent)?;
-    let mut scene = Scene::new("bench", transition.clone());
+    let mut scene = RenderedScene::new("bench", transition.clone());
     scene.size = [1280, 720];
-    studio.put(&scene, 0.0);
-    studio.take(&scene)?;
-    let first = begun.elapsed();
-    let solved = frames(studio, &scene)?;
-    let begun = Instant::now();
+    renderer.place(&scene, 0.0);
+    renderer.capture(&scene)?;
+    let first = start.elapsed();
+    let solved = time_frames(renderer, &scene)?;
+    let start = Instant::now();
     transition.record(&RecordingOptions::default(), &Silent)?;
-    let recorded = begun.elapsed();
-    studio.wait_until_played();
-    let played = frames(studio, &scene)?;
-    let vertices = studio.read(<[_]>::len);
-    studio.clear();
+    let recorded = start.elapsed();
+    renderer.wait_for_gpu_playback();
+    let played = time_frames(renderer, &scene)?;
+    let vertices = renderer.read_vertices(<[_]>::len);
+    renderer.clear();
     Ok(format!(
-        "{vertices} vertices: first picture {:.2} s, recorded {:.2} s; solved: {solved}; \
+        "{vertices} vertices: first image {:.2} s, recorded {:.2} s; solved: {solved}; \
          played: {played}",
         first.as_secs_f64(),
         recorded.as_secs_f64(),
     ))
 }
 
-/// The medians of what frames take.
-fn frames(studio: &mut Studio, scene: &Scene) -> Result<String, Box<dyn Error>> {
-    studio.forget_times();
-    let mut pictures = Vec::new();
+/// Median times of frames, as text.
+fn time_frames(
+    renderer: &mut OffscreenRenderer,
+    scene: &RenderedScene,
+) -> Result<String, Box<dyn Error>> {
+    renderer.reset_frame_times();
+    let mut image_times = Vec::new();
     for k in 0..FRAMES {
-        let begun = Instant::now();
-        studio.move_to(f64::from(k) / f64::from(FRAMES));
-        studio.take(scene)?;
-        pictures.push(begun.elapsed());
+        let start = Instant::now();
+        renderer.seek(f64::from(k) / f64::from(FRAMES));
+        renderer.capture(scene)?;
+        image_times.push(start.elapsed());
     }
-    pictures.sort_unstable();
+    image_times.sort_unstable();
     let ms = |time: Duration| 1e3 * time.as_secs_f64();
-    let times = studio.times();
+    let times = renderer.frame_times();
     let [solve, draw] = [&times.solve, &times.draw].map(|times| times.median().map_or(0.0, ms));
-    let picture = ms(pictures[pictures.len() / 2]);
+    let image = ms(image_times[image_times.len() / 2]);
     Ok(format!(
-        "solve {solve:.3} ms, draw {draw:.3} ms, picture {picture:.1} ms"
+        "solve {solve:.3} ms, draw {draw:.3} ms, image {image:.1} ms"
     ))
 }

@@ -1,5 +1,4 @@
-//! Compatible triangulation: matched outlines, hard ones, and how its time
-//! grows with the number of points.
+//! Times compatible triangulation of easy and hard pairs, and its growth with the number of points.
 //!
 //! `cargo bench --no-default-features --bench triangulation`
 
@@ -9,7 +8,8 @@ use morphospace::geometry::DVec2;
 use morphospace::work::progress::Silent;
 use std::f64::consts::TAU;
 
-type Pair = [Vec<Vec<DVec2>>; 2];
+/// Rings of source and target.
+type RingPair = [Vec<Vec<DVec2>>; 2];
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
@@ -31,17 +31,18 @@ fn lobes(count: usize, lobes: f64) -> Vec<DVec2> {
     (0..count).map(point).collect()
 }
 
-/// A band that winds round itself.
+/// A band wound into a spiral.
 fn spiral(count: usize, turns: f64) -> Vec<DVec2> {
     let steps = count / 2 - 1;
     let at = |k: usize, out: f64| {
-        let share = k as f64 / steps as f64;
-        polar(0.2 + turns * share + out, TAU * turns * share)
+        let fraction = k as f64 / steps as f64;
+        polar(0.2 + turns * fraction + out, TAU * turns * fraction)
     };
     let outer = (0..=steps).map(|k| at(k, 0.6));
     outer.chain((0..=steps).rev().map(|k| at(k, 0.0))).collect()
 }
 
+/// A straight band.
 fn strip(count: usize) -> Vec<DVec2> {
     let steps = count / 2 - 1;
     let at = |k: usize, y: f64| DVec2::new(30.0 * k as f64 / steps as f64, y);
@@ -49,6 +50,7 @@ fn strip(count: usize) -> Vec<DVec2> {
     low.chain((0..=steps).rev().map(|k| at(k, 1.0))).collect()
 }
 
+/// A comb with a tooth for every four points.
 fn comb(count: usize) -> Vec<DVec2> {
     let teeth = count / 4;
     let mut points = vec![DVec2::ZERO, DVec2::new(teeth as f64, 0.0)];
@@ -60,10 +62,11 @@ fn comb(count: usize) -> Vec<DVec2> {
     points
 }
 
+/// A ring with a hole whose points are rotated by an angle.
 fn annulus(count: usize, turn: f64) -> Vec<Vec<DVec2>> {
-    let ring = |radius: f64, turn: f64, n: usize, way: f64| -> Vec<DVec2> {
+    let ring = |radius: f64, turn: f64, n: usize, direction: f64| -> Vec<DVec2> {
         (0..n)
-            .map(|k| polar(radius, turn + way * TAU * k as f64 / n as f64))
+            .map(|k| polar(radius, turn + direction * TAU * k as f64 / n as f64))
             .collect()
     };
     vec![
@@ -72,7 +75,8 @@ fn annulus(count: usize, turn: f64) -> Vec<Vec<DVec2>> {
     ]
 }
 
-fn pairs(count: usize) -> Vec<(&'static str, Pair)> {
+/// Named pairs with about `count` points each.
+fn pairs(count: usize) -> Vec<(&'static str, RingPair)> {
     let comb = comb(count);
     let mut shifted = lobes(count, 5.0);
     shifted.rotate_left(count / 3);
@@ -86,6 +90,7 @@ fn pairs(count: usize) -> Vec<(&'static str, Pair)> {
     ]
 }
 
+/// Times the pairs, or only the named one, for each number of points.
 fn bench(criterion: &mut Criterion, group: &str, counts: &[usize], only: Option<&str>) {
     let mut group = criterion.benchmark_group(group);
     group.sample_size(10);
@@ -107,6 +112,7 @@ fn gallery(criterion: &mut Criterion) {
     bench(criterion, "gallery", &[120, 1200], None);
 }
 
+/// Times one pair with growing numbers of points.
 fn growth(criterion: &mut Criterion) {
     bench(
         criterion,

@@ -1,5 +1,4 @@
-//! What is measured of a transition, as JSON on stdout: the core alone,
-//! without a window.
+//! Prints the measures of a transition as JSON; needs only the core library.
 //!
 //! `cargo run --release --no-default-features --example report [GALLERY NAME]`
 
@@ -11,7 +10,7 @@ use morphospace::transition::Transition;
 use morphospace::work::progress::Silent;
 use serde_json::{Value, json};
 
-/// At how many values of t the film is measured.
+/// Number of values of t at which the film is measured.
 const SAMPLES: usize = 33;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -21,17 +20,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The mesh and the film of a bundled project in numbers, and what they mean.
+/// Measures of the mesh and the film of a bundled project, and the defects found.
 pub fn report(name: &str) -> Result<Value, Box<dyn Error>> {
     let loaded = gallery::load(name)?;
     let transition = Transition::build(&loaded.spec()?, &Silent)?;
-    let film = measure::film(&transition, SAMPLES, &Silent)?;
+    let film = measure::film_report(&transition, SAMPLES, &Silent)?;
     let verdict = Verdict::of_film(&transition, &film, &Silent)?;
     Ok(json!({
         "title": loaded.title(),
         "verdict": verdict.headline(),
         "findings": verdict.findings,
-        "mesh": transition.compatible().and_then(measure::mesh),
+        "mesh": transition.compatible().and_then(measure::mesh_report),
         "film": film,
     }))
 }

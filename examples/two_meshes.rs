@@ -1,6 +1,7 @@
-//! `MorphPlugin` alone, in a Bevy program of its own: two meshes are spawned
-//! with a `Blend`, and a puck that is dragged along a bar morphs them. Until it
-//! is touched it swings by itself.
+//! `MorphPlugin` in a small Bevy program: two meshes are blended by a slider.
+//!
+//! The meshes are spawned with a `Blend`, and a knob on a bar sets its t. The knob swings by itself
+//! until it is dragged.
 //!
 //! `cargo run --release --example two_meshes`
 
@@ -16,26 +17,26 @@ use morphospace::stage::{
 };
 use morphospace::transition::TransitionStyle;
 
-/// Seconds from one star to the other and back.
+/// Seconds from one star to the other and back while the knob swings.
 const PERIOD_SECS: f64 = 6.0;
 
-/// Where the bar begins and ends, below the stars.
+/// Ends of the bar, below the stars.
 const BAR: [Vec2; 2] = [Vec2::new(-200.0, -340.0), Vec2::new(200.0, -340.0)];
 
-/// What is dragged, and where on the bar it is.
+/// The knob of the slider, and its position on the bar from 0 to 1.
 #[derive(Component, Default)]
-struct Puck {
+struct SliderKnob {
     t: f64,
-    has_been_touched: bool,
+    has_been_dragged: bool,
 }
 
 fn main() -> AppExit {
     App::new()
         .add_plugins((DefaultPlugins, MorphPlugin))
         .insert_resource(ClearColor(Color::srgb_u8(0x1b, 0x1f, 0x27)))
-        .add_systems(Startup, (spawn_pair, spawn_puck))
-        .add_systems(Update, drag_puck.in_set(MorphSystems::Input))
-        .add_systems(Update, move_blend.in_set(MorphSystems::Playback))
+        .add_systems(Startup, (spawn_pair, spawn_slider))
+        .add_systems(Update, move_knob.in_set(MorphSystems::Input))
+        .add_systems(Update, set_blend.in_set(MorphSystems::Playback))
         .add_systems(Update, show_t.after(MorphSystems::Solve))
         .add_observer(report_failure)
         .run()
@@ -59,6 +60,7 @@ fn star(inner: f64, outer: f64, twist: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(positions, tips.chain(belt).collect())
 }
 
+/// Spawns the camera, two meshes and their style.
 fn spawn_pair(mut commands: Commands) -> Result {
     commands.spawn(Camera2d);
     commands.spawn((
@@ -80,7 +82,7 @@ fn spawn_pair(mut commands: Commands) -> Result {
     Ok(())
 }
 
-fn spawn_puck(
+fn spawn_slider(
     mut commands: Commands,
     mut meshes: ResMut<Assets<Mesh>>,
     mut colours: ResMut<Assets<ColorMaterial>>,
@@ -95,42 +97,42 @@ fn spawn_puck(
         shape(bar.into(), 0x60),
         Transform::from_translation(from.midpoint(to).extend(0.0)),
     ));
-    commands.spawn((Puck::default(), shape(Circle::new(12.0).into(), 0xd0)));
+    commands.spawn((SliderKnob::default(), shape(Circle::new(12.0).into(), 0xd0)));
 }
 
-/// The puck follows the pointer while a button is down.
-fn drag_puck(
-    mut pucks: Query<(&mut Puck, &mut Transform)>,
+/// Moves the knob to the pointer while the left button is down.
+fn move_knob(
+    mut knobs: Query<(&mut SliderKnob, &mut Transform)>,
     buttons: Res<ButtonInput<MouseButton>>,
     window: Single<&Window>,
     camera: Single<(&Camera, &GlobalTransform)>,
     time: Res<Time>,
 ) {
-    let (camera, place) = *camera;
+    let (camera, camera_transform) = *camera;
     let pointer = window
         .cursor_position()
         .filter(|_| buttons.pressed(MouseButton::Left));
-    let pointer = pointer.and_then(|px| camera.viewport_to_world_2d(place, px).ok());
+    let pointer = pointer.and_then(|px| camera.viewport_to_world_2d(camera_transform, px).ok());
     let [from, to] = BAR;
-    for (mut puck, mut transform) in &mut pucks {
+    for (mut knob, mut transform) in &mut knobs {
         if let Some(p) = pointer {
-            let share = (p - from).dot(to - from) / (to - from).length_squared();
-            puck.t = f64::from(share.clamp(0.0, 1.0));
-            puck.has_been_touched = true;
-        } else if !puck.has_been_touched {
-            puck.t = 0.5 - 0.5 * (TAU * time.elapsed_secs_f64() / PERIOD_SECS).cos();
+            let fraction = (p - from).dot(to - from) / (to - from).length_squared();
+            knob.t = f64::from(fraction.clamp(0.0, 1.0));
+            knob.has_been_dragged = true;
+        } else if !knob.has_been_dragged {
+            knob.t = 0.5 - 0.5 * (TAU * time.elapsed_secs_f64() / PERIOD_SECS).cos();
         }
-        transform.translation = from.lerp(to, puck.t as f32).extend(1.0);
+        transform.translation = from.lerp(to, knob.t as f32).extend(1.0);
     }
 }
 
-fn move_blend(puck: Single<&Puck>, mut blends: Query<&mut Blend>) {
+fn set_blend(knob: Single<&SliderKnob>, mut blends: Query<&mut Blend>) {
     for mut blend in &mut blends {
-        blend.t = puck.t;
+        blend.t = knob.t;
     }
 }
 
-/// After solving the frame is that of this update.
+/// Shows t in the title; runs after solving, so that the frame belongs to this update.
 fn show_t(morphs: Query<&Morph, Changed<Morph>>, mut window: Single<&mut Window>) {
     for morph in &morphs {
         window.title = format!("t = {:.2}", morph.frame().t());

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Draws the designs in assets/gallery; the .morph files there are by hand.
+"""Draws the designs in assets/gallery; the .morph files there are written by hand.
 
     python3 scripts/draw_gallery.py [FOLDER]
 
-Every number that gives a design its form stands here, so the gallery can be
-corrected and drawn again. Meshes and trusses whose faces are not all
-counter-clockwise in both designs are refused.
+All shape parameters of the designs are in this file, so that the gallery can be corrected and drawn
+again. Meshes and trusses with a face that is not counter-clockwise in both designs are refused.
 """
 
 import cmath
@@ -20,7 +19,7 @@ GALLERY = Path(__file__).resolve().parent.parent / "assets" / "gallery"
 
 
 def triangles(folder):
-    """One triangle; its target is turned by 150 degrees and stretched 2 : 1."""
+    """One triangle; the target is rotated by 150 degrees and stretched 2 : 1."""
     source = [0 + 0j, 2.2 + 0j, 0.5 + 1.5j]
     turn = cmath.exp(1j * math.radians(150))
     target = [complex(7.5, 1.5) + turn * complex(1.5 * p.real, 0.75 * p.imag) for p in source]
@@ -34,7 +33,7 @@ def triangles(folder):
 
 
 def bracket_and_davit(folder):
-    """A wall bracket and a davit: one truss, its root turned up by a right angle."""
+    """A wall bracket and a davit: one truss whose base is rotated by 90 degrees."""
     bays = 9
     top = [complex(x, 3.6) for x in range(bays + 1)]
     bottom = [complex(x, 3.6 * (x / bays) ** 0.9) for x in range(bays)]
@@ -66,7 +65,7 @@ def bracket_and_davit(folder):
 
 
 def girders(folder):
-    """A Pratt girder of 61 bars, the crescent arch that it bends into, and two more between."""
+    """A Pratt girder of 61 bars, a crescent arch, and two girders of intermediate shape."""
     bays = 16
     chord = range(bays + 1)
     lower = [complex(2 * i, 0) for i in chord]
@@ -109,12 +108,12 @@ def girders(folder):
 
 
 def bridges(folder):
-    """Two stone bridges with four eyes each, hump-backed and level, as grey pictures."""
+    """Two stone bridges with four openings each, hump-backed and level, as grey images."""
 
-    def stone(name, top, soffit, eyes):
+    def stone(name, top, soffit, openings):
         ink = kit.Ink(1200, 420)
         ink.polygon([40 + 30j, *soffit, 1160 + 30j, *reversed(top)])
-        for chain, thickness in eyes:
+        for chain, thickness in openings:
             ink.carve(chain, thickness)
             ink.carve([complex(1200 - p.real, p.imag) for p in chain], thickness)
         ink.png(folder / f"{name}.png")
@@ -130,11 +129,11 @@ def bridges(folder):
         ]
 
     hump = [40 + 222j, 180 + 252j, 360 + 318j, 600 + 372j, 840 + 318j, 1020 + 252j, 1160 + 222j]
-    round_eyes = [([132 + 124j, 132 + 125j], 80), ([262 + 212j, 262 + 213j], 48)]
-    stone("bridge-humped", kit.spline(hump), arc(230, 296), round_eyes)
+    round_openings = [([132 + 124j, 132 + 125j], 80), ([262 + 212j, 262 + 213j], 48)]
+    stone("bridge-humped", kit.spline(hump), arc(230, 296), round_openings)
     level = [40 + 322j, 320 + 336j, 600 + 341j, 880 + 336j, 1160 + 322j]
-    tall_eyes = [([128 + 96j, 128 + 162j], 68), ([257 + 204j, 258 + 238j], 42)]
-    stone("bridge-level", kit.spline(level), arc(200, 264), tall_eyes)
+    tall_openings = [([128 + 96j, 128 + 162j], 68), ([257 + 204j, 258 + 238j], 42)]
+    stone("bridge-level", kit.spline(level), arc(200, 264), tall_openings)
 
 
 def vessels(folder):
@@ -163,7 +162,7 @@ def outlines(ink, tolerance):
 
 
 def cantilevers(folder):
-    """Two cantilevers in the manner of Michell: loaded at the tip, and below it."""
+    """Two cantilevers in the style of Michell structures: loaded at the tip, and below it."""
     tip = kit.Ink(640, 360, fillet=18)
     chord = kit.spline([-12 + 330j, 110 + 334j, 250 + 312j, 400 + 268j, 520 + 222j, 614 + 180j])
     webs = [
@@ -199,7 +198,7 @@ def cantilevers(folder):
         kit.svg(folder / f"{name}.svg", 640, 360, title, outlines(ink, 0.3))
 
 
-# The letters, 700 units high. The S is a spine with a thickness along it.
+# Control points of the letters, 700 units high. The S is a spine of varying thickness.
 D_OUTER = [
     60 + 0j,
     200 + 0j,
@@ -254,9 +253,9 @@ S_SPINE = [
 
 
 def s_sides(fractions):
-    """Left and right side of the S, from its lower terminal to its upper one."""
+    """Left and right side of the S, from its lower to its upper end."""
     left, right = [], []
-    for fraction, (p, d) in zip(fractions, kit.at_fractions(kit.run(S_SPINE, 40), fractions)):
+    for fraction, (p, d) in zip(fractions, kit.at_fractions(kit.bezier_chain(S_SPINE, 40), fractions)):
         half = 62 + 20 * math.exp(-(((fraction - 0.5) / 0.16) ** 2)) + 8 * (2 * fraction - 1) ** 4
         left.append(p + 1j * d * half)
         right.append(p - 1j * d * half)
@@ -283,20 +282,20 @@ def letter_outlines(folder):
 
 
 def letters_by_hand(folder):
-    """D and S in 34 triangles each, matched badly, though every face is positive.
+    """D and S as meshes of 34 triangles with a deliberately bad match and only positive faces.
 
-    The ring of the D is cut at the right of its bowl, where no S begins. Its
-    upper half is drawn out over most of the S, the rest is squeezed into what
-    remains, and the two sides of the stroke are out of step.
+    The ring of the D is cut at the right of its bowl, where an S has no end. Its upper half is
+    stretched over most of the S and the rest is compressed, and the two sides of the stroke are
+    matched with an offset.
     """
     outer = d_stations(D_OUTER, [60 + 700j, 60 + 560j, 60 + 420j, 60 + 280j, 60 + 140j, 60 + 0j])
     inner = d_stations(
         D_INNER, [222 + 558j, 222 + 475j, 222 + 392j, 222 + 308j, 222 + 225j, 222 + 142j]
     )
     last = len(outer) - 1
-    pace = [1 - (1 - i / last) ** 2.1 for i in range(last + 1)]
-    left, _ = s_sides(pace)
-    _, right = s_sides([f - 0.16 * f * (1 - f) for f in pace])
+    fractions = [1 - (1 - i / last) ** 2.1 for i in range(last + 1)]
+    left, _ = s_sides(fractions)
+    _, right = s_sides([f - 0.16 * f * (1 - f) for f in fractions])
     faces = []
     for i in range(last):
         a, b, c, d = i, i + 1, last + 1 + i, last + 2 + i
@@ -308,7 +307,7 @@ def letters_by_hand(folder):
 
 
 def d_stations(loop, stem):
-    """Along one side of the D's stroke, counter-clockwise from the right of its bowl."""
+    """Points along one side of the stroke of the D, counter-clockwise from the right of its bowl."""
     upper = kit.cubic(*loop[6:10], 4)
     lower = kit.cubic(*loop[3:7], 4)
     return [*upper, (upper[-1] + stem[0]) / 2, *stem, (stem[-1] + lower[0]) / 2, *lower]
@@ -352,7 +351,7 @@ def rotors(folder):
     straight, curled = rotor(0.0), rotor(math.radians(400))
     kit.obj(folder / "rotor-straight.obj", "a rotor with straight blades", straight, faces)
     kit.obj(folder / "rotor-curled.obj", "the same rotor, its blades curled", curled, faces)
-    count = after(subdivisions, len(straight), faces)
+    count = subdivided_count(subdivisions, len(straight), faces)
     print(f"rotors: {len(straight)} vertices, {count} after {subdivisions} subdivisions")
 
 
@@ -362,7 +361,7 @@ def gecko(folder):
     def pose(spine, legs, toes):
         ink = kit.Ink(640, 480, fillet=14)
         chain = kit.spline(spine, 24)
-        # Snout, skull, neck, ribs, hips, then the tail down to its tip.
+        # Thickness at the snout, skull, neck, ribs and hips, then along the tail.
         ink.stroke(chain, 22, 52, 64, 40, 58, 66, 56, 46, 30, 22, 15, 9)
         for leg, foot in zip(legs, toes):
             ink.stroke(kit.spline(leg, 12), 30, 20, 17)
@@ -404,20 +403,20 @@ def gecko(folder):
 
 
 def fern(folder):
-    """The crozier of a fern, coiled and unrolled."""
+    """The frond of a fern, coiled and unrolled."""
 
     def frond(spine, name, title):
         ink = kit.Ink(560, 560, fillet=6)
         ink.stroke(spine, 44, 40, 35, 30, 25, 20, 15, 11)
         kit.svg(folder / f"{name}.svg", 560, 560, title, outlines(ink, 0.3))
 
-    turns, middle = 2.25, 318 + 352j
+    turns, centre = 2.25, 318 + 352j
     coil = []
     for i in range(141):
-        share = i / 140
-        angle = math.pi - turns * math.tau * share
-        radius = 158 * (1 - share) ** 0.8 + 14
-        coil.append(middle + radius * complex(math.cos(angle), math.sin(angle)))
+        fraction = i / 140
+        angle = math.pi - turns * math.tau * fraction
+        radius = 158 * (1 - fraction) ** 0.8 + 14
+        coil.append(centre + radius * complex(math.cos(angle), math.sin(angle)))
     stem = kit.spline([190 + 36j, 178 + 120j, 164 + 230j, coil[0]], 16)
     frond(stem[:-1] + coil, "fern-coiled", "Fern, coiled")
     unrolled = kit.spline([96 + 36j, 130 + 180j, 204 + 316j, 320 + 424j, 470 + 500j], 40)
@@ -427,9 +426,9 @@ def fern(folder):
 def spectacles(folder):
     """Spectacles with two openings, and a moustache with none."""
     glasses = kit.Ink(640, 300, fillet=10)
-    for middle in (196 + 148j, 444 + 148j):
+    for centre in (196 + 148j, 444 + 148j):
         ring = [
-            middle + complex(94 * math.cos(a), 80 * math.sin(a))
+            centre + complex(94 * math.cos(a), 80 * math.sin(a))
             for a in (i * math.tau / 96 for i in range(97))
         ]
         glasses.stroke(ring, 24)
@@ -460,8 +459,8 @@ def lamp(folder):
         steps, neck = 60, [foot]
         for i in range(steps):
             # The ends of the neck are stiff.
-            share = min(1.0, max(0.0, (i / steps - 0.36) / 0.56))
-            heading = math.radians(90 + bend * share)
+            fraction = min(1.0, max(0.0, (i / steps - 0.36) / 0.56))
+            heading = math.radians(90 + bend * fraction)
             neck.append(neck[-1] + 470 / steps * cmath.exp(1j * heading))
         ink.stroke(neck, 30, 26, 24, 24)
         along = cmath.exp(1j * math.radians(90 + bend))
@@ -475,8 +474,8 @@ def lamp(folder):
         kit.svg(folder / f"{name}.svg", 640, 640, title, outlines(ink, 0.3))
 
 
-def after(subdivisions, vertices, faces):
-    """Vertices when each face is split into four, so many times."""
+def subdivided_count(subdivisions, vertices, faces):
+    """Number of vertices after splitting each face into four, `subdivisions` times."""
     edges = len({tuple(sorted(pair)) for a, b, c in faces for pair in ((a, b), (b, c), (c, a))})
     count = len(faces)
     for _ in range(subdivisions):

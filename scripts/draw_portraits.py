@@ -1,12 +1,10 @@
 #!/usr/bin/env python3
-"""Draws the portraits of the gallery, and prints their pairs of lines: of each two that
-follow each other.
+"""Draws the portraits of the gallery and prints the pairs of lines between consecutive ones.
 
     python3 scripts/draw_portraits.py assets/gallery
 
-Needs nothing but Python. Every shape is a signed distance, shaded and
-anti-aliased over a pixel; the lines are the features they were drawn by, in
-the pictures' own units (pixels, y up).
+Needs only Python. Each shape is a signed distance, shaded and antialiased over one pixel. The lines
+are the features by which the faces were drawn, in the units of the pictures (pixels, y up).
 """
 
 import math
@@ -18,10 +16,10 @@ WIDTH, HEIGHT = 360, 450
 
 
 class Portrait:
-    """What differs from one face to the other; lengths in pixels, y down."""
+    """Parameters of a face; lengths in pixels, y down."""
 
-    def __init__(self, **given):
-        self.__dict__.update(given)
+    def __init__(self, **parameters):
+        self.__dict__.update(parameters)
 
 
 ADA = Portrait(
@@ -57,19 +55,21 @@ NOOR = Portrait(
 )
 
 
-def mix(a, b, share):
-    share = min(1.0, max(0.0, share))
-    return tuple(x + share * (y - x) for x, y in zip(a, b))
+def mix(a, b, fraction):
+    """Linear interpolation of two colours; `fraction` of b, clamped to 0 to 1."""
+    fraction = min(1.0, max(0.0, fraction))
+    return tuple(x + fraction * (y - x) for x, y in zip(a, b))
 
 
 def ellipse(x, y, rx, ry):
-    """Nearly the distance to an ellipse, negative inside."""
+    """Approximate signed distance to an ellipse, negative inside."""
     k = math.hypot(x / rx, y / ry)
     slope = math.hypot(x / rx ** 2, y / ry ** 2)
     return k * (k - 1) / slope if slope > 1e-9 else -min(rx, ry)
 
 
-def segment(x, y, ax, ay, bx, by):
+def segment_distance(x, y, ax, ay, bx, by):
+    """Distance to a line segment."""
     dx, dy = bx - ax, by - ay
     t = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)
     t = min(1.0, max(0.0, t))
@@ -77,39 +77,41 @@ def segment(x, y, ax, ay, bx, by):
 
 
 def cover(distance, soft=1.0):
+    """Coverage of a pixel at a signed distance from an edge of width `soft`."""
     return min(1.0, max(0.0, 0.5 - distance / soft))
 
 
-def own(face, x, y):
-    """From the picture to the head's own axes."""
+def head_from_picture(face, x, y):
+    """Picture coordinates to the axes of the head."""
     c, s = math.cos(face.tilt), math.sin(face.tilt)
     x, y = x - face.middle[0], y - face.middle[1]
     return c * x + s * y, c * y - s * x
 
 
-def placed(face, x, y):
-    """From the head's own axes to the picture."""
+def picture_from_head(face, x, y):
+    """Axes of the head to picture coordinates."""
     c, s = math.cos(face.tilt), math.sin(face.tilt)
     return face.middle[0] + c * x - s * y, face.middle[1] + s * x + c * y
 
 
 def shoulder(face):
-    """The middle of the shoulders, across."""
+    """Horizontal position of the centre between the shoulders."""
     return face.middle[0] * 0.7 + 54
 
 
 def colour(face, px, py):
-    x, y = own(face, px, py)
+    """Colour of the picture at a point, painted from back to front."""
+    x, y = head_from_picture(face, px, py)
     rx, ry = face.radii
     light = 0.5 + 0.5 * math.tanh((-(px - 180) * 0.6 - (py - 210)) / 180)
-    ground = mix(face.sky[0], face.sky[1], py / HEIGHT + 0.10 * math.sin(px / 57 + py / 91))
+    paint = mix(face.sky[0], face.sky[1], py / HEIGHT + 0.10 * math.sin(px / 57 + py / 91))
 
-    # The neck, then a coat that leaves its collar open.
+    # The neck, then a coat with an open collar.
     neck = max(abs(x) - 0.42 * rx, -y, y - 1.9 * ry)
-    neck_ground = mix(ground, mix(face.shade, face.skin, 0.2), cover(neck, 3))
+    neck_ground = mix(paint, mix(face.shade, face.skin, 0.2), cover(neck, 3))
     sx, sy = px - shoulder(face), py - 470
-    coat = max(ellipse(sx, sy, 168, 108), 30 - math.hypot(px - placed(face, 0, 1.30 * ry)[0], 0.8 * (py - 372)))
-    ground = mix(neck_ground, mix(face.coat, (16, 18, 24), 0.9 - light), cover(coat, 1.5))
+    coat = max(ellipse(sx, sy, 168, 108), 30 - math.hypot(px - picture_from_head(face, 0, 1.30 * ry)[0], 0.8 * (py - 372)))
+    paint = mix(neck_ground, mix(face.coat, (16, 18, 24), 0.9 - light), cover(coat, 1.5))
 
     # Hair behind the head.
     hair = ellipse(x, y + 0.16 * ry, 1.16 * rx, 1.10 * ry)
@@ -119,9 +121,9 @@ def colour(face, px, py):
     else:
         hair = max(hair, y - 0.12 * ry)
     strands = 0.16 * math.sin(0.19 * x + 2.2 * math.sin(0.021 * y))
-    ground = mix(ground, mix(face.hair, (250, 240, 226), 0.20 * light + strands * 0.5), cover(hair, 2))
+    paint = mix(paint, mix(face.hair, (250, 240, 226), 0.20 * light + strands * 0.5), cover(hair, 2))
 
-    # The head: narrower below.
+    # The head, which narrows towards the chin.
     narrow = 1.0 if y < 0 else 1.0 - (1 - 0.86 * face.jaw) * min(1.0, y / ry) ** 2
     head = ellipse(x / narrow, y, rx, ry)
     skin = mix(face.shade, face.skin, 0.35 + 0.75 * light - 0.25 * (x / rx) ** 2)
@@ -130,51 +132,51 @@ def colour(face, px, py):
         skin = mix(skin, face.cheek, 0.45 * glow)
         socket = math.exp(-((x - side * face.eye) ** 2 / 500 + (y - face.eye_y) ** 2 / 220))
         skin = mix(skin, face.shade, 0.30 * socket)
-    ground = mix(ground, skin, cover(head, 1.5))
+    paint = mix(paint, skin, cover(head, 1.5))
 
     # The fringe.
     edge = -ry * (0.92 - face.fringe) + 12 * math.sin(x / 31 + 1) - 0.0016 * x * x * (1 if face.bun else -1.2)
     if head < 0 or hair < 0:
         hairline = max(ellipse(x, y + 0.10 * ry, 1.06 * rx, 1.02 * ry), y - edge)
         tint = mix(face.hair, (250, 240, 226), 0.24 * light + strands * 0.4)
-        ground = mix(ground, tint, cover(hairline, 3))
+        paint = mix(paint, tint, cover(hairline, 3))
 
     # Eyes, brows.
     for side in (-1, 1):
         ex, ey = x - side * face.eye, y - face.eye_y
         w, h = face.eye_size
         lens = max(ellipse(ex, ey + 0.5 * h, w * 1.05, 1.5 * h), ellipse(ex, ey - 0.5 * h, w * 1.05, 1.5 * h))
-        ground = mix(ground, (243, 238, 230), cover(lens, 1.2))
+        paint = mix(paint, (243, 238, 230), cover(lens, 1.2))
         iris = max(math.hypot(ex, ey) - 0.92 * h, lens)
-        ground = mix(ground, face.iris, cover(iris, 1.2))
-        ground = mix(ground, (18, 16, 20), cover(max(math.hypot(ex, ey) - 0.45 * h, lens), 1.2))
-        ground = mix(ground, (255, 255, 255), cover(math.hypot(ex + 2.4, ey + 2.4) - 1.5, 1.2))
+        paint = mix(paint, face.iris, cover(iris, 1.2))
+        paint = mix(paint, (18, 16, 20), cover(max(math.hypot(ex, ey) - 0.45 * h, lens), 1.2))
+        paint = mix(paint, (255, 255, 255), cover(math.hypot(ex + 2.4, ey + 2.4) - 1.5, 1.2))
         lid = abs(ellipse(ex, ey - 0.5 * h, w * 1.05, 1.5 * h)) + max(0.0, ey - 0.1 * h)
-        ground = mix(ground, mix(face.hair, (0, 0, 0), 0.4), cover(lid - 1.4, 1.4))
+        paint = mix(paint, mix(face.hair, (0, 0, 0), 0.4), cover(lid - 1.4, 1.4))
         by = face.brow
-        brow = segment(x, y, side * (face.eye - 19), by, side * (face.eye + 20), by + 90 * face.brow_tilt * 0.5)
-        ground = mix(ground, mix(face.hair, (0, 0, 0), 0.25), cover(brow - 3.6, 2))
+        brow = segment_distance(x, y, side * (face.eye - 19), by, side * (face.eye + 20), by + 90 * face.brow_tilt * 0.5)
+        paint = mix(paint, mix(face.hair, (0, 0, 0), 0.25), cover(brow - 3.6, 2))
 
     # Nose, mouth.
-    ridge = segment(x, y, -4, face.brow + 16, -9, face.nose)
-    ground = mix(ground, mix(skin, (255, 240, 220), 0.5), 0.5 * cover(ridge - 2.5, 7))
+    ridge = segment_distance(x, y, -4, face.brow + 16, -9, face.nose)
+    paint = mix(paint, mix(skin, (255, 240, 220), 0.5), 0.5 * cover(ridge - 2.5, 7))
     wing = abs(ellipse(x, y - face.nose, 17, 11)) + max(0.0, face.nose - y)
-    ground = mix(ground, face.shade, 0.85 * cover(wing - 1.5, 2.5))
+    paint = mix(paint, face.shade, 0.85 * cover(wing - 1.5, 2.5))
     bend = face.smile * ((x / face.mouth) ** 2 - 0.3)
     mx, my = x, y - face.mouth_y + bend
     lips = ellipse(mx, my, face.mouth, 10)
-    ground = mix(ground, mix(face.lips, (255, 220, 210), 0.18 * light + (0.12 if my > 0 else 0)), cover(lips, 1.5))
+    paint = mix(paint, mix(face.lips, (255, 220, 210), 0.18 * light + (0.12 if my > 0 else 0)), cover(lips, 1.5))
     if abs(mx) < face.mouth:
-        ground = mix(ground, mix(face.lips, (20, 0, 0), 0.7), cover(abs(my) - 1.1, 1.4) * cover(lips, 2))
+        paint = mix(paint, mix(face.lips, (20, 0, 0), 0.7), cover(abs(my) - 1.1, 1.4) * cover(lips, 2))
 
-    # A grain, so that it is no plain gradient.
+    # Grain, so that the picture is not a smooth gradient.
     grain = math.sin(px * 12.9898 + py * 78.233) * 43758.5453
     grain = (grain - math.floor(grain) - 0.5) * 7
-    return tuple(min(255, max(0, round(c + grain))) for c in ground)
+    return tuple(min(255, max(0, round(c + grain))) for c in paint)
 
 
 def lines(face):
-    """The features by which the face was drawn, y up."""
+    """Lines of the features of a face, y up."""
     rx, ry = face.radii
     jaw = 0.86 * face.jaw
     ends = [
@@ -196,11 +198,12 @@ def lines(face):
     middle = shoulder(face)
     slopes = [((middle - 152, 424), (middle - 78, 374)), ((middle + 78, 374), (middle + 152, 424))]
     up = lambda p: [round(p[0], 1), round(HEIGHT - p[1], 1)]
-    heads = [[up(placed(face, *a)), up(placed(face, *b))] for a, b in ends]
+    heads = [[up(picture_from_head(face, *a)), up(picture_from_head(face, *b))] for a, b in ends]
     return heads + [[up(a), up(b)] for a, b in slopes]
 
 
 def png(face):
+    """The picture as a PNG file."""
     rows = b"".join(
         b"\0" + bytes(c for px in range(WIDTH) for c in colour(face, px + 0.5, py + 0.5))
         for py in range(HEIGHT)

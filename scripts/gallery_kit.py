@@ -1,12 +1,11 @@
-"""What the gallery's drawings are made with: curves, ink, outlines and files.
+"""Tools for drawing the gallery: curves, strokes, contours, and writers of PNG, SVG, OBJ and JSON.
 
-Points are complex numbers, x + iy, and y is up, as everywhere in Morphospace;
-only the writers of PNG and SVG turn it over. Standard library only.
+Points are complex numbers x + iy with y up, as everywhere in Morphospace; only the writers of PNG
+and SVG flip y. Uses only the standard library.
 
-`Ink` is a signed distance on a grid (negative inside) that grows by strokes of
-varying thickness. Strokes melt into each other with a fillet, which is what
-gives a structure the look of cast or optimised material. Its zero contour is
-fitted with cubic curves for SVG, or becomes grey levels for PNG.
+`Ink` is a signed distance on a grid, negative inside, that grows by strokes of varying thickness.
+Strokes join with a fillet, which makes structures look like cast or optimised material. Its zero
+contour is fitted with cubic curves for SVG, or antialiased for PNG.
 """
 
 import json
@@ -16,7 +15,7 @@ import zlib
 
 
 def cubic(a, b, c, d, steps):
-    """Points on a cubic Bezier curve, both ends included."""
+    """Points on a cubic Bezier curve, including both ends."""
     out = []
     for i in range(steps + 1):
         t = i / steps
@@ -26,7 +25,7 @@ def cubic(a, b, c, d, steps):
 
 
 def spline(points, steps=16):
-    """A Catmull-Rom curve through the points, `steps` to a span."""
+    """A Catmull-Rom curve through the points, with `steps` steps between neighbouring points."""
     ends = [2 * points[0] - points[1], *points, 2 * points[-1] - points[-2]]
     out = [points[0]]
     for before, a, b, after in zip(ends, ends[1:], ends[2:], ends[3:]):
@@ -34,8 +33,8 @@ def spline(points, steps=16):
     return out
 
 
-def run(curves, steps=16):
-    """One chain of cubic curves: a start, then triples of control points."""
+def bezier_chain(curves, steps=16):
+    """Points along consecutive cubic curves: a start, then triples of control points."""
     out = [curves[0]]
     for i in range(1, len(curves), 3):
         out += cubic(out[-1], *curves[i : i + 3], steps)[1:]
@@ -43,24 +42,24 @@ def run(curves, steps=16):
 
 
 def at_fractions(chain, fractions):
-    """Points of a chain at fractions of its length, with unit directions."""
-    marks = [0.0]
+    """Points of a polyline at fractions of its length, with unit directions."""
+    lengths = [0.0]
     for a, b in zip(chain, chain[1:]):
-        marks.append(marks[-1] + abs(b - a))
+        lengths.append(lengths[-1] + abs(b - a))
     out = []
     for fraction in fractions:
-        want = fraction * marks[-1]
-        i = next((i for i in range(1, len(marks) - 1) if marks[i] >= want), len(marks) - 1)
+        target = fraction * lengths[-1]
+        i = next((i for i in range(1, len(lengths) - 1) if lengths[i] >= target), len(lengths) - 1)
         step = chain[i] - chain[i - 1]
-        part = (want - marks[i - 1]) / abs(step)
+        part = (target - lengths[i - 1]) / abs(step)
         out.append((chain[i - 1] + part * step, step / abs(step)))
     return out
 
 
 def trimmed(chain, start, end=None):
-    """The chain without `start` of its length at one end and `end` at the other.
+    """A polyline shortened by the length `start` at its start and `end` at its end.
 
-    A stroke that ends inside a thicker one would raise a bump on its far side.
+    A stroke that ends inside a thicker one would make a bump on the far side of that one.
     """
     length = sum(abs(b - a) for a, b in zip(chain, chain[1:]))
     first, last = start / length, 1 - (start if end is None else end) / length
@@ -68,7 +67,7 @@ def trimmed(chain, start, end=None):
 
 
 def between(numbers, fraction):
-    """The number at a fraction of the list's length, on a straight line."""
+    """Linear interpolation in a list of evenly spaced numbers."""
     at = fraction * (len(numbers) - 1)
     low = min(int(at), max(len(numbers) - 2, 0))
     high = min(low + 1, len(numbers) - 1)
@@ -84,29 +83,31 @@ class Ink:
         self.values = [1e9] * (self.columns * self.rows)
 
     def _centre(self, column, row):
+        """Centre of a cell."""
         return complex((column + 0.5) * self.cell, (row + 0.5) * self.cell)
 
     def _span(self, low, high, count):
+        """Cells, of `count`, that overlap an interval of coordinates."""
         first = max(0, math.floor(low / self.cell))
         return range(first, min(count, math.ceil(high / self.cell) + 1))
 
     def carve(self, chain, *thickness):
-        """Takes a stroke away."""
+        """Removes a stroke."""
         solid = self.values
         self.values = [1e9] * len(solid)
         self.stroke(chain, *thickness)
         self.values = [max(a, -b) for a, b in zip(solid, self.values)]
 
     def stroke(self, chain, *thickness):
-        """A chain of points; the thicknesses stand at even steps along it."""
+        """Adds a stroke along a polyline; its thicknesses are evenly spaced along it."""
         reach = self.fillet + 3 * self.cell
         length = sum(abs(b - a) for a, b in zip(chain, chain[1:]))
-        near, walked = {}, 0.0
+        near, travelled = {}, 0.0
         for a, b in zip(chain, chain[1:]):
             step = b - a
-            r0 = between(thickness, walked / length) / 2
-            walked += abs(step)
-            r1 = between(thickness, walked / length) / 2
+            r0 = between(thickness, travelled / length) / 2
+            travelled += abs(step)
+            r1 = between(thickness, travelled / length) / 2
             pad = max(r0, r1) + reach
             xs = self._span(min(a.real, b.real) - pad, max(a.real, b.real) + pad, self.columns)
             for row in self._span(min(a.imag, b.imag) - pad, max(a.imag, b.imag) + pad, self.rows):
@@ -114,14 +115,14 @@ class Ink:
                     offset = self._centre(column, row) - a
                     part = (offset * step.conjugate()).real / abs(step) ** 2
                     part = min(1.0, max(0.0, part))
-                    far = abs(offset - part * step) - (r0 + (r1 - r0) * part)
+                    distance = abs(offset - part * step) - (r0 + (r1 - r0) * part)
                     key = row * self.columns + column
-                    if far < near.get(key, reach):
-                        near[key] = far
-        self._melt(near)
+                    if distance < near.get(key, reach):
+                        near[key] = distance
+        self._unite(near)
 
     def polygon(self, corners):
-        """A filled polygon with sharp corners."""
+        """Adds a filled polygon with sharp corners."""
         reach = self.fillet + 3 * self.cell
         sides = list(zip(corners, corners[1:] + corners[:1]))
         xs = self._span(
@@ -133,25 +134,25 @@ class Ink:
         ):
             for column in xs:
                 p = self._centre(column, row)
-                far, inside = 1e9, False
+                distance, inside = 1e9, False
                 for a, b in sides:
                     step = b - a
                     part = min(1.0, max(0.0, ((p - a) * step.conjugate()).real / abs(step) ** 2))
-                    far = min(far, abs(p - a - part * step))
+                    distance = min(distance, abs(p - a - part * step))
                     if (a.imag > p.imag) != (b.imag > p.imag):
                         inside ^= p.real < a.real + step.real * (p.imag - a.imag) / step.imag
-                near[row * self.columns + column] = -far if inside else far
-        self._melt(near)
+                near[row * self.columns + column] = -distance if inside else distance
+        self._unite(near)
 
-    def _melt(self, near):
-        """The union with a fillet: a polynomial smooth minimum."""
+    def _unite(self, near):
+        """Unites with distances by cell, with a fillet: a polynomial smooth minimum."""
         for key, new in near.items():
             old = self.values[key]
             blend = max(self.fillet - abs(old - new), 0.0) / self.fillet if self.fillet else 0.0
             self.values[key] = min(old, new) - blend * blend * self.fillet / 4
 
     def png(self, path):
-        """Black on white, the edge in grey levels; one pixel a cell."""
+        """Writes a black shape on white, antialiased, with one pixel per cell."""
         rows = []
         for row in reversed(range(self.rows)):
             line = self.values[row * self.columns : (row + 1) * self.columns]
@@ -159,7 +160,7 @@ class Ink:
         write_png(path, self.columns, rows)
 
     def loops(self):
-        """The zero contour as closed chains, the solid on the left."""
+        """The zero contour as closed polylines, with the solid on the left."""
         w, h = self.columns, self.rows
 
         def value(column, row):
@@ -171,7 +172,7 @@ class Ink:
             pa, pb = self._centre(*a), self._centre(*b)
             return pa + (pb - pa) * va / (va - vb)
 
-        follows, places = {}, {}
+        next_edge, crossings = {}, {}
         for row in range(-1, h):
             for column in range(-1, w):
                 corners = [
@@ -188,51 +189,51 @@ class Ink:
                     a, b = corners[i], corners[(i + 1) % 4]
                     if inside[i] != inside[(i + 1) % 4]:
                         edge = (min(a, b), max(a, b))
-                        places[edge] = crossing(a, b)
+                        crossings[edge] = crossing(a, b)
                         (leave if inside[i] else enter).append(edge)
-                follows.update(zip(leave, enter))
+                next_edge.update(zip(leave, enter))
         chains = []
-        while follows:
-            start = edge = next(iter(follows))
+        while next_edge:
+            start = edge = next(iter(next_edge))
             chain = []
-            while edge in follows:
-                chain.append(places[edge])
-                edge = follows.pop(edge)
+            while edge in next_edge:
+                chain.append(crossings[edge])
+                edge = next_edge.pop(edge)
             if edge == start and len(chain) > 8:
                 chains.append(chain)
         return chains
 
 
 def fit(chain, tolerance, closed=True):
-    """Cubic curves along a dense chain, each as long as the tolerance lets it be."""
+    """Cubic curves along a dense polyline, each as long as the tolerance permits."""
     n = len(chain)
     last = n if closed else n - 1
-    place = (lambda i: chain[i % n]) if closed else (lambda i: chain[min(max(i, 0), n - 1)])
+    point = (lambda i: chain[i % n]) if closed else (lambda i: chain[min(max(i, 0), n - 1)])
 
     def direction(i):
-        step = place(i + 2) - place(i - 2)
+        step = point(i + 2) - point(i - 2)
         return step / abs(step)
 
     def curve(i, j):
-        length = sum(abs(place(k + 1) - place(k)) for k in range(i, j))
+        length = sum(abs(point(k + 1) - point(k)) for k in range(i, j))
         return (
-            place(i),
-            place(i) + direction(i) * length / 3,
-            place(j) - direction(j) * length / 3,
-            place(j),
+            point(i),
+            point(i) + direction(i) * length / 3,
+            point(j) - direction(j) * length / 3,
+            point(j),
         )
 
     def close_enough(i, j):
-        drawn = cubic(*curve(i, j), 12)
+        approximation = cubic(*curve(i, j), 12)
         return all(
-            min(abs(place(k) - p) for p in drawn_dense(drawn)) < tolerance for k in range(i, j)
+            min(abs(point(k) - p) for p in subdivided(approximation)) < tolerance for k in range(i, j)
         )
 
-    def drawn_dense(drawn):
-        for a, b in zip(drawn, drawn[1:]):
+    def subdivided(approximation):
+        for a, b in zip(approximation, approximation[1:]):
             for k in range(4):
                 yield a + (b - a) * k / 4
-        yield drawn[-1]
+        yield approximation[-1]
 
     out, i = [], 0
     while i < last:
@@ -245,7 +246,7 @@ def fit(chain, tolerance, closed=True):
 
 
 def svg_path(curves):
-    """One closed subpath of an SVG path, y up; `svg` turns it over."""
+    """A closed subpath of an SVG path, y up; `svg` flips it."""
     text = "M" + _pair(curves[0][0])
     for _, b, c, d in curves:
         text += f" C{_pair(b)} {_pair(c)} {_pair(d)}"
@@ -257,7 +258,7 @@ def _pair(p):
 
 
 def svg(path, width, height, title, subpaths):
-    """One filled path of several subpaths; y is turned over by the group."""
+    """Writes an SVG file with one filled path; its group flips y."""
     body = "\n   ".join(subpaths)
     path.write_text(
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
@@ -268,7 +269,7 @@ def svg(path, width, height, title, subpaths):
 
 
 def write_png(path, width, rows):
-    """Eight bits of grey a pixel; the first row is the top one."""
+    """Writes an 8-bit grey PNG; the first row is the top one."""
 
     def chunk(kind, data):
         return (
@@ -283,19 +284,20 @@ def write_png(path, width, rows):
 
 
 def signed_area(points, face):
+    """Signed area of a triangle."""
     a, b, c = (points[i] for i in face)
     return ((b - a).conjugate() * (c - a)).imag / 2
 
 
 def require_positive(name, points, faces):
-    """Every face counter-clockwise, or the drawing is not written."""
+    """Raises an error unless every face is counter-clockwise."""
     bad = [i for i, face in enumerate(faces) if signed_area(points, face) <= 0]
     if bad:
         raise ValueError(f"{name}: faces {bad} are not counter-clockwise")
 
 
 def obj(path, comment, points, faces):
-    """A flat mesh as Wavefront OBJ."""
+    """Writes a flat mesh as Wavefront OBJ."""
     require_positive(path.name, points, faces)
     lines = [f"# {comment}"]
     lines += [f"v {p.real:.6g} {p.imag:.6g} 0" for p in points]
@@ -304,7 +306,7 @@ def obj(path, comment, points, faces):
 
 
 def packed(items):
-    """JSON items, several to a line of at most 80 characters."""
+    """JSON items, several per line of at most 80 characters."""
     lines = []
     for item in map(json.dumps, items):
         if lines and len(lines[-1]) + len(item) < 78:
@@ -315,7 +317,7 @@ def packed(items):
 
 
 def truss(path, nodes, panels, bars, extra):
-    """Nodes, bars and what else is known, as JSON; the panels are only checked."""
+    """Writes nodes, bars and extra fields as JSON; the panels are only checked."""
     require_positive(path.name, nodes, panels)
     rows = {
         "nodes": [[round(p.real, 4) + 0.0, round(p.imag, 4) + 0.0] for p in nodes],

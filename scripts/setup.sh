@@ -1,26 +1,25 @@
-# Read by run and test: what the machine must have, found or installed.
-# Nothing here is needed on macOS; there, and on Windows, cargo alone will do.
+# Functions of scripts/run and scripts/test that check for required software and install it.
+# On macOS and Windows only Rust is needed; the package checks do nothing there.
 
 say() { printf '%s\n' "$*" >&2; }
 stop() { say "$@"; exit 1; }
 
-# What builds: a linker and the C library's headers.
+# Needed to build: a linker and the headers of the C library.
 BUILD_PACKAGES="gcc libc6-dev"
-# What a window wants at run time; the drivers bring a renderer in software
-# for machines without a graphics card.
+# Needed to open a window. The drivers include a software renderer for machines without a GPU.
 WINDOW_PACKAGES="libx11-6 libx11-xcb1 libxcb1 libxcursor1 libxi6 libxrandr2 \
 libxkbcommon0 libxkbcommon-x11-0 libwayland-client0 libvulkan1 mesa-vulkan-drivers"
-# What tests of the window want where there is no display.
+# Needed to test the window without a display.
 DISPLAY_PACKAGES="xvfb xauth xdotool"
 
-# require_rust [COMPONENT...]: a Rust that is new enough, with these components.
+# require_rust [COMPONENT...]: checks for a recent enough Rust and installs missing components.
 require_rust() {
     if ! command -v cargo >/dev/null && [ -r "$HOME/.cargo/env" ]; then
         . "$HOME/.cargo/env"
     fi
     wanted=$(sed -n 's/^rust-version = "\(.*\)"$/\1/p' Cargo.toml)
     command -v cargo >/dev/null && command -v rustc >/dev/null ||
-        stop "Rust is missing: install Rust $wanted or newer with rustup, then start this again."
+        stop "Rust is missing: install Rust $wanted or newer with rustup, then run this script again."
     found=$(rustc --version | awk '{ print $2 }')
     printf '%s %s\n' "$found" "$wanted" | awk '{
         split($1, f, "."); split($2, w, ".")
@@ -33,11 +32,11 @@ require_rust() {
     done
 }
 
-# require_packages PACKAGE...: Debian packages, installed where that is allowed.
+# require_packages PACKAGE...: checks for Debian packages and installs missing ones if permitted.
 require_packages() {
     [ "$(uname -s)" = Linux ] || return 0
     if ! command -v dpkg-query >/dev/null; then
-        say "Not a Debian or Ubuntu machine; going on without a check for: $*"
+        say "Not a Debian or Ubuntu machine: not checking for $*"
         return 0
     fi
     missing=""
@@ -51,11 +50,11 @@ require_packages() {
     elif command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
         as_root="sudo -n env"
     else
-        stop "Please install what is missing, then start this again:" \
+        stop "Packages are missing. Install them, then run this script again:" \
             "sudo apt-get install$missing"
     fi
     say "Installing:$missing"
     { $as_root apt-get -q update &&
         $as_root DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends $missing
-    } >&2 || stop "That did not work. Please install by hand:$missing"
+    } >&2 || stop "Installation failed. Install these packages yourself:$missing"
 }

@@ -10,11 +10,12 @@
 //! | `input`, `key_input` | intents and the keys that trigger them, mouse gestures, preferences |
 //! | `jobs`, `notices` | background threads; messages shown to the user |
 //! | `session` | the open project: files, undo history, building its transition |
-//! | `files`, `unsaved_question` | open, edit, save and close; file dialog; gallery |
+//! | `files`, `unsaved_question` | open, edit, save and close; file dialog; invitation; gallery |
 //! | `playback`, `presentation` | t and how it moves; talks and the speaker's window |
 //! | `view`, `stage_area`, `stage_sync` | pan and zoom, filmstrip; what the stage shows |
 //! | `escape` | what Esc closes or cancels, full screen |
 //! | `redraw_pace` | how often the window redraws |
+//! | `screen_fit` | size of the window on small screens |
 //! | `map` | the map of all designs, its thumbnails and contours |
 //! | `analysis` | measures of the film, method search, suggestions |
 //! | `compare` | a second method next to the stage |
@@ -41,6 +42,7 @@ mod persistence;
 mod playback;
 mod presentation;
 mod redraw_pace;
+mod screen_fit;
 mod session;
 mod stage_area;
 mod stage_sync;
@@ -59,6 +61,7 @@ pub use editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
 pub use editing::panes::{EditorPanes, PaneView};
 pub use editing::sheet::{MatchSheet, PieceFate};
 pub use files::file_dialog::{DialogPurpose, FileDialogRequest};
+pub use files::invitation::{Invitation, START_PROJECT};
 pub use files::project_actions::GalleryEntries;
 pub use input::editor_action::{EditorAction, EditorPane, EditorPointer, EditorTool};
 pub use input::gesture::KeyboardFocus;

@@ -1,9 +1,8 @@
-//! The command line: a file for each subcommand.
+//! The command line: argument parsing and the subcommands, one file each.
 //!
-//! Guarantees: stdout carries data and stderr words; the exit code is 0 for
-//! done, 1 for failed and 2 for wrong use; a reader that closes the pipe ends
-//! the program quietly. No subcommand needs a graphics card or a display; the
-//! window alone does, and is opened by `main`, not here.
+//! Data goes to stdout, messages go to stderr. The exit code is 0 for success, 1 for failure and 2
+//! for wrong usage; a closed pipe at stdout ends the program silently with 0. Subcommands need no
+//! graphics card and no display. The window is opened by `main`, not here.
 
 mod catalogue;
 mod check;
@@ -28,17 +27,18 @@ use crate::design::DesignSource;
 
 use error::CliError;
 
+/// Examples shown at the end of `--help`.
 const EXAMPLES: &str = "\
 Examples:
   morphospace                                   the gallery, in a window
   morphospace a.svg b.svg                       a pair, in a window
-  morphospace --present talk.morph              a talk, on the whole screen
+  morphospace --present talk.morph              a talk, full screen
   morphospace render a.svg b.svg --out film.gif
   morphospace render bridge.morph --at 0.5 --out half.svg
   morphospace render gallery:letters --sheet 7 --out sheet.png
   morphospace render bridge.morph --out 'frames/f-####.png' --frames-range 0..60
   morphospace render a.svg b.svg c.svg d.svg --map 9x9 --out map.png
-  morphospace catalogue bottles.morph --out kept
+  morphospace catalogue bottles.morph --out saved
   morphospace check bridge.morph --json
   morphospace check --pairs pairs.csv --out report.csv --sheet sheet.png";
 
@@ -60,77 +60,80 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum CliCommand {
-    /// Write a picture, a contact sheet, numbered pictures or a film
+    /// Write an image, a contact sheet, a map, numbered images or an animation
     Render(Box<render::RenderArgs>),
-    /// Measure a transition: mesh, film, and the time that each stage takes
+    /// Measure a transition, a table of pairs, or the space of many designs
     Check(Box<check::CheckArgs>),
-    /// Write a new project of two designs or more
+    /// Write a project file
     New(Box<new::NewArgs>),
-    /// Write the places of a project's map that are kept: outlines, a sheet, a table of measures
+    /// Write the saved blends of a map as files
     Catalogue(Box<catalogue::CatalogueArgs>),
     /// List the bundled projects
     Gallery(gallery::GalleryArgs),
 }
 
-/// What the window is to open with.
+/// Arguments for opening the window.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowRequest {
-    /// A project (.morph, or gallery:NAME), or two designs or more; opened in the window
+    /// A project (.morph, or gallery:NAME), or two or more designs, to open in the window
     #[arg(value_name = "FILE", num_args = 0..)]
     pub files: Vec<PathBuf>,
 
-    /// Folder for pictures taken in the window [default: the pictures folder]
+    /// Folder for images and films exported in the window [default: the pictures folder]
     #[arg(long, value_name = "DIR")]
     pub captures: Option<PathBuf>,
 
-    /// Memory that a film may take, in MiB; frames of a larger one are solved [default: 512]
+    /// Memory limit of a recording, in MiB; larger films are solved frame by frame [default: 512]
     #[arg(long, value_name = "MIB")]
     pub film_memory: Option<usize>,
 
-    /// Begin a talk at once: whole screen, nothing but the drawing, from the first stop; Esc ends it
+    /// Start a talk at once: full screen, only the drawing, from the first stop; Esc ends it
     #[arg(long, requires = "files")]
     pub present: bool,
 }
 
-/// What is left to do once the command line is dealt with.
+/// What remains to be done after the command line was processed.
 #[derive(Debug)]
 pub enum LaunchOutcome {
     /// Open the window.
     Window(WindowRequest),
-    /// Nothing: end with this code.
+    /// Exit with this code.
     Done(ExitCode),
 }
 
-/// Parses the command line (program name first) and does what it says, apart
-/// from opening the window.
+/// Parses the command line (program name first) and runs the subcommand, if there is one.
+///
+/// Does not open the window; that is left to the caller.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> LaunchOutcome {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     match Cli::try_parse_from(&arguments) {
         Ok(cli) => match cli.command {
-            None if cli.window.files.len() > 2 && !cli.window.is_of_files() => {
-                LaunchOutcome::Done(output::exit_code(Err(no_command(&cli.window.files[0]))))
+            None if cli.window.files.len() > 2 && !cli.window.names_files() => {
+                let error = unknown_command(&cli.window.files[0]);
+                LaunchOutcome::Done(output::exit_code(Err(error)))
             }
             None => LaunchOutcome::Window(cli.window),
             Some(command) => LaunchOutcome::Done(output::exit_code(execute(&command))),
         },
-        // Help and version come this way, too.
-        Err(error) => LaunchOutcome::Done(output::say_usage(&error, &arguments)),
+        // `--help` and `--version` are returned as errors, too.
+        Err(error) => LaunchOutcome::Done(output::print_usage(&error, &arguments)),
     }
 }
 
 impl WindowRequest {
-    /// Whether the first word looks like a file, or else may be meant for a subcommand.
-    fn is_of_files(&self) -> bool {
+    /// Returns whether the first argument looks like a file; otherwise it may be a misspelt
+    /// subcommand.
+    fn names_files(&self) -> bool {
         let first = self.files.first();
         first.is_some_and(|first| {
-            let is_file = matches!(DesignSource::of(first), DesignSource::File { .. });
+            let is_file = matches!(DesignSource::from_path(first), DesignSource::File { .. });
             !is_file || first.extension().is_some() || first.exists()
         })
     }
 }
 
-/// Why so many words are no designs.
-fn no_command(first: &Path) -> CliError {
+/// Creates the usage error for a first argument that is neither a subcommand nor a file.
+fn unknown_command(first: &Path) -> CliError {
     CliError::Usage(format!(
         "`{}` is neither a subcommand nor a file; see `morphospace --help`",
         first.display()
@@ -147,15 +150,15 @@ fn execute(command: &CliCommand) -> Result<(), CliError> {
     }
 }
 
-/// Says why there is no window; the exit code of that.
-pub fn no_window(why: impl std::error::Error) -> ExitCode {
+/// Prints why the window could not be opened, and returns the exit code.
+pub fn report_window_error(why: impl std::error::Error) -> ExitCode {
     output::exit_code(Err(CliError::failed(why)))
 }
 
-/// Says that this program was built without its window; the exit code of that.
-pub fn without_window() -> ExitCode {
+/// Prints that this build has no window, and returns the exit code.
+pub fn report_no_window_support() -> ExitCode {
     output::exit_code(Err(CliError::Usage(
-        "this build has no window: use `render`, `check`, `new` or `gallery` (see --help), or build it with `--features app`".to_owned(),
+        "this build has no window: use a subcommand (see --help), or build it with `--features app`".to_owned(),
     )))
 }
 
@@ -165,12 +168,12 @@ mod tests {
     use clap::CommandFactory;
 
     #[test]
-    fn the_command_line_is_consistent() {
+    fn the_argument_definitions_are_consistent() {
         Cli::command().debug_assert();
     }
 
     #[test]
-    fn a_check_is_of_inputs_or_of_a_table() {
+    fn check_takes_either_inputs_or_a_table() {
         let parsed = |line: &str| Cli::try_parse_from(line.split(' '));
         for (line, missing) in [
             ("x check", "PROJECT"),

@@ -85,25 +85,25 @@ impl Rgb {
     pub fn mixed(self, other: Self, t: f64) -> Self {
         let t = t.clamp(0.0, 1.0);
         Self(std::array::from_fn(|k| {
-            let (a, b) = (linear(self.0[k]), linear(other.0[k]));
-            encoded(a * (1.0 - t) + b * t)
+            let (a, b) = (decode_channel(self.0[k]), decode_channel(other.0[k]));
+            encode_channel(a * (1.0 - t) + b * t)
         }))
     }
 
     /// Red, green and blue in linear light, in [0, 1].
     #[must_use]
     pub fn to_linear(self) -> [f32; 3] {
-        self.0.map(|channel| linear(channel) as f32)
+        self.0.map(|channel| decode_channel(channel) as f32)
     }
 }
 
 /// Decodes an 8-bit channel to linear light in [0, 1].
-fn linear(channel: u8) -> f64 {
+fn decode_channel(channel: u8) -> f64 {
     linear_from_srgb(f64::from(channel) / 255.0)
 }
 
 /// Encodes linear light as an 8-bit channel; clamps to the valid range.
-fn encoded(light: f64) -> u8 {
+fn encode_channel(light: f64) -> u8 {
     (srgb_from_linear(light) * 255.0).round().clamp(0.0, 255.0) as u8
 }
 
@@ -224,7 +224,7 @@ impl StrokeStyle {
 impl Rgb {
     /// Converts to OKLab: lightness in [0, 1], and the green–red and blue–yellow axes.
     fn to_oklab(self) -> [f64; 3] {
-        let [r, g, b] = self.0.map(linear);
+        let [r, g, b] = self.0.map(decode_channel);
         let cones = [
             0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b,
             0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b,
@@ -252,7 +252,7 @@ impl Rgb {
                 -1.268_438_004_6 * l + 2.609_757_401_1 * m - 0.341_319_396_5 * s,
                 -0.004_196_086_3 * l - 0.703_418_614_7 * m + 1.707_614_701_0 * s,
             ]
-            .map(encoded),
+            .map(encode_channel),
         )
     }
 }
@@ -281,7 +281,7 @@ mod tests {
     #[test]
     fn linear_light_and_oklab_round_trip_every_channel() {
         for channel in 0..=255 {
-            assert_eq!(encoded(linear(channel)), channel);
+            assert_eq!(encode_channel(decode_channel(channel)), channel);
             let colour = Rgb([channel, 255 - channel, channel / 3]);
             assert_eq!(Rgb::from_oklab(colour.to_oklab()), colour);
         }

@@ -17,14 +17,14 @@ mod transient_hole;
 pub use colours::{
     ColourMix, ColourMixError, PictureLayer, PicturePair, PictureRaster, PictureSet,
 };
-pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError, FieldSet};
+pub use field::{BlendSpace, FieldBlend, FieldBlendError, FieldPair, FieldSet};
 pub use field_content::{FieldContent, PaintedFields};
 pub use paint_stack::{
     AnchoredGradient, InkedLayer, LayerShading, PaintLayerStack, PlacedPaintLayer,
 };
-pub use solid::{BarClocks, InkedBars, SeedShape, SolidContent};
+pub use solid::{InkedBars, SeedShape, SolidClocks, SolidContent};
 pub use swelling::SwellingShape;
-pub(crate) use swelling::middle;
+pub(crate) use swelling::mean_point;
 pub use transient_hole::TransientHole;
 
 use crate::settings::named;

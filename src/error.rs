@@ -1,7 +1,7 @@
-//! Short ways from files to a transition, and one error for everything between
-//! two designs and a picture: what the root of the crate offers beside types.
+//! Convenience functions of the crate root: from files straight to a transition, and the one
+//! error type that covers every step from designs to an image.
 //!
-//! Nothing is decided here: each function names what it is short for.
+//! The functions only combine other public functions, which their documentation names.
 
 use crate::design::ImportError;
 use crate::export::ExportError;
@@ -11,50 +11,55 @@ use crate::transition::{BuildError, Transition};
 use crate::work::progress::Silent;
 use std::path::Path;
 
-/// Whatever can go wrong between two designs and a picture of them. Each says
-/// in one sentence what is wrong and what to do.
+/// Any error between reading designs and writing an image or film.
+///
+/// Each message says in one sentence what is wrong and what to do.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A design could not be read.
     #[error(transparent)]
     Import(#[from] ImportError),
-    /// Points enclose nothing.
+    /// The points of an outline enclose no area.
     #[error(transparent)]
     Outline(#[from] RegionsError),
     /// A project could not be read.
     #[error(transparent)]
     Project(#[from] ProjectError),
-    /// Two designs make no transition.
+    /// The designs do not allow a transition.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// A picture or a film could not be written.
+    /// An image or a film could not be written.
     #[error(transparent)]
     Export(#[from] ExportError),
-    /// The system refused to read or write.
+    /// The operating system reported an input or output error.
     #[error(transparent)]
     Io(#[from] std::io::Error),
 }
 
-/// The transition between two files, by the method that suits them and with
-/// default options: [`LoadedProject::open_pair`], built. A path may also be
-/// `glyph:D` or what else [`Source`](crate::design::Source) knows.
+/// Builds the transition between two files with default options.
+///
+/// Chooses the method that suits the designs. Short for [`LoadedProject::open_pair`] followed by
+/// [`LoadedProject::build`]. A path may also be any other form that
+/// [`DesignSource`](crate::design::DesignSource) parses, such as `glyph:D`.
 ///
 /// # Errors
-/// [`Error`] names the file and the place, or what does not go together.
+/// [`Error`] names the file and the place in it, or says why the designs are incompatible.
 pub fn open_pair(source: impl AsRef<Path>, target: impl AsRef<Path>) -> Result<Transition, Error> {
-    built(&LoadedProject::open_pair(source.as_ref(), target.as_ref())?)
+    build_first_segment(&LoadedProject::open_pair(source.as_ref(), target.as_ref())?)
 }
 
-/// The transition of a `.morph` file: [`LoadedProject::open`], built.
+/// Builds the transition of a `.morph` file; of several segments, the first.
+///
+/// Short for [`LoadedProject::open`] followed by [`LoadedProject::build`].
 ///
 /// # Errors
-/// [`Error`] names the file and the place, or what does not go together.
+/// [`Error`] names the file and the place in it, or says why the designs are incompatible.
 pub fn open_project(path: impl AsRef<Path>) -> Result<Transition, Error> {
-    built(&LoadedProject::open(path.as_ref())?)
+    build_first_segment(&LoadedProject::open(path.as_ref())?)
 }
 
-fn built(loaded: &LoadedProject) -> Result<Transition, Error> {
-    // Of many designs the first way.
-    Ok(loaded.legs()[0].build(&Silent)?)
+/// Builds the transition of the first segment of a project.
+fn build_first_segment(loaded: &LoadedProject) -> Result<Transition, Error> {
+    Ok(loaded.segments()[0].build(&Silent)?)
 }

@@ -117,7 +117,7 @@ pub fn write_film(
     let path = match target {
         ExportTarget::Numbered(names) => return write_numbered(camera, film, names, progress),
         ExportTarget::Still(kind, path) => {
-            write_still(&camera.shoot(film.times()[0]), *kind, path)?;
+            write_still(&camera.draw(film.times()[0]), *kind, path)?;
             path
         }
         ExportTarget::Film(kind, path) => {
@@ -129,7 +129,7 @@ pub fn write_film(
                 #[cfg(target_family = "wasm")]
                 FilmKind::Mp4 => return Err(ExportError::NoFfmpeg),
                 FilmKind::Svg | FilmKind::Html | FilmKind::Lottie => {
-                    vector_animation::write_motion(camera, film, (*kind, path), progress)?;
+                    vector_animation::write_motion(camera, film, *kind, path, progress)?;
                 }
             }
             path

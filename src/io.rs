@@ -1,4 +1,5 @@
-//! Files: atomic writes, bounded reads, file names, and text from files made safe to show.
+//! File input and output: atomic writes, bounded reads, portable file names, and escaping of
+//! text from files for display.
 
 pub(crate) mod atomic_file;
 #[cfg(feature = "cli")]

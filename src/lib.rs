@@ -1,8 +1,8 @@
-//! Morphospace: the space of all forms between given forms.
+//! Morphospace: blends between given designs, as animations and as maps.
 //!
-//! Two designs go in, and every design between them comes out. **A transition
-//! is a warp and a content**: the warp says where each material point is at
-//! time t, the content says what is seen there.
+//! Takes two or more designs and computes every design between them. **A transition is a warp and
+//! a content**: the warp says where each point is at blend parameter t, the content says what is
+//! drawn there.
 //!
 //! | warp ↓ · content → | solid (regions, bars) | distance field (contour) | colours (two pictures) |
 //! |---|---|---|---|
@@ -13,14 +13,13 @@
 //! | scattered points | – | carried fields | morph |
 //! | B-spline lattices | – | carried fields | morph |
 //!
-//! What joins the two is a [`warp::Placement`]: faces, and for each vertex its
-//! place in the frame, in the source and in the target.
+//! The two are joined by a [`warp::Placement`]: faces, and for each vertex its position in the
+//! frame, in the source and in the target.
 //!
-//! # In twenty lines
+//! # Basic use
 //!
-//! What most programs need stands at the root of the crate: a [`Design`] of
-//! points or of a file, the [`Transition`] between two, a [`Frame`] of it, and
-//! a [`Camera`] that makes SVG and pixels.
+//! Most programs need only the crate root: a [`Design`] from points or from a file, the
+//! [`Transition`] between two, a [`Frame`] of it, and a [`Camera`] that draws SVG and pixels.
 //!
 //! ```
 //! use morphospace::{Camera, Design, Error, Transition};
@@ -28,8 +27,8 @@
 //! # fn main() -> Result<(), Error> {
 //! let kite = [[2.0, 0.0], [4.0, 3.0], [2.0, 4.0], [0.0, 3.0]];
 //! let house = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [2.0, 5.0], [0.0, 3.0]];
-//! let source = Design::of_rings("kite", [kite])?;
-//! let target = Design::of_rings("house", [house])?;
+//! let source = Design::from_rings("kite", [kite])?;
+//! let target = Design::from_rings("house", [house])?;
 //! let transition = Transition::between(source, target)?;
 //! let mut frame = transition.frame(0.0);
 //! for i in 0..=4 {
@@ -41,61 +40,59 @@
 //! # }
 //! ```
 //!
-//! # The way the data flows
+//! # Data flow
 //!
 //! ```text
 //! files ─► Design ─► RegionMatch ─► CompatibleMesh ─► Transition ─► Frame(t) ─┬─► stage (Bevy)
-//!          regions    who is who     one list of       warp×content           ├─► export: SVG, …
-//!          mesh       └─── of unlike outlines several ───┘                    └─► measures
-//!          truss        choice: each match gets its film,
-//!                       the one with the least trouble stays
+//!          regions    which part     one list of       warp×content           ├─► export: SVG, …
+//!          mesh       is which       faces, one                               └─► measures
+//!          truss      └── several candidates for ──┘
+//!                         dissimilar outlines; the best stays
 //! ```
 //!
-//! One direction, no way back. Where outlines are unlike, a transition of rigid
-//! parts is built from several matches: each gets its mesh and its film, and
-//! the one that folds least, then crosses itself least, then distorts least is
-//! kept. Parts in each other's way are let go: they die and are born, where and
-//! when there is room.
-//! Everything that can fail fails while a [`Transition`] is built; a [`Frame`]
-//! cannot fail and allocates nothing when it moves to another t. It is
-//! unevaluated: the stage evaluates it on the GPU, export and tests on the CPU.
-//! What was done otherwise than asked is told: [`Transition::notes`].
+//! Data flows in one direction. For dissimilar outlines, a transition of rigid parts is built from
+//! several candidate matches. Each gets a mesh and its motion; the candidate with the fewest folds,
+//! then the fewest crossings, then the least distortion is used. Parts that would collide are
+//! unpaired: they disappear and appear where and when there is room.
+//!
+//! Everything that can fail fails while a [`Transition`] is built. A [`Frame`] cannot fail and
+//! allocates nothing when it moves to another t. It is unevaluated: the stage evaluates it on the
+//! GPU, export and tests on the CPU. Deviations from the request are reported as notes
+//! ([`Transition::notes`]).
 //!
 //! # Layers
 //!
-//! A module uses modules above it, never below, and no files use each other in
-//! a circle; `tests/layers.rs` reads this list and holds the code to it.
+//! A module uses only modules above it in this list, and no files use each other in a cycle.
+//! `tests/layers.rs` reads the list and checks the code against it.
 //!
 //! ```text
-//! names                         what the values of options are called
-//! one_line, file_name           what came from elsewhere, in one line; names of files
-//! progress, easing              how work tells how far it is; how a share runs
-//! budget                        what is too much to begin without being asked twice
-//! atomic_file, reading          files that are there whole or not at all, and read so
-//! colour                        paints, and the way from one to another
+//! settings                      names of option values
+//! io                            atomic writes, bounded reads, file names, escaping
+//! work                          progress, cancellation, size limits of jobs
+//! time                          easing curves and timing
+//! colour                        paints and their interpolation
 //! geometry                      points, matrices, polygons, exact predicates
-//! linalg                        sparse positive definite systems (faer)
-//! mesh                          triangles, connectivity, subdivision
+//! numerics                      sparse positive definite systems and small solvers
+//! mesh                          triangle meshes: connectivity, triangulation, subdivision
 //! field                         grids, distance transforms, contours
-//! design                        the given forms and their importers
-//! correspondence                which point of one design is which of the other
-//! compatible                    one connectivity, two embeddings
-//! homotopy                      paths of 2×2 matrices
-//! warp        content           the rows and the columns of the table
-//! film                          a warp recorded as polynomials in t
-//! transition                    the cells, frames, timing, style
-//! space                         many designs at once, and the map of them
-//! measure                       quality in numbers
-//! project                       the .morph document and the gallery
-//! export                        SVG, PNG, DXF, GIF, APNG, MP4, motion, contact sheets
-//! short                         from files to a transition, one error
+//! design                        designs and their importers
+//! correspondence                which point of one design is which of another
+//! compatible                    one connectivity, several embeddings
+//! warp                          rows of the table: where each point is at t
+//! content                       columns of the table: what is drawn there
+//! recording                     a warp as polynomials in t, and checks at every t
+//! transition                    methods, matching, frames, style
+//! space                         blends of many designs, and maps of them
+//! measure                       quality measures, defects and remedies
+//! project                       project files and the gallery
+//! export                        images, contact sheets, animations, vector files
+//! error                         from files to a transition, one error type
 //! stage  (feature `bevy`)       MorphPlugin: transitions in a Bevy world
 //! app    (feature `app`)        the window: playback, panels, keys, capture
 //! cli    (feature `cli`)        the subcommands
 //! ```
 //!
-//! Coordinates are `f64` with y up. The core keeps no global state, logs
-//! nothing and prints nothing.
+//! Coordinates are `f64` with y up. The core has no global state, logs nothing and prints nothing.
 
 mod io;
 pub mod settings;
@@ -147,7 +144,7 @@ pub use export::{Camera, PixelSize};
 pub use geometry::DVec2;
 pub use transition::{Frame, Transition, TransitionMethod, VectorFigure};
 
-/// What the readme shows is compiled.
+/// Compiles the examples in the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

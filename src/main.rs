@@ -1,4 +1,4 @@
-//! The program: parses the command line and hands over; nothing else.
+//! Entry point of the program: runs a subcommand, or opens the window.
 
 use std::process::ExitCode;
 
@@ -20,15 +20,15 @@ fn open_window(request: cli::WindowRequest) -> ExitCode {
         files: request.files,
         captures: request.captures,
         film_memory: request.film_memory,
-        presents: request.present,
+        starts_talk: request.present,
     };
     match run(options) {
         Ok(exit) => exit.report(),
-        Err(why) => cli::no_window(why),
+        Err(why) => cli::report_window_error(why),
     }
 }
 
 #[cfg(not(feature = "app"))]
 fn open_window(_: cli::WindowRequest) -> ExitCode {
-    cli::without_window()
+    cli::report_no_window_support()
 }

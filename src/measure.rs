@@ -1,18 +1,16 @@
-//! Quality of a mesh and of a film, in numbers and in words.
+//! Quality measures of meshes, films and design spaces, and the check that finds defects.
 //!
-//! - [`MeshReport`]: the two embeddings of a compatible mesh: angles, Steiner
-//!   points, how evenly the boundary is stretched, and the distortion of the
-//!   map between them.
-//! - [`FilmReport`]: a transition sampled over t: folds, distortion beyond
-//!   the worse end, self-crossings, how area, perimeter and turning run, pieces and
-//!   holes, travel and acceleration with the rigid motion taken out; and each
-//!   of them against t ([`FilmReport::series`]).
-//! - [`Verdict`]: what goes wrong in a film, where, why, and what helps.
-//! - [`SpaceReport`]: a space of many designs: its edges, its middle, and blends all over.
-//! - [`BlendMeasures`]: one blend of many designs; [`MapLandscape`]: all over a map.
-//! - [`FilmRating`]: how much trouble a film is, to choose among methods ([`auto`]).
+//! - [`MeshReport`]: a compatible mesh: angles, Steiner points, boundary stretch, and distortion
+//!   of the map between its two embeddings
+//! - [`FilmReport`]: a transition sampled over t: folds, self-crossings, distortion beyond the
+//!   worse end, area, perimeter, turning, pieces, holes, and the vertices' travel and acceleration
+//!   without the rigid motion; [`FilmReport::series`] gives each quantity against t
+//! - [`Verdict`]: the defects of a film, each with its place, cause and remedy
+//! - [`SpaceReport`]: a space of many designs: its edges, its centre, and blends spread over it
+//! - [`BlendMeasures`]: one blend of many designs; [`MapLandscape`]: the blends of a whole map
+//! - [`FilmRating`]: one rating per film, to choose among methods ([`build_best_method`])
 //!
-//! Measures are taken at samples: a fold between two samples is not seen.
+//! All measures are taken at samples of t; a defect between two samples is missed.
 
 mod blend_report;
 mod distortion;
@@ -32,11 +30,11 @@ mod verdict;
 pub use crate::geometry::{EdgeCrossing, RingEdge, count_crossings, crossings};
 pub use blend_report::{BlendMeasures, BlendReport, BlendSampler};
 pub use distortion::{Distortion, Distribution, distortion};
-pub use film_report::{FilmReport, FilmSample, film};
+pub use film_report::{FilmReport, FilmSample, film_report};
 pub use map_landscape::{MapLandscape, MapMeasure};
-pub use mesh_report::{MeshReport, mesh};
+pub use mesh_report::{MeshReport, mesh_report};
 pub use motion::MotionReport;
-pub use rating::{FilmRating, auto};
-pub use space_report::{BlendStatistics, EdgeReport, SpaceReport, space};
+pub use rating::{FilmRating, build_best_method};
+pub use space_report::{BlendStatistics, EdgeReport, SpaceReport, space_report};
 pub use time_series::Quantity;
 pub use verdict::{Finding, FindingCause, FindingKind, Remedy, SettingChange, Verdict};

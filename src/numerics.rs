@@ -22,7 +22,7 @@ pub use dense_lu::DenseLu;
 pub use eigen::symmetric_eigen;
 pub use pattern_cholesky::{PatternCholesky, PatternWorkspace};
 
-use crate::work::progress::{Cancelled, Progress, beside, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled, run_cancellable};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
@@ -171,13 +171,13 @@ impl Cholesky {
         matrix: &SymmetricMatrix,
         progress: &dyn Progress,
     ) -> Result<Result<Self, FactorError>, Cancelled> {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         if matrix.size() < BACKGROUND_FROM {
             return Ok(Self::factor(matrix));
         }
         // The thread owns a copy, because on a cancel it outlives this call.
         let matrix = matrix.clone();
-        beside(progress, move || Self::factor(&matrix))
+        run_cancellable(progress, move || Self::factor(&matrix))
     }
 
     /// Factors the matrix with the given choice of algorithm.

@@ -1,9 +1,8 @@
-//! The `.morph` document: designs, method, options, timing, stops and style.
+//! Project files (`.morph`): designs, method, options, timing, stops and style, and the gallery.
 //!
-//! TOML with a version. Paths are relative to the document. Reading refuses
-//! unknown keys and newer versions and names the line; writing is atomic, so
-//! that an interrupted write leaves the old document. What is written is read
-//! back equal, except for comments, which are not kept.
+//! The format is TOML with a version number; paths are relative to the file. Unknown keys and newer
+//! versions are errors that name the line. Writing is atomic, so an interrupted write leaves the
+//! old file. Reading a written project gives an equal one; only comments are lost.
 
 mod document;
 mod error;
@@ -22,6 +21,6 @@ mod tests;
 pub use document::{DesignEntry, FORMAT_VERSION, Project};
 pub use error::ProjectError;
 pub use loaded::LoadedProject;
-pub use map::{MOST_PLACES, MapError, MapSettings, SavedPlace};
+pub use map::{MAX_PLACES, MapError, MapSettings, SavedPlace};
 pub use segment_settings::SegmentRecord;
 pub use segments::MovedDesigns;

@@ -61,7 +61,7 @@ use std::sync::Arc;
 /// let mesh = CompatibleMesh::new(vec![[0, 1, 2]], source, target, vec![])?;
 /// let arap = Arap::build(&mesh, &ArapOptions::default(), &Silent)?;
 /// let recording = Recording::record(Arc::new(arap), &RecordingOptions::default(), &Silent)?;
-/// assert!(recording.solves() < 20);
+/// assert!(recording.evaluation_count() < 20);
 /// let mut placer = recording.placer();
 /// placer.place(0.37);
 /// let at = &placer.placement().in_frame;
@@ -75,13 +75,13 @@ pub struct Recording(Arc<RecordingData>);
 #[derive(Debug)]
 struct RecordingData {
     warp: Arc<dyn Warp>,
-    moving: MovingChannels,
+    channels: MovingChannels,
     /// Intervals in ascending order of t, covering [0, 1] without gaps.
-    reels: Vec<RecordingInterval>,
+    intervals: Vec<RecordingInterval>,
     /// Largest measured error, as a fraction of the diameter.
     error: f64,
     /// Number of placements of the warp that were computed.
-    solves: usize,
+    evaluation_count: usize,
 }
 
 impl Recording {
@@ -89,7 +89,7 @@ impl Recording {
     ///
     /// # Errors
     /// [`RecordingError`] if the recording would exceed its memory limit, if the warp jumps or is
-    /// not smooth at a time that [`Warp::breaks`] does not list, and if the work is cancelled.
+    /// not smooth at a time that [`Warp::break_times`] does not list, and if the work is cancelled.
     pub fn record(
         warp: Arc<dyn Warp>,
         options: &RecordingOptions,
@@ -98,10 +98,10 @@ impl Recording {
         let recorded = record::record(warp.as_ref(), options, progress)?;
         Ok(Self(Arc::new(RecordingData {
             warp,
-            moving: recorded.moving,
-            reels: recorded.reels,
+            channels: recorded.channels,
+            intervals: recorded.intervals,
             error: recorded.error,
-            solves: recorded.solves,
+            evaluation_count: recorded.evaluation_count,
         })))
     }
 
@@ -114,20 +114,20 @@ impl Recording {
 
     /// Returns the number of placements of the warp that recording took.
     #[must_use]
-    pub fn solves(&self) -> usize {
-        self.0.solves
+    pub fn evaluation_count(&self) -> usize {
+        self.0.evaluation_count
     }
 
     /// Returns the number of time intervals, each with its own polynomials.
     #[must_use]
-    pub fn reel_count(&self) -> usize {
-        self.0.reels.len()
+    pub fn interval_count(&self) -> usize {
+        self.0.intervals.len()
     }
 
     /// Returns the size of the coefficients in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.0.reels.iter().map(RecordingInterval::bytes).sum()
+        self.0.intervals.iter().map(RecordingInterval::bytes).sum()
     }
 }
 
@@ -145,16 +145,16 @@ impl Recording {
 
 impl RecordingData {
     /// Returns the index of the interval that contains `t`, for `t` in [0, 1].
-    fn reel_at(&self, t: f64) -> usize {
-        let index = self.reels.partition_point(|interval| interval.to < t);
-        index.min(self.reels.len() - 1)
+    fn interval_at(&self, t: f64) -> usize {
+        let index = self.intervals.partition_point(|interval| interval.to < t);
+        index.min(self.intervals.len() - 1)
     }
 
     /// Evaluates every moving channel at `t`, for `t` in [0, 1].
     fn place(&self, t: f64, placement: &mut Placement) {
-        let interval = &self.reels[self.reel_at(t)];
+        let interval = &self.intervals[self.interval_at(t)];
         let mut first_block = 0;
-        for channel in self.moving.channels() {
+        for channel in self.channels.channels() {
             let positions = channel.of_mut(placement);
             interval.place(t, first_block, positions);
             first_block += interval::block_count(positions.len());
@@ -166,14 +166,14 @@ impl Warp for Recording {
     fn placer(&self) -> Placer {
         let recording = self.clone();
         let placer = self.0.warp.placer();
-        placer.after(move |t, placement| recording.place(t, placement))
+        placer.with_override(move |t, placement| recording.place(t, placement))
     }
 
-    fn missed(&self, t: f64) -> Option<MissedFeatures> {
-        self.0.warp.missed(t)
+    fn missed_features(&self, t: f64) -> Option<MissedFeatures> {
+        self.0.warp.missed_features(t)
     }
 
-    fn breaks(&self) -> Vec<f64> {
-        self.0.warp.breaks()
+    fn break_times(&self) -> Vec<f64> {
+        self.0.warp.break_times()
     }
 }

@@ -1,5 +1,6 @@
-//! Settings that are one of several named values: key, title and sentence of each value.
+//! Options with a fixed list of named values, and the key, title and help sentence of each value.
 
-pub mod choice;
+mod choice;
 
-pub use choice::{Choice, ChoiceName, UnknownKey, keys};
+pub use choice::{Choice, ChoiceName, UnknownKey, choice_keys};
+pub(crate) use choice::{deserialize_choice, named};

@@ -1,23 +1,19 @@
-//! Many designs at once: every blend of them, and the map in which one walks between
-//! them.
+//! Design spaces: blends of any number of designs, and maps on which every place is a blend.
 //!
-//! A blend is weights over the designs that sum to one. A pair is the blend of two
-//! with the weights (1 − t, t); a [`Sequence`](crate::transition::Sequence) goes along
-//! edges of the space, a map through all of it.
+//! A blend is a list of weights, one per design, that sum to one. A transition between two designs
+//! is the blend with weights (1 − t, t). A [`Sequence`](crate::transition::Sequence) follows edges
+//! of the space, a path over a map crosses its interior.
 //!
-//! - `build`: from designs to a [`DesignSpace`]: as rigid parts of one common mesh where they
-//!   have one, and else as distance fields; `pictures`: as pictures, mixed where the
-//!   features that all have lie between theirs
-//! - `blend`: the space and its moments; `spread`: weights all over it
-//! - `likeness`: how unlike the designs are, two at a time
-//! - `map`, `layout`: where the designs are on a map, and what there is between them
-//! - `path`, `film`: a path over the map, and the film along it, by a smooth `course` of
-//!   weights; `steered`: whichever blend
-//!   it is told
+//! - `build`: builds a [`DesignSpace`] as rigid parts of a common mesh if there is one, otherwise
+//!   as distance fields; `picture_space`: as pictures, warped by features common to all
+//! - `blend`: the space and its frames; `weight_samples`: weights spread over the space
+//! - `design_distance`: how dissimilar each pair of designs is
+//! - `map`, `layout`: positions of the designs on a map, and the weights between them
+//! - `path`, `path_transition`: paths over a map and the films along them, with weights smoothed by
+//!   `weight_polynomials`; `steered_transition`: a transition whose weights are set from outside
 //!
-//! Guaranteed: each design at its own corner, to the last bit; the order of the designs
-//! has no influence but by rounding on what is between them once the hub of a common
-//! mesh is chosen. Everything that can fail fails while a space is built.
+//! Weight 1 on one design reproduces it exactly. Once the hub of a common mesh is chosen, the order
+//! of the designs affects blends only by rounding. All errors occur while a space is built.
 
 mod blend;
 mod build;
@@ -40,6 +36,6 @@ pub use design_distance::DesignDistances;
 pub use error::{SpaceError, SpaceNote};
 pub use layout::MapLayout;
 pub use map::WeightMap;
-pub use path::{MapCurve, MapPath, Waypoint, thinned};
+pub use path::{MapCurve, MapPath, Waypoint, simplify_polyline};
 pub use steered_transition::SteeredTransition;
-pub use weight_samples::spread;
+pub use weight_samples::weight_sample;

@@ -83,7 +83,7 @@ pub use components::{
     StageVisibility, TargetMesh,
 };
 pub use designs::{DesignAsset, DesignLoader, LoadDesignError, MorphDesigns};
-pub use frame_times::{FrameTimes, REMEMBERED, StageTimes};
+pub use frame_times::{DurationHistory, FrameTimes, HISTORY_LEN};
 pub use mesh_family::{BlendWeights, MeshFamily};
 pub use pipelines::PipelinesReady;
 pub use stage_view::StageView;
@@ -184,24 +184,27 @@ fn add_drawing(app: &mut App) {
         .add_systems(Update, reads.in_set(MorphSystems::Build));
     app.add_plugins((
         Material2dPlugin::<ink_material::InkMaterial>::default(),
-        Material2dPlugin::<recorded_material::PlayedMaterial>::default(),
+        Material2dPlugin::<recorded_material::RecordedMaterial>::default(),
         Material2dPlugin::<field_material::FieldMaterial>::default(),
-        Material2dPlugin::<picture_material::ColourMaterial>::default(),
+        Material2dPlugin::<picture_material::PictureMaterial>::default(),
         Material2dPlugin::<warp_grid::GridMaterial>::default(),
     ))
     .add_systems(
         Startup,
-        (recording_upload::find_card, warm_up::warm).chain(),
+        (recording_upload::detect_gpu, warm_up::warm_up_pipelines).chain(),
     )
     // An observer, so that render parts are despawned whenever the morph is removed.
-    .add_observer(part_assembly::undress)
+    .add_observer(part_assembly::despawn_parts)
     .add_systems(
         Update,
         // A chain applies commands between its systems, so parts are written and placed in the
         // frame that spawns them.
         (
-            part_assembly::dress,
-            (recording_upload::take_films, recording_upload::send_films),
+            part_assembly::spawn_parts,
+            (
+                recording_upload::finish_uploads,
+                recording_upload::start_uploads,
+            ),
             draw::draw_morphs,
             parts::place_parts,
         )

@@ -83,7 +83,9 @@ pub use options::{
 pub use paint_layer_options::{PaintLayerOptions, PaintLayerOptionsError};
 pub use part_time::{PartTime, PartTimeError};
 pub use proof::TransitionProof;
-pub use sequence::{Sequence, SequenceFrame, colour_fraction, segment_at, style_of};
+pub use sequence::{
+    Sequence, SequenceFrame, SequenceLayout, colour_fraction, segment_at, style_of,
+};
 pub use spec::TransitionSpec;
 pub(crate) use spec::{bar_width, outline};
 pub use style::TransitionStyle;

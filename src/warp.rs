@@ -82,11 +82,11 @@ pub struct MissedFeatures {
     /// Number of missed features; every sample of a line counts.
     pub count: usize,
     /// Distance by which the worst one misses its position in a design, in plane units.
-    pub by: f64,
+    pub distance: f64,
     /// Position of the worst one in the frame.
     pub place: DVec2,
     /// Whether folds were forbidden; if so, allowing them may help.
-    pub unfolded: bool,
+    pub fold_free: bool,
 }
 
 /// A warp that is built and can be evaluated at any t.
@@ -98,12 +98,12 @@ pub trait Warp: Debug + Send + Sync {
     ///
     /// Between two of these times every vertex moves smoothly. They are unsorted and may
     /// include 0 and 1.
-    fn breaks(&self) -> Vec<f64> {
+    fn break_times(&self) -> Vec<f64> {
         Vec::new()
     }
 
     /// Returns the features missed at `t`, or `None` if all are met within the warp's tolerance.
-    fn missed(&self, _t: f64) -> Option<MissedFeatures> {
+    fn missed_features(&self, _t: f64) -> Option<MissedFeatures> {
         None
     }
 }
@@ -136,7 +136,7 @@ impl Placer {
     /// Returns a placer that tries `first` and falls back to its own evaluation.
     ///
     /// `first` returns whether it has moved the placement.
-    pub(crate) fn after(
+    pub(crate) fn with_override(
         mut self,
         mut first: impl FnMut(f64, &mut Placement) -> bool + Send + Sync + 'static,
     ) -> Self {

@@ -1,4 +1,4 @@
-//! Long work: progress, cancellation, and limits on the size of a job.
+//! Long computations: progress reports, cancellation, and limits on the size of a job.
 
 pub mod budget;
 pub mod progress;

@@ -1,4 +1,4 @@
-//! Capital letters of the bundled font into each other, as rigid parts.
+//! Transitions by rigid parts between the capital letters of the bundled font.
 //!
 //! All 650 ordered pairs: `cargo test --release --no-default-features --test
 //! capitals -- --include-ignored`.
@@ -19,7 +19,7 @@ fn capitals() -> Vec<Arc<Design>> {
     ('A'..='Z').map(letter).collect()
 }
 
-/// What is wrong with a pair, or nothing.
+/// The first defect of a pair: no transition, an invalid mesh, or an end with a wrong area.
 fn fault(source: &Arc<Design>, target: &Arc<Design>) -> Option<String> {
     let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
     let transition = match Transition::build(&spec, &Silent) {
@@ -43,12 +43,13 @@ fn fault(source: &Arc<Design>, target: &Arc<Design>) -> Option<String> {
         let given = design.outline(0.0).expect("letters have area").area();
         (drawn / given - 1.0).abs()
     });
-    let off = ends[0].max(ends[1]);
-    (off > 1e-4).then(|| format!("an end whose area is off by {off}"))
+    let deviation = ends[0].max(ends[1]);
+    (deviation > 1e-4).then(|| format!("an end whose area is off by {deviation}"))
 }
 
+/// Sum of the signed areas of rings.
 fn area(rings: &[Vec<morphospace::geometry::DVec2>]) -> f64 {
-    let of = |ring: &Vec<morphospace::geometry::DVec2>| {
+    let ring_area = |ring: &Vec<morphospace::geometry::DVec2>| {
         let next = ring.iter().cycle().skip(1);
         ring.iter()
             .zip(next)
@@ -56,7 +57,7 @@ fn area(rings: &[Vec<morphospace::geometry::DVec2>]) -> f64 {
             .sum::<f64>()
             / 2.0
     };
-    rings.iter().map(of).sum()
+    rings.iter().map(ring_area).sum()
 }
 
 fn faults(pairs: &[(usize, usize)]) -> Vec<String> {
@@ -72,37 +73,40 @@ fn faults(pairs: &[(usize, usize)]) -> Vec<String> {
 }
 
 #[test]
-fn each_capital_becomes_another_and_is_become() {
-    // Seven and 26 have no common factor: each letter is source and target once.
+fn each_capital_is_source_and_target_of_a_valid_transition() {
+    // A shift by 7 of 26 letters makes each letter source once and target once.
     let pairs: Vec<_> = (0..26).map(|k| (k, (k + 7) % 26)).collect();
     assert_eq!(faults(&pairs), Vec::<String>::new());
 }
 
 #[test]
-fn a_counter_becomes_a_counter() {
+fn the_counter_of_a_letter_stays_open() {
     let letters = capitals();
     let letter = |name: char| &letters[name as usize - 'A' as usize];
     for (from, to) in [('D', 'P'), ('P', 'D'), ('A', 'R'), ('O', 'D')] {
         let spec = TransitionSpec::new(Arc::clone(letter(from)), Arc::clone(letter(to)));
         let transition = Transition::build(&spec, &Silent).expect("a film");
-        let counter = |t: f64| -> f64 {
+        let counter_area = |t: f64| -> f64 {
             let rings = transition.frame(t).figure().rings;
             assert_eq!(rings.len(), 2, "{from} to {to} at {t}");
             let areas = rings.chunks(1).map(area);
             areas.fold(0.0, f64::min).abs()
         };
-        let least = counter(0.0).min(counter(1.0));
+        let min_end_area = counter_area(0.0).min(counter_area(1.0));
         for k in 1..16 {
             let t = f64::from(k) / 16.0;
-            // Every length of it may be a tenth too short.
-            assert!(counter(t) > 0.8 * least, "{from} to {to} at {t}");
+            // Lengths may shrink by a tenth, hence areas by about a fifth.
+            assert!(
+                counter_area(t) > 0.8 * min_end_area,
+                "{from} to {to} at {t}"
+            );
         }
     }
 }
 
 #[test]
 #[ignore = "650 pairs: minutes in a build without optimisation"]
-fn all_capitals_become_all_others() {
+fn all_pairs_of_capitals_have_a_valid_transition() {
     let all = (0..26).flat_map(|a| (0..26).map(move |b| (a, b)));
     let pairs: Vec<_> = all.filter(|(a, b)| a != b).collect();
     assert_eq!(faults(&pairs), Vec::<String>::new());

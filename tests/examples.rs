@@ -1,13 +1,13 @@
-//! The examples that need no window do what they say.
+//! The examples that need no window write the described output.
 
 #[path = "../examples/polygons_to_svg.rs"]
 mod polygons_to_svg;
-#[expect(dead_code, reason = "a test calls what `main` calls")]
+#[expect(dead_code, reason = "the test calls the functions that `main` calls")]
 #[path = "../examples/report.rs"]
 mod report;
 
 #[test]
-fn two_lists_of_points_become_five_drawings() {
+fn two_lists_of_points_give_five_drawings() {
     let folder = tempfile::tempdir().expect("a folder");
     std::env::set_current_dir(folder.path()).expect("a folder to write to");
     polygons_to_svg::main().expect("written");
@@ -18,12 +18,12 @@ fn two_lists_of_points_become_five_drawings() {
     let all: Vec<String> = (0..5).map(svg).collect();
     for (i, svg) in all.iter().enumerate() {
         assert!(svg.contains("<path fill="), "{svg}");
-        assert!(!all[..i].contains(svg), "{i} is as one before");
+        assert!(!all[..i].contains(svg), "{i} equals an earlier drawing");
     }
 }
 
 #[test]
-fn the_readme_shows_the_program_of_twenty_lines() {
+fn the_readme_shows_the_example_of_at_most_twenty_lines() {
     let example = include_str!("../examples/polygons_to_svg.rs");
     let (_, program) = example.split_once("\n\n").expect("a head");
     assert!(program.lines().count() <= 20);
@@ -33,7 +33,7 @@ fn the_readme_shows_the_program_of_twenty_lines() {
 }
 
 #[test]
-fn a_report_has_what_was_measured() {
+fn the_report_example_contains_the_measures() {
     let report = report::report("triangle-polar").expect("a report");
     assert_eq!(report["film"]["worst_folds"], 0);
     assert_eq!(report["film"]["samples"].as_array().map(Vec::len), Some(33));

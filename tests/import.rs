@@ -1,5 +1,4 @@
-//! Bad input of every kind: a typed error that names the file, the place and
-//! the way out, and never a panic.
+//! Import of bad files of every format: a typed error with file, place and remedy, never a panic.
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use morphospace::design::{
@@ -11,14 +10,22 @@ use proptest::prelude::*;
 use std::io::Cursor;
 use std::path::Path;
 
+/// A square of two triangles.
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+
+/// A drawing with curves, a style sheet and a transformed copy.
 const SVG: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20"><style>.a{fill:#123}</style><defs><path id="p" d="M1 1 C 5 1 9 5 9 9 Q 4 12 1 1 A 3 2 30 0 1 4 4 Z"/></defs><use class="a" href="#p" transform="rotate(20)"/></svg>"##;
+
+/// A triangle of three bars.
 const TRUSS: &str = r#"{"nodes": [[0, 0], [1, 0], [0, 1]], "bars": [[0, 1], [1, 2], [2, 0]]}"#;
 
+/// A square with a hole, as lists of points.
 const RINGS: &str = "[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[3,1],[3,3],[1,3]]]";
+
+/// Two polygons in a feature collection.
 const GEOJSON: &str = r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"a": 1}, "geometry": {"type": "MultiPolygon", "coordinates": [[[[0,0],[4,0],[0,3]]], [[[5,0,9],[6,0],[5,1.5e0]]]]}}, {"type": "Feature", "geometry": null}]}"#;
 
-/// A drawing with every kind of curve.
+/// A DXF drawing with every supported kind of curve.
 fn dxf() -> String {
     let block = "0 BLOCK 2 B 10 1 20 1 0 CIRCLE 8 0 10 1 20 1 40 2 0 ENDBLK";
     let entities = "0 LINE 8 0 10 0 20 0 11 9 21 0 0 ARC 8 0 10 4.5 20 0 40 4.5 50 0 51 180
@@ -38,6 +45,7 @@ fn read(bytes: &[u8]) -> Result<Design, ImportError> {
     import("given", bytes, &ImportOptions::default())
 }
 
+/// The problem of a file that must be refused, in one line that begins with its name.
 fn problem(bytes: &[u8]) -> ImportProblem {
     let error = read(bytes).expect_err("bad input");
     let message = error.to_string();
@@ -46,10 +54,11 @@ fn problem(bytes: &[u8]) -> ImportProblem {
     error.problem
 }
 
+/// A grey image of a disc in the given format.
 fn picture(format: ImageFormat) -> Vec<u8> {
     let disc = GrayImage::from_fn(24, 20, |x, y| {
-        let far = (f64::from(x) - 11.0).hypot(f64::from(y) - 9.0);
-        Luma([(far * 25.0) as u8])
+        let distance = (f64::from(x) - 11.0).hypot(f64::from(y) - 9.0);
+        Luma([(distance * 25.0) as u8])
     });
     let mut bytes = Cursor::new(Vec::new());
     DynamicImage::from(disc)
@@ -58,30 +67,35 @@ fn picture(format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-const PICTURES: [ImageFormat; 4] = [
+/// Supported formats of bitmap images.
+const IMAGE_FORMATS: [ImageFormat; 4] = [
     ImageFormat::Png,
     ImageFormat::Jpeg,
     ImageFormat::Bmp,
     ImageFormat::WebP,
 ];
 
-/// Every kind of file, all good.
-fn good_files() -> Vec<Vec<u8>> {
+/// A valid file of each format.
+fn valid_files() -> Vec<Vec<u8>> {
     let dxf = dxf();
     let texts = [OBJ, SVG, TRUSS, RINGS, GEOJSON, &dxf].map(|text| text.as_bytes().to_vec());
-    PICTURES.map(picture).into_iter().chain(texts).collect()
+    IMAGE_FORMATS
+        .map(picture)
+        .into_iter()
+        .chain(texts)
+        .collect()
 }
 
 #[test]
-fn all_good_files_are_read() {
-    for bytes in good_files() {
+fn all_valid_files_are_read() {
+    for bytes in valid_files() {
         let design = read(&bytes).expect("good");
         assert!(design.outline(0.05).expect("area").area() > 0.0);
     }
 }
 
 #[test]
-fn a_missing_file_a_folder_and_an_empty_file_are_named() {
+fn missing_files_folders_and_empty_files_are_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let options = ImportOptions::default();
     let missing = folder.path().join("nowhere.png");
@@ -93,7 +107,7 @@ fn a_missing_file_a_folder_and_an_empty_file_are_named() {
     assert!(
         error
             .to_string()
-            .contains("nowhere.png: there is no such file")
+            .contains("nowhere.png: the file does not exist")
     );
     let error = import_file(folder.path(), &options).expect_err("a folder");
     assert!(matches!(
@@ -108,7 +122,7 @@ fn a_missing_file_a_folder_and_an_empty_file_are_named() {
 }
 
 #[test]
-fn a_mislabelled_file_works_and_names_the_design() {
+fn a_file_with_a_wrong_extension_is_read_by_its_content() {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in [
         ("leaf.obj", picture(ImageFormat::Png)),
@@ -124,29 +138,29 @@ fn a_mislabelled_file_works_and_names_the_design() {
 }
 
 #[test]
-fn a_byte_order_mark_and_crlf_are_no_obstacle() {
+fn a_byte_order_mark_and_crlf_line_ends_are_accepted() {
     for text in [OBJ, SVG, TRUSS] {
         let text = format!("\u{feff}{}", text.replace('\n', "\r\n"));
         read(text.as_bytes()).expect("good");
     }
-    let bomb = "\u{feff}<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE svg PUBLIC \
+    let declarations = "\u{feff}<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!DOCTYPE svg PUBLIC \
                 \"-//W3C//DTD SVG 1.1//EN\" \"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">\n";
-    read(format!("{bomb}{SVG}").as_bytes()).expect("good");
+    read(format!("{declarations}{SVG}").as_bytes()).expect("good");
 }
 
 #[test]
 fn truncated_pictures_are_refused() {
-    for format in PICTURES {
+    for format in IMAGE_FORMATS {
         let bytes = picture(format);
-        for keep in [bytes.len() * 2 / 3, bytes.len() / 2, 40] {
+        for length in [bytes.len() * 2 / 3, bytes.len() / 2, 40] {
             assert!(
                 matches!(
-                    problem(&bytes[..keep]),
+                    problem(&bytes[..length]),
                     ImportProblem::Picture(
                         SilhouetteError::Truncated | SilhouetteError::Damaged(_)
                     )
                 ),
-                "{format:?} {keep}"
+                "{format:?} {length}"
             );
         }
     }
@@ -154,7 +168,7 @@ fn truncated_pictures_are_refused() {
 
 #[test]
 fn truncated_texts_are_refused() {
-    // What is no JSON is neither truss nor polygons, and told by its line.
+    // Invalid JSON is reported as polygons with its line, even if it would have been a truss.
     assert!(matches!(
         problem(&TRUSS.as_bytes()[..40]),
         ImportProblem::Polygons(PolygonsImportError::Json(JsonError { line: 1, .. }))
@@ -172,7 +186,7 @@ fn truncated_texts_are_refused() {
     ));
 }
 
-/// A PNG with a true checksum whose header claims a size.
+/// A PNG with a valid header for the given size, and no pixels.
 fn png_claiming(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -183,20 +197,20 @@ fn png_claiming(width: u32, height: u32) -> Vec<u8> {
 }
 
 #[test]
-fn a_picture_that_claims_to_be_huge_is_refused_by_its_size() {
+fn an_image_with_a_huge_declared_size_is_refused() {
     for (width, height) in [(100_000, 100_000), (u32::MAX >> 1, 1), (8192, 6145)] {
-        let found = problem(&png_claiming(width, height));
-        let message = found.to_string();
+        let problem_found = problem(&png_claiming(width, height));
+        let message = problem_found.to_string();
         assert!(
             message.contains(&format!("{width} × {height} pixels")),
             "{message}"
         );
         assert!(matches!(
-            found,
+            problem_found,
             ImportProblem::Picture(SilhouetteError::TooManyPixels { .. })
         ));
     }
-    // The largest that is read gets as far as its missing pixels.
+    // The largest accepted size fails later, at the missing pixels.
     assert!(matches!(
         problem(&png_claiming(8192, 6144)),
         ImportProblem::Picture(SilhouetteError::Damaged(_))
@@ -220,13 +234,13 @@ fn an_empty_mask_is_refused() {
 }
 
 #[test]
-fn hostile_meshes_and_trusses_are_named() {
+fn errors_in_meshes_and_trusses_are_located() {
     let nan = OBJ.replace("v 1 1 0", "v NaN 1 0");
     assert!(matches!(
         problem(nan.as_bytes()),
         ImportProblem::Obj(ObjError::Line {
             line: 3,
-            fault: ObjFault::Place(3)
+            fault: ObjFault::CoordinateRange(3)
         })
     ));
     let outside = OBJ.replace("f 1 3 4", "f 1 3 5");
@@ -241,11 +255,11 @@ fn hostile_meshes_and_trusses_are_named() {
             }
         })
     ));
-    let nowhere = TRUSS.replace("[2, 0]", "[2, 3]");
-    let error = read(nowhere.as_bytes()).expect_err("a bar to nowhere");
+    let dangling = TRUSS.replace("[2, 0]", "[2, 3]");
+    let error = read(dangling.as_bytes()).expect_err("a bar to a missing node");
     assert_eq!(
         error.to_string(),
-        "given: bar 2 names node 3, but there are 3, counted from 0; correct the number"
+        "given: bar 2 refers to node 3, but there are 3, counted from 0; correct the number"
     );
     let deep = format!("{{\"nodes\": {}", "[".repeat(100_000));
     assert!(matches!(
@@ -260,7 +274,7 @@ fn hostile_meshes_and_trusses_are_named() {
 }
 
 #[test]
-fn nested_use_is_refused() {
+fn exponentially_nested_use_elements_are_refused() {
     let mut body = String::from(r#"<g id="g0"><rect width="1" height="1"/></g>"#);
     for level in 1..40 {
         let copy = format!(r##"<use href="#g{}"/>"##, level - 1).repeat(8);
@@ -274,22 +288,22 @@ fn nested_use_is_refused() {
 }
 
 #[test]
-fn other_formats_and_noise_are_refused_in_words() {
+fn unknown_formats_are_refused_with_a_reason() {
     assert!(matches!(
         problem(b"GIF89a....."),
-        ImportProblem::Unknown(UnknownFormat::Other { .. })
+        ImportProblem::UnknownFormat(UnknownFormat::Other { .. })
     ));
     assert!(matches!(
         problem(b"\x1f\x8b\x08\0"),
-        ImportProblem::Unknown(UnknownFormat::Other { .. })
+        ImportProblem::UnknownFormat(UnknownFormat::Other { .. })
     ));
     assert!(matches!(
         problem(b"hello"),
-        ImportProblem::Unknown(UnknownFormat::Unknown)
+        ImportProblem::UnknownFormat(UnknownFormat::Unknown)
     ));
     assert!(matches!(
         problem(b"<p>hello</p>"),
-        ImportProblem::Unknown(UnknownFormat::XmlWithoutSvg)
+        ImportProblem::UnknownFormat(UnknownFormat::XmlWithoutSvg)
     ));
 }
 
@@ -314,7 +328,7 @@ fn options_out_of_range_are_refused() {
 }
 
 #[test]
-fn options_go_through_text_and_unknown_ones_are_refused() {
+fn options_survive_serialization_and_unknown_keys_are_refused() {
     let options = ImportOptions {
         threshold: Some(7),
         specks_px: 3,
@@ -352,27 +366,27 @@ proptest! {
         which in 0usize..10,
         edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
         cut in any::<prop::sample::Index>(),
-        cuts in any::<bool>(),
+        is_truncated in any::<bool>(),
     ) {
-        let mut bytes = good_files().swap_remove(which);
+        let mut bytes = valid_files().swap_remove(which);
         for (place, byte) in edits {
             let place = place.index(bytes.len());
             bytes[place] = byte;
         }
-        if cuts {
+        if is_truncated {
             bytes.truncate(cut.index(bytes.len()));
         }
         if let Ok(design) = read(&bytes) {
-            // What was let in can be drawn, or says that it has no area.
+            // An accepted design has an outline, or an error that it has no area.
             drop(design.outline(0.1));
         }
     }
 
-    /// Lists of numbers, wild ones among them, with the outline's own faults.
+    /// Rings of random and extreme coordinates, often self-crossing or degenerate.
     #[test]
-    fn polygons_of_wild_numbers_never_panic(
+    fn polygons_of_extreme_numbers_never_panic(
         rings in proptest::collection::vec(
-            proptest::collection::vec((wild_number(), wild_number()), 0..12), 0..4),
+            proptest::collection::vec((random_or_extreme_number(), random_or_extreme_number()), 0..12), 0..4),
     ) {
         let rings: Vec<Vec<[f64; 2]>> = rings
             .into_iter()
@@ -384,14 +398,14 @@ proptest! {
     }
 
     #[test]
-    fn drawings_of_wild_numbers_never_panic(
-        pairs in proptest::collection::vec((0usize..DXF_CODES.len(), wild_number()), 0..40),
-        kinds in proptest::collection::vec(0usize..DXF_KINDS.len(), 1..6),
+    fn dxf_drawings_of_extreme_numbers_never_panic(
+        pairs in proptest::collection::vec((0usize..DXF_CODES.len(), random_or_extreme_number()), 0..40),
+        kinds in proptest::collection::vec(0usize..DXF_ENTITIES.len(), 1..6),
     ) {
         let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
-        let share = pairs.len() / kinds.len() + 1;
-        for (kind, pairs) in kinds.iter().zip(pairs.chunks(share)) {
-            text += &format!("0\n{}\n8\n0\n", DXF_KINDS[*kind]);
+        let pairs_per_entity = pairs.len() / kinds.len() + 1;
+        for (kind, pairs) in kinds.iter().zip(pairs.chunks(pairs_per_entity)) {
+            text += &format!("0\n{}\n8\n0\n", DXF_ENTITIES[*kind]);
             for (code, number) in pairs {
                 text += &format!("{}\n{number}\n", DXF_CODES[*code]);
             }
@@ -400,16 +414,16 @@ proptest! {
     }
 
     #[test]
-    fn any_text_is_drawn_or_refused(text in ".{0,12}") {
+    fn any_text_is_converted_to_outlines_or_refused(text in ".{0,12}") {
         let source = DesignSource::Text { text, font: None };
         drop(source.import(&ImportOptions::default()));
     }
 
     #[test]
-    fn any_path_is_written_as_it_was_understood(path in "(glyph:)?[a-z%@#./4]{0,16}") {
-        let nothing = |_: &Path| false;
-        let source = DesignSource::parse(path.as_ref(), nothing);
-        prop_assert_eq!(DesignSource::parse(&source.to_path(), nothing), source);
+    fn a_parsed_path_survives_writing_and_parsing(path in "(glyph:)?[a-z%@#./4]{0,16}") {
+        let no_file = |_: &Path| false;
+        let source = DesignSource::parse(path.as_ref(), no_file);
+        prop_assert_eq!(DesignSource::parse(&source.to_path(), no_file), source);
     }
 
     #[test]
@@ -417,14 +431,14 @@ proptest! {
         edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..60),
         near_the_start in any::<bool>(),
         cut in any::<prop::sample::Index>(),
-        cuts in any::<bool>(),
+        is_truncated in any::<bool>(),
     ) {
         let mut bytes = epaint_default_fonts::UBUNTU_LIGHT.to_vec();
-        let reach = if near_the_start { 2000 } else { bytes.len() };
+        let edited_length = if near_the_start { 2000 } else { bytes.len() };
         for (place, byte) in edits {
-            bytes[place.index(reach)] = byte;
+            bytes[place.index(edited_length)] = byte;
         }
-        if cuts {
+        if is_truncated {
             bytes.truncate(cut.index(bytes.len()));
         }
         let source = DesignSource::Text { text: "Dfi 8".into(), font: Some("a.ttf".into()) };
@@ -432,8 +446,8 @@ proptest! {
     }
 
     #[test]
-    fn strokes_of_wild_numbers_never_panic(
-        numbers in proptest::collection::vec(wild_number(), 8),
+    fn strokes_of_extreme_numbers_never_panic(
+        numbers in proptest::collection::vec(random_or_extreme_number(), 8),
     ) {
         let n = |i: usize| numbers[i];
         let text = format!(
@@ -445,7 +459,8 @@ proptest! {
     }
 }
 
-const DXF_KINDS: [&str; 8] = [
+/// DXF entities that the importer knows.
+const DXF_ENTITIES: [&str; 8] = [
     "LINE",
     "ARC",
     "CIRCLE",
@@ -455,12 +470,13 @@ const DXF_KINDS: [&str; 8] = [
     "VERTEX",
     "POLYLINE",
 ];
+/// DXF group codes of numbers that the importer reads.
 const DXF_CODES: [i32; 20] = [
     10, 20, 30, 11, 21, 31, 38, 40, 41, 42, 50, 51, 70, 71, 72, 73, 74, 210, 220, 230,
 ];
 
-/// Numbers small and ordinary, and some that are neither.
-fn wild_number() -> impl Strategy<Value = f64> {
+/// Mostly small numbers, sometimes extreme ones.
+fn random_or_extreme_number() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => (-4i32..5).prop_map(f64::from),
         3 => -10.0..10.0,
@@ -487,12 +503,12 @@ fn deep_and_hostile_polygons_are_refused() {
     let error = read(b"{\"rings\": [[[0,0],[1,0],[\"x\",1]]]}").expect_err("no number");
     assert_eq!(
         error.to_string(),
-        "given: $.rings[0][2] is a text; give two numbers for a point"
+        "given: $.rings[0][2] is a string; give two numbers for a point"
     );
 }
 
 #[test]
-fn hostile_drawings_as_dxf_are_refused() {
+fn truncated_and_endless_dxf_drawings_are_refused() {
     let whole = dxf();
     assert!(matches!(
         problem(&whole.as_bytes()[..whole.len() / 2]),
@@ -506,7 +522,7 @@ fn hostile_drawings_as_dxf_are_refused() {
 }
 
 #[test]
-fn an_element_is_asked_for_of_drawings_only() {
+fn an_element_can_be_selected_in_svg_files_only() {
     let folder = tempfile::tempdir().expect("a folder");
     let options = ImportOptions::default();
     let at = |name: &str| folder.path().join(name);
@@ -517,7 +533,11 @@ fn an_element_is_asked_for_of_drawings_only() {
     assert_eq!(design.name, "u");
     let error = import_file(&at("a.obj#u"), &options).expect_err("no drawing");
     assert!(matches!(error.problem, ImportProblem::NoElements { .. }));
-    assert!(error.to_string().contains("a.obj#u: only an SVG drawing"));
+    assert!(
+        error
+            .to_string()
+            .contains("a.obj#u: elements can be selected by id")
+    );
     // A file of that very name is that file.
     assert!(import_file(&at("b.svg#u"), &options).is_ok());
     let error = import_file(&at("c.svg#u"), &options).expect_err("no file");

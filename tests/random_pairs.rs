@@ -1,4 +1,4 @@
-//! Random pairs of polygons with holes: each has a film, and none a broken one.
+//! Random pairs of polygons with holes: each has a valid transition.
 //!
 //! All 500: `cargo test --release --no-default-features --test random_pairs --
 //! --include-ignored --nocapture`.
@@ -7,36 +7,37 @@ mod random;
 
 use rayon::prelude::*;
 
-#[expect(clippy::print_stdout, reason = "the counts are what is asked for")]
-fn films(count: u64) {
-    let found: Vec<_> = (0..count)
+/// Checks the transitions of the pairs with seeds 0 to `count` − 1, and prints counts of defects.
+#[expect(clippy::print_stdout, reason = "the counts are the result")]
+fn check_pairs(count: u64) {
+    let results: Vec<_> = (0..count)
         .into_par_iter()
-        .map(|seed| random::seen_of_seed(seed).map_err(|error| format!("pair {seed}: {error}")))
+        .map(|seed| random::defects_of_seed(seed).map_err(|error| format!("pair {seed}: {error}")))
         .collect();
-    let faults: Vec<_> = found
+    let errors: Vec<_> = results
         .iter()
-        .filter_map(|seen| seen.as_ref().err())
+        .filter_map(|result| result.as_ref().err())
         .collect();
-    assert_eq!(faults, Vec::<&String>::new());
-    let seen = || found.iter().flatten();
-    let folded = seen().filter(|seen| seen.folds > 0).count();
-    let crossed = seen().filter(|seen| seen.crossings > 0).count();
+    assert_eq!(errors, Vec::<&String>::new());
+    let defects = || results.iter().flatten();
+    let folded = defects().filter(|defects| defects.folds > 0).count();
+    let crossed = defects().filter(|defects| defects.crossings > 0).count();
     println!("{count} pairs: {folded} with a fold, {crossed} with a crossing");
 }
 
 #[test]
-fn random_polygons_with_holes_have_films() {
-    films(8);
+fn random_polygons_with_holes_have_valid_transitions() {
+    check_pairs(8);
 }
 
 #[test]
-fn an_other_match_that_cannot_be_had_breaks_no_film() {
-    // One of the candidates of this pair has outlines that touch.
-    random::seen_of_seed(385).expect("the first match has a film");
+fn a_failed_candidate_match_does_not_fail_the_transition() {
+    // One candidate match of this pair fails, since its outlines touch.
+    random::defects_of_seed(385).expect("the first match has a film");
 }
 
 #[test]
 #[ignore = "500 pairs: minutes in a build without optimisation"]
-fn five_hundred_random_pairs_have_films() {
-    films(500);
+fn five_hundred_random_pairs_have_valid_transitions() {
+    check_pairs(500);
 }

@@ -1,4 +1,4 @@
-//! Any text as a project: what is read can be written, and reads the same.
+//! Fuzzes project files: a project that can be read is unchanged by writing and reading it again.
 #![no_main]
 
 use morphospace::project::Project;
@@ -14,7 +14,7 @@ libfuzzer_sys::fuzz_target!(|text: &str| {
             return;
         }
     };
-    let written = project.to_toml().expect("what was read can be written");
-    let again = Project::parse(&written).expect("what was written can be read");
-    assert_eq!(project, again);
+    let written = project.to_toml().expect("a project that was read can be written");
+    let reread = Project::parse(&written).expect("a project that was written can be read");
+    assert_eq!(project, reread);
 });

@@ -1,4 +1,4 @@
-//! Two designs of any small rings: repair, match, mesh, frames.
+//! Fuzzes whole transitions between small polygons: repair, match, mesh and frames.
 #![no_main]
 
 #[path = "../../tests/random/mod.rs"]
@@ -9,15 +9,20 @@ use arbitrary::Unstructured;
 use morphospace::geometry::DVec2;
 use random::Rings;
 
-/// Enough for crossings, holes and pieces; a film takes milliseconds.
-const MOST_RINGS: u8 = 4;
-const MOST_CORNERS: u8 = 12;
+/// Maximum number of rings in a design: enough for holes and several pieces (resource limit: a
+/// transition takes milliseconds).
+const MAX_RINGS: u8 = 4;
 
-/// Whole numbers, so that points meet, lines overlap and corners are straight.
+/// Maximum number of corners in a ring: enough for crossings (resource limit: a transition takes
+/// milliseconds).
+const MAX_CORNERS: u8 = 12;
+
+/// Random rings with integer coordinates, so that points coincide, edges overlap and corners are
+/// straight.
 fn rings(from: &mut Unstructured<'_>) -> arbitrary::Result<Rings> {
-    (0..from.int_in_range(1..=MOST_RINGS)?)
+    (0..from.int_in_range(1..=MAX_RINGS)?)
         .map(|_| {
-            (0..from.int_in_range(3..=MOST_CORNERS)?)
+            (0..from.int_in_range(3..=MAX_CORNERS)?)
                 .map(|_| {
                     Ok(DVec2::new(
                         from.arbitrary::<i8>()?.into(),
@@ -34,7 +39,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let (Ok(source), Ok(target)) = (rings(&mut from), rings(&mut from)) else {
         return;
     };
-    if let Err(fault) = random::seen(source.clone(), target.clone()) {
+    if let Err(fault) = random::check_transition(source.clone(), target.clone()) {
         panic!("{fault}: {source:?} {target:?}");
     }
 });

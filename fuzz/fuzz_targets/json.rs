@@ -1,12 +1,12 @@
-//! Any bytes that are taken for polygons, GeoJSON and trusses: a design or an error in one line.
+//! Fuzzes the import of polygons, GeoJSON and trusses: any bytes give a design or a one-line error.
 #![no_main]
 
-mod importing;
+mod import_check;
 
 use morphospace::design::Format;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    importing::import_if(bytes, |format| {
+    import_check::check_import(bytes, |format| {
         matches!(format, Format::Polygons | Format::Truss)
     });
 });

@@ -1,10 +1,10 @@
-//! Any bytes that are taken for OBJ meshes: a design or an error in one line.
+//! Fuzzes the import of OBJ meshes: any bytes give a design or a one-line error.
 #![no_main]
 
-mod importing;
+mod import_check;
 
 use morphospace::design::Format;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    importing::import_if(bytes, |format| matches!(format, Format::Obj));
+    import_check::check_import(bytes, |format| matches!(format, Format::Obj));
 });

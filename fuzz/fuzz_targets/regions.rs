@@ -1,11 +1,11 @@
-//! Repair of rings of any doubles: regions of a finite area, or an error.
+//! Fuzzes the repair of rings: any coordinates give regions of finite positive area, or an error.
 #![no_main]
 
 use morphospace::geometry::{DVec2, FillRule, Regions};
 
 libfuzzer_sys::fuzz_target!(|input: (bool, Vec<Vec<(f64, f64)>>)| {
-    let (even_odd, rings) = input;
-    let rule = if even_odd {
+    let (is_even_odd, rings) = input;
+    let rule = if is_even_odd {
         FillRule::EvenOdd
     } else {
         FillRule::NonZero

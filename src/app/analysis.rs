@@ -11,7 +11,7 @@ use crate::transition::Transition;
 /// Whether cached results belong to the transition on the stage.
 fn is_same(cached: Option<&Transition>, staged: Option<&Transition>) -> bool {
     match (cached, staged) {
-        (Some(cached), Some(staged)) => cached.is(staged),
+        (Some(cached), Some(staged)) => cached.is_same(staged),
         (None, None) => true,
         _ => false,
     }

@@ -7,4 +7,5 @@ pub mod film_exporter;
 pub mod film_framing;
 pub mod film_request;
 pub mod image;
+pub mod image_inputs;
 pub mod saved_blends;

@@ -4,16 +4,13 @@ use crate::app::analysis::film_measures::StageMeasures;
 use crate::app::analysis::method_search::MethodSearch;
 use crate::app::analysis::suggestions::Suggestions;
 use crate::app::capture::film_exporter::FilmExporter;
-use crate::app::compare::comparison::Comparison;
-use crate::app::editing::editor::MatchEditor;
-use crate::app::files::drop::DroppedDesign;
+use crate::app::files::invitation::Invitation;
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
-use crate::app::map::map_view::MapView;
-use crate::app::persistence::autosave::Autosave;
-use crate::app::presentation::presenter::{Presentation, fullscreen_mode};
+use crate::app::key_input::OpenQuestions;
+use crate::app::presentation::presenter::{Presentation, ToolViews, fullscreen_mode};
 use crate::app::session::state::Session;
-use crate::app::unsaved_question::UnsavedQuestion;
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::window::{PrimaryWindow, WindowMode};
 
@@ -33,19 +30,35 @@ pub fn window_mode(
 }
 
 /// Questions and modes that handle Esc before anything else.
-type EscapeBlockers<'w> = (
-    Res<'w, UnsavedQuestion>,
-    Res<'w, DroppedDesign>,
-    Res<'w, Autosave>,
-    Res<'w, Presentation>,
-);
+#[derive(SystemParam)]
+pub struct EscapeBlockers<'w> {
+    /// Questions, which Esc answers.
+    questions: OpenQuestions<'w>,
+    /// The talk, which Esc ends.
+    presentation: Res<'w, Presentation>,
+}
+
+impl EscapeBlockers<'_> {
+    /// Whether something else handles Esc.
+    fn any(&self) -> bool {
+        self.questions.any() || self.presentation.is_on()
+    }
+}
 
 /// Background work that Esc cancels.
-type CancellableWork<'w> = (
-    ResMut<'w, MethodSearch>,
-    ResMut<'w, StageMeasures>,
-    ResMut<'w, Suggestions>,
-);
+#[derive(SystemParam)]
+pub struct CancellableWork<'w> {
+    /// Opening and building projects.
+    session: ResMut<'w, Session>,
+    /// The search for the best method.
+    search: ResMut<'w, MethodSearch>,
+    /// The measurement of the film.
+    measures: ResMut<'w, StageMeasures>,
+    /// The search for suggestions.
+    suggestions: ResMut<'w, Suggestions>,
+    /// The film export.
+    exporter: Res<'w, FilmExporter>,
+}
 
 /// Handles Esc: each press closes or cancels one thing, in the order of the branches below. The
 /// last resort is cancelling an export.
@@ -53,42 +66,39 @@ pub fn back(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,
     mut window: Query<&mut Window, With<PrimaryWindow>>,
-    (mut editor, mut comparison, mut map): (
-        ResMut<MatchEditor>,
-        ResMut<Comparison>,
-        ResMut<MapView>,
-    ),
-    (question, drop, autosave, presentation): EscapeBlockers,
-    (mut session, exporter): (ResMut<Session>, Res<FilmExporter>),
-    (mut search, mut measures, mut suggestions): CancellableWork,
+    blockers: EscapeBlockers,
+    mut views: ToolViews,
+    mut invitation: ResMut<Invitation>,
+    mut work: CancellableWork,
 ) {
-    let is_asked = question.text().is_some() || drop.asks() || autosave.lost().is_some();
-    if is_asked || presentation.is_on() {
+    if blockers.any() {
         intents.clear(); // Esc answers the question or ends the talk, and nothing else.
         return;
     }
-    let backs = intents
+    let escape_count = intents
         .read()
-        .filter(|intent| **intent == Intent::Back)
+        .filter(|intent| **intent == Intent::Escape)
         .count();
-    for _ in 0..backs {
+    for _ in 0..escape_count {
         if preferences.help {
             preferences.help = false;
-        } else if preferences.panels && session.told_work().is_some() {
-            session.cancel();
-        } else if preferences.panels && search.told().is_some() {
-            search.stop();
-        } else if preferences.panels && measures.told().is_some() {
-            measures.stop();
-        } else if preferences.panels && !editor.is_open && suggestions.is_trying() {
-            suggestions.stop();
-        } else if editor.bypass_change_detection().back() {
-            editor.set_changed();
+        } else if preferences.panels && !views.is_any_open() && invitation.close() {
+            // The invitation has been closed by the condition.
+        } else if preferences.panels && work.session.visible_work().is_some() {
+            work.session.cancel();
+        } else if preferences.panels && work.search.visible_progress().is_some() {
+            work.search.stop();
+        } else if preferences.panels && work.measures.visible_progress().is_some() {
+            work.measures.stop();
+        } else if preferences.panels && !views.editor.is_open && work.suggestions.is_trying() {
+            work.suggestions.stop();
+        } else if views.editor.bypass_change_detection().back() {
+            views.editor.set_changed();
         } else if preferences.film_options {
             preferences.film_options = false;
-        } else if map.is_shown {
-            map.is_shown = false;
-        } else if std::mem::take(&mut comparison.is_shown) {
+        } else if views.map.is_shown {
+            views.map.is_shown = false;
+        } else if std::mem::take(&mut views.comparison.is_shown) {
             // The comparison has been closed by the condition.
         } else if !preferences.panels {
             preferences.panels = true;
@@ -99,7 +109,7 @@ pub fn back(
         } else if preferences.times {
             preferences.times = false;
         } else {
-            exporter.cancel();
+            work.exporter.cancel();
         }
     }
 }

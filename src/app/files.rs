@@ -1,10 +1,11 @@
-//! Files: opening, changing, saving and closing projects; the file dialog, dropped files, and the
-//! gallery's thumbnails.
+//! Files: opening, changing, saving and closing projects; the file dialog, dropped files, the
+//! invitation at the start, and the gallery's thumbnails.
 
 pub mod drop;
 pub mod file_dialog;
 pub mod file_preview;
 pub mod file_watcher;
 pub mod gallery_thumbnails;
+pub mod invitation;
 pub mod path_completion;
 pub mod project_actions;

@@ -26,7 +26,9 @@ impl OpenQuestions<'_> {
     /// Whether a question waits for an answer.
     #[must_use]
     pub fn any(&self) -> bool {
-        self.unsaved.text().is_some() || self.drop.asks() || self.autosave.lost().is_some()
+        self.unsaved.text().is_some()
+            || self.drop.is_pending()
+            || self.autosave.recoverable().is_some()
     }
 }
 
@@ -44,9 +46,9 @@ impl KeyContext<'_> {
     /// Whether the intent of a key may be carried out now.
     fn allows(&self, intent: &Intent) -> bool {
         match intent {
-            Intent::Back => !self.focus.0,
+            Intent::Escape => !self.focus.0,
             _ if self.focus.0 || self.questions.any() => false,
-            other => !self.presentation.is_on() || other.is_of_a_talk(),
+            other => !self.presentation.is_on() || other.is_allowed_in_talk(),
         }
     }
 }
@@ -72,7 +74,7 @@ pub fn read_keys(
         held.note(input);
         let key_intent = map.intent(input, *held, context.editor.is_open);
         if let Some(intent) = key_intent.filter(|intent| context.allows(intent)) {
-            let on_map = context.map_view.instead(intent);
+            let on_map = context.map_view.map_intent(intent);
             intents.write(on_map.unwrap_or_else(|| intent.clone()));
         }
     }

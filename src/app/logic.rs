@@ -19,9 +19,10 @@ use crate::app::editing::editor::MatchEditor;
 use crate::app::editing::sheet::MatchSheet;
 use crate::app::editing::{actions, refresh};
 use crate::app::escape;
+use crate::app::files::invitation::Invitation;
 use crate::app::files::project_actions as opening;
-use crate::app::files::project_actions::GalleryEntries;
-use crate::app::files::{drop, file_dialog, file_preview, file_watcher};
+use crate::app::files::project_actions::{GalleryEntries, PlayWhenOpened};
+use crate::app::files::{drop, file_dialog, file_preview, file_watcher, invitation};
 use crate::app::input::gesture;
 use crate::app::input::gesture::KeyboardFocus;
 use crate::app::input::intent::Intent;
@@ -74,7 +75,7 @@ impl Plugin for LogicPlugin {
                 Update,
                 (
                     stage_sync::stage_transition,
-                    stage_sync::stage_twin,
+                    stage_sync::stage_comparison,
                     stage_sync::stage_t,
                     stage_sync::stage_style,
                 )
@@ -117,6 +118,8 @@ fn init(app: &mut App) {
         .init_resource::<film_presets::StoredPresets>()
         .init_resource::<recent_files::StoredRecentFiles>()
         .init_resource::<drop::DroppedDesign>()
+        .init_resource::<Invitation>()
+        .init_resource::<PlayWhenOpened>()
         .init_resource::<file_watcher::FileWatcher>()
         .init_resource::<file_dialog::FileDialogRequest>()
         .init_resource::<file_preview::FilePreview>()
@@ -152,6 +155,8 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         (file_dialog::choose, file_dialog::open, file_preview::follow).chain(),
         (
             opening::open,
+            // After opening, which does not add a single design to the project shown so far.
+            invitation::apply,
             opening::edit,
             actions::apply,
             film_measures::apply,
@@ -174,7 +179,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         // Advance first, then seek: otherwise the time spent standing still would be played at
         // once.
         (player::advance, presenter::begin, player::apply).chain(),
-        (stage_sync::follow_leg, presenter::hide_pointer).chain(),
+        (stage_sync::select_segment, presenter::hide_pointer).chain(),
         (
             film_exporter::apply,
             film_exporter::report,

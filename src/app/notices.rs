@@ -38,7 +38,7 @@ pub enum NoticeKind {
     /// Something succeeded; disappears.
     Done,
     /// A file was written; disappears after enough time to click the link to its folder.
-    Wrote,
+    FileWritten,
     /// Information that the user may not expect; disappears.
     Note,
 }
@@ -49,7 +49,7 @@ impl NoticeKind {
         match self {
             Self::Problem(_) => None,
             Self::Done => Some(CONFIRMATION_SECS),
-            Self::Note | Self::Wrote => Some(NOTE_SECS),
+            Self::Note | Self::FileWritten => Some(NOTE_SECS),
         }
     }
 }
@@ -87,8 +87,8 @@ impl Notices {
     }
 
     /// Adds the confirmation that a file was written.
-    pub fn wrote(&mut self, file: PathBuf) {
-        self.push(NoticeKind::Wrote, format!("Saved {}", file.display()));
+    pub fn file_written(&mut self, file: PathBuf) {
+        self.push(NoticeKind::FileWritten, format!("Saved {}", file.display()));
         if let Some(notice) = self.list.last_mut() {
             notice.file = Some(file);
         }
@@ -101,13 +101,13 @@ impl Notices {
 
     /// Whether there is a problem with this topic.
     #[must_use]
-    pub fn is_ill(&self, about: NoticeTopic) -> bool {
+    pub fn has_problem(&self, about: NoticeTopic) -> bool {
         let kind = NoticeKind::Problem(about);
         self.list.iter().any(|notice| notice.kind == kind)
     }
 
     /// Marks the topic as resolved and removes its problems.
-    pub fn well(&mut self, about: NoticeTopic) {
+    pub fn resolve(&mut self, about: NoticeTopic) {
         let kind = NoticeKind::Problem(about);
         self.list.retain(|notice| notice.kind != kind);
     }
@@ -135,7 +135,7 @@ impl Notices {
 
     /// Whether a notice will disappear by itself.
     #[must_use]
-    pub fn is_passing(&self) -> bool {
+    pub fn has_expiring(&self) -> bool {
         self.list
             .iter()
             .any(|notice| notice.kind.stays_secs().is_some())
@@ -166,7 +166,7 @@ pub fn apply(
     mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
-        if let Intent::Dismiss(id) = intent {
+        if let Intent::DismissNotice(id) = intent {
             notices.list.retain(|notice| notice.id != *id);
         }
     }
@@ -189,10 +189,12 @@ mod tests {
         notices.done("saved");
         assert!(notices.age(1e4) && !notices.age(1e4));
         assert_eq!(notices.list().len(), 2);
-        notices.well(NoticeTopic::Film);
+        notices.resolve(NoticeTopic::Film);
         assert_eq!(notices.list().len(), 1);
         assert_eq!(notices.list()[0].text, "lost");
-        assert!(notices.is_ill(NoticeTopic::Saving) && !notices.is_ill(NoticeTopic::Film));
+        assert!(
+            notices.has_problem(NoticeTopic::Saving) && !notices.has_problem(NoticeTopic::Film)
+        );
     }
 
     #[test]

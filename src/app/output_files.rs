@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::Resource;
 
 use crate::io::atomic_file::AtomicFile;
-use crate::io::file_name::safe;
+use crate::io::file_name::safe_file_name;
 
 /// Folder for exported images and films.
 #[derive(Resource, Clone, Debug, PartialEq, Eq)]
@@ -61,7 +61,7 @@ fn first_free<T>(
         source,
     };
     std::fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
-    let stem = safe(stem);
+    let stem = safe_file_name(stem);
     // Created without checking first: two processes that check could both find the same name free.
     for number in 1u32.. {
         let name = if number == 1 {
@@ -99,7 +99,7 @@ impl ScratchFolder {
     ///
     /// # Errors
     /// The folder cannot be created.
-    pub fn begin(&self) -> io::Result<tempfile::TempDir> {
+    pub fn create_temp_dir(&self) -> io::Result<tempfile::TempDir> {
         match &self.0 {
             None => tempfile::tempdir(),
             Some(folder) => {

@@ -77,11 +77,11 @@ impl Default for PanelRepaint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RedrawPace {
     /// Something moves, or the effect of an event is not on screen yet.
-    pub moves: bool,
+    pub is_moving: bool,
     /// Work is in progress, or a notice is about to disappear.
-    pub waits: bool,
+    pub is_waiting: bool,
     /// A clock is shown.
-    pub ticks: bool,
+    pub has_clock: bool,
     /// The window is minimised or covered.
     pub is_hidden: bool,
     /// Duration of a frame.
@@ -91,14 +91,20 @@ pub struct RedrawPace {
 impl RedrawPace {
     /// Update mode until the next frame.
     #[must_use]
-    pub fn mode(self) -> UpdateMode {
+    pub fn update_mode(self) -> UpdateMode {
         match self {
             Self {
                 is_hidden: true, ..
             } => UpdateMode::reactive_low_power(REST_INTERVAL),
-            Self { moves: true, .. } => UpdateMode::Continuous,
-            Self { waits: true, .. } => UpdateMode::reactive_low_power(self.progress_interval()),
-            Self { ticks: true, .. } => UpdateMode::reactive_low_power(CLOCK_INTERVAL),
+            Self {
+                is_moving: true, ..
+            } => UpdateMode::Continuous,
+            Self {
+                is_waiting: true, ..
+            } => UpdateMode::reactive_low_power(self.progress_interval()),
+            Self {
+                has_clock: true, ..
+            } => UpdateMode::reactive_low_power(CLOCK_INTERVAL),
             _ => UpdateMode::reactive_low_power(REST_INTERVAL),
         }
     }
@@ -162,7 +168,7 @@ impl RedrawInputs<'_, '_> {
     fn waits(&self) -> bool {
         // For example a blinking cursor, or a tooltip about to appear.
         self.repaint.0 < REST_INTERVAL
-            || self.presentation.waits()
+            || self.presentation.has_pending_change()
             || self.session.work().is_some()
             || self.exporter.work().is_some()
             || self.estimate.is_busy()
@@ -170,16 +176,16 @@ impl RedrawInputs<'_, '_> {
             || self.captures.is_writing()
             || self.saved_blends.is_busy()
             || self.thumbnails.is_busy()
-            || self.method_search.told().is_some()
+            || self.method_search.visible_progress().is_some()
             || self.measures.is_busy()
             || self.suggestions.is_busy()
             || self.filmstrip.is_busy()
             || self.recording.is_busy()
             || self.comparison.is_busy()
             || self.map.is_busy()
-            || self.dialog.asks().is_some()
+            || self.dialog.purpose().is_some()
             // Notices do not age while the panels are hidden.
-            || (self.preferences.panels && self.notices.is_passing())
+            || (self.preferences.panels && self.notices.has_expiring())
     }
 
     /// Whether work has a result whose effect must be drawn.
@@ -197,50 +203,73 @@ impl RedrawInputs<'_, '_> {
     }
 }
 
+/// Messages that affect the redraw rate.
+#[derive(SystemParam)]
+pub struct RedrawMessages<'w, 's> {
+    /// Input and other events of all windows.
+    events: MessageReader<'w, 's, WindowEvent>,
+    /// The user's intents.
+    intents: MessageReader<'w, 's, Intent>,
+    /// Windows that were covered or uncovered.
+    occlusions: MessageReader<'w, 's, WindowOccluded>,
+    /// Requests to redraw at once; missing without a window backend.
+    requests: Option<ResMut<'w, Messages<RequestRedraw>>>,
+}
+
+/// State that [`set_redraw_pace`] carries from frame to frame.
+#[derive(SystemParam)]
+pub struct RedrawState<'s> {
+    /// Number of frames until the effects of the last event are on screen.
+    settling: Local<'s, u8>,
+    /// Whether the main window is covered by other windows.
+    is_covered: Local<'s, bool>,
+    /// Duration of the last frame that was not preceded by waiting.
+    frame: Local<'s, Duration>,
+}
+
 /// Sets the update mode for the next frame.
 pub fn set_redraw_pace(
     inputs: RedrawInputs,
-    (mut events, mut intents): (MessageReader<WindowEvent>, MessageReader<Intent>),
-    (mut occlusions, redraws): (
-        MessageReader<WindowOccluded>,
-        Option<ResMut<Messages<RequestRedraw>>>,
-    ),
+    mut messages: RedrawMessages,
     window: Query<Entity, With<PrimaryWindow>>,
-    (mut settling, mut is_covered, mut frame): (Local<u8>, Local<bool>, Local<Duration>),
-    (time, mut settings): (Res<Time<Real>>, ResMut<WinitSettings>),
+    mut state: RedrawState,
+    time: Res<Time<Real>>,
+    mut settings: ResMut<WinitSettings>,
     _main_thread: NonSendMarker,
 ) {
-    let is_stirred = events.read().count() + intents.read().count() > 0 || inputs.is_new();
+    let messages_read = messages.events.read().count() + messages.intents.read().count();
+    let is_stirred = messages_read > 0 || inputs.is_new();
     let works = inputs.session.work().is_some();
-    *settling = match (is_stirred, works) {
+    *state.settling = match (is_stirred, works) {
         (true, true) => SETTLING_FRAMES_AT_WORK,
         (true, false) => SETTLING_FRAMES,
-        (false, _) => settling.saturating_sub(1),
+        (false, _) => state.settling.saturating_sub(1),
     };
     // In continuous mode the frame time includes no waiting.
     if settings.focused_mode == UpdateMode::Continuous {
-        *frame = time.delta();
+        *state.frame = time.delta();
     }
     // A transition being built matters more than sliding panels: they jump to their end position.
-    let skips_sliding = works && *frame * 2 > PROGRESS_INTERVALS[0];
-    if skips_sliding && let Some(mut redraws) = redraws {
-        redraws.clear();
+    let skips_sliding = works && *state.frame * 2 > PROGRESS_INTERVALS[0];
+    if skips_sliding && let Some(requests) = &mut messages.requests {
+        requests.clear();
     }
     // The speaker's window may be covered without any effect on the stage.
-    let is_stage_window = |occlusion: &&WindowOccluded| !inputs.speaker.is_its(occlusion.window);
-    if let Some(last) = occlusions.read().filter(is_stage_window).last() {
-        *is_covered = last.occluded;
+    let is_stage_window =
+        |occlusion: &&WindowOccluded| !inputs.speaker.owns_window(occlusion.window);
+    if let Some(last) = messages.occlusions.read().filter(is_stage_window).last() {
+        *state.is_covered = last.occluded;
     }
     // Needed even if hidden: the speaker's window is visible, or an autosave is pending.
     let is_needed = inputs.speaker.is_open() || inputs.autosave.is_behind();
     let pace = RedrawPace {
-        moves: *settling > 0 || inputs.moves() || (inputs.slides() && !skips_sliding),
-        waits: inputs.waits(),
-        ticks: inputs.speaker.is_open(),
-        is_hidden: !is_needed && (*is_covered || window.iter().any(is_minimised)),
-        frame: *frame,
+        is_moving: *state.settling > 0 || inputs.moves() || (inputs.slides() && !skips_sliding),
+        is_waiting: inputs.waits(),
+        has_clock: inputs.speaker.is_open(),
+        is_hidden: !is_needed && (*state.is_covered || window.iter().any(is_minimised)),
+        frame: *state.frame,
     };
-    let mode = pace.mode();
+    let mode = pace.update_mode();
     // The same mode without focus: the film goes on while another window is used. Compared first,
     // to avoid needless change events.
     if (settings.focused_mode, settings.unfocused_mode) != (mode, mode) {

@@ -12,7 +12,7 @@ use crate::stage::{Blend, StageStyle, StageTransition};
 use crate::transition::Transition;
 
 /// Render layer of the comparison.
-pub const TWIN_LAYER: RenderLayers = RenderLayers::layer(1);
+pub const COMPARISON_LAYER: RenderLayers = RenderLayers::layer(1);
 
 /// Marks the entity on the stage.
 #[derive(Component, Debug)]
@@ -30,24 +30,25 @@ pub fn stage_transition(
 ) {
     if session.is_changed() {
         let blend = Blend {
-            t: session.within(playback.t()),
+            t: session.segment_t(playback.t()),
         };
         stage(&mut commands, session.transition(), blend, &staged, OnStage);
     }
 }
 
 /// Adds, replaces or removes the compared transition when it changes.
-pub fn stage_twin(
+pub fn stage_comparison(
     mut commands: Commands,
     comparison: Res<Comparison>,
-    (playback, session): (Res<Playback>, Res<Session>),
+    playback: Res<Playback>,
+    session: Res<Session>,
     staged: StagedEntity<OnComparison>,
 ) {
     if comparison.is_changed() {
         let blend = Blend {
-            t: session.within(playback.t()),
+            t: session.segment_t(playback.t()),
         };
-        let marks = (OnComparison, Propagate(TWIN_LAYER));
+        let marks = (OnComparison, Propagate(COMPARISON_LAYER));
         stage(
             &mut commands,
             comparison.transition(),
@@ -69,7 +70,7 @@ fn stage<Of: Component>(
     match (transition, staged.single()) {
         (Some(new), Ok((_, StageTransition(old))))
             // Clones share their data; inserting one would upload its meshes again.
-            if new.is(old) => {}
+            if new.is_same(old) => {}
         (Some(new), Ok((entity, _))) => {
             let new = (StageTransition(new.clone()), blend);
             commands.entity(entity).insert(new);
@@ -91,7 +92,7 @@ pub fn stage_t(
     session: Res<Session>,
     mut blends: Query<&mut Blend, StageOrComparison>,
 ) {
-    let t = session.within(playback.t());
+    let t = session.segment_t(playback.t());
     for mut blend in &mut blends {
         // Writing to a blend triggers a solve even if t is the same.
         if blend.t != t {
@@ -101,11 +102,11 @@ pub fn stage_t(
 }
 
 /// Selects the segment that t is in.
-pub fn follow_leg(playback: Res<Playback>, mut session: ResMut<Session>) {
-    let leg = session.leg_at(playback.t());
+pub fn select_segment(playback: Res<Playback>, mut session: ResMut<Session>) {
+    let leg = session.segment_at(playback.t());
     // Compared first, because writing marks the session as changed.
-    if leg != session.leg() {
-        session.look_at(leg);
+    if leg != session.segment() {
+        session.select_segment(leg);
     }
 }
 
@@ -116,7 +117,7 @@ pub fn stage_style(
     mut styles: Query<&mut StageStyle, StageOrComparison>,
     mut ground: ResMut<ClearColor>,
 ) {
-    let style = session.style_here();
+    let style = session.segment_style();
     let [r, g, b] = style.ground.0;
     let colour = Color::srgb_u8(r, g, b);
     // Compared first, here and below: writing marks it as changed and redraws it.

@@ -32,7 +32,7 @@ pub struct UnsavedQuestion {
 #[derive(Clone, Debug, PartialEq)]
 struct PendingIntent {
     intent: Intent,
-    lost: UnsavedKind,
+    kind: UnsavedKind,
     /// Whether the user answered "save" or "wait": the intent is sent again after the save or
     /// export.
     is_answered: bool,
@@ -49,29 +49,29 @@ impl UnsavedQuestion {
 
     /// Kind of work that would be lost by the waiting intent.
     #[must_use]
-    pub fn lost(&self) -> Option<UnsavedKind> {
-        self.held.as_ref().map(|held| held.lost)
+    pub fn kind(&self) -> Option<UnsavedKind> {
+        self.held.as_ref().map(|held| held.kind)
     }
 
     /// Holds an intent back and asks.
     pub fn ask(&mut self, intent: Intent, lost: UnsavedKind, text: String) {
         self.held = Some(PendingIntent {
             intent,
-            lost,
+            kind: lost,
             is_answered: false,
             text,
         });
     }
 
     /// Call when the work is saved or discarded: returns the intent that waited for it.
-    pub fn safe(&mut self, lost: UnsavedKind) -> Option<Intent> {
-        let waits = |held: &mut PendingIntent| held.is_answered && held.lost == lost;
+    pub fn take_if_resolved(&mut self, lost: UnsavedKind) -> Option<Intent> {
+        let waits = |held: &mut PendingIntent| held.is_answered && held.kind == lost;
         Some(self.held.take_if(waits)?.intent)
     }
 
     /// Call when saving was cancelled or failed: drops the intent that waited for it.
-    pub fn not_saved(&mut self) {
-        self.safe(UnsavedKind::Changes);
+    pub fn save_cancelled(&mut self) {
+        self.take_if_resolved(UnsavedKind::Changes);
     }
 }
 
@@ -115,27 +115,28 @@ pub fn close(
 pub fn answer(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
-    (exporter, notices): (Res<FilmExporter>, Res<Notices>),
+    exporter: Res<FilmExporter>,
+    notices: Res<Notices>,
     mut question: ResMut<UnsavedQuestion>,
     mut commands: Commands,
 ) {
     let mut next = Vec::new();
     for intent in intents.read() {
         match intent {
-            Intent::Answer(UnsavedAnswer::Stay) | Intent::Back => {
+            Intent::AnswerUnsaved(UnsavedAnswer::Cancel) | Intent::Escape => {
                 // After the answer, Esc means something else.
                 question.held.take_if(|held| !held.is_answered);
             }
-            Intent::Answer(answer) => {
+            Intent::AnswerUnsaved(answer) => {
                 if let Some(held) = &mut question.held {
                     held.is_answered = true;
-                    match (held.lost, answer) {
+                    match (held.kind, answer) {
                         // Saving may open a dialog and take long; the intent waits for the result.
                         (UnsavedKind::Changes, UnsavedAnswer::Save) => next.push(Intent::Save),
                         (UnsavedKind::Changes, _) => {
                             // Otherwise the intent, sent again, would raise the same question.
                             session.forget_changes();
-                            next.extend(question.safe(UnsavedKind::Changes));
+                            next.extend(question.take_if_resolved(UnsavedKind::Changes));
                         }
                         // Waits for the export to end.
                         (UnsavedKind::Film, UnsavedAnswer::Save) => {}
@@ -149,9 +150,9 @@ pub fn answer(
     }
     // After a failed export the window stays open to show the reason.
     if exporter.work().is_none()
-        && question.lost() == Some(UnsavedKind::Film)
-        && let Some(intent) = question.safe(UnsavedKind::Film)
-        && !notices.is_ill(NoticeTopic::Film)
+        && question.kind() == Some(UnsavedKind::Film)
+        && let Some(intent) = question.take_if_resolved(UnsavedKind::Film)
+        && !notices.has_problem(NoticeTopic::Film)
     {
         next.push(intent);
     }

@@ -17,7 +17,6 @@ use crate::app::capture::{blend_image, clipboard, image};
 use crate::app::escape;
 use crate::app::files::file_watcher::FileWatcher;
 use crate::app::files::gallery_thumbnails;
-use crate::app::files::project_actions::GalleryEntries;
 use crate::app::input::intent::Intent;
 use crate::app::jobs::allocator::share_arenas;
 use crate::app::jobs::job;
@@ -33,21 +32,22 @@ use crate::app::presentation::presenter::fullscreen_mode;
 use crate::app::presentation::speaker_window;
 use crate::app::ui::draw::UiPlugin;
 use crate::app::view::{filmstrip, stage_camera};
-use crate::app::{redraw_pace, stage_sync};
+use crate::app::{redraw_pace, screen_fit, stage_sync};
 use crate::export::FilmPresets;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
 
 /// Options of the window, as given on the command line.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AppOptions {
-    /// One project, or designs to open together; empty opens the first gallery project.
+    /// One project, or designs to open together; empty shows the invitation and plays a gallery
+    /// project.
     pub files: Vec<PathBuf>,
     /// Folder for exported images and films; `None` is a folder in the user's pictures.
     pub captures: Option<PathBuf>,
     /// Maximum memory for the recording of a transition, in MiB; `None` is the default limit.
     pub film_memory: Option<usize>,
     /// Whether a talk starts at once; the window then closes when the talk ends.
-    pub presents: bool,
+    pub starts_talk: bool,
 }
 
 /// Opens the window and returns after it has been closed.
@@ -64,7 +64,7 @@ fn program(options: AppOptions) -> App {
         files,
         captures,
         film_memory,
-        presents,
+        starts_talk: presents,
     } = options;
     share_arenas();
     let autosave = autosave();
@@ -82,15 +82,14 @@ fn program(options: AppOptions) -> App {
         .insert_resource(StoredPresets::of_file(FilmPresets::usual_path()))
         .insert_resource(StoredRecentFiles::of_file(RecentFiles::usual_path()))
         .insert_resource(GalleryStripCache::usual())
-        .add_systems(
-            Startup,
-            move |mut intents: MessageWriter<Intent>, gallery: Res<GalleryEntries>| {
-                intents.write(first_intent(&files, &gallery));
-                if presents {
-                    intents.write(Intent::Present { is_all: true });
-                }
-            },
-        )
+        .add_systems(Startup, move |mut intents: MessageWriter<Intent>| {
+            intents.write(first_intent(&files));
+            if presents {
+                intents.write(Intent::Present { is_all: true });
+            }
+        })
+        // Before anything is laid out.
+        .add_systems(First, screen_fit::fit_to_screen)
         .add_systems(Startup, (watch, let_jobs_wake_window))
         .add_systems(Update, TerminalCtrlCHandlerPlugin::exit_on_flag);
     handle_termination();
@@ -138,10 +137,10 @@ fn autosave() -> Autosave {
     })
 }
 
-/// Opens the files of the command line, or the first gallery project.
-fn first_intent(files: &[PathBuf], gallery: &GalleryEntries) -> Intent {
+/// Opens the files of the command line, or shows how to begin.
+fn first_intent(files: &[PathBuf]) -> Intent {
     let bundled = match files {
-        [] => gallery.0.first().map(|entry| entry.name.clone()),
+        [] => return Intent::Welcome,
         [one] => one
             .to_str()
             // `gallery:NAME` opens a bundled project, as in all subcommands of the command line.
@@ -164,13 +163,8 @@ fn window(presents: bool) -> WindowPlugin {
             } else {
                 WindowMode::Windowed
             },
+            // In points; `fit_to_screen` makes it smaller on a small screen and sets the minimum.
             resolution: WindowResolution::new(1280, 720),
-            resize_constraints: WindowResizeConstraints {
-                // Smallest size at which the list of keys, the largest panel, fits.
-                min_width: 960.0,
-                min_height: 540.0,
-                ..default()
-            },
             ..default()
         }),
         exit_condition: ExitCondition::OnPrimaryClosed,
@@ -219,7 +213,7 @@ impl Plugin for WindowPlugins {
                 PostUpdate,
                 // After the stage's camera has been placed and before transforms propagate;
                 // otherwise the comparison would lag one frame behind.
-                stage_camera::place_twin.before(TransformSystems::Propagate),
+                stage_camera::place_comparison_camera.before(TransformSystems::Propagate),
             )
             .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))
             .configure_sets(
@@ -243,7 +237,7 @@ fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
         Camera2d,
         Msaa::Sample4,
         CompositingSpace::Srgb,
-        stage_sync::TWIN_LAYER,
+        stage_sync::COMPARISON_LAYER,
         Camera {
             order: 1,
             // The stage's camera has already cleared the whole window.
@@ -269,4 +263,18 @@ fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
             ..default()
         },
     ));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_intent_opens_the_files_or_shows_how_to_begin() {
+        assert_eq!(first_intent(&[]), Intent::Welcome);
+        let bundled = first_intent(&["gallery:letters".into()]);
+        assert_eq!(bundled, Intent::OpenGallery("letters".to_owned()));
+        let files: Vec<PathBuf> = vec!["a.svg".into(), "b.svg".into()];
+        assert_eq!(first_intent(&files), Intent::Open(files));
+    }
 }

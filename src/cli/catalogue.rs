@@ -1,4 +1,4 @@
-//! `morphospace catalogue`: the places of a map that are kept, as files.
+//! `morphospace catalogue`: writes the saved blends of a map as files.
 
 use std::path::PathBuf;
 
@@ -13,28 +13,28 @@ use super::inputs::InputArgs;
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
-use super::value_parsers::{BackgroundColour, ground, one_of};
+use super::value_parsers::{BackgroundColour, background, one_of};
 
 #[derive(Debug, Args)]
 pub(super) struct CatalogueArgs {
     #[command(flatten)]
     inputs: InputArgs,
 
-    /// The folder that it is written into, made where it is missing: each kept place as SVG and
-    /// DXF, all as catalogue.png, their measures as catalogue.csv
+    /// Folder to write to, created if missing: each saved blend as SVG and DXF, all of them on a
+    /// sheet catalogue.png, and their measures as catalogue.csv
     #[arg(long, short, value_name = "FOLDER")]
     out: PathBuf,
 
-    /// In which order they are listed
+    /// Order of the saved blends
     #[arg(long, default_value_t, value_parser = one_of::<CatalogueOrder>())]
     sort: CatalogueOrder,
 
-    /// Those of at least so many stars
+    /// Include only saved blends with at least this many stars
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=i64::from(SavedPlace::MOST_STARS)))]
     stars: u8,
 
-    /// The colour behind: #rrggbb, or transparent [default: the project's]
-    #[arg(long, value_name = "COLOUR", value_parser = ground)]
+    /// Background colour: #rrggbb, or transparent [default: that of the project]
+    #[arg(long, value_name = "COLOUR", value_parser = background)]
     ground: Option<BackgroundColour>,
 
     #[command(flatten)]
@@ -49,16 +49,17 @@ pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
     let kept = &loaded.project.map.kept;
     if kept.is_empty() {
         return Err(CliError::Failed(
-            "the project keeps no places of its map: keep some in the window (D, then K), and save"
+            "the project has no saved blends: save some on the map in the window (D, then K), and \
+             save the project"
                 .to_owned(),
         ));
     }
     let map = loaded.map_of(&space).map_err(CliError::failed)?;
-    let catalogue = Catalogue::new((&space, &map), kept, args.stars, args.sort);
+    let catalogue = Catalogue::new(&space, &map, kept, args.stars, args.sort);
     if catalogue.is_empty() {
-        let wanted = args.stars;
+        let min_stars = args.stars;
         return Err(CliError::Failed(format!(
-            "no kept place has {wanted} stars or more"
+            "no saved blend has {min_stars} stars or more"
         )));
     }
     let style = &loaded.project.style;
@@ -66,11 +67,11 @@ pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
     let ground = given.unwrap_or(Some(style.ground));
     let writing = ProgressSpan::new(&whole, 0.7, 1.0);
     let written = catalogue
-        .write(&space, (style, ground), &args.out, &writing)
+        .write(&space, style, ground, &args.out, &writing)
         .map_err(CliError::failed)?;
     drop(terminal);
-    output::words(&format!(
-        "wrote {} files of {} kept places into {}",
+    output::message(&format!(
+        "wrote {} files of {} saved blends into {}",
         written.len(),
         catalogue.len(),
         args.out.display()

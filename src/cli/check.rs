@@ -1,7 +1,8 @@
-//! `morphospace check`: a transition, each leg of a sequence, or a table of pairs, in
-//! numbers and in words.
+//! `morphospace check`: measures a transition, each segment of a sequence, a table of pairs, or a
+//! design space.
 //!
-//! With `--json` one object on stdout, of a sequence a list of them; the laboratory says in which units.
+//! `--json` prints one object, or a list of objects for a sequence; see the `laboratory` module for
+//! the units.
 
 use clap::Args;
 
@@ -25,12 +26,12 @@ pub(super) struct CheckArgs {
     #[command(flatten)]
     batch: Option<PairBatchArgs>,
 
-    /// The space of all designs instead of each leg: its common mesh, its edges, its
-    /// middle, and 200 blends all over it
+    /// Measure the space of all designs instead of each segment: its common mesh, its edges, its
+    /// centre, and 200 blends spread over it
     #[arg(long, conflicts_with = "pairs")]
     map: bool,
 
-    /// One JSON object instead of a table
+    /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
 
@@ -44,21 +45,22 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
         (Some(inputs), None) => one(args, inputs),
         (None, Some(batch)) => table(args, batch),
         _ => Err(CliError::Usage(
-            "give a project, two designs or more, or a table of pairs with --pairs".to_owned(),
+            "give a project, two or more designs, or a table of pairs with --pairs".to_owned(),
         )),
     }
 }
 
+/// Measures and prints a transition, or each segment of a sequence.
 fn one(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
     let measured = args.measuring.of(inputs, &terminal)?;
-    // Its line goes before the report comes.
+    // Clears the progress line before the report is printed.
     drop(terminal);
     let reports: Vec<_> = measured.iter().map(|(_, report)| report).collect();
-    output::data(&match reports.as_slice() {
+    output::write_data(&match reports.as_slice() {
         [report] if args.json => output::json(report)?,
-        legs if args.json => output::json(&legs)?,
-        legs => legs
+        segments if args.json => output::json(&segments)?,
+        segments => segments
             .iter()
             .map(|report| text(report))
             .collect::<Vec<_>>()
@@ -66,28 +68,30 @@ fn one(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     })
 }
 
-/// Blends all over a space that are looked at.
+/// Number of blends spread over a space that are measured (heuristic).
 const BLENDS: usize = 200;
 
+/// Measures and prints the space of all designs.
 fn map(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
     let whole = WholeProgress::new(&terminal);
     let building = ProgressSpan::new(&whole, 0.0, 0.7);
     let (_, space, build) = inputs.open_space(args.measuring.method(), &building)?;
     let measuring = ProgressSpan::new(&whole, 0.7, 1.0);
-    let report = measure::space(&space, BLENDS, &measuring).map_err(CliError::failed)?;
+    let report = measure::space_report(&space, BLENDS, &measuring).map_err(CliError::failed)?;
     let measured = SpaceMeasurement::new(&space, report, build);
     drop(terminal);
-    output::data(&match args.json {
+    output::write_data(&match args.json {
         true => output::json(&measured)?,
         false => measured.text(),
     })
 }
 
+/// Measures the pairs of a table and prints the summary.
 fn table(args: &CheckArgs, batch: &PairBatchArgs) -> Result<(), CliError> {
     let outcome = batch.run(&args.measuring, &Terminal::new())?;
     let summary = &outcome.summary;
-    output::data(&if args.json {
+    output::write_data(&if args.json {
         output::json(summary)?
     } else {
         summary.text()
@@ -95,7 +99,7 @@ fn table(args: &CheckArgs, batch: &PairBatchArgs) -> Result<(), CliError> {
     if let Some(ended) = outcome.ended {
         return Err(CliError::Failed(ended));
     }
-    output::words(&format!("wrote {}", outcome.written.join(" and ")));
+    output::message(&format!("wrote {}", outcome.written.join(" and ")));
     let Some((line, reason)) = outcome.first_failure else {
         return Ok(());
     };

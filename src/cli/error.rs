@@ -1,4 +1,4 @@
-//! How a command ends when it does not end well.
+//! Errors of the subcommands, and the exit codes that they lead to.
 
 use std::io;
 
@@ -6,45 +6,47 @@ use crate::project::ProjectError;
 use crate::space::SpaceError;
 use crate::transition::BuildError;
 
-/// Why a command did not do its work.
+/// Error of a subcommand.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CliError {
-    /// The command was used wrongly: exit code 2.
+    /// Wrong usage: exit code 2.
     #[error("{0}")]
     Usage(String),
     /// The work failed: exit code 1.
     #[error("{0}")]
     Failed(String),
-    /// Data could not be written to stdout.
+    /// Stdout could not be written: exit code 1, or 0 for a closed pipe.
     #[error("cannot write to stdout: {0}")]
     Stdout(io::Error),
 }
 
 impl CliError {
-    /// Work that failed, told by its error and what that came from.
+    /// Creates a failure from another error.
     pub fn failed(error: impl std::error::Error) -> Self {
         Self::Failed(error.to_string())
     }
 
-    /// Why there is no transition, and which flag goes on all the same.
-    pub fn not_built(error: BuildError) -> Self {
+    /// Creates a failure from a build error; for jobs that are too large, suggests `--patient`.
+    pub fn transition_not_built(error: BuildError) -> Self {
         match error.reason() {
-            BuildError::TooMuch(_) => Self::Failed(format!("{error}, or go on with --patient")),
+            BuildError::TooMuch(_) => {
+                Self::Failed(format!("{error}, or run it anyway with --patient"))
+            }
             _ => Self::failed(error),
         }
     }
 
-    /// Why there is no film of a project, likewise.
-    pub fn no_film(error: ProjectError) -> Self {
+    /// Creates a failure from a project error, like [`Self::transition_not_built`].
+    pub fn project_not_built(error: ProjectError) -> Self {
         match error {
             ProjectError::Build(error) | ProjectError::Space(SpaceError::Build(error)) => {
-                Self::not_built(error)
+                Self::transition_not_built(error)
             }
             error => Self::failed(error),
         }
     }
 
-    /// Wrong use, told by an error.
+    /// Creates a usage error from another error.
     pub fn usage(error: impl std::error::Error) -> Self {
         Self::Usage(error.to_string())
     }

@@ -1,4 +1,4 @@
-//! `morphospace gallery`: the bundled projects.
+//! `morphospace gallery`: lists the bundled projects.
 
 use clap::Args;
 
@@ -9,14 +9,14 @@ use super::output;
 
 #[derive(Debug, Args)]
 pub(super) struct GalleryArgs {
-    /// One JSON array of objects with `name`, `title` and `description`
+    /// Print a JSON array of objects with `name`, `title` and `description`
     #[arg(long)]
     json: bool,
 }
 
 pub(super) fn run(args: &GalleryArgs) -> Result<(), CliError> {
     let entries = gallery::list().map_err(CliError::failed)?;
-    output::data(&if args.json {
+    output::write_data(&if args.json {
         output::json(&entries)?
     } else {
         table(&entries)

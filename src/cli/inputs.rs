@@ -1,4 +1,4 @@
-//! What to work on: a project, a bundled project, or two designs and more.
+//! Input arguments of the subcommands: a project, a bundled project, or two or more designs.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -9,13 +9,13 @@ use crate::design::{DesignSource, Format};
 use crate::project::{LoadedProject, Project, gallery};
 use crate::space::DesignSpace;
 use crate::transition::{Sequence, Transition};
-use crate::work::progress::{Progress, ProgressSpan, beside, checkpoint};
+use crate::work::progress::{Progress, ProgressSpan, checkpoint, run_cancellable};
 
 use super::error::CliError;
 use super::options::MethodArgs;
 
-/// How much is done once the designs are read, as it is told.
-const READ: f64 = 0.1;
+/// Fraction of the progress that is reached once the designs are read (heuristic).
+const READ_FRACTION: f64 = 0.1;
 
 #[derive(Clone, Debug, Args)]
 pub(super) struct InputArgs {
@@ -23,66 +23,67 @@ pub(super) struct InputArgs {
     inputs: Vec<PathBuf>,
 }
 
+/// Returns the help text of the inputs, with the extensions of all formats.
 fn help() -> String {
     format!(
-        "A project (.morph, or gallery:NAME), or designs, two or more in their order: files ({}), an element of a \
-         drawing (drawing.svg#ID) or text (glyph:D, or glyph:D@FONT.ttf)",
+        "A project (.morph, or gallery:NAME), or two or more designs in order: files ({}), elements \
+         of a drawing (drawing.svg#ID) or text (glyph:D, or glyph:D@FONT.ttf)",
         Format::listed(&Format::ALL)
     )
 }
 
-/// A project that is ready to be played.
+/// A project with its designs and built transitions.
 #[derive(Debug)]
 pub(super) struct OpenedProject {
     /// The project with the flags applied, and its designs.
     pub loaded: LoadedProject,
-    /// What it shows.
+    /// The built transitions of all segments.
     pub sequence: Sequence,
 }
 
-/// A project of two designs that is ready to be measured, and how long that took.
+/// One segment with its built transition and the times that this took.
 #[derive(Debug)]
 pub(super) struct OpenedPair {
-    /// The project with the flags applied, and its designs.
+    /// The segment with the flags applied, and its designs.
     pub loaded: LoadedProject,
-    /// What it shows.
+    /// The built transition.
     pub transition: Transition,
-    /// For reading and importing the designs.
+    /// Time for reading and importing the designs.
     pub import_time: Duration,
-    /// For building the transition.
+    /// Time for building the transition.
     pub build_time: Duration,
 }
 
 impl OpenedPair {
-    /// What it is called: a leg of a sequence by its designs.
+    /// Returns the title of the project, or the names of the two designs of a segment.
     pub fn title(&self) -> String {
-        match self.loaded.is_leg() {
-            true => self.loaded.names_on_the_way().join(" to "),
+        match self.loaded.is_segment() {
+            true => self.loaded.stop_names().join(" to "),
             false => self.loaded.title(),
         }
     }
 }
 
 impl InputArgs {
-    /// Two designs.
+    /// Creates the inputs for two designs.
     pub fn pair(source: &Path, target: &Path) -> Self {
         let inputs = vec![source.to_owned(), target.to_owned()];
         Self { inputs }
     }
 
-    /// Reads, imports, applies the flags and builds.
+    /// Reads the project, applies the flags, and builds all segments.
     pub fn open(
         &self,
         method: &MethodArgs,
         progress: &dyn Progress,
     ) -> Result<OpenedProject, CliError> {
         let mut loaded = self.load(method, progress)?;
-        let building = ProgressSpan::new(progress, READ, 1.0);
+        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
         let sequence = method.build_all(&mut loaded, &building)?;
         Ok(OpenedProject { loaded, sequence })
     }
 
-    /// Reads, imports and applies the flags; builds each leg apart, and hands it over.
+    /// Reads the project, applies the flags, and passes each segment to `take` once it is built.
     pub fn open_each(
         &self,
         method: &MethodArgs,
@@ -91,14 +92,14 @@ impl InputArgs {
     ) -> Result<(), CliError> {
         let start = Instant::now();
         let loaded = self.load(method, progress)?;
-        // Laying the designs in one frame belongs to neither time.
+        // Placing the designs in one frame counts as neither import nor build time.
         let import_time = start.elapsed();
-        let building = ProgressSpan::new(progress, READ, 1.0);
-        for mut leg in loaded.legs() {
+        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
+        for mut segment in loaded.segments() {
             let start = Instant::now();
-            let transition = method.build(&mut leg, &building)?;
+            let transition = method.build(&mut segment, &building)?;
             take(OpenedPair {
-                loaded: leg,
+                loaded: segment,
                 transition,
                 import_time,
                 build_time: start.elapsed(),
@@ -107,8 +108,9 @@ impl InputArgs {
         Ok(())
     }
 
-    /// Reads, imports and applies the flags; builds the space of all designs, and says how
-    /// long that took.
+    /// Reads the project, applies the flags, and builds the space of all designs.
+    ///
+    /// Also returns the time for building the space.
     pub fn open_space(
         &self,
         method: &MethodArgs,
@@ -116,25 +118,25 @@ impl InputArgs {
     ) -> Result<(LoadedProject, DesignSpace, Duration), CliError> {
         let loaded = self.load(method, progress)?;
         let start = Instant::now();
-        let building = ProgressSpan::new(progress, READ, 1.0);
-        let space = loaded.built_space(None, &building);
-        let space = space.map_err(CliError::no_film)?;
+        let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
+        let space = loaded.build_space(None, &building);
+        let space = space.map_err(CliError::project_not_built)?;
         Ok((loaded, space, start.elapsed()))
     }
 
+    /// Reads the project and its designs, and applies the flags.
     fn load(
         &self,
         method: &MethodArgs,
         progress: &dyn Progress,
     ) -> Result<LoadedProject, CliError> {
         checkpoint(progress, "reading", 0.0).map_err(CliError::failed)?;
-        // A pipe that nobody writes to is read for ever: beside, so that a
-        // cancel is answered.
+        // Reading a pipe may block forever, so it runs on another thread and can be cancelled.
         let inputs = self.clone();
-        let document = beside(progress, move || inputs.document());
+        let document = run_cancellable(progress, move || inputs.document());
         let (mut project, folder) = document.map_err(CliError::failed)??;
         method.edit(&mut project)?;
-        let loaded = beside(progress, move || LoadedProject::load(project, folder));
+        let loaded = run_cancellable(progress, move || LoadedProject::load(project, folder));
         let mut loaded = loaded
             .map_err(CliError::failed)?
             .map_err(CliError::failed)?;
@@ -142,18 +144,20 @@ impl InputArgs {
         Ok(loaded)
     }
 
-    /// The document, and what its paths are relative to: nothing if it is
-    /// bundled.
+    /// Returns the project and the folder to which its paths are relative; `None` if it is bundled.
     fn document(&self) -> Result<(Project, Option<PathBuf>), CliError> {
         let path = match self.inputs.as_slice() {
             [path] => path,
-            many if many.iter().any(|path| Project::is_named(path)) => {
+            many if many
+                .iter()
+                .any(|path| Project::has_document_extension(path)) =>
+            {
                 return Err(CliError::Usage(format!(
-                    "{} inputs are given: give one project alone, or designs",
+                    "{} inputs include a project: give a single project, or two or more designs",
                     many.len()
                 )));
             }
-            designs => return Ok((Project::of(designs), Some(PathBuf::new()))),
+            designs => return Ok((Project::from_paths(designs), Some(PathBuf::new()))),
         };
         if let Some(name) = path.to_str().and_then(|path| path.strip_prefix("gallery:")) {
             let project = gallery::document(name).map_err(CliError::failed)?;
@@ -162,22 +166,24 @@ impl InputArgs {
         if is_design(path) {
             let path = path.display();
             return Err(CliError::Usage(format!(
-                "`{path}` is one design: give a second one, or a .morph project"
+                "`{path}` is a single design: add a second one, or give a .morph project"
             )));
         }
         let project = Project::read(path).map_err(CliError::failed)?;
-        // A file that could be read lies in a folder, so that this is never None.
+        // A file that could be read has a parent folder, so this is never `None`.
         Ok((project, path.parent().map(Path::to_owned)))
     }
 }
 
-/// One of them alone is half a pair.
+/// Returns whether a path refers to a design, not to a project.
 fn is_design(path: &Path) -> bool {
-    match DesignSource::of(path) {
+    match DesignSource::from_path(path) {
         DesignSource::File {
             path,
             element: None,
-        } => Format::ALL.iter().any(|format| format.ends(&path)),
+        } => Format::ALL
+            .iter()
+            .any(|format| format.matches_extension(&path)),
         _ => true,
     }
 }

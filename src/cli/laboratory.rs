@@ -1,20 +1,18 @@
-//! The measuring laboratory: a transition, or a table of pairs, in numbers and
-//! in words.
+//! Measurements behind `morphospace check`: reports of one transition, of a table of pairs, and of
+//! a design space.
 //!
-//! Guarantees: prints nothing and knows no terminal and no flags but those
-//! that say what is measured; what comes out is data. Lengths and areas are in the
-//! units of the designs, angles in degrees (of causes in radians), times in
-//! seconds. A number that is infinite (a folded face is infinitely distorted)
-//! is `null`, as JSON has no other way.
+//! Prints nothing and has no flags except those that select what is measured. Lengths and areas are
+//! in design units, angles in degrees (those of causes in radians), times in seconds. Infinite
+//! numbers, such as the distortion of a folded face, are `null` in JSON.
 //!
-//! - `clock`: how long each stage of building took
-//! - `report`: everything that is measured of one transition
-//! - `text`, `number`: the report for people; `space`: that of many designs
-//! - `columns`: the report as a row of a table, and what is said of each column
-//! - `table`: a table of pairs as it is given
-//! - `rows`: its report, kept row by row
-//! - `pairs`: the pairs of a table, over all cores
-//! - `histogram`, `summary`: what came out, in short
+//! - `clock`: time taken by each stage of building
+//! - `report`: all measures of one transition
+//! - `text`, `number`: the report as text; `space`: the report of a design space
+//! - `columns`: the report as a row of a table, and the description of each column
+//! - `table`: the table of pairs given as input
+//! - `rows`: the rows of the output, saved while the work goes on
+//! - `pairs`: measures the pairs of a table on all cores
+//! - `histogram`, `summary`: summary of all pairs
 
 mod clock;
 mod columns;

@@ -1,10 +1,10 @@
-//! Every option of a method as a flag, shared by `render`, `check` and `new`.
+//! Flags for the options of a project, shared by all subcommands that build transitions.
 //!
-//! A flag that is not given leaves the project as it is. Names of choices are
-//! those of the project file, read from the same tables.
+//! Flags that are not given leave the project unchanged. Names of values are those of the project
+//! file, from the same tables.
 //!
-//! - `moving`: the method, its cell, the warps
-//! - `showing`: how designs are read, contents, the film and its look
+//! - `method`: method, warp and content, pins and lines
+//! - `appearance`: import, distance fields, colours, timing and style
 
 mod appearance;
 mod method;
@@ -14,7 +14,7 @@ mod tests;
 
 use clap::Args;
 
-use crate::measure::auto;
+use crate::measure::build_best_method;
 use crate::project::{LoadedProject, Project};
 use crate::transition::{Sequence, Transition, TransitionMethod};
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan};
@@ -26,7 +26,7 @@ use method::{ArapArgs, CellArgs, PathArgs, PlacingArgs};
 /// Flags that change a project.
 #[derive(Debug, Args)]
 pub(super) struct MethodArgs {
-    /// Begin what takes longer than ten seconds, or more than two gibibytes, too
+    /// Also run jobs expected to exceed 10 s or 2 GiB
     #[arg(long)]
     pub patient: bool,
 
@@ -51,25 +51,28 @@ pub(super) struct MethodArgs {
 }
 
 impl MethodArgs {
-    /// Builds what a project asks for; of several methods the one whose film is
-    /// the least trouble, which the project then asks for.
+    /// Builds the transition of a project.
+    ///
+    /// With `--method auto`, builds each method and stores the best one in the project.
     pub fn build(
         &self,
         loaded: &mut LoadedProject,
         progress: &dyn Progress,
     ) -> Result<Transition, CliError> {
         if !self.is_auto() {
-            return loaded.build(progress).map_err(CliError::no_film);
+            return loaded.build(progress).map_err(CliError::project_not_built);
         }
         let spec = loaded.spec().map_err(CliError::failed)?;
-        let (transition, _) = auto(&spec, progress).map_err(CliError::not_built)?;
-        loaded.project.warp = Some(transition.cell().warp());
-        loaded.project.content = Some(transition.cell().content());
+        let (transition, _) =
+            build_best_method(&spec, progress).map_err(CliError::transition_not_built)?;
+        loaded.project.warp = Some(transition.method().warp());
+        loaded.project.content = Some(transition.method().content());
         Ok(transition)
     }
 
-    /// As [`Self::build`], each leg of a sequence; of several methods that which most legs
-    /// are the least trouble by.
+    /// Builds each segment of a project.
+    ///
+    /// With `--method auto`, uses the method that is best for most segments.
     pub fn build_all(
         &self,
         loaded: &mut LoadedProject,
@@ -79,29 +82,32 @@ impl MethodArgs {
             return Ok(self.build(loaded, progress)?.into());
         }
         if self.is_auto() {
-            let best = most_often(loaded, &ProgressSpan::new(progress, 0.0, 0.5))?;
+            let best = best_for_most(loaded, &ProgressSpan::new(progress, 0.0, 0.5))?;
             loaded.project.warp = Some(best.warp());
             loaded.project.content = Some(best.content());
         }
-        let legs = loaded.legs();
-        let shares = ProgressShares::new(progress, legs.len());
-        let built = legs.iter().enumerate();
-        let built = built.map(|(k, leg)| leg.build(&shares.part(k)).map_err(CliError::no_film));
-        let built: Vec<_> = built.collect::<Result<_, CliError>>()?;
+        let segments = loaded.segments();
+        let shares = ProgressShares::new(progress, segments.len());
+        let transitions = segments.iter().enumerate().map(|(k, segment)| {
+            segment
+                .build(&shares.part(k))
+                .map_err(CliError::project_not_built)
+        });
+        let built: Vec<_> = transitions.collect::<Result<_, CliError>>()?;
         let sequence = Sequence::new(built);
-        let sequence = sequence.unwrap_or_else(|| unreachable!("a sequence has legs"));
-        Ok(sequence.leading_back(loaded.project.leads_back()))
+        let sequence = sequence.unwrap_or_else(|| unreachable!("a sequence has segments"));
+        Ok(sequence.closed(loaded.project.ends_where_it_starts()))
     }
 
-    /// Whether the films decide on the method.
+    /// Returns whether the method is chosen by rating the films.
     pub fn is_auto(&self) -> bool {
         self.placing.is_auto()
     }
 
-    /// Changes what the flags name and leaves the rest.
+    /// Applies the given flags to a project.
     pub fn edit(&self, project: &mut Project) -> Result<(), CliError> {
         self.placing.edit(project);
-        // After the method: the parser lets nobody give both.
+        // The order does not matter, because the parser rejects --method with --warp or --content.
         self.cell.edit(project)?;
         self.arap.edit(&mut project.options.arap);
         self.paths.edit(&mut project.options.paths);
@@ -110,7 +116,7 @@ impl MethodArgs {
         self.import.edit(project);
         self.timing.edit(&mut project.timing);
         self.style.edit(project);
-        // A flag may be right by itself and wrong with what the project says.
+        // A flag may be valid by itself but invalid in combination with the project.
         let timing = project.timing.check(&project.stops);
         timing.map_err(CliError::usage)?;
         project.options.colours.check().map_err(CliError::usage)?;
@@ -120,24 +126,25 @@ impl MethodArgs {
     }
 }
 
-/// The cell by which most legs have the film with the least trouble, each for itself; of
-/// two the first that was found.
-fn most_often(
+/// Returns the method that is best for most segments, each rated separately; of equal ones the
+/// first that occurs.
+fn best_for_most(
     loaded: &LoadedProject,
     progress: &dyn Progress,
 ) -> Result<TransitionMethod, CliError> {
-    let legs = loaded.legs();
-    let shares = ProgressShares::new(progress, legs.len());
+    let segments = loaded.segments();
+    let shares = ProgressShares::new(progress, segments.len());
     let mut counts: Vec<(TransitionMethod, usize)> = Vec::new();
-    for (k, leg) in legs.iter().enumerate() {
-        let spec = leg.spec().map_err(CliError::failed)?;
-        let (transition, _) = auto(&spec, &shares.part(k)).map_err(CliError::not_built)?;
-        let cell = transition.cell();
-        match counts.iter_mut().find(|(known, _)| *known == cell) {
+    for (k, segment) in segments.iter().enumerate() {
+        let spec = segment.spec().map_err(CliError::failed)?;
+        let (transition, _) =
+            build_best_method(&spec, &shares.part(k)).map_err(CliError::transition_not_built)?;
+        let method = transition.method();
+        match counts.iter_mut().find(|(known, _)| *known == method) {
             Some((_, count)) => *count += 1,
-            None => counts.push((cell, 1)),
+            None => counts.push((method, 1)),
         }
     }
     let best = counts.into_iter().rev().max_by_key(|(_, count)| *count);
-    Ok(best.map_or(TransitionMethod::RIGID_PARTS, |(cell, _)| cell))
+    Ok(best.map_or(TransitionMethod::RIGID_PARTS, |(method, _)| method))
 }

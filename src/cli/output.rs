@@ -1,4 +1,4 @@
-//! Data to stdout, words to stderr, and exit codes.
+//! Output of the subcommands: data to stdout, messages to stderr, and exit codes.
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -10,11 +10,14 @@ use crate::io::sanitize::{SanitizedLine, is_hidden};
 
 use super::error::CliError;
 
+/// Exit code if the work failed.
 const FAILED: u8 = 1;
-const WRONG_USE: u8 = 2;
+
+/// Exit code for wrong arguments.
+const WRONG_USAGE: u8 = 2;
 
 /// Writes data to stdout.
-pub(super) fn data(text: &str) -> Result<(), CliError> {
+pub(super) fn write_data(text: &str) -> Result<(), CliError> {
     let mut stdout = io::stdout().lock();
     stdout
         .write_all(text.as_bytes())
@@ -22,69 +25,70 @@ pub(super) fn data(text: &str) -> Result<(), CliError> {
         .map_err(CliError::Stdout)
 }
 
-/// A value as JSON for [`data`], with nothing in it that acts on a terminal.
+/// Returns a value as indented JSON without characters that control a terminal.
 pub(super) fn json(value: &impl Serialize) -> Result<String, CliError> {
-    // By way of a value, whose keys are in alphabetical order.
+    // A `Value` has its keys in alphabetical order.
     let value = serde_json::to_value(value).map_err(CliError::failed)?;
-    Ok(shown(&format!("{value:#}\n")))
+    Ok(with_hidden_escaped(&format!("{value:#}\n")))
 }
 
-/// JSON with all hidden characters escaped: it asks that of those below space
-/// alone, and some terminals take others for the beginning of a command.
-fn shown(json: &str) -> String {
-    let mut shown = String::with_capacity(json.len());
+/// Escapes all hidden characters of JSON text.
+///
+/// JSON requires that only for those below space, but some terminals also interpret others as
+/// commands.
+fn with_hidden_escaped(json: &str) -> String {
+    let mut escaped = String::with_capacity(json.len());
     for c in json.chars() {
-        // Within a text a line break is escaped already.
+        // Line breaks within strings are already escaped; the others format the text.
         if is_hidden(c) && c != '\n' {
-            shown.extend(
+            escaped.extend(
                 c.encode_utf16(&mut [0; 2])
                     .iter()
                     .map(|unit| format!("\\u{unit:04x}")),
             );
         } else {
-            shown.push(c);
+            escaped.push(c);
         }
     }
-    shown
+    escaped
 }
 
-/// Writes a line of words to stderr, whatever has come into them. Where even
-/// that fails, nobody listens.
-pub(super) fn words(line: &str) {
+/// Writes a sanitised message to stderr. A failure to write it is ignored.
+pub(super) fn message(line: &str) {
     writeln!(io::stderr().lock(), "{}", SanitizedLine(line)).unwrap_or_default();
 }
 
-/// Tells how a command ended.
+/// Returns the exit code of a command, and prints the error if there is one.
 pub(super) fn exit_code(result: Result<(), CliError>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        // A reader that had enough (`| head`) is no failure.
+        // A reader that closes the pipe early (`| head`) is not a failure.
         Err(CliError::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
         }
         Err(error) => {
-            words(&format!("morphospace: {error}"));
+            message(&format!("morphospace: {error}"));
             let is_usage = matches!(error, CliError::Usage(_));
-            ExitCode::from(if is_usage { WRONG_USE } else { FAILED })
+            ExitCode::from(if is_usage { WRONG_USAGE } else { FAILED })
         }
     }
 }
 
-/// Shows help, version or what was wrong about the arguments.
-pub(super) fn say_usage(error: &clap::Error, arguments: &[OsString]) -> ExitCode {
+/// Prints help, version or the argument error, and returns the exit code.
+pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) -> ExitCode {
     if !error.use_stderr() {
-        return exit_code(data(&error.render().to_string()));
+        return exit_code(write_data(&error.render().to_string()));
     }
-    // The parser quotes arguments as they are, and its colours are escape
-    // sequences: beside others of the kind there can be none.
-    let acts = |argument: &OsString| argument.to_string_lossy().contains(is_hidden);
-    if arguments.iter().any(acts) {
-        error.render().to_string().lines().for_each(words);
+    // clap quotes arguments unescaped and uses escape sequences for colours. If an argument has
+    // hidden characters, the message is printed without colours so that it can be sanitised.
+    let has_hidden = |argument: &OsString| argument.to_string_lossy().contains(is_hidden);
+    if arguments.iter().any(has_hidden) {
+        error.render().to_string().lines().for_each(message);
     } else {
-        // In colours where stderr is a terminal and nobody forbids them.
+        // Coloured if stderr is a terminal and colours are not disabled.
         error.print().unwrap_or_default();
     }
-    ExitCode::from(WRONG_USE)
+    ExitCode::from(WRONG_USAGE)
 }
 
 #[cfg(test)]
@@ -92,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn json_holds_nothing_that_acts_on_a_terminal_and_reads_as_before() {
+    fn json_has_no_hidden_characters_and_parses_back_unchanged() {
         let name = "a\u{9b}2J\u{1b}[0m\u{202e}\n\u{7f}é";
         let text = json(&serde_json::json!({ "name": name })).expect("a value");
         assert!(

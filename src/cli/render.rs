@@ -1,7 +1,7 @@
-//! `morphospace render`: pictures, contact sheets, numbered pictures and films.
+//! `morphospace render`: writes images, contact sheets, maps, numbered images and animations.
 //!
-//! The output's name tells its kind. Numbered pictures are one pass; a GIF,
-//! animated PNG or MP4 of a ping-pong project runs back as well.
+//! The name of the output determines its kind. Numbered images show one pass; animations of a
+//! ping-pong project also play backwards.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use crate::export::{
     write_still,
 };
 use crate::project::Project;
-use crate::settings::choice::{Choice, keys};
+use crate::settings::{Choice, choice_keys};
 use crate::space::{MapLayout, WeightMap};
 use crate::transition::PlayMode;
 use crate::work::progress::{Progress, ProgressSpan, WholeProgress};
@@ -26,16 +26,15 @@ use super::inputs::{InputArgs, OpenedProject};
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
-use super::value_parsers::{BackgroundColour, grid, ground, one_of, range};
+use super::value_parsers::{BackgroundColour, background, grid, one_of, range};
 
-/// The longer side of a picture of free size, in pixels: half a screen's width.
+/// Default length of the longer side of an image, in pixels (heuristic).
 const LONGER_SIDE_PX: u32 = 960;
 
-/// Columns of a comparison, as many as a strip of a table's sheet has.
-const COMPARED: usize = 7;
+/// Default number of columns of a comparison, as in the strips of `check --sheet` (heuristic).
+const COMPARISON_COLUMNS: usize = 7;
 
-/// The most cells of a contact sheet: more are frames, and have flags of their
-/// own.
+/// Maximum number of cells of a contact sheet (resource limit).
 const MAX_CELLS: u64 = 1_000;
 
 #[derive(Debug, Args)]
@@ -46,49 +45,48 @@ pub(super) struct RenderArgs {
     #[arg(long, short, value_name = "PATH", help = out_help())]
     out: PathBuf,
 
-    /// One picture, at this t; or several numbered ones, at T,T,...
+    /// One image, at this t; or several numbered images, at T,T,...
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_delimiter = ',', conflicts_with_all = ["sheet", "frames", "frames_range", "fps"])]
     at: Vec<f64>,
 
-    /// A contact sheet of N frames from --from to --to
+    /// Contact sheet of N frames from --from to --to
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_CELLS), conflicts_with_all = ["frames", "frames_range", "fps"])]
     sheet: Option<u64>,
 
-    /// A contact sheet of every method that the pair can be seen by: a row for
-    /// each, the same seven t (or --sheet N) in each column
+    /// Contact sheet of all methods available for the pair: one row for each method,
+    /// with the same seven t (or --sheet N) as columns
     #[arg(long, conflicts_with_all = ["at", "frames", "frames_range", "fps", "size", "method", "warp", "content"])]
     compare: bool,
 
-    /// A map of all designs: so many columns and rows of what lies between them
+    /// Map of all designs: a grid of blends with this many columns and rows
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid, conflicts_with_all = ["at", "sheet", "compare", "frames", "frames_range", "fps", "preset", "aspect", "lines", "frame_margin", "captions"])]
     map: Option<[usize; 2]>,
 
-    /// Where the designs are on that map [default: as the project has it, or at the corners of a
-    /// polygon]
+    /// Layout of the designs on that map [default: that of the project, or a polygon]
     #[arg(long, requires = "map", value_parser = one_of::<MapLayout>())]
     sites: Option<MapLayout>,
 
-    /// One pass of N frames, evenly in t [default: as the project's timing has it]
+    /// Number of frames of one pass, evenly spaced in t [default: by the project's timing]
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
 
-    /// Only the frames numbered A to B-1, with the numbers that they have in the whole
+    /// Write only the frames A to B-1, with the numbers that they have in the whole film
     #[arg(long, value_name = "A..B", value_parser = range)]
     frames_range: Option<Range<usize>>,
 
-    /// Frames a second [default: 30, or as the preset has it]
+    /// Frames per second [default: 30, or that of the preset]
     #[arg(long)]
     fps: Option<f64>,
 
-    /// Size in pixels [default: the design's shape, 960 along the longer side]
+    /// Size in pixels [default: the shape of the design, 960 along the longer side]
     #[arg(long, value_name = "WxH")]
     size: Option<PixelSize>,
 
     #[command(flatten)]
     layout: LayoutArgs,
 
-    /// The colour behind: #rrggbb, or transparent [default: the project's]
-    #[arg(long, value_name = "COLOUR", value_parser = ground)]
+    /// Background colour: #rrggbb, or transparent [default: that of the project]
+    #[arg(long, value_name = "COLOUR", value_parser = background)]
     ground: Option<BackgroundColour>,
 
     #[command(flatten)]
@@ -96,49 +94,49 @@ pub(super) struct RenderArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Layout of pictures and films")]
+#[command(next_help_heading = "Layout of images and animations")]
 #[group(conflicts_with_all = ["sheet", "compare"])]
 struct LayoutArgs {
-    /// What it is made for, a shape, a size, and captions: deck, post, story, page, or a look that
-    /// was kept in the window
+    /// Shape, size and captions for a purpose: deck, post, story, page, or a preset saved in the
+    /// window
     #[arg(long, value_name = "NAME", conflicts_with = "size", value_parser = preset)]
     preset: Option<PresetChoice>,
 
-    /// The shape of pictures
+    /// Aspect ratio
     #[arg(long, conflicts_with = "size", value_parser = one_of::<Aspect>())]
     aspect: Option<Aspect>,
 
-    /// Pixels along the shorter side, as in 720, 1080 or 2160
+    /// Pixels along the shorter side, for example 720, 1080 or 2160
     #[arg(long, value_name = "PIXELS", conflicts_with = "size")]
     lines: Option<u32>,
 
-    /// What is free all around, a fraction of the shorter side
+    /// Margin on all sides, as a fraction of the shorter side
     #[arg(long, value_name = "FRACTION", conflicts_with = "size", value_parser = margin)]
     frame_margin: Option<f64>,
 
-    /// The names of the stops below, or of the designs where there are none
+    /// Show the names of the stops below, or of the designs if no stop has a name
     #[arg(long)]
     captions: bool,
 }
 
 impl LayoutArgs {
-    /// The layout that is asked for; none where nothing is said of its shape.
+    /// Returns the requested layout; `None` if no layout flag is given.
     fn layout(&self) -> Option<PictureLayout> {
-        let is_asked = self.preset.is_some()
+        let is_requested = self.preset.is_some()
             || self.aspect.is_some()
             || self.lines.is_some()
             || self.frame_margin.is_some()
             || self.captions;
         let plain = || PictureLayout {
-            aspect: Aspect::Own,
+            aspect: Aspect::Original,
             ..PictureLayout::default()
         };
         let base = match &self.preset {
             None => plain(),
-            Some(PresetChoice::Made(purpose)) => purpose.layout(),
-            Some(PresetChoice::Kept(kept)) => kept.layout(),
+            Some(PresetChoice::BuiltIn(preset)) => preset.layout(),
+            Some(PresetChoice::Saved(preset)) => preset.layout(),
         };
-        is_asked.then(|| PictureLayout {
+        is_requested.then(|| PictureLayout {
             aspect: self.aspect.unwrap_or(base.aspect),
             lines: self.lines.unwrap_or(base.lines),
             margin: self.frame_margin.unwrap_or(base.margin),
@@ -147,52 +145,56 @@ impl LayoutArgs {
     }
 }
 
-/// A look by its name.
+/// Preset chosen by name.
 #[derive(Clone, Copy, Debug)]
 enum PresetChoice {
-    /// One of those that everybody has.
-    Made(LayoutPreset),
-    /// One that was kept.
-    Kept(FilmPreset),
+    /// One of the built-in presets.
+    BuiltIn(LayoutPreset),
+    /// A preset that was saved in the window.
+    Saved(FilmPreset),
 }
 
+/// Parses the name of a preset.
 fn preset(name: &str) -> Result<PresetChoice, String> {
-    if let Ok(purpose) = LayoutPreset::of_key(name) {
-        return Ok(PresetChoice::Made(purpose));
+    if let Ok(built_in) = LayoutPreset::of_key(name) {
+        return Ok(PresetChoice::BuiltIn(built_in));
     }
-    let kept = match FilmPresets::usual_path() {
+    let saved = match FilmPresets::usual_path() {
         Some(path) => {
             FilmPresets::read(&path).map_err(|error| format!("{}: {error}", path.display()))?
         }
         None => FilmPresets::default(),
     };
-    let known = keys::<LayoutPreset>().map(str::to_owned);
-    let known: Vec<String> = known.chain(kept.0.keys().cloned()).collect();
-    let found = kept.0.get(name).copied().map(PresetChoice::Kept);
-    found.ok_or_else(|| format!("write {}", known.join(", ")))
+    let known = choice_keys::<LayoutPreset>().map(str::to_owned);
+    let known: Vec<String> = known.chain(saved.0.keys().cloned()).collect();
+    let chosen = saved.0.get(name).copied().map(PresetChoice::Saved);
+    chosen.ok_or_else(|| format!("use one of {}", known.join(", ")))
 }
 
+/// Parses a margin, as a fraction of the shorter side.
 fn margin(text: &str) -> Result<f64, String> {
     match text.parse() {
-        Ok(share) if (0.0..=0.4).contains(&share) => Ok(share),
-        _ => Err("give a fraction from 0 to 0.4, for example 0.05".to_owned()),
+        Ok(fraction) if (0.0..=0.4).contains(&fraction) => Ok(fraction),
+        _ => Err("use a fraction from 0 to 0.4, for example 0.05".to_owned()),
     }
 }
 
 impl RenderArgs {
+    /// Returns the frame rate, from the flag, the preset or the default.
     fn fps(&self) -> f64 {
-        let of_preset = match &self.layout.preset {
-            Some(PresetChoice::Kept(kept)) => f64::from(kept.fps),
+        let default = match &self.layout.preset {
+            Some(PresetChoice::Saved(preset)) => f64::from(preset.fps),
             _ => 30.0,
         };
-        self.fps.unwrap_or(of_preset)
+        self.fps.unwrap_or(default)
     }
 }
 
+/// Returns the help text of `--out`, with all supported extensions.
 fn out_help() -> String {
     format!(
-        "What to write: NAME{} (with --at or --sheet), {}, name-####.png or a folder (numbered \
-         pictures)",
+        "Output file: NAME{} (with --at, --sheet, --map or --compare), {}, name-####.png or a \
+         folder (numbered images)",
         extension_list::<StillKind>(),
         extension_list::<FilmKind>()
     )
@@ -202,11 +204,11 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = ExportTarget::of_path(&args.out).map_err(CliError::usage)?;
     let shown = shown(args, &target)?;
     let target = if shown.is_none() {
-        target.moving()
+        target.preferring_film()
     } else {
         target
     };
-    // Before the designs are read, which may take long.
+    // Checked before the designs are read, which may take long.
     check(args, &target, shown)?;
     let terminal = Terminal::new();
     let whole = WholeProgress::new(&terminal);
@@ -214,60 +216,60 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         let (drawing, notes) = map(args, grid, &whole)?;
         write_still(&drawing, *kind, path).map_err(CliError::failed)?;
         drop(terminal);
-        notes.iter().for_each(|note| output::words(note));
-        tell(std::slice::from_ref(path));
+        notes.iter().for_each(|note| output::message(note));
+        report_written(std::slice::from_ref(path));
         return Ok(());
     }
     let opened = args
         .inputs
         .open(&args.method, &ProgressSpan::new(&whole, 0.0, 0.5))?;
-    let rest = ProgressSpan::new(&whole, 0.5, 1.0);
+    let writing = ProgressSpan::new(&whole, 0.5, 1.0);
     let written = match (target, shown) {
         (ExportTarget::Still(kind, path), Some(shown)) => {
-            let drawing = drawn(args, &opened, shown, &rest)?;
+            let drawing = draw(args, &opened, shown, &writing)?;
             write_still(&drawing, kind, &path).map_err(CliError::failed)?;
             vec![path]
         }
-        // A still without anything to show was refused above.
-        (target, _) => film(args, &opened, target, &rest)?,
+        // `check` has refused single images for a film.
+        (target, _) => film(args, &opened, target, &writing)?,
     };
-    // Its line is wiped before words take its place.
+    // Clears the progress line before the message is printed.
     drop(terminal);
-    tell(&written);
+    report_written(&written);
     Ok(())
 }
 
-/// What one picture shows.
+/// Content of a single image.
 #[derive(Clone, Copy)]
 enum MapOrFilm {
     /// The frame at a t.
     Frame(f64),
-    /// A contact sheet of so many frames.
+    /// A contact sheet with this number of frames.
     Sheet(usize),
-    /// Every method, with so many frames each.
+    /// One row for each method, with this number of frames.
     Methods(usize),
-    /// So many columns and rows of a map of all designs.
+    /// A map of all designs, with this number of columns and rows.
     Map([usize; 2]),
 }
 
-/// Whether a name says where numbers go.
+/// Returns whether a name has a placeholder (`#`) for numbers.
 fn is_numbered(path: &Path) -> bool {
     path.to_string_lossy().contains('#')
 }
 
-/// What the flags want to see in one picture; `None` for a film.
+/// Returns the content of a single image requested by the flags; `None` for a film.
 fn shown(args: &RenderArgs, target: &ExportTarget) -> Result<Option<MapOrFilm>, CliError> {
     let count = args.sheet.map(|count| count as usize);
     if let Some(t) = args.at.iter().find(|t| !t.is_finite()) {
         return Err(CliError::Usage(format!(
-            "--at {t} is nowhere: t must be a finite number"
+            "--at {t} is invalid: t must be a finite number"
         )));
     }
     if let Some(grid) = args.map {
         return Ok(Some(MapOrFilm::Map(grid)));
     }
     match args.at.as_slice() {
-        // Frames of their own, where several are asked for or the name has a number.
+        // Numbered images if several t are given or the name has a placeholder.
         at if matches!(target, ExportTarget::Numbered(_))
             && !args.out.is_dir()
             && (at.len() > 1 || (at.len() == 1 && is_numbered(&args.out))) =>
@@ -276,30 +278,32 @@ fn shown(args: &RenderArgs, target: &ExportTarget) -> Result<Option<MapOrFilm>, 
         }
         &[t] => Ok(Some(MapOrFilm::Frame(t))),
         [_, _, ..] => Err(CliError::Usage(format!(
-            "--at names {} moments: write name-####.svg for numbered pictures, or give one",
+            "--at has {} values: write name-####.svg for numbered images, or give one value",
             args.at.len()
         ))),
-        [] if args.compare => Ok(Some(MapOrFilm::Methods(count.unwrap_or(COMPARED)))),
+        [] if args.compare => Ok(Some(MapOrFilm::Methods(
+            count.unwrap_or(COMPARISON_COLUMNS),
+        ))),
         [] => Ok(count.map(MapOrFilm::Sheet)),
     }
 }
 
-/// Whether the output's name fits the flags, before the work and not after it.
+/// Checks that the name of the output fits the flags.
 fn check(
     args: &RenderArgs,
     target: &ExportTarget,
     shown: Option<MapOrFilm>,
 ) -> Result<(), CliError> {
     if shown.is_some() && args.out.is_dir() {
-        let (path, extension_list) = (args.out.display(), extension_list::<StillKind>());
+        let (path, extensions) = (args.out.display(), extension_list::<StillKind>());
         return Err(CliError::Usage(format!(
-            "`{path}` is a folder: name a file in it, one that ends in {extension_list}"
+            "`{path}` is a folder: name a file in it that ends in {extensions}"
         )));
     }
     let flags = match (target, shown) {
         (ExportTarget::Still(_, path), None) => {
             return Err(CliError::Usage(format!(
-                "`{0}` is one picture: add --at T for one moment or --sheet N for a contact sheet, or write name-####.{1} for numbered pictures",
+                "`{0}` is a single image: add --at T for one moment or --sheet N for a contact sheet, or write name-####.{1} for numbered images",
                 path.display(),
                 path.extension().unwrap_or_default().to_string_lossy(),
             )));
@@ -309,12 +313,13 @@ fn check(
         (_, Some(MapOrFilm::Map(_))) => "--map makes",
         (_, Some(_)) => "--at and --sheet make",
     };
-    let (path, extension_list) = (args.out.display(), extension_list::<StillKind>());
-    let words = format!("{flags} one picture: end `{path}` in {extension_list}");
-    Err(CliError::Usage(words))
+    let (path, extensions) = (args.out.display(), extension_list::<StillKind>());
+    let message = format!("{flags} a single image: end `{path}` in {extensions}");
+    Err(CliError::Usage(message))
 }
 
-fn drawn(
+/// Draws a single image.
+fn draw(
     args: &RenderArgs,
     opened: &OpenedProject,
     shown: MapOrFilm,
@@ -322,13 +327,13 @@ fn drawn(
 ) -> Result<Drawing, CliError> {
     let project = &opened.loaded.project;
     let (sequence, style) = (&opened.sequence, &project.style);
-    let ground = ground_of(args, project);
+    let ground = background_of(args, project);
     let times = |count| even_times(project.timing.from, project.timing.to, count);
     Ok(match shown {
         MapOrFilm::Frame(t) => {
-            // Seen as the film is, so that pictures of one project fit together.
-            let seen: Vec<f64> = times(17).into_iter().chain([t]).collect();
-            camera(args, opened, &seen, false)?.shoot(t)
+            // Framed like the whole film, so that images of one project have the same scale.
+            let framed: Vec<f64> = times(17).into_iter().chain([t]).collect();
+            camera(args, opened, &framed, false)?.draw(t)
         }
         MapOrFilm::Sheet(count) => {
             let times = times(count);
@@ -337,7 +342,7 @@ fn drawn(
         }
         MapOrFilm::Methods(_) if project.is_sequence() || project.follows_path() => {
             return Err(CliError::Usage(
-                "--compare is of two designs: name the two of which you want to see all methods"
+                "--compare needs exactly two designs: name the two whose methods you want to see"
                     .to_owned(),
             ));
         }
@@ -350,7 +355,7 @@ fn drawn(
     })
 }
 
-/// The map of all designs, and what is to be told about it.
+/// Draws the map of all designs; also returns its notes.
 fn map(
     args: &RenderArgs,
     grid: [usize; 2],
@@ -359,19 +364,20 @@ fn map(
     let (loaded, space, _) = args.inputs.open_space(&args.method, progress)?;
     let map = match args.sites {
         Some(layout) => {
-            WeightMap::new(&layout.sites(space.likeness())).map_err(CliError::failed)?
+            WeightMap::new(&layout.sites(space.distances())).map_err(CliError::failed)?
         }
         None => loaded.map_of(&space).map_err(CliError::failed)?,
     };
-    let ground = ground_of(args, &loaded.project);
+    let ground = background_of(args, &loaded.project);
     let style = &loaded.project.style;
-    let drawing = map_sheet((&space, &map), style, grid, args.size, ground);
+    let drawing = map_sheet(&space, &map, style, grid, args.size, ground);
     Ok((
         drawing,
         space.notes().iter().map(ToString::to_string).collect(),
     ))
 }
 
+/// Writes a film or numbered images; returns the paths of the written files.
 fn film(
     args: &RenderArgs,
     opened: &OpenedProject,
@@ -379,26 +385,27 @@ fn film(
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, CliError> {
     let whole = whole_film(args, &opened.loaded.project, &target)?;
-    let part = match &args.frames_range {
-        Some(range) => whole.part(range.clone()).map_err(CliError::usage)?,
+    let rendered = match &args.frames_range {
+        Some(range) => whole.frame_range(range.clone()).map_err(CliError::usage)?,
         None => whole.clone(),
     };
     let is_mp4 = matches!(target, ExportTarget::Film(FilmKind::Mp4, _));
-    // Framed by the whole film, so that parts made apart fit together.
+    // Framed by the whole film, so that parts rendered separately fit together.
     let camera = camera(args, opened, whole.times(), is_mp4)?;
     if args.size.is_some_and(|size| size != camera.view.size()) {
-        output::words(&format!(
-            "an MP4 has even sides: {} pixels",
+        output::message(&format!(
+            "MP4 needs even sides: using {} pixels",
             camera.view.size()
         ));
     }
-    write_film(&camera, &part, &target, progress).map_err(|error| match error {
-        // Flags that do not go with the kind of file; all else is the work's failure.
+    write_film(&camera, &rendered, &target, progress).map_err(|error| match error {
+        // Flags that do not fit the output type; all other errors are failures of the work.
         ExportError::GifRate(_) | ExportError::Mp4Transparent => CliError::usage(error),
         error => CliError::failed(error),
     })
 }
 
+/// Returns the times of all frames of the film, before `--frames-range` selects some of them.
 fn whole_film(
     args: &RenderArgs,
     project: &Project,
@@ -409,15 +416,18 @@ fn whole_film(
         timing.play = PlayMode::Once;
     }
     let film = match args.frames {
-        _ if !args.at.is_empty() => FilmSpec::at(args.at.clone(), args.fps()),
+        _ if !args.at.is_empty() => FilmSpec::at_times(args.at.clone(), args.fps()),
         None => FilmSpec::of_timing(&timing, &project.stops, args.fps()),
         Some(count) => FilmSpec::evenly(timing.from, timing.to, count, args.fps())
-            .map(|film| film.playing(timing.play)),
+            .map(|film| film.with_play_mode(timing.play)),
     };
     let film = film.map_err(CliError::usage)?;
-    Ok(film.titled(&project.title))
+    Ok(film.with_title(&project.title))
 }
 
+/// Returns the camera that frames the sequence at the given times.
+///
+/// `is_even` rounds the size up to even sides, as MP4 needs.
 fn camera(
     args: &RenderArgs,
     opened: &OpenedProject,
@@ -440,28 +450,30 @@ fn camera(
         sequence: opened.sequence.clone(),
         style: project.style,
         view,
-        ground: ground_of(args, project),
+        ground: background_of(args, project),
         captions: has_captions.then(|| captions(args, opened)),
     })
 }
 
 fn captions(args: &RenderArgs, opened: &OpenedProject) -> Captions {
     let project = &opened.loaded.project;
-    let names = opened.loaded.names_on_the_way();
-    let ground = ground_of(args, project).unwrap_or(project.style.ground);
+    let names = opened.loaded.stop_names();
+    let ground = background_of(args, project).unwrap_or(project.style.ground);
     Captions::new(&project.stops, names, ground)
 }
 
-fn ground_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {
+/// Returns the background colour, from the flag or the project; `None` for transparent.
+fn background_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {
     let given = args.ground.map(|BackgroundColour(ground)| ground);
     given.unwrap_or(Some(project.style.ground))
 }
 
-fn tell(written: &[PathBuf]) {
+/// Prints which files were written.
+fn report_written(written: &[PathBuf]) {
     match written {
         [] => {}
-        [one] => output::words(&format!("wrote {}", one.display())),
-        [first, .., last] => output::words(&format!(
+        [one] => output::message(&format!("wrote {}", one.display())),
+        [first, .., last] => output::message(&format!(
             "wrote {} files, {} to {}",
             written.len(),
             first.display(),

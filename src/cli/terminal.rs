@@ -1,6 +1,5 @@
-//! Progress on stderr where that is a terminal, and a cancel where the program
-//! is asked to end: by Ctrl-C, by SIGTERM or by a terminal that is closed
-//! (SIGHUP).
+//! Progress line on stderr, if that is a terminal, and cancellation by Ctrl-C, SIGTERM or a closed
+//! terminal (SIGHUP).
 
 use std::fs;
 use std::io::{self, IsTerminal, Write};
@@ -10,57 +9,59 @@ use std::time::{Duration, Instant};
 
 use crate::work::progress::Progress;
 
+/// Whether a signal has cancelled the work.
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 
-/// What a shell reports for a program that Ctrl-C ended.
+/// Exit code after Ctrl-C, by shell convention 128 + SIGINT.
 const INTERRUPTED: i32 = 130;
 
-/// How long a cancel may take. A second wish within it is the first one told
-/// twice: a terminal that closes tells its programs itself, and so does its
-/// shell.
-const ANSWER_TIME: Duration = Duration::from_millis(500);
+/// Time within which cancelled work stops, see [`Progress`]. Further signals within it are ignored:
+/// when a terminal closes, both the system and the shell send one.
+const CANCEL_TIME: Duration = Duration::from_millis(500);
 
-/// A line on the terminal that is written over and over.
+/// Progress line that overwrites itself on the terminal.
 #[derive(Debug)]
 pub(super) struct Terminal {
     shown: Option<Mutex<String>>,
 }
 
 impl Terminal {
-    /// Listens from now on: the first wish is a cancel, after which temporary
-    /// files are removed; one that comes later ends the program at once.
+    /// Installs the signal handler. The first signal cancels the work, after which temporary files
+    /// are removed; a later one ends the program at once.
     pub fn new() -> Self {
-        // `nohup` is to outlive its terminal, and a handler would undo that. What
-        // such a program leaves when it is killed, the next one takes away.
+        // A handler would defeat `nohup`. If such a program is killed, the next run removes its
+        // temporary files.
         if !ignores_hangup() {
-            let mut asked: Option<Instant> = None;
-            let listening = ctrlc::set_handler(move || {
+            let mut first_signal: Option<Instant> = None;
+            let installed = ctrlc::set_handler(move || {
                 CANCELLED.store(true, Ordering::Relaxed);
-                if asked.get_or_insert_with(Instant::now).elapsed() > ANSWER_TIME {
+                if first_signal.get_or_insert_with(Instant::now).elapsed() > CANCEL_TIME {
                     std::process::exit(INTERRUPTED);
                 }
             });
-            // Without a handler a signal ends the program, as it does any other.
-            drop(listening);
+            // If the handler cannot be installed, a signal ends the program as usual.
+            drop(installed);
         }
         Self {
             shown: io::stderr().is_terminal().then(Mutex::default),
         }
     }
 
+    /// Replaces the progress line; an empty line clears it.
     fn show(&self, line: String) {
         let Some(shown) = &self.shown else { return };
         let Ok(mut shown) = shown.lock() else { return };
         if *shown != line {
-            // A terminal that went away is no reason to stop working.
+            // The work goes on even if the terminal no longer exists.
             write!(io::stderr().lock(), "\r\x1b[K{line}").unwrap_or_default();
             *shown = line;
         }
     }
 }
 
-/// Whether whoever started the program wants it to outlive its terminal; only
-/// Linux tells.
+/// Returns whether the program was started to outlive its terminal, as with `nohup`.
+///
+/// Only Linux provides this information; elsewhere returns `false`.
 fn ignores_hangup() -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

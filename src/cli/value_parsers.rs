@@ -1,4 +1,4 @@
-//! What stands behind a flag, read and put in its place.
+//! Parsers for the values of flags.
 
 use std::ops::Range;
 
@@ -7,33 +7,32 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crate::colour::{ColourError, Rgb};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::DVec2;
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 use crate::warp::FaceWeights;
 
-/// Why a value is none.
+/// Error for the value of a flag.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum ValueError {
-    #[error("write area, uniform, or numbers with commas, one for each face")]
+    #[error("use area, uniform, or one number for each face, separated by commas")]
     Weights,
-    #[error("put a colon between the source's place and the target's")]
+    #[error("separate the coordinates of the source from those of the target by a colon")]
     Halves,
-    #[error("write a point of the source and one of the target, as 10,20:12,24")]
+    #[error("give a point of the source and one of the target, as in 10,20:12,24")]
     Pin,
-    #[error("write both ends in the source and in the target, as 0,0,9,0:1,2,9,3")]
+    #[error("give both ends in the source and in the target, as in 0,0,9,0:1,2,9,3")]
     Line,
-    #[error("`{0}` is no range: write A..B with A less than B, for example 0..60")]
+    #[error("`{0}` is not a range: use A..B with A less than B, for example 0..60")]
     Range(String),
     #[error("{0}, or transparent")]
     Ground(ColourError),
 }
 
-/// What is behind the shapes: a colour, or nothing.
-// A type of its own, as the parser takes an `Option` for a flag that may be
-// left out.
+/// Background: a colour, or `None` for transparent.
+// A separate type, because clap treats an `Option` as a flag that may be left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BackgroundColour(pub Option<Rgb>);
 
-/// A choice by its key, with the sentence that is said of it in `--help`.
+/// Parses an option value by its key; `--help` lists the keys with their sentences.
 pub(super) fn one_of<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
     let values = T::CHOICES.iter().map(|choice| {
         let name = choice.name();
@@ -42,20 +41,22 @@ pub(super) fn one_of<T: Choice + Send + Sync>() -> impl TypedValueParser<Value =
     PossibleValuesParser::new(values).try_map(|key| T::of_key(&key))
 }
 
-/// Puts a value in its place, where one was given.
-pub(super) fn set<T>(place: &mut T, value: Option<T>) {
+/// Assigns the value if there is one.
+pub(super) fn set_if_given<T>(place: &mut T, value: Option<T>) {
     if let Some(value) = value {
         *place = value;
     }
 }
 
+/// Parses face weights: a name of the project file, or one number per face.
 pub(super) fn weights(text: &str) -> Result<FaceWeights, ValueError> {
-    // Names as files have them, from the same table.
+    // The names are those of the project file, parsed by the same serde implementation.
     let by_name = serde_json::from_value(text.into()).ok();
     let each = || numbers(text).map(FaceWeights::PerFace);
     by_name.or_else(each).ok_or(ValueError::Weights)
 }
 
+/// Parses a pair of points, such as `10,20:12,24`.
 pub(super) fn pin(text: &str) -> Result<PointPair, ValueError> {
     let [source, target] = halves(text, ValueError::Pin)?;
     Ok(PointPair {
@@ -64,13 +65,15 @@ pub(super) fn pin(text: &str) -> Result<PointPair, ValueError> {
     })
 }
 
+/// Parses a pair of lines, such as `0,0,9,0:1,2,9,3`.
 pub(super) fn line(text: &str) -> Result<LinePair, ValueError> {
     let ends = |[a, b, c, d]: [f64; 4]| [DVec2::new(a, b), DVec2::new(c, d)];
     let [source, target] = halves(text, ValueError::Line)?.map(ends);
     Ok(LinePair { source, target })
 }
 
-pub(super) fn ground(text: &str) -> Result<BackgroundColour, ValueError> {
+/// Parses a background: `#rrggbb` or `transparent`.
+pub(super) fn background(text: &str) -> Result<BackgroundColour, ValueError> {
     match text {
         "transparent" => Ok(BackgroundColour(None)),
         colour => {
@@ -80,29 +83,30 @@ pub(super) fn ground(text: &str) -> Result<BackgroundColour, ValueError> {
     }
 }
 
+/// Parses a range of frame numbers, such as `0..60`, with an exclusive end.
 pub(super) fn range(text: &str) -> Result<Range<usize>, ValueError> {
     let ends = text.split_once("..");
     let range = ends.and_then(|(start, end)| Some(start.parse().ok()?..end.parse().ok()?));
     range
-        // A range that runs backwards is empty, too.
+        // A reversed range counts as empty, too.
         .filter(|range| !range.is_empty())
         .ok_or_else(|| ValueError::Range(text.to_owned()))
 }
 
-/// Columns and rows.
+/// Parses a number of columns and rows, such as `9x5`.
 pub(super) fn grid(text: &str) -> Result<[usize; 2], String> {
-    /// More small pictures than this are none that one can look at.
-    const MOST: usize = 2_500;
+    /// Maximum number of cells (resource limit: more thumbnails are too small to be useful).
+    const MAX_CELLS: usize = 2_500;
     let sides = text.split_once(['x', '×']);
     let grid = sides.and_then(|(columns, rows)| Some([columns.parse().ok()?, rows.parse().ok()?]));
     grid.filter(|[columns, rows]: &[usize; 2]| {
         let cells = columns.saturating_mul(*rows);
-        (1..=MOST).contains(&cells)
+        (1..=MAX_CELLS).contains(&cells)
     })
-    .ok_or_else(|| format!("give columns and rows, for example 9x9, at most {MOST} cells"))
+    .ok_or_else(|| format!("give columns and rows, for example 9x9, at most {MAX_CELLS} cells"))
 }
 
-/// A place of the source and one of the target.
+/// Parses N numbers for the source and N for the target, separated by a colon.
 fn halves<const N: usize>(text: &str, wrong: ValueError) -> Result<[[f64; N]; 2], ValueError> {
     let (source, target) = text.split_once(':').ok_or(ValueError::Halves)?;
     let read = |half| numbers(half).and_then(|all| all.try_into().ok());
@@ -112,9 +116,10 @@ fn halves<const N: usize>(text: &str, wrong: ValueError) -> Result<[[f64; N]; 2]
         .ok_or(wrong)
 }
 
+/// Parses finite numbers separated by commas.
 fn numbers(text: &str) -> Option<Vec<f64>> {
     let each = text.split(',').map(|n| n.trim().parse().ok());
-    // One that is none makes all of them none.
+    // A single invalid number makes the whole list invalid.
     each.map(|n| n.filter(|n: &f64| n.is_finite())).collect()
 }
 
@@ -123,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_and_lines_are_read() {
+    fn points_and_lines_are_parsed() {
         let found = pin("1,-2: 3.5,4").expect("a pin");
         assert_eq!(found.source, DVec2::new(1.0, -2.0));
         assert_eq!(found.target, DVec2::new(3.5, 4.0));
@@ -136,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn ranges_are_read() {
+    fn ranges_are_parsed() {
         assert_eq!(range("0..60"), Ok(0..60));
         for wrong in [
             "", "5", "5..", "..5", "5..5", "6..5", "-1..5", "0..=5", "a..b",
@@ -146,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn grids_are_read() {
+    fn grids_are_parsed() {
         assert_eq!(grid("9x5"), Ok([9, 5]));
         for wrong in ["", "9", "x", "9x", "0x4", "51x50", "-1x3", "9x9x9"] {
             assert!(grid(wrong).is_err(), "{wrong}");
@@ -154,12 +159,12 @@ mod tests {
     }
 
     #[test]
-    fn grounds_are_read() {
-        assert_eq!(ground("transparent"), Ok(BackgroundColour(None)));
+    fn background_colours_are_parsed() {
+        assert_eq!(background("transparent"), Ok(BackgroundColour(None)));
         assert_eq!(
-            ground("#010203"),
+            background("#010203"),
             Ok(BackgroundColour(Some(Rgb([1, 2, 3]))))
         );
-        assert!(ground("white").is_err());
+        assert!(background("white").is_err());
     }
 }

@@ -106,8 +106,8 @@ impl Gradient {
         match self.geometry.mixed(other.geometry, t) {
             _ if t == 0.0 => self.clone(),
             _ if t == 1.0 => other.clone(),
-            Some(course) if self.spread == other.spread => Self {
-                geometry: course,
+            Some(geometry) if self.spread == other.spread => Self {
+                geometry,
                 frame: DAffine2 {
                     matrix2: self.frame.matrix2 * (1.0 - t) + other.frame.matrix2 * t,
                     translation: self.frame.translation.lerp(other.frame.translation, t),
@@ -134,7 +134,7 @@ impl Gradient {
         offsets.sort_by(f64::total_cmp);
         offsets.dedup();
         let mixed = offsets.into_iter().flat_map(|at| {
-            let [a, b] = [self, other].map(|gradient| gradient.around(at));
+            let [a, b] = [self, other].map(|gradient| gradient.paints_around(at));
             let [before, after] = [0, 1].map(|k| a[k].mixed(b[k], t));
             let paints = [Some(before), Some(after).filter(|after| *after != before)];
             paints
@@ -146,7 +146,7 @@ impl Gradient {
     }
 
     /// Paints just before and just after an offset.
-    fn around(&self, at: f64) -> [Paint; 2] {
+    fn paints_around(&self, at: f64) -> [Paint; 2] {
         let stops = &self.stops;
         let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
             return [TRANSPARENT; 2];

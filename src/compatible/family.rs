@@ -11,7 +11,7 @@ use crate::design::Truss;
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::{Connectivity, TriangleMesh};
 use crate::work::budget::WorkloadTooLarge;
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::sync::Arc;
 
 /// One connectivity with two or more embeddings.
@@ -157,7 +157,7 @@ impl CompatibleFamily {
                 break;
             }
             for (b, second) in trusses.iter().enumerate().skip(a + 1) {
-                still_wanted(progress)?;
+                check_cancelled(progress)?;
                 let mesh = match CompatibleMesh::from_trusses(first, second, progress) {
                     Ok(mesh) => mesh,
                     Err(error) if a == 0 => {

@@ -38,14 +38,14 @@ impl CompatibleMesh {
     ///
     /// ```
     /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
-    /// use morphospace::correspondence::{Matching, match_regions};
+    /// use morphospace::correspondence::{MatchSettings, match_regions};
     /// use morphospace::geometry::{DVec2, FillRule, Regions};
     /// use morphospace::work::progress::Silent;
     /// let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from).to_vec();
     /// let kite = [(0.0, 0.0), (1.0, -2.0), (2.0, 0.0), (1.0, 1.0)].map(DVec2::from).to_vec();
     /// let [a, b] = [Regions::from_rings(&[square], FillRule::NonZero)?,
     ///               Regions::from_rings(&[kite], FillRule::NonZero)?];
-    /// let matched = match_regions(&a, &b, &Matching::default(), &Silent)?;
+    /// let matched = match_regions(&a, &b, &MatchSettings::default(), &Silent)?;
     /// let mesh = CompatibleMesh::from_outlines(&matched, &PolygonOptions::default(), &Silent)?;
     /// assert_eq!(mesh.boundary_loops().len(), 1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

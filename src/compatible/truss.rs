@@ -27,7 +27,7 @@ mod panel_triangulation;
 use crate::design::Truss;
 use crate::geometry::{DVec2, Side, SourceTarget, signed_area};
 use crate::mesh::undirected;
-use crate::work::progress::{Progress, checkpoint, still_wanted};
+use crate::work::progress::{Progress, check_cancelled, checkpoint};
 use blocks::PlanarBlocks;
 use error::MAX_PANEL_NODES;
 pub use error::TrussError;
@@ -57,7 +57,7 @@ pub(super) fn triangulate_panels(
     let conflicts = bar_conflicts::find_conflicts(bars, nodes, progress)?;
     let kept = bar_conflicts::remove_greedily(bars.len(), &conflicts, progress)?;
     let first = triangulate_kept(bars, nodes, &kept, progress);
-    still_wanted(progress)?;
+    check_cancelled(progress)?;
     if first.is_ok() || conflicts.is_empty() {
         return first;
     }

@@ -193,7 +193,7 @@ impl<'a> PicturePaint<'a> {
         Self {
             layers: [0, 1].map(|k| pair.layers[k].sampler(raster.pixel_size)),
             share: pair.mix.target_fraction(t) as f32,
-            shown: shown(pair.window(t), raster),
+            shown: coverage(pair.window(t), raster),
             encoder: SrgbEncoder::new(),
         }
     }
@@ -234,7 +234,7 @@ impl<'a> PicturePaint<'a> {
 
 /// Returns the fraction of each column and of each row that a rectangle covers. The covered
 /// fraction of a pixel is the product of the two.
-fn shown(window: Bounds, raster: &PictureRaster) -> [Vec<f32>; 2] {
+fn coverage(window: Bounds, raster: &PictureRaster) -> [Vec<f32>; 2] {
     let low = raster.pixel_from_plane(DVec2::new(window.min.x, window.max.y));
     let high = raster.pixel_from_plane(DVec2::new(window.max.x, window.min.y));
     let fractions = |count: u32, low: f64, high: f64| {

@@ -68,7 +68,7 @@ pub struct FieldBlend {
 /// Errors of [`FieldBlend::check`], [`FieldPair`] and [`FieldSet`].
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum FieldPairError {
+pub enum FieldBlendError {
     /// ε is not a positive finite number.
     #[error("epsilon is {0}; enter a number above 0 (the paper uses 1)")]
     Epsilon(f64),
@@ -103,12 +103,12 @@ impl FieldBlend {
     ///
     /// # Errors
     /// Returns the offending number.
-    pub fn check(&self) -> Result<(), FieldPairError> {
+    pub fn check(&self) -> Result<(), FieldBlendError> {
         if !(self.epsilon > 0.0 && self.epsilon.is_finite()) {
-            return Err(FieldPairError::Epsilon(self.epsilon));
+            return Err(FieldBlendError::Epsilon(self.epsilon));
         }
         if !self.threshold.is_finite() {
-            return Err(FieldPairError::Threshold(self.threshold));
+            return Err(FieldBlendError::Threshold(self.threshold));
         }
         Ok(())
     }
@@ -188,12 +188,12 @@ impl FieldPair {
         source: impl Into<Arc<DistanceField>>,
         target: impl Into<Arc<DistanceField>>,
         blend: FieldBlend,
-    ) -> Result<Self, FieldPairError> {
+    ) -> Result<Self, FieldBlendError> {
         let (source, target) = (source.into(), target.into());
         blend.check()?;
         // Distances are in cells, so fields of different grids have different units.
         if source.grid() != target.grid() {
-            return Err(FieldPairError::Grids {
+            return Err(FieldBlendError::Grids {
                 source_grid: *source.grid(),
                 target_grid: *target.grid(),
             });
@@ -209,7 +209,7 @@ impl FieldPair {
     ///
     /// # Errors
     /// Returns an error if the blend is invalid.
-    pub fn with_blend(&self, blend: FieldBlend) -> Result<Self, FieldPairError> {
+    pub fn with_blend(&self, blend: FieldBlend) -> Result<Self, FieldBlendError> {
         blend.check()?;
         Ok(Self {
             blend,
@@ -273,7 +273,7 @@ impl FieldPair {
             (is_between && a == b).then_some(a)
         };
         let (width, height) = (grid.width, grid.height);
-        let mut rings = contour::trace_knowing(width, height, known_side, value, blend.level());
+        let mut rings = contour::trace_with_known(width, height, known_side, value, blend.level());
         for p in rings.iter_mut().flatten() {
             *p = grid.plane_from_lattice(*p);
         }

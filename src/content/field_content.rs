@@ -6,7 +6,7 @@
 //! Guaranteed: at t = 0 and t = 1 each paint layer is that of its design. A layer that exists in
 //! only one design is blended with a field that is outside everywhere, so it shrinks away.
 
-use super::field::{FieldBlend, FieldPair, FieldPairError};
+use super::field::{FieldBlend, FieldBlendError, FieldPair};
 use super::{InkedLayer, PaintLayerStack};
 use crate::field::{DistanceField, Grid};
 use crate::geometry::DVec2;
@@ -109,7 +109,7 @@ impl FieldContent {
     ///
     /// # Errors
     /// Returns an error if the blend is invalid.
-    pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldPairError> {
+    pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldBlendError> {
         let [whole] = &*self.pairs else {
             return Ok(None);
         };
@@ -182,7 +182,7 @@ impl PaintedFields {
         fields: Vec<[Option<DistanceField>; 2]>,
         grid: &Grid,
         blend: FieldBlend,
-    ) -> Result<Self, FieldPairError> {
+    ) -> Result<Self, FieldBlendError> {
         let fields = fields
             .into_iter()
             .map(|ends| ends.map(|end| end.map(Arc::new)));
@@ -196,7 +196,7 @@ impl PaintedFields {
         fields: Vec<[Option<Arc<DistanceField>>; 2]>,
         grid: &Grid,
         blend: FieldBlend,
-    ) -> Result<Self, FieldPairError> {
+    ) -> Result<Self, FieldBlendError> {
         // Lowered with a negative threshold, so that the missing layer stays outside.
         let outside = MISSING_DISTANCE + blend.threshold.min(0.0);
         let missing = Arc::new(DistanceField::uniform(*grid, outside));

@@ -33,12 +33,12 @@ pub struct SolidContent {
     /// Paint layers; `None` if everything has one colour.
     pub paint_layers: Option<PaintLayerStack>,
     /// Clocks of parts with their own timing; `None` if all parts follow the transition.
-    pub part_clocks: Option<BarClocks>,
+    pub part_clocks: Option<SolidClocks>,
 }
 
 /// Assigns a clock to each part of a solid. A clock maps the transition's t to the part's own t.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BarClocks {
+pub struct SolidClocks {
     /// All clocks. The last one is that of the whole transition.
     pub clocks: Vec<PartClock>,
     /// For each boundary loop, the index of its clock.
@@ -49,7 +49,7 @@ pub struct BarClocks {
     pub of_vertices: Vec<usize>,
 }
 
-impl BarClocks {
+impl SolidClocks {
     /// Index of the clock of a vertex.
     fn of_vertex(&self, vertex: u32) -> usize {
         self.of_vertices[vertex as usize]
@@ -57,7 +57,7 @@ impl BarClocks {
 }
 
 /// A ring with its paint layer and the properties that split a layer into groups.
-struct InkedRing {
+struct PaintedRing {
     layer: usize,
     key: InkKey,
     points: Vec<DVec2>,
@@ -146,10 +146,10 @@ impl SolidContent {
     }
 
     /// Returns the rings of [`Self::rings_at`], each with its paint layer and group key.
-    fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<InkedRing> {
+    fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<PaintedRing> {
         let stack = self.paint_layers.as_ref();
         let fading = stack.filter(|all| all.fades);
-        let loop_ring = |loop_index: usize, points: Vec<DVec2>| InkedRing {
+        let loop_ring = |loop_index: usize, points: Vec<DVec2>| PaintedRing {
             layer: stack.map_or(0, |all| all.of_loops[loop_index]),
             key: InkKey {
                 clock: self
@@ -169,7 +169,7 @@ impl SolidContent {
             rings.map(move |ring| loop_ring(loop_index, ring))
         });
         // Parts with holes of only one design exist in both designs, so their holes do not fade.
-        let hole_ring = |(hole, points): (usize, Vec<DVec2>)| InkedRing {
+        let hole_ring = |(hole, points): (usize, Vec<DVec2>)| PaintedRing {
             layer: stack.map_or(0, |all| all.of_holes[hole]),
             key: InkKey {
                 clock: self

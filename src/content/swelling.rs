@@ -25,7 +25,7 @@ impl SwellingShape {
     /// the same loops in the design that has the part, the outer one first.
     #[must_use]
     pub fn new(loop_indices: Vec<usize>, rings: &[Vec<DVec2>], life: TimeWindow) -> Self {
-        let middle = rings.first().map_or(DVec2::ZERO, |ring| middle(ring));
+        let middle = rings.first().map_or(DVec2::ZERO, |ring| mean_point(ring));
         let relative = |ring: &Vec<DVec2>| ring.iter().map(|&p| p - middle).collect();
         Self {
             loop_indices,
@@ -53,7 +53,7 @@ impl SwellingShape {
         if fraction <= 0.0 {
             return Vec::new();
         }
-        let middle = middle(first_loop);
+        let middle = mean_point(first_loop);
         let mut rings = inset(&self.rings, self.depth * (1.0 - fraction));
         rings.iter_mut().flatten().for_each(|p| *p += middle);
         rings
@@ -61,7 +61,7 @@ impl SwellingShape {
 }
 
 /// Returns the mean of some points; zero if there are none.
-pub(crate) fn middle(points: &[DVec2]) -> DVec2 {
+pub(crate) fn mean_point(points: &[DVec2]) -> DVec2 {
     // Relative to the first point, so that points far from the origin lose no digits.
     let reference = points.first().copied().unwrap_or_default();
     let sum: DVec2 = points.iter().map(|&p| p - reference).sum();

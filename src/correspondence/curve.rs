@@ -59,13 +59,13 @@ impl BoundaryCurve {
             return Err(CurveLengthError);
         }
         places.iter_mut().for_each(|place| *place /= length);
-        let directions = unwrapped(&edges);
+        let directions = unwrapped_directions(&edges);
         let mut integral = vec![0.0];
         for (e, direction) in directions.iter().enumerate() {
             integral.push(integral[e] + direction * (places[e + 1] - places[e]));
         }
         let (first, last) = (edges[0], edges[edges.len() - 1]);
-        let gained = directions[edges.len() - 1] + turn(last, first) - directions[0];
+        let gained = directions[edges.len() - 1] + exterior_angle(last, first) - directions[0];
         Ok(Self {
             round: TAU * (gained / TAU).round(),
             points: ring.points().to_vec(),
@@ -133,7 +133,7 @@ impl BoundaryCurve {
     pub fn nearest(&self, p: DVec2) -> f64 {
         let mut best = (f64::INFINITY, 0.0);
         for e in 0..self.directions.len() {
-            best = self.nearer(best, p, e, [0.0, 1.0]);
+            best = self.closer_candidate(best, p, e, [0.0, 1.0]);
         }
         self.wrapped(best.1)
     }
@@ -150,7 +150,7 @@ impl BoundaryCurve {
             let [start, end] = [self.places[e], self.places[e + 1]].map(|place| base + place);
             let fraction = |place: f64| ((place - start) / (end - start)).clamp(0.0, 1.0);
             if end > start {
-                best = self.nearer(best, p, e, [fraction(from), fraction(to)]);
+                best = self.closer_candidate(best, p, e, [fraction(from), fraction(to)]);
             }
             e += 1;
             if e == count {
@@ -162,7 +162,7 @@ impl BoundaryCurve {
 
     /// Compares `best` with the point of edge `e` nearest to `p`, restricted to the fractions from
     /// `low` to `high` of the edge. Returns squared distance and place of the nearer one.
-    fn nearer(&self, best: (f64, f64), p: DVec2, e: usize, [low, high]: [f64; 2]) -> (f64, f64) {
+    fn closer_candidate(&self, best: (f64, f64), p: DVec2, e: usize, [low, high]: [f64; 2]) -> (f64, f64) {
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
         let along = nearest_segment_parameter(p, from, to).clamp(low, high);
         let distance = p.distance_squared(from.lerp(to, along));
@@ -236,17 +236,17 @@ fn unit_edges(ring: &Ring) -> Option<Vec<DVec2>> {
 }
 
 /// Returns the direction of each edge in radians, each within π of the previous one.
-fn unwrapped(edges: &[DVec2]) -> Vec<f64> {
+fn unwrapped_directions(edges: &[DVec2]) -> Vec<f64> {
     let mut direction = edges[0].to_angle();
     let mut directions = vec![direction];
     for pair in edges.windows(2) {
-        direction += turn(pair[0], pair[1]);
+        direction += exterior_angle(pair[0], pair[1]);
         directions.push(direction);
     }
     directions
 }
 
 /// Returns the exterior angle between two edges in (−π, π]; 0 if one has zero length.
-fn turn(from: DVec2, to: DVec2) -> f64 {
+fn exterior_angle(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }

@@ -32,7 +32,7 @@ pub(super) struct CurveMatchProblem {
     /// Whether directions are compared as drawn.
     pub(super) keep_up: bool,
     /// Weight of differing inner distances.
-    pub(super) price_inside: f64,
+    pub(super) inner_weight: f64,
     /// Inner distances of both curves; `None` if their weight is zero, or if a curve has no inside.
     pub(super) inner: Option<[InnerDescriptors; 2]>,
     /// The same problem with fewer samples, which selects the poses that are worth a full search.
@@ -59,7 +59,7 @@ impl CurveMatchProblem {
             rows.flatten()
         };
         Self {
-            price_inside: options.inner,
+            inner_weight: options.inner,
             inner: inner(source, &a).zip(inner(target, &b)).map(<[_; 2]>::from),
             source_features: BoundaryFeatures::of(source, &a),
             target_features: BoundaryFeatures::of(target, &b),
@@ -84,7 +84,7 @@ impl CurveMatchProblem {
     /// there is only one path, through all of them.
     pub(super) fn visit_paths(
         &self,
-        unlike: &[f64],
+        dissimilarities: &[f64],
         mut visit: impl FnMut(f64, &dyn Fn() -> Vec<[usize; 2]>),
     ) {
         let fixed = self.fixed_nodes();
@@ -92,9 +92,9 @@ impl CurveMatchProblem {
             let mut nodes = vec![first];
             let mut cost = 0.0;
             for pair in fixed.windows(2) {
-                let grid = self.grid(unlike, pair[0], pair[1]);
+                let grid = self.grid(dissimilarities, pair[0], pair[1]);
                 let width = grid.source.len() - 1;
-                let route = (grid.prices()).shortest(
+                let route = (grid.step_costs()).shortest(
                     [0, width],
                     |_| [0, width],
                     &mut PathBuffers::default(),
@@ -106,8 +106,8 @@ impl CurveMatchProblem {
         }
         let (n, m) = (self.source.places.len(), self.target.places.len());
         // Two rounds of the source, so that a path may begin at any of its samples.
-        let grid = self.grid(unlike, [0, 0], [2 * n, m]);
-        for route in all_starts(&grid.prices(), n) {
+        let grid = self.grid(dissimilarities, [0, 0], [2 * n, m]);
+        for route in all_starts(&grid.step_costs(), n) {
             visit(route.cost, &|| route.nodes());
         }
     }
@@ -132,17 +132,17 @@ impl CurveMatchProblem {
     }
 
     /// Returns the grid of sample pairs between two nodes, both included.
-    pub(super) fn grid(&self, unlike: &[f64], from: [usize; 2], to: [usize; 2]) -> PathGrid {
+    pub(super) fn grid(&self, dissimilarities: &[f64], from: [usize; 2], to: [usize; 2]) -> PathGrid {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let mut window = Vec::with_capacity((to[0] + 1 - from[0]) * (to[1] + 1 - from[1]));
         for j in from[1]..=to[1] {
-            let row = &unlike[(j % m) * n..][..n];
+            let row = &dissimilarities[(j % m) * n..][..n];
             window.extend((from[0]..=to[0]).map(|i| row[i % n]));
         }
         PathGrid {
             source: (from[0]..=to[0]).map(|i| self.source.unrolled(i)).collect(),
             target: (from[1]..=to[1]).map(|j| self.target.unrolled(j)).collect(),
-            unlike: window,
+            dissimilarity: window,
             stretch: self.stretch,
         }
     }

@@ -16,13 +16,13 @@ const MAX_SEQUENTIAL_STARTS: usize = 16;
 
 /// Returns the cheapest path of each starting column 0 ≤ k < n. The grid has at least 2n columns,
 /// and one row for each target sample plus the first again.
-pub(super) fn all_starts(prices: &StepCosts, n: usize) -> Vec<GridPath> {
-    let first = prices.shortest([0, n], |_| [0, n], &mut PathBuffers::default());
+pub(super) fn all_starts(costs: &StepCosts, n: usize) -> Vec<GridPath> {
+    let first = costs.shortest([0, n], |_| [0, n], &mut PathBuffers::default());
     let mut between = vec![None; n.saturating_sub(1)];
     // Start n is start 0 one round later.
     let last = first.shifted(n);
     bisect(
-        prices,
+        costs,
         n,
         0,
         [&first, &last],
@@ -35,7 +35,7 @@ pub(super) fn all_starts(prices: &StepCosts, n: usize) -> Vec<GridPath> {
 
 /// Solves the starts after `left`, which lie strictly between two solved ones.
 fn bisect(
-    prices: &StepCosts,
+    costs: &StepCosts,
     n: usize,
     left: usize,
     [lower, upper]: [&GridPath; 2],
@@ -49,15 +49,15 @@ fn bisect(
     let middle = left + 1 + half;
     // Cheapest paths need not cross, so the search is limited to the strip between its neighbours.
     let window = |j: usize| [lower.rows[j][0], upper.rows[j][1]];
-    let route = prices.shortest([middle, middle + n], window, scratch);
+    let route = costs.shortest([middle, middle + n], window, scratch);
     let (left_starts, right_starts) = between.split_at_mut(half);
     if half > MAX_SEQUENTIAL_STARTS {
         rayon::join(
-            || bisect(prices, n, left, [lower, &route], left_starts, scratch),
+            || bisect(costs, n, left, [lower, &route], left_starts, scratch),
             || {
                 let scratch = &mut PathBuffers::default();
                 bisect(
-                    prices,
+                    costs,
                     n,
                     middle,
                     [&route, upper],
@@ -67,9 +67,9 @@ fn bisect(
             },
         );
     } else {
-        bisect(prices, n, left, [lower, &route], left_starts, scratch);
+        bisect(costs, n, left, [lower, &route], left_starts, scratch);
         bisect(
-            prices,
+            costs,
             n,
             middle,
             [&route, upper],
@@ -91,20 +91,20 @@ mod tests {
         (1usize..14, 1usize..14).prop_flat_map(|(n, m)| {
             let gaps = |k| prop::collection::vec(0.1f64..1.0, k);
             // Few distinct values, so that ties are common.
-            let unlike = prop::collection::vec((0u8..5).prop_map(f64::from), n * m);
-            (gaps(n), gaps(m), unlike, 0.0f64..2.0)
-                .prop_map(move |(a, b, unlike, stretch)| unrolled(&a, &b, &unlike, stretch))
+            let dissimilarities = prop::collection::vec((0u8..5).prop_map(f64::from), n * m);
+            (gaps(n), gaps(m), dissimilarities, 0.0f64..2.0)
+                .prop_map(move |(a, b, dissimilarities, stretch)| unrolled(&a, &b, &dissimilarities, stretch))
         })
     }
 
     /// Unrolls a torus to a grid in which the source occurs twice.
-    fn unrolled(a: &[f64], b: &[f64], unlike: &[f64], stretch: f64) -> (PathGrid, usize) {
+    fn unrolled(a: &[f64], b: &[f64], dissimilarities: &[f64], stretch: f64) -> (PathGrid, usize) {
         let (n, m) = (a.len(), b.len());
-        let row = |j: usize| (0..=2 * n).map(move |i| unlike[(j % m) * n + i % n]);
+        let row = |j: usize| (0..=2 * n).map(move |i| dissimilarities[(j % m) * n + i % n]);
         let grid = PathGrid {
             source: sums(a, 2 * n),
             target: sums(b, m),
-            unlike: (0..=m).flat_map(row).collect(),
+            dissimilarity: (0..=m).flat_map(row).collect(),
             stretch,
         };
         (grid, n)
@@ -124,10 +124,10 @@ mod tests {
     proptest! {
         #[test]
         fn every_start_costs_as_much_as_when_solved_separately((grid, n) in torus()) {
-            let routes = all_starts(&grid.prices(), n);
+            let routes = all_starts(&grid.step_costs(), n);
             prop_assert_eq!(routes.len(), n);
             for (k, route) in routes.iter().enumerate() {
-                let plain = grid.prices().shortest([k, k + n], |_| [k, k + n], &mut PathBuffers::default());
+                let plain = grid.step_costs().shortest([k, k + n], |_| [k, k + n], &mut PathBuffers::default());
                 prop_assert!((route.cost - plain.cost).abs() <= 1e-12 * (1.0 + plain.cost));
                 prop_assert_eq!(route.rows[0][0], k);
                 prop_assert_eq!(route.rows.last().map(|row| row[1]), Some(k + n));
@@ -144,8 +144,8 @@ mod tests {
             let at = |i: usize, j: usize| seed[8 * i + j];
             let (there, _) = unrolled(&a, &b, &(0..n * m).map(|k| at(k % n, k / n)).collect::<Vec<_>>(), 0.5);
             let (back, _) = unrolled(&b, &a, &(0..n * m).map(|k| at(k / m, k % m)).collect::<Vec<_>>(), 0.5);
-            let least = |routes: Vec<GridPath>| routes.iter().map(|r| r.cost).fold(f64::INFINITY, f64::min);
-            let (c, d) = (least(all_starts(&there.prices(), n)), least(all_starts(&back.prices(), m)));
+            let min_cost = |routes: Vec<GridPath>| routes.iter().map(|r| r.cost).fold(f64::INFINITY, f64::min);
+            let (c, d) = (min_cost(all_starts(&there.step_costs(), n)), min_cost(all_starts(&back.step_costs(), m)));
             prop_assert!((c - d).abs() <= 1e-12 * (1.0 + c));
         }
     }

@@ -76,7 +76,7 @@ impl BoundaryFeatures {
             tangent: (posed.iter())
                 .map(|&(_, direction)| DVec2::from_angle(direction))
                 .collect(),
-            position: centred(places.iter().map(|&s| curve.point_at(s)).collect()),
+            position: normalise_points(places.iter().map(|&s| curve.point_at(s)).collect()),
         }
     }
 
@@ -94,16 +94,16 @@ impl BoundaryFeatures {
 
     /// Returns the rotation-invariant dissimilarity of all pairs of samples, one row for each
     /// sample of `other`. Values lie between 0 and 1.2 plus the weight `thickness`.
-    pub fn unlike(&self, other: &Self, thickness: f64) -> Vec<f64> {
+    pub fn dissimilarities(&self, other: &Self, thickness: f64) -> Vec<f64> {
         let mut dissimilarities = Vec::with_capacity(self.turning.len() * other.turning.len());
         for (other_turning, other_thickness) in other.turning.iter().zip(&other.log_thickness) {
             for (own_turning, own_thickness) in self.turning.iter().zip(&self.log_thickness) {
                 let mut sum = 0.0;
                 for (k, (_, weight)) in REACHES.iter().enumerate() {
-                    sum += weight * saturated((own_turning[k] - other_turning[k]).powi(2), 0.5);
+                    sum += weight * saturate((own_turning[k] - other_turning[k]).powi(2), 0.5);
                 }
                 let log_ratio = own_thickness - other_thickness;
-                let thickness_term = saturated(log_ratio * log_ratio, HALF_THICKNESS);
+                let thickness_term = saturate(log_ratio * log_ratio, HALF_THICKNESS);
                 dissimilarities.push(sum + thickness * thickness_term);
             }
         }
@@ -112,7 +112,7 @@ impl BoundaryFeatures {
 
     /// Returns the dissimilarities including tangent and position, with this curve rotated by
     /// `pose`. `invariant` holds the rotation-invariant dissimilarities in the same order.
-    pub fn unlike_posed(
+    pub fn posed_dissimilarities(
         &self,
         other: &Self,
         invariant: &[f64],
@@ -122,29 +122,29 @@ impl BoundaryFeatures {
         let rotation = DVec2::from_angle(pose);
         let tangents: Vec<DVec2> = self.tangent.iter().map(|&t| rotation.rotate(t)).collect();
         let positions: Vec<DVec2> = self.position.iter().map(|&p| rotation.rotate(p)).collect();
-        let mut unlike = Vec::with_capacity(invariant.len());
+        let mut dissimilarities = Vec::with_capacity(invariant.len());
         let rows = invariant.chunks_exact(tangents.len());
         for ((row, tangent), other_position) in rows.zip(&other.tangent).zip(&other.position) {
             let own_samples = row.iter().zip(&tangents).zip(&positions);
-            unlike.extend(own_samples.map(|((invariant, own), position)| {
+            dissimilarities.extend(own_samples.map(|((invariant, own), position)| {
                 let tangent_difference = 0.5 * (1.0 - own.dot(*tangent));
                 let distance = position.distance_squared(*other_position);
                 invariant
                     + weights.tangent * tangent_difference
-                    + weights.position * saturated(distance, HALF_DISTANCE)
+                    + weights.position * saturate(distance, HALF_DISTANCE)
             }));
         }
-        unlike
+        dissimilarities
     }
 }
 
 /// Returns x / (x + half), which limits the influence of a single large difference.
-fn saturated(x: f64, half: f64) -> f64 {
+fn saturate(x: f64, half: f64) -> f64 {
     x / (x + half)
 }
 
 /// Translates the points to their mean and scales them to a root mean squared radius of 1.
-fn centred(mut points: Vec<DVec2>) -> Vec<DVec2> {
+fn normalise_points(mut points: Vec<DVec2>) -> Vec<DVec2> {
     // Scale first: squares of very large or small coordinates overflow or underflow.
     let scale = points
         .iter()

@@ -122,7 +122,7 @@ impl<'a> TriangulatedPolygon<'a> {
         for corner in 0..3 {
             let [right, left] = [corner, corner + 1].map(|k| self.point(face, k));
             let bends = vec![bend(left), bend(from), bend(right)];
-            funnels.extend(self.beyond(face, corner, bends, 1));
+            funnels.extend(self.funnel_beyond(face, corner, bends, 1));
         }
         while let Some(funnel) = funnels.pop() {
             for &other in &self.places_of[funnel.face] {
@@ -131,8 +131,8 @@ impl<'a> TriangulatedPolygon<'a> {
             let Funnel { face, corner, .. } = funnel;
             let (exit, ahead) = funnel.reach(self.point(face, corner + 2));
             let (left, right) = funnel.split(exit, ahead);
-            funnels.extend(self.beyond(face, corner + 1, right.0, right.1));
-            funnels.extend(self.beyond(face, corner + 2, left.0, left.1));
+            funnels.extend(self.funnel_beyond(face, corner + 1, right.0, right.1));
+            funnels.extend(self.funnel_beyond(face, corner + 2, left.0, left.1));
         }
     }
 
@@ -143,7 +143,7 @@ impl<'a> TriangulatedPolygon<'a> {
 
     /// Returns the funnel to the edge that begins at a face's corner, or `None` if it is a boundary
     /// edge.
-    fn beyond(
+    fn funnel_beyond(
         &self,
         face: usize,
         corner: usize,

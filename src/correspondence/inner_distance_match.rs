@@ -31,7 +31,7 @@ impl CurveMatchProblem {
         // The coarse problem finds the correspondence; the full one then refines it in a single
         // round.
         let found = coarse.alternated_inner_solution()?;
-        self.path_by_pairs(&coarse.resampled(&found.nodes, self))
+        self.path_by_pairs(&coarse.transfer_path(&found.nodes, self))
     }
 
     /// Alternates between path and reference pairs until the cost no longer decreases.
@@ -68,7 +68,7 @@ impl CurveMatchProblem {
         let combined = self.unposed().into_iter().zip(inner);
         self.best_path(
             combined
-                .map(|(boundary, inner)| boundary + self.price_inside * inner)
+                .map(|(boundary, inner)| boundary + self.inner_weight * inner)
                 .collect(),
         )
     }
@@ -92,7 +92,7 @@ impl CurveMatchProblem {
     }
 
     /// Converts a path to the nearest samples of another problem with the same curves.
-    fn resampled(&self, nodes: &[[usize; 2]], to: &Self) -> Vec<[usize; 2]> {
+    fn transfer_path(&self, nodes: &[[usize; 2]], to: &Self) -> Vec<[usize; 2]> {
         let resampled = |&[i, j]: &[usize; 2]| {
             [
                 to.source.nearest(self.source.unrolled(i)),

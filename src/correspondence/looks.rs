@@ -8,7 +8,7 @@ use crate::geometry::Side;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PartLook {
     /// Index of the paint layer that contains the part; the bottom layer is 0.
-    pub(crate) coat: usize,
+    pub(crate) paint_layer: usize,
     /// Height of that layer among the design's layers: 0 for the bottom layer, 1 for the top.
     pub(crate) height: f64,
     /// Paint of the part; `None` if the design has no colours of its own.
@@ -42,7 +42,7 @@ impl PartLook {
     /// Returns the cost of pairing two parts. `form` is their cost in position and shape.
     pub(in crate::correspondence) fn cost(&self, other: &Self, form: f64) -> f64 {
         let paint = self.paint.zip(other.paint);
-        let paint = paint.map_or(0.0, |(a, b)| a.unlike(&b));
+        let paint = paint.map_or(0.0, |(a, b)| a.difference(&b));
         let cost = form + PAINT_COST * paint + HEIGHT_COST * (self.height - other.height).abs();
         let cost = cost + TEXT_COST * f64::from(u8::from(self.is_text != other.is_text));
         let is_named = !self.name.is_empty() && self.name == other.name;
@@ -62,7 +62,7 @@ impl PartLooks {
     }
 
     /// Returns the paint layer of a part; 0 if no looks are given.
-    pub(crate) fn coat(&self, side: Side, part: usize) -> usize {
-        self.0[side].get(part).map_or(0, |look| look.coat)
+    pub(crate) fn paint_layer(&self, side: Side, part: usize) -> usize {
+        self.0[side].get(part).map_or(0, |look| look.paint_layer)
     }
 }

@@ -28,7 +28,7 @@ const LONGER: [[usize; 2]; 10] = [
 /// both curves.
 pub(super) fn refine(grid: &PathGrid, nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     let windows = windows(nodes, reach);
-    cheapest(grid, &windows).unwrap_or_else(|| merged_steps(nodes))
+    cheapest_path(grid, &windows).unwrap_or_else(|| merged_steps(nodes))
 }
 
 /// Merges unit steps into blocks that each advance along both curves. The path as a whole must do
@@ -68,7 +68,7 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
 }
 
 /// Returns the cheapest strictly monotone path within the windows, or `None` if no path exists.
-fn cheapest(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
+fn cheapest_path(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
     let width = grid.source.len();
     let longer = LONGER.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]);
     // The even step comes first, since ties go to the first step.
@@ -162,13 +162,13 @@ impl MonotoneStep {
         let total_length = source_length + target_length;
         let stretch = (source_length - target_length).powi(2) / total_length;
         let end = j * grid.source.len() + i;
-        let unlike = &grid.unlike[end - self.back..=end];
-        let mut bend = 0.5 * (unlike[0] + unlike[self.back]);
+        let dissimilarities = &grid.dissimilarity[end - self.back..=end];
+        let mut integral = 0.5 * (dissimilarities[0] + dissimilarities[self.back]);
         for &(node, next, share) in &self.between {
-            bend += (1.0 - share) * unlike[node] + share * unlike[next];
+            integral += (1.0 - share) * dissimilarities[node] + share * dissimilarities[next];
         }
         let count = (1 + self.between.len()) as f64;
-        0.5 * total_length * bend / count + grid.stretch * stretch
+        0.5 * total_length * integral / count + grid.stretch * stretch
     }
 }
 
@@ -182,7 +182,7 @@ mod tests {
         PathGrid {
             source: even(n),
             target: even(m),
-            unlike: vec![1.0; (n + 1) * (m + 1)],
+            dissimilarity: vec![1.0; (n + 1) * (m + 1)],
             stretch: 1.0,
         }
     }

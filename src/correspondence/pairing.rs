@@ -19,9 +19,9 @@ pub(super) struct Pairing {
     /// Pairs `[source, target]`, ascending in the source.
     pub(super) pairs: Vec<[usize; 2]>,
     /// Unmatched parts of the source, ascending: they disappear.
-    pub(super) dying: Vec<usize>,
+    pub(super) source_only: Vec<usize>,
     /// Unmatched parts of the target, ascending: they appear.
-    pub(super) born: Vec<usize>,
+    pub(super) target_only: Vec<usize>,
 }
 
 /// Fixed pairs that contradict each other.
@@ -264,8 +264,8 @@ fn pair(
     let target_only = unpaired(&pairs, target.len(), 1);
     Ok(Pairing {
         pairs,
-        dying: source_only,
-        born: target_only,
+        source_only: source_only,
+        target_only: target_only,
     })
 }
 
@@ -326,8 +326,8 @@ mod tests {
         pairs.sort_unstable();
         Pairing {
             pairs,
-            dying: pairing.born.clone(),
-            born: pairing.dying.clone(),
+            source_only: pairing.target_only.clone(),
+            target_only: pairing.source_only.clone(),
         }
     }
 
@@ -368,10 +368,14 @@ mod tests {
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
         let there = pair_parts([&three, &two], &PartLooks::default(), &[], NONE).expect("pairs");
         assert_eq!(
-            (there.pairs.len(), there.dying.len(), there.born.len()),
+            (
+                there.pairs.len(),
+                there.source_only.len(),
+                there.target_only.len()
+            ),
             (2, 1, 0)
         );
-        let middle = three.iter().nth(there.dying[0]).expect("a part");
+        let middle = three.iter().nth(there.source_only[0]).expect("a part");
         assert!((middle.outer.signed_area() - 1.0).abs() < 1e-9);
         assert_eq!(
             pair_parts([&two, &three], &PartLooks::default(), &[], NONE),
@@ -389,8 +393,8 @@ mod tests {
         ]);
         let there = pair_parts([&two, &three], &PartLooks::default(), &[], NONE).expect("pairs");
         let area = |part: usize| three.iter().nth(part).map_or(0.0, Region::area);
-        assert_eq!(there.born.len(), 1);
-        assert!(area(there.born[0]) < 1.0, "{there:?}");
+        assert_eq!(there.target_only.len(), 1);
+        assert!(area(there.target_only[0]) < 1.0, "{there:?}");
         let back = pair_parts([&three, &two], &PartLooks::default(), &[], NONE);
         assert_eq!(back, Ok(swapped(&there)));
     }

@@ -15,7 +15,7 @@ pub(super) struct PathGrid {
     /// Places of the target's samples, ascending.
     pub target: Vec<f64>,
     /// Dissimilarities of all pairs: one row for each sample of the target.
-    pub unlike: Vec<f64>,
+    pub dissimilarity: Vec<f64>,
     /// Weight of stretch relative to bending.
     pub stretch: f64,
 }
@@ -61,7 +61,7 @@ const ALONG_TARGET: u8 = 2;
 impl PathGrid {
     /// Returns the dissimilarity of source sample `i` and target sample `j`.
     pub fn at(&self, i: usize, j: usize) -> f64 {
-        self.unlike[j * self.source.len() + i]
+        self.dissimilarity[j * self.source.len() + i]
     }
 
     /// Returns the cost of the step from `(i − di, j − dj)` to `(i, j)`, where di, dj ≤ 1.
@@ -75,9 +75,9 @@ impl PathGrid {
     }
 
     /// Returns the costs of all steps, for searches that visit them many times.
-    pub fn prices(&self) -> StepCosts {
+    pub fn step_costs(&self) -> StepCosts {
         let (width, rows) = (self.source.len(), self.target.len());
-        let mut prices = StepCosts {
+        let mut costs = StepCosts {
             width,
             rows,
             both: vec![f64::INFINITY; width * rows],
@@ -87,9 +87,9 @@ impl PathGrid {
         for j in 0..rows {
             let row = j * width..(j + 1) * width;
             let [both, source, target] = [
-                &mut prices.both[row.clone()],
-                &mut prices.source[row.clone()],
-                &mut prices.target[row],
+                &mut costs.both[row.clone()],
+                &mut costs.source[row.clone()],
+                &mut costs.target[row],
             ];
             for i in 0..width {
                 if i > 0 {
@@ -103,7 +103,7 @@ impl PathGrid {
                 }
             }
         }
-        prices
+        costs
     }
 }
 
@@ -235,18 +235,18 @@ mod tests {
         let grid = PathGrid {
             source: vec![0.0, 0.3, 0.5, 1.0],
             target: vec![0.0, 0.2, 1.0],
-            unlike: vec![1.0, 2.0, 0.1, 4.0, 3.0, 0.5, 0.2, 7.0, 1.0, 0.3, 9.0, 0.4],
+            dissimilarity: vec![1.0, 2.0, 0.1, 4.0, 3.0, 0.5, 0.2, 7.0, 1.0, 0.3, 9.0, 0.4],
             stretch: 0.2,
         };
-        let prices = grid.prices();
-        let route = prices.shortest([0, 3], |_| [0, 3], &mut PathBuffers::default());
+        let costs = grid.step_costs();
+        let route = costs.shortest([0, 3], |_| [0, 3], &mut PathBuffers::default());
         assert!((route.cost - brute_force_cost(&grid, 3, 2)).abs() < 1e-15);
         let nodes = route.nodes();
-        let price = |w: &[[usize; 2]]| {
+        let cost = |w: &[[usize; 2]]| {
             let [[a, b], [i, j]] = [w[0], w[1]];
             grid.step(i, j, i - a, j - b)
         };
-        let sum: f64 = nodes.windows(2).map(price).sum();
+        let sum: f64 = nodes.windows(2).map(cost).sum();
         assert!((route.cost - sum).abs() < 1e-15);
     }
 

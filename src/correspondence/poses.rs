@@ -37,7 +37,7 @@ pub(super) struct PathSolution {
     /// Nodes at unit steps, unwrapped over the seams.
     pub(super) nodes: Vec<[usize; 2]>,
     /// Dissimilarities of all sample pairs, including those of pose.
-    pub(super) unlike: Vec<f64>,
+    pub(super) dissimilarity: Vec<f64>,
     /// Bending and stretching cost of the path.
     pub(super) cost: f64,
     /// Cost including the penalty on rotation.
@@ -51,27 +51,27 @@ pub(super) struct PathSolution {
 impl CurveMatchProblem {
     /// Returns the best path over the poses selected by a search with fewer samples.
     pub(super) fn posed_solution(&self) -> PathSolution {
-        let blind = self.blind();
+        let blind = self.invariant_dissimilarities();
         if self.keep_up {
-            return self.posed(&blind, 0.0, PoseWeights::FIXED);
+            return self.path_for_pose(&blind, 0.0, PoseWeights::FIXED);
         }
         // The coarse search selects the few poses that are worth a full search.
         let poses = match &self.coarse {
             Some(coarse) => coarse.likely_poses(),
-            None => self.poses(&blind),
+            None => self.candidate_poses(&blind),
         };
         let candidates = self.solutions(&blind, poses).into_iter();
         let better = |best: PathSolution, next: PathSolution| {
             if next.score < best.score { next } else { best }
         };
         let best = candidates.reduce(better);
-        let mut best = best.unwrap_or_else(|| self.posed(&blind, 0.0, PoseWeights::FREE));
+        let mut best = best.unwrap_or_else(|| self.path_for_pose(&blind, 0.0, PoseWeights::FREE));
         for _ in 0..POSE_ROUNDS {
             if (best.rotation - best.pose).cos() > SAME_POSE.cos() {
                 break;
             }
             // The rotation of the match is a better estimate than the pose it was found with.
-            let next = self.posed(&blind, best.rotation, PoseWeights::FREE);
+            let next = self.path_for_pose(&blind, best.rotation, PoseWeights::FREE);
             if next.score >= best.score {
                 break;
             }
@@ -82,53 +82,53 @@ impl CurveMatchProblem {
 
     /// Returns the rotation of the best match, and those of other matches almost as good.
     fn likely_poses(&self) -> Vec<f64> {
-        let blind = self.blind();
-        let mut solutions = self.solutions(&blind, self.poses(&blind));
+        let blind = self.invariant_dissimilarities();
+        let mut solutions = self.solutions(&blind, self.candidate_poses(&blind));
         solutions.sort_by(|a, b| a.score.total_cmp(&b.score));
         let max_score = solutions.first().map_or(0.0, |best| NEAR_TIE * best.score);
         let accepted = solutions
             .iter()
             .take_while(|solution| solution.score <= max_score);
-        distinct(accepted.map(|solution| solution.rotation))
+        distinct_poses(accepted.map(|solution| solution.rotation))
     }
 
     /// Returns the dissimilarities for searches without pose estimation.
     pub(super) fn unposed(&self) -> Vec<f64> {
-        let blind = self.blind();
+        let blind = self.invariant_dissimilarities();
         if !self.keep_up {
             return blind;
         }
         let [a, b] = [&self.source_features, &self.target_features];
-        a.unlike_posed(b, &blind, 0.0, PoseWeights::FIXED)
+        a.posed_dissimilarities(b, &blind, 0.0, PoseWeights::FIXED)
     }
 
     /// Returns the rotation-invariant dissimilarities.
-    fn blind(&self) -> Vec<f64> {
-        (self.source_features).unlike(&self.target_features, self.thickness)
+    fn invariant_dissimilarities(&self) -> Vec<f64> {
+        (self.source_features).dissimilarities(&self.target_features, self.thickness)
     }
 
     /// Returns the best path for each of the given poses.
     fn solutions(&self, blind: &[f64], poses: Vec<f64>) -> Vec<PathSolution> {
-        let posed = |pose| self.posed(blind, pose, PoseWeights::FREE);
+        let posed = |pose| self.path_for_pose(blind, pose, PoseWeights::FREE);
         poses.into_par_iter().map(posed).collect()
     }
 
     /// Returns the best path for one pose.
-    fn posed(&self, blind: &[f64], pose: f64, weights: PoseWeights) -> PathSolution {
+    fn path_for_pose(&self, blind: &[f64], pose: f64, weights: PoseWeights) -> PathSolution {
         let [a, b] = [&self.source_features, &self.target_features];
-        let found = self.best_path(a.unlike_posed(b, blind, pose, weights));
+        let found = self.best_path(a.posed_dissimilarities(b, blind, pose, weights));
         PathSolution { pose, ..found }
     }
 
     /// Returns the rotations worth trying, most likely first, no two of them close to each other.
-    fn poses(&self, blind: &[f64]) -> Vec<f64> {
+    fn candidate_poses(&self, blind: &[f64]) -> Vec<f64> {
         let mut likely: Vec<(f64, f64)> = Vec::new();
         self.visit_paths(blind, |cost, nodes| {
             let rotation = self.rotation(&nodes());
             likely.push((score(cost, rotation), rotation));
         });
         likely.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut poses = distinct(likely.into_iter().map(|(_, pose)| pose));
+        let mut poses = distinct_poses(likely.into_iter().map(|(_, pose)| pose));
         poses.truncate(MAX_POSES);
         // Rotation 0 is always tried: most pairs are drawn upright.
         if poses.iter().all(|&p| are_apart(p, 0.0)) {
@@ -138,9 +138,9 @@ impl CurveMatchProblem {
     }
 
     /// Returns the path with the best score over all starts.
-    pub(super) fn best_path(&self, unlike: Vec<f64>) -> PathSolution {
+    pub(super) fn best_path(&self, dissimilarities: Vec<f64>) -> PathSolution {
         let mut best: Option<PathSolution> = None;
-        self.visit_paths(&unlike, |cost, nodes| {
+        self.visit_paths(&dissimilarities, |cost, nodes| {
             if best.as_ref().is_some_and(|b| cost >= b.score) {
                 return; // the rotation penalty is not negative
             }
@@ -150,7 +150,7 @@ impl CurveMatchProblem {
             if best.as_ref().is_none_or(|b| score < b.score) {
                 best = Some(PathSolution {
                     nodes,
-                    unlike: Vec::new(),
+                    dissimilarity: Vec::new(),
                     cost,
                     score,
                     pose: 0.0,
@@ -159,7 +159,10 @@ impl CurveMatchProblem {
             }
         });
         let best = best.unwrap_or_else(|| unreachable!("there is a path for each start"));
-        PathSolution { unlike, ..best }
+        PathSolution {
+            dissimilarity: dissimilarities,
+            ..best
+        }
     }
 }
 
@@ -169,14 +172,14 @@ fn score(cost: f64, rotation: f64) -> f64 {
 }
 
 /// Returns the poses that are not close to an earlier one.
-fn distinct(poses: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut kept: Vec<f64> = Vec::new();
+fn distinct_poses(poses: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut distinct: Vec<f64> = Vec::new();
     for pose in poses {
-        if kept.iter().all(|&other| are_apart(other, pose)) {
-            kept.push(pose);
+        if distinct.iter().all(|&other| are_apart(other, pose)) {
+            distinct.push(pose);
         }
     }
-    kept
+    distinct
 }
 
 /// Returns whether two rotations differ by more than the minimum distance.

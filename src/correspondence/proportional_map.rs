@@ -59,7 +59,7 @@ impl ProportionalMap {
 
     /// Moves each vertex between fixed vertices to the parameter of its own place, and sorts the
     /// vertices.
-    pub fn laid(&self, mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
+    pub fn placed_vertices(&self, mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
         for vertex in vertices.iter_mut().filter(|vertex| !vertex.is_fixed()) {
             let own = (0..2).find_map(|side| Some((side, vertex.places[side]?)));
             if let Some((side, place)) = own {

@@ -83,7 +83,7 @@ fn anchor_places(curve: &BoundaryCurve, spacing: f64, fixed: &[f64]) -> Vec<f64>
     anchors.dedup();
     // Strongest first: where corners crowd, the weaker ones are dropped.
     for (place, _) in corners(curve) {
-        insert_apart(&mut anchors, place, MIN_GAP * spacing);
+        insert_unless_close(&mut anchors, place, MIN_GAP * spacing);
     }
     if anchors.is_empty() {
         anchors.push(sharpest_bend(curve));
@@ -93,7 +93,7 @@ fn anchor_places(curve: &BoundaryCurve, spacing: f64, fixed: &[f64]) -> Vec<f64>
 
 /// Inserts a place into the ascending list unless another is closer than `gap`, cyclically. Returns
 /// whether it was inserted.
-fn insert_apart(places: &mut Vec<f64>, place: f64, gap: f64) -> bool {
+fn insert_unless_close(places: &mut Vec<f64>, place: f64, gap: f64) -> bool {
     let index = places.partition_point(|&k| k < place);
     let before = match index.checked_sub(1) {
         Some(k) => places[k],
@@ -119,8 +119,8 @@ pub(super) fn corners(curve: &BoundaryCurve) -> Vec<(f64, f64)> {
     };
     let mut candidates: Vec<(f64, f64)> = curve.places().iter().filter_map(is_corner).collect();
     candidates.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
-    let mut kept = Vec::new();
-    candidates.retain(|&(place, _)| insert_apart(&mut kept, place, narrow_reach));
+    let mut inserted = Vec::new();
+    candidates.retain(|&(place, _)| insert_unless_close(&mut inserted, place, narrow_reach));
     candidates
 }
 

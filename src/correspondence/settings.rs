@@ -103,7 +103,7 @@ pub enum HoleRule {
     Cut,
     /// The part moves as if it had no such hole. The hole shrinks away inside it, or grows, without
     /// deforming the part.
-    Alone,
+    Transient,
 }
 
 named! { HoleRule {
@@ -111,7 +111,7 @@ named! { HoleRule {
     Close: "close", "Close",
         "The hole closes to a point, or opens from one; the part deforms around it";
     Cut: "cut", "Cut", "The ring around the hole is cut open and unrolls";
-    Alone: "alone", "Appear or disappear",
+    Transient: "alone", "Appear or disappear",
         "The hole grows or shrinks; the part moves as if it had no hole";
 } }
 
@@ -126,7 +126,7 @@ pub enum PartRule {
     /// The part of the other design that fits best is split.
     Split,
     /// The part grows from a point, or shrinks to one.
-    Alone,
+    Transient,
 }
 
 named! { PartRule {
@@ -134,7 +134,7 @@ named! { PartRule {
         "A single part is split into several; otherwise unmatched parts appear or disappear";
     Split: "split", "Split",
         "The best-fitting part of the other design is cut into one piece for each";
-    Alone: "alone", "Appear or disappear", "The part grows from a point, or shrinks to one";
+    Transient: "alone", "Appear or disappear", "The part grows from a point, or shrinks to one";
 } }
 
 impl PointPair {

@@ -98,8 +98,8 @@ impl BoundaryMatch {
                 vertex.places[side].unwrap_or_else(|| common.place(own, side, curves[side]))
             })
         });
-        let vertices = spaced(straight.laid(vertices), spacing);
-        assembled(&vertices, &straight, curves)
+        let vertices = subdivide_gaps(straight.placed_vertices(vertices), spacing);
+        evaluate_polygons(&vertices, &straight, curves)
     }
 }
 
@@ -185,11 +185,11 @@ fn merge_nearest(knots: &mut Vec<ParameterKnot>, parameters: &[Vec<f64>; 2], lim
     });
     let mut pairs = Vec::new();
     for (k, &parameter) in warped[0].iter().enumerate() {
-        let Some(other) = nearest(&warped[1], parameter) else {
+        let Some(other) = nearest_index(&warped[1], parameter) else {
             continue;
         };
         // Require mutual neighbours: otherwise two vertices could merge with the same one.
-        let is_mutual = nearest(&warped[0], warped[1][other]) == Some(k);
+        let is_mutual = nearest_index(&warped[0], warped[1][other]) == Some(k);
         if is_mutual && (parameter - warped[1][other]).abs() <= limit {
             pairs.push([parameters[0][k], parameters[1][other]]);
         }
@@ -201,7 +201,7 @@ fn merge_nearest(knots: &mut Vec<ParameterKnot>, parameters: &[Vec<f64>; 2], lim
 
 /// Returns the index of the value nearest to `at` in an ascending list; ties go to the smaller
 /// value.
-fn nearest(list: &[f64], at: f64) -> Option<usize> {
+fn nearest_index(list: &[f64], at: f64) -> Option<usize> {
     let after = list.partition_point(|&x| x < at);
     let candidates = after.saturating_sub(1)..(after + 1).min(list.len());
     candidates.min_by(|&a, &b| (list[a] - at).abs().total_cmp(&(list[b] - at).abs()))
@@ -232,7 +232,7 @@ fn merge_equal(mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
 }
 
 /// Adds evenly spaced vertices between neighbours that are farther apart than `spacing`.
-fn spaced(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex> {
+fn subdivide_gaps(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex> {
     let mut spaced = Vec::with_capacity(vertices.len());
     for (k, &vertex) in vertices.iter().enumerate() {
         spaced.push(vertex);
@@ -253,7 +253,7 @@ fn spaced(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex> {
 }
 
 /// Evaluates the vertices on both curves, omitting consecutive duplicates.
-fn assembled(
+fn evaluate_polygons(
     vertices: &[SharedVertex],
     straight: &ProportionalMap,
     curves: [&BoundaryCurve; 2],

@@ -39,19 +39,19 @@ impl CurveMatchProblem {
     fn strictly_monotone(&self, solution: &PathSolution) -> Vec<[usize; 2]> {
         let fixed = self.fixed_nodes();
         if fixed.is_empty() {
-            let start = self.most_distinctive(solution);
-            let first = self.refined(solution, &self.cut_at(&solution.nodes, start));
+            let start = self.most_distinctive_node(solution);
+            let first = self.refine_section(solution, &self.rotated_to_start(&solution.nodes, start));
             // The refined path has longer steps, so it is expanded before the second cut.
             let expanded = unit_steps(&first);
             let far = first[first.len() / 2];
-            return self.refined(solution, &self.cut_at(&expanded, far));
+            return self.refine_section(solution, &self.rotated_to_start(&expanded, far));
         }
         let mut strict = vec![fixed[0]];
         for pair in fixed.windows(2) {
             let position = |node| solution.nodes.iter().position(|n| *n == node);
             if let (Some(from), Some(to)) = (position(pair[0]), position(pair[1])) {
                 strict.extend(
-                    self.refined(solution, &solution.nodes[from..=to])
+                    self.refine_section(solution, &solution.nodes[from..=to])
                         .into_iter()
                         .skip(1),
                 );
@@ -61,9 +61,9 @@ impl CurveMatchProblem {
     }
 
     /// Refines a section of a path; its ends are fixed.
-    fn refined(&self, solution: &PathSolution, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    fn refine_section(&self, solution: &PathSolution, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
         let [from, to] = [nodes[0], nodes[nodes.len() - 1]];
-        let grid = self.grid(&solution.unlike, from, to);
+        let grid = self.grid(&solution.dissimilarity, from, to);
         let local: Vec<_> = nodes
             .iter()
             .map(|n| [n[0] - from[0], n[1] - from[1]])
@@ -76,13 +76,13 @@ impl CurveMatchProblem {
     }
 
     /// Returns the node at which both curves bend strongly and resemble each other most.
-    fn most_distinctive(&self, solution: &PathSolution) -> [usize; 2] {
+    fn most_distinctive_node(&self, solution: &PathSolution) -> [usize; 2] {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let distinctiveness = |&[i, j]: &[usize; 2]| {
             let (i, j) = (i % n, j % m);
             let bend = (self.source_features.salience(i)).min(self.target_features.salience(j));
             // The factor makes similarity dominate over bending (heuristic).
-            bend - 4.0 * solution.unlike[j * n + i]
+            bend - 4.0 * solution.dissimilarity[j * n + i]
         };
         let mut best = solution.nodes[0];
         for node in &solution.nodes {
@@ -94,7 +94,7 @@ impl CurveMatchProblem {
     }
 
     /// Rotates a closed path so that it runs from node `start` to the same node one round later.
-    fn cut_at(&self, nodes: &[[usize; 2]], start: [usize; 2]) -> Vec<[usize; 2]> {
+    fn rotated_to_start(&self, nodes: &[[usize; 2]], start: [usize; 2]) -> Vec<[usize; 2]> {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let index = nodes.iter().position(|node| *node == start).unwrap_or(0);
         let ahead = nodes[index..nodes.len() - 1].iter().copied();

@@ -38,18 +38,18 @@ pub(super) fn log_thickness(curve: &BoundaryCurve, places: &[(f64, f64)]) -> Vec
         let from = curve.point_at(place);
         let mut lengths = RAYS.map(|k| {
             let angle = direction + inward_sign * 3.0 * FRAC_PI_6 + k * FRAC_PI_6;
-            edges.first_beyond(from, DVec2::from_angle(angle), OWN_EDGE * size)
+            edges.first_hit_beyond(from, DVec2::from_angle(angle), OWN_EDGE * size)
         });
         lengths.sort_by(f64::total_cmp);
         let median = lengths[RAYS.len() / 2].min(size);
         (median / size).max(OWN_EDGE).ln()
     };
-    centred(places.iter().map(log_at).collect(), places)
+    subtract_mean(places.iter().map(log_at).collect(), places)
 }
 
 /// Subtracts the mean along the curve from the values. Otherwise a design with long limbs, which
 /// has a larger area for the same limb thickness, would compare as thinner.
-fn centred(mut values: Vec<f64>, places: &[(f64, f64)]) -> Vec<f64> {
+fn subtract_mean(mut values: Vec<f64>, places: &[(f64, f64)]) -> Vec<f64> {
     let n = values.len();
     let gap = |from: usize, to: usize| (places[to].0 - places[from].0).rem_euclid(1.0);
     let weight = |k: usize| gap((k + n - 1) % n, k) + gap(k, (k + 1) % n);

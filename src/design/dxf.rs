@@ -62,24 +62,24 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, Dxf
     }
     let tolerance = tolerance.max(MIN_TOLERANCE) * side;
     let all: Vec<&DxfPath> = drawing.paths.iter().collect();
-    let (mut rings, open) = flattened(&all, tolerance, ROUNDING * side)?;
+    let (mut rings, open) = flatten_paths(&all, tolerance, ROUNDING * side)?;
     let count = open.len();
     let joined = join::join_curves(open, JOIN_TOLERANCE * side);
     rings.extend(joined.rings);
-    if let (true, Some(&at)) = (rings.is_empty(), joined.loose.first()) {
+    if let (true, Some(&at)) = (rings.is_empty(), joined.loose_ends.first()) {
         return Err(DxfError::Open { count, at });
     }
     let (regions, mut repairs) = Regions::from_rings_reporting(&rings, FillRule::EvenOdd)?;
     // `from_rings_reporting` counts duplicate rings, joining counts duplicate curves.
     repairs.duplicates += joined.duplicates;
-    let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
-    notes.extend(joined.loose.first().map(|&at| ImportNote::Open {
-        count: joined.loose.len(),
+    let mut notes = ImportNote::from_repairs(&repairs, FillRule::EvenOdd);
+    notes.extend(joined.loose_ends.first().map(|&at| ImportNote::OpenCurves {
+        count: joined.loose_ends.len(),
         at,
     }));
-    notes.extend(ImportNote::of_skipped(drawing.skipped));
+    notes.extend(ImportNote::from_skipped(drawing.skipped));
     Ok(ImportedOutlines {
-        coats: layers_by_style(&drawing.paths, tolerance, side)?,
+        paint_layers: layers_by_style(&drawing.paths, tolerance, side)?,
         extent: regions.bounds(),
         regions,
         notes,
@@ -95,12 +95,12 @@ fn layers_by_style(
     tolerance: f64,
     side: f64,
 ) -> Result<Vec<PaintLayer>, DxfError> {
-    if paths.iter().all(|path| path.drawn.1.is_none()) {
+    if paths.iter().all(|path| path.layer_and_colour.1.is_none()) {
         return Ok(Vec::new());
     }
     let mut paths_by_style: BTreeMap<_, Vec<&DxfPath>> = BTreeMap::new();
     for path in paths {
-        let (layer, rgb) = &path.drawn;
+        let (layer, rgb) = &path.layer_and_colour;
         let key = (layer, rgb.map(|Rgb(rgb)| rgb));
         paths_by_style.entry(key).or_default().push(path);
     }
@@ -108,9 +108,9 @@ fn layers_by_style(
     // Curves that do not close within their own style, and the index of that style.
     let (mut remaining, mut remaining_styles) = (Vec::new(), Vec::new());
     for (style, paths) in paths_by_style.values().enumerate() {
-        let (mut rings, open) = flattened(paths, tolerance, ROUNDING * side)?;
+        let (mut rings, open) = flatten_paths(paths, tolerance, ROUNDING * side)?;
         let joined = join::join_curves(open.clone(), JOIN_TOLERANCE * side);
-        let closed: BTreeSet<usize> = joined.of_rings.into_iter().flatten().collect();
+        let closed: BTreeSet<usize> = joined.ring_curves.into_iter().flatten().collect();
         rings.extend(joined.rings);
         rings_by_style.push(rings);
         let open = open.into_iter().enumerate();
@@ -119,7 +119,7 @@ fn layers_by_style(
         remaining_styles.resize(remaining.len(), style);
     }
     let joined = join::join_curves(remaining.clone(), JOIN_TOLERANCE * side);
-    for (ring, curves) in joined.rings.into_iter().zip(&joined.of_rings) {
+    for (ring, curves) in joined.rings.into_iter().zip(&joined.ring_curves) {
         let mut lengths = vec![0.0; rings_by_style.len()];
         for &curve in curves {
             let steps = remaining[curve]
@@ -151,7 +151,7 @@ type Polylines = Vec<Vec<DVec2>>;
 
 /// Flattens paths; returns closed polygons and open polylines. Both lengths are in drawing
 /// units.
-fn flattened(
+fn flatten_paths(
     paths: &[&DxfPath],
     tolerance: f64,
     rounding: f64,

@@ -43,7 +43,7 @@ pub enum ImportProblem {
     },
     /// No importer recognises the content.
     #[error(transparent)]
-    Unknown(#[from] UnknownFormat),
+    UnknownFormat(#[from] UnknownFormat),
     /// An import option is out of range.
     #[error(transparent)]
     Options(#[from] ImportOptionsError),

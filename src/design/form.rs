@@ -31,7 +31,7 @@ pub struct Design {
     /// Original pixels, if the design was imported from a picture.
     pub picture: Option<Picture>,
     /// Regions with their own colours, lowest first; empty if the file names no colours.
-    pub coats: Vec<PaintLayer>,
+    pub paint_layers: Vec<PaintLayer>,
     /// Repairs and omissions made during the import.
     pub notes: Vec<ImportNote>,
 }
@@ -65,7 +65,7 @@ impl Design {
             extent: form.bounds(),
             form,
             picture: None,
-            coats: Vec::new(),
+            paint_layers: Vec::new(),
             notes: Vec::new(),
         }
     }
@@ -80,11 +80,11 @@ impl Design {
     ///
     /// ```
     /// use morphospace::design::Design;
-    /// let kite = Design::of_rings("kite", [[(0.0, 0.0), (2.0, 1.0), (3.0, 3.0), (1.0, 2.0)]])?;
+    /// let kite = Design::from_rings("kite", [[(0.0, 0.0), (2.0, 1.0), (3.0, 3.0), (1.0, 2.0)]])?;
     /// assert!((kite.outline(0.0)?.area() - 3.0).abs() < 1e-9);
     /// # Ok::<(), morphospace::geometry::RegionsError>(())
     /// ```
-    pub fn of_rings<R, P>(
+    pub fn from_rings<R, P>(
         name: impl Into<String>,
         rings: impl IntoIterator<Item = R>,
     ) -> Result<Self, RegionsError>
@@ -97,7 +97,7 @@ impl Design {
         let rule = FillRule::EvenOdd;
         let (regions, repairs) = Regions::from_rings_reporting(&rings, rule)?;
         Ok(Self {
-            notes: ImportNote::of_repairs(&repairs, rule),
+            notes: ImportNote::from_repairs(&repairs, rule),
             ..Self::new(name, regions)
         })
     }
@@ -111,7 +111,7 @@ impl Design {
     /// # Errors
     /// [`SilhouetteError`] if an option is out of range or no figure can be separated from
     /// the background.
-    pub fn of_picture(
+    pub fn from_picture(
         name: impl Into<String>,
         pixels: RgbaImage,
         options: &ImportOptions,
@@ -129,17 +129,17 @@ impl Design {
             None => Err(PictureTones::of(&pixels, options)?),
         };
         let given = pixels.dimensions();
-        let picture = Picture::bounded(pixels);
+        let picture = Picture::downscaled(pixels);
         let regions = outline_or_tones.or_else(|tones| tones.regions(options))?;
         let kept = picture.pixels().dimensions();
-        let smaller = (kept != given).then_some(ImportNote::Smaller { given, kept });
+        let smaller = (kept != given).then_some(ImportNote::ReducedPicture { given, kept });
         Ok(Self {
             extent: picture.bounds(),
             picture: Some(picture),
             notes: (smaller.into_iter())
-                .chain(is_shaded.then_some(ImportNote::Shaded))
+                .chain(is_shaded.then_some(ImportNote::NoFlatColours))
                 .collect(),
-            coats: layers,
+            paint_layers: layers,
             ..Self::new(name, regions)
         })
     }
@@ -158,8 +158,8 @@ impl Design {
             },
             extent: Bounds::of(corners).unwrap_or(self.extent),
             picture: self.picture.as_ref().map(|picture| picture.transformed(by)),
-            coats: self
-                .coats
+            paint_layers: self
+                .paint_layers
                 .iter()
                 .map(|layer| layer.transformed(by))
                 .collect(),
@@ -172,7 +172,7 @@ impl Design {
     /// These pieces are matched when designs are shown in their own colours.
     #[must_use]
     pub fn painted_pieces(&self) -> Option<Regions> {
-        Regions::stacked(self.coats.iter().map(|layer| layer.regions.clone()))
+        Regions::stacked(self.paint_layers.iter().map(|layer| layer.regions.clone()))
     }
 
     /// Returns the filled area: an outline itself, the union of a mesh's triangles, or a
@@ -284,7 +284,7 @@ pub(super) struct ImportedOutlines {
     /// Page, or the bounding box.
     pub(super) extent: Bounds,
     /// Coloured regions, lowest first.
-    pub(super) coats: Vec<PaintLayer>,
+    pub(super) paint_layers: Vec<PaintLayer>,
     /// Repairs and omissions.
     pub(super) notes: Vec<ImportNote>,
 }
@@ -294,7 +294,7 @@ impl ImportedOutlines {
     pub(super) fn named(self, name: String) -> Design {
         Design {
             extent: self.extent,
-            coats: self.coats,
+            paint_layers: self.paint_layers,
             notes: self.notes,
             ..Design::new(name, self.regions)
         }

@@ -10,7 +10,7 @@ use std::path::Path;
 ///
 /// ```
 /// use morphospace::design::Format;
-/// let dxf = Format::ALL.into_iter().find(|format| format.ends("plan.DXF".as_ref()));
+/// let dxf = Format::ALL.into_iter().find(|format| format.matches_extension("plan.DXF".as_ref()));
 /// assert_eq!(dxf, Some(Format::Dxf));
 /// assert_eq!(Format::Dxf.name(), "DXF");
 /// ```
@@ -78,7 +78,7 @@ impl Format {
 
     /// Returns whether a path has an extension of this format, ignoring case.
     #[must_use]
-    pub fn ends(self, path: &Path) -> bool {
+    pub fn matches_extension(self, path: &Path) -> bool {
         let of_path = path.extension().unwrap_or_default();
         (self.extensions().iter()).any(|extension| of_path.eq_ignore_ascii_case(extension))
     }
@@ -130,8 +130,8 @@ mod tests {
 
     #[test]
     fn extensions_match_in_any_case_and_are_listed_once() {
-        assert!(Format::Svg.ends("a.b.SVG".as_ref()));
-        assert!(!Format::Svg.ends("svg".as_ref()));
+        assert!(Format::Svg.matches_extension("a.b.SVG".as_ref()));
+        assert!(!Format::Svg.matches_extension("svg".as_ref()));
         assert_eq!(
             extensions().join(" "),
             "png jpg jpeg bmp webp svg dxf obj json geojson"

@@ -38,7 +38,7 @@ pub fn import(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Desig
 /// # Errors
 /// [`ImportError`] names the file, the position in it and a remedy.
 pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Design, ImportError> {
-    DesignSource::of(path).import(options)
+    DesignSource::from_path(path).import(options)
 }
 
 impl DesignSource {
@@ -104,7 +104,7 @@ fn read(
     }
     Ok(match format {
         Format::Picture(format) => {
-            Design::of_picture(name, silhouette::decode(bytes, format)?, options)?
+            Design::from_picture(name, silhouette::decode(bytes, format)?, options)?
         }
         Format::Svg => svg::read(text(bytes)?, element, options)?.named(name),
         Format::Dxf => dxf::read(bytes, options.tolerance)?.named(name),

@@ -101,7 +101,7 @@ pub(super) fn read(
     let font = parsed_font(font.unwrap_or(BUNDLED_FONT))?;
     // Shaping would silently substitute a box for a missing character.
     check_characters(&font, text)?;
-    TextLine::shaped(&font, text)?.outlined(&font, tolerance)
+    TextLine::shape(&font, text)?.to_outlines(&font, tolerance)
 }
 
 /// Parses a font file; of a collection, returns the first font.
@@ -140,7 +140,7 @@ struct TextLine {
 
 impl TextLine {
     /// Shapes the text and positions its glyphs.
-    fn shaped(font: &FontRef, text: &str) -> Result<Self, TextError> {
+    fn shape(font: &FontRef, text: &str) -> Result<Self, TextError> {
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
         if metrics.units_per_em == 0 {
             return Err(TextError::Font("it does not define its em size"));
@@ -186,7 +186,7 @@ impl TextLine {
     }
 
     /// Converts the glyphs to united outlines.
-    fn outlined(&self, font: &FontRef, tolerance: f64) -> Result<ImportedOutlines, TextError> {
+    fn to_outlines(&self, font: &FontRef, tolerance: f64) -> Result<ImportedOutlines, TextError> {
         // At least one em, so that a single narrow letter is not flattened more finely.
         let longer = self.page.size().max_element().max(EM);
         let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
@@ -202,7 +202,7 @@ impl TextLine {
         }
         let regions = Regions::from_rings(&rings, FillRule::NonZero)?;
         Ok(ImportedOutlines {
-            coats: Vec::new(),
+            paint_layers: Vec::new(),
             extent: self.page.union(&regions.bounds()),
             regions,
             notes: Vec::new(),

@@ -37,12 +37,12 @@ pub enum ImportNote {
     /// Number of ignored duplicates of outlines.
     Duplicates(usize),
     /// Number of ignored outlines that enclose no area.
-    Flat(usize),
+    EmptyOutlines(usize),
     /// Number of ignored tiny pieces between touching edges.
     Slivers(usize),
     /// Number of removed points that repeat the previous point or lie on a straight line
     /// between their neighbours.
-    IdlePoints(usize),
+    RedundantPoints(usize),
     /// Number of ignored strokes of a drawing.
     Strokes(usize),
     /// Number of ignored text elements of a drawing.
@@ -54,31 +54,31 @@ pub enum ImportNote {
     /// Number of ignored pictures embedded in a drawing.
     Pictures(usize),
     /// Number of patterns and stroke gradients that were replaced by their mean colour.
-    Shades(usize),
+    MeanColours(usize),
     /// Number of ignored masks of a drawing.
     Masks(usize),
     /// Number of elements whose filter was ignored.
     Filters(usize),
     /// Number of groups whose opacity or blend mode is only approximated.
-    Blends(usize),
+    GroupBlending(usize),
     /// The colours of a large picture were stored at a lower resolution.
-    Smaller {
+    ReducedPicture {
         /// Original width and height in pixels.
         given: (u32, u32),
         /// Stored width and height in pixels.
         kept: (u32, u32),
     },
     /// Flat colours were requested as parts, but the picture has no flat colours.
-    Shaded,
+    NoFlatColours,
     /// Curves that do not close were ignored.
-    Open {
+    OpenCurves {
         /// Number of curves.
         count: usize,
         /// Free end of one of the curves.
         at: DVec2,
     },
     /// Objects of a type that is not imported.
-    Skipped {
+    SkippedObjects {
         /// Type name as written in the file.
         kind: String,
         /// Number of objects.
@@ -88,7 +88,7 @@ pub enum ImportNote {
 
 impl ImportNote {
     /// Returns the notes for the repairs of outlines under a fill rule.
-    pub(super) fn of_repairs(found: &Repairs, rule: FillRule) -> Vec<Self> {
+    pub(super) fn from_repairs(found: &Repairs, rule: FillRule) -> Vec<Self> {
         let at_least = found.at_least;
         let crossings = Self::Crossings {
             count: found.crossings,
@@ -104,18 +104,18 @@ impl ImportNote {
             (found.crossings, crossings),
             (found.touches, touches),
             (found.duplicates, Self::Duplicates(found.duplicates)),
-            (found.flat, Self::Flat(found.flat)),
+            (found.flat, Self::EmptyOutlines(found.flat)),
             (found.slivers, Self::Slivers(found.slivers)),
-            (found.idle_points, Self::IdlePoints(found.idle_points)),
+            (found.idle_points, Self::RedundantPoints(found.idle_points)),
         ];
         let nonzero = counted.into_iter().filter(|&(count, _)| count > 0);
         nonzero.map(|(_, note)| note).collect()
     }
 
     /// Returns one note for each type of ignored objects, given the counts.
-    pub(super) fn of_skipped(kinds: BTreeMap<String, usize>) -> impl Iterator<Item = Self> {
+    pub(super) fn from_skipped(kinds: BTreeMap<String, usize>) -> impl Iterator<Item = Self> {
         let kinds = kinds.into_iter();
-        kinds.map(|(kind, count)| Self::Skipped { kind, count })
+        kinds.map(|(kind, count)| Self::SkippedObjects { kind, count })
     }
 }
 
@@ -154,7 +154,7 @@ impl fmt::Display for ImportNote {
             Self::Duplicates(n) => {
                 write_ignored(f, *n, ["duplicate outline", "duplicate outlines"])
             }
-            Self::Flat(n) => {
+            Self::EmptyOutlines(n) => {
                 let one = "outline that encloses no area";
                 write_ignored(f, *n, [one, "outlines that enclose no area"])
             }
@@ -162,20 +162,20 @@ impl fmt::Display for ImportNote {
                 let one = "sliver between touching edges";
                 write_ignored(f, *n, [one, "slivers between touching edges"])
             }
-            Self::IdlePoints(n) => {
+            Self::RedundantPoints(n) => {
                 let one = "redundant point (repeated or on a straight edge)";
                 let many = "redundant points (repeated or on a straight edge)";
                 write_ignored(f, *n, [one, many])
             }
-            Self::Smaller { given, kept } => write_reduced(f, *given, *kept),
-            Self::Shaded => f.write_str(
+            Self::ReducedPicture { given, kept } => write_reduced(f, *given, *kept),
+            Self::NoFlatColours => f.write_str(
                 "the picture has no flat colours; its silhouette was imported as one part",
             ),
-            Self::Open { count, at } => {
+            Self::OpenCurves { count, at } => {
                 write_ignored(f, *count, ["open curve", "open curves"])?;
                 write!(f, "; close the gap at ({}, {})", at.x, at.y)
             }
-            Self::Skipped { kind, count } => {
+            Self::SkippedObjects { kind, count } => {
                 let kinds = ["object", "objects"]
                     .map(|what| format!("{what} of type {}", SanitizedLine(kind)));
                 write_ignored(f, *count, kinds)
@@ -185,10 +185,10 @@ impl fmt::Display for ImportNote {
             | Self::Font(_)
             | Self::Characters(_)
             | Self::Pictures(_)
-            | Self::Shades(_)
+            | Self::MeanColours(_)
             | Self::Masks(_)
             | Self::Filters(_)
-            | Self::Blends(_) => self.write_drawing_note(f),
+            | Self::GroupBlending(_) => self.write_drawing_note(f),
         }
     }
 }
@@ -215,7 +215,7 @@ impl ImportNote {
                 f.write_str(" because no installed font provides outlines; convert text to paths")
             }
             Self::Pictures(n) => write_ignored(f, *n, ["embedded picture", "embedded pictures"]),
-            Self::Shades(n) => {
+            Self::MeanColours(n) => {
                 let what = ["pattern or stroke gradient", "patterns or stroke gradients"];
                 let (what, were) = (number(what, *n), number(["was", "were"], *n));
                 write!(f, "{n} {what} {were} replaced by the mean colour")
@@ -225,7 +225,7 @@ impl ImportNote {
                 f.write_str("; use clip paths instead")
             }
             Self::Filters(n) => write_ignored(f, *n, ["filter", "filters"]),
-            Self::Blends(n) => {
+            Self::GroupBlending(n) => {
                 let (what, were) = (number(["group", "groups"], *n), number(["is", "are"], *n));
                 write!(
                     f,
@@ -297,7 +297,7 @@ mod tests {
             idle_points: 1,
             ..Repairs::default()
         };
-        let words: Vec<_> = ImportNote::of_repairs(&found, FillRule::EvenOdd)
+        let words: Vec<_> = ImportNote::from_repairs(&found, FillRule::EvenOdd)
             .iter()
             .map(ToString::to_string)
             .collect();
@@ -309,7 +309,7 @@ mod tests {
                 "1 redundant point (repeated or on a straight edge) was ignored",
             ]
         );
-        let open = ImportNote::Open {
+        let open = ImportNote::OpenCurves {
             count: 2,
             at: DVec2::new(1.5, -2.0),
         };

@@ -56,7 +56,7 @@ pub enum ObjFault {
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("vertex {0} {RANGE_MESSAGE}")]
-    Place(usize),
+    CoordinateRange(usize),
     /// The vertices do not all have the same z.
     #[error(
         "vertex {vertex} has z = {z}, but vertex 1 has z = {first}; flatten the mesh to constant z"
@@ -163,7 +163,7 @@ impl ObjParser {
             _ => return Err(ObjFault::Vertex(vertex)),
         };
         if !(is_in_range(p) && z.is_finite()) {
-            return Err(ObjFault::Place(vertex));
+            return Err(ObjFault::CoordinateRange(vertex));
         }
         if self.positions.is_empty() {
             self.first_z = z;

@@ -33,7 +33,7 @@ impl PaintLayer {
             gradient: self
                 .gradient
                 .as_ref()
-                .map(|gradient| gradient.moved(by.affine())),
+                .map(|gradient| gradient.transformed(by.affine())),
             line: self.line.map(|line| StrokeStyle {
                 width: by.scale * line.width,
                 ..line
@@ -75,7 +75,7 @@ pub(super) fn stack_by_containment(groups: &[PaintGroup]) -> Vec<PaintLayer> {
     let layer = |((height, group), numbers): ((usize, usize), Vec<usize>)| {
         let group = &groups[group];
         let layer = PaintLayer {
-            regions: group.regions.only(&numbers)?,
+            regions: group.regions.subset(&numbers)?,
             paint: group.paint,
             gradient: None,
             line: None,

@@ -41,7 +41,7 @@ impl Picture {
 
     /// Creates a picture as [`Self::new`] does, but halves the resolution until at most
     /// [`MAX_STORED_PIXELS`] remain. The placement compensates for the smaller size.
-    pub(super) fn bounded(mut pixels: RgbaImage) -> Self {
+    pub(super) fn downscaled(mut pixels: RgbaImage) -> Self {
         let mut scale = 1.0;
         while u64::from(pixels.width()) * u64::from(pixels.height()) > MAX_STORED_PIXELS {
             let half = |side: u32| (side / 2).max(1);
@@ -121,13 +121,13 @@ mod tests {
 
     #[test]
     fn a_large_picture_is_downscaled_but_covers_the_same_area() {
-        let large = Picture::bounded(RgbaImage::new(6000, 4000));
+        let large = Picture::downscaled(RgbaImage::new(6000, 4000));
         assert_eq!(large.pixels().dimensions(), (3000, 2000));
         assert_eq!(large.bounds().max, DVec2::new(6000.0, 4000.0));
-        let small = Picture::bounded(RgbaImage::new(4096, 4096));
+        let small = Picture::downscaled(RgbaImage::new(4096, 4096));
         assert_eq!(small, Picture::new(RgbaImage::new(4096, 4096)));
         // The side of one pixel is not halved.
-        let thin = Picture::bounded(RgbaImage::new(1 << 25, 1));
+        let thin = Picture::downscaled(RgbaImage::new(1 << 25, 1));
         assert_eq!(thin.pixels().dimensions(), (1 << 24, 1));
     }
 

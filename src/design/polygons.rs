@@ -51,7 +51,7 @@ pub(super) fn read(text: &str) -> Result<ImportedOutlines, PolygonsImportError> 
     let mut collector = PolygonCollector::default();
     match &value {
         Value::Object(object) if object.contains_key("type") => collector.geojson(&value)?,
-        Value::Object(_) => collector.named(&value)?,
+        Value::Object(_) => collector.read_named_members(&value)?,
         _ => collector.list(&value)?,
     }
     // The collector holds copies; free the document before the union needs memory.
@@ -110,7 +110,7 @@ struct PolygonCollector {
 
 impl PolygonCollector {
     /// Reads plain JSON with the lists in named members.
-    fn named(&mut self, object: &Value) -> Result<(), PolygonsImportError> {
+    fn read_named_members(&mut self, object: &Value) -> Result<(), PolygonsImportError> {
         self.polygons.extend(read_member(object, "rings", rings)?);
         let all = read_member(object, "polygons", polygons)?;
         self.polygons.extend(all.into_iter().flatten());
@@ -203,7 +203,7 @@ impl PolygonCollector {
             // One at a time: under the even-odd rule, overlapping polygons would leave a hole.
             match Regions::from_rings_reporting(rings, FillRule::EvenOdd) {
                 Ok((regions, own_repairs)) => {
-                    repairs = repairs.and(own_repairs);
+                    repairs = repairs.merged_with(own_repairs);
                     let rings = regions.rings().map(|r| r.points().to_vec());
                     let rings: Vec<JsonRing> = rings.collect();
                     let style = self.inks.get(k).cloned().unwrap_or_default();
@@ -225,10 +225,10 @@ impl PolygonCollector {
             return Err(empty_error.into());
         }
         let regions = Regions::from_rings(&united, FillRule::NonZero)?;
-        let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
-        notes.extend(ImportNote::of_skipped(self.skipped));
+        let mut notes = ImportNote::from_repairs(&repairs, FillRule::EvenOdd);
+        notes.extend(ImportNote::from_skipped(self.skipped));
         Ok(ImportedOutlines {
-            coats: layers_by_style(styled),
+            paint_layers: layers_by_style(styled),
             extent: regions.bounds(),
             regions,
             notes,

@@ -179,17 +179,18 @@ pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, Sil
         return Err(SilhouetteError::Truncated);
     }
     // The PNG decoder searches for pixel data before it reports the size.
-    if let Some(size) = png_header_size(bytes, format) {
-        check_size(size)?;
+    if let Some((width, height)) = png_header_size(bytes, format) {
+        check_size(width, height)?;
     }
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_PIXELS * 8); // four channels of 16 bits
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
-    let mut decoder = reader.into_decoder().map_err(damaged)?;
-    check_size(decoder.dimensions())?;
-    let orientation = decoder.orientation().map_err(damaged)?;
-    let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+    let mut decoder = reader.into_decoder().map_err(classify_decode_error)?;
+    let (width, height) = decoder.dimensions();
+    check_size(width, height)?;
+    let orientation = decoder.orientation().map_err(classify_decode_error)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(classify_decode_error)?;
     picture.apply_orientation(orientation);
     Ok(picture.into_rgba8())
 }
@@ -203,7 +204,7 @@ fn png_header_size(bytes: &[u8], format: ImageFormat) -> Option<(u32, u32)> {
 }
 
 /// Checks that a picture is neither empty nor too large.
-fn check_size((width, height): (u32, u32)) -> Result<(), SilhouetteError> {
+fn check_size(width: u32, height: u32) -> Result<(), SilhouetteError> {
     match u64::from(width) * u64::from(height) {
         0 => Err(SilhouetteError::NoPixels),
         1..=MAX_PIXELS => Ok(()),
@@ -212,7 +213,7 @@ fn check_size((width, height): (u32, u32)) -> Result<(), SilhouetteError> {
 }
 
 /// Classifies a decoder error as an incomplete or a damaged file.
-fn damaged(error: ImageError) -> SilhouetteError {
+fn classify_decode_error(error: ImageError) -> SilhouetteError {
     match &error {
         ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
             SilhouetteError::Truncated

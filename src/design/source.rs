@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 ///
 /// ```
 /// use morphospace::design::{DesignSource, ImportOptions};
-/// let source = DesignSource::of("glyph:D".as_ref());
+/// let source = DesignSource::from_path("glyph:D".as_ref());
 /// let design = source.import(&ImportOptions::default())?;
 /// assert_eq!(design.name, "D");
 /// # Ok::<(), morphospace::design::ImportError>(())
@@ -55,24 +55,24 @@ impl DesignSource {
     /// Parses a path. Looks up whether a file exists to distinguish a file name with `#`
     /// from an element id; reads no file.
     #[must_use]
-    pub fn of(path: &Path) -> Self {
+    pub fn from_path(path: &Path) -> Self {
         Self::parse(path, Path::is_file)
     }
 
     /// Parses a path relative to a folder; file paths in the result include the folder.
     #[must_use]
     pub fn in_folder(folder: &Path, path: &Path) -> Self {
-        Self::parse(path, |file| folder.join(file).is_file()).at(|file| folder.join(file))
+        Self::parse(path, |file| folder.join(file).is_file()).map_file(|file| folder.join(file))
     }
 
     /// Parses a path. `is_file` reports which files exist.
     #[must_use]
     pub fn parse(path: &Path, is_file: impl Fn(&Path) -> bool) -> Self {
         let Some(notation) = path.to_str() else {
-            return Self::file_of(path);
+            return Self::from_file_path(path);
         };
         if let Some(glyphs) = notation.strip_prefix(GLYPH) {
-            return text_of(glyphs);
+            return parse_text(glyphs);
         }
         // The last `#`, because folder names may contain one.
         match notation.rsplit_once('#') {
@@ -82,11 +82,11 @@ impl DesignSource {
                     element: Some(id.to_owned()),
                 }
             }
-            _ => Self::file_of(path),
+            _ => Self::from_file_path(path),
         }
     }
 
-    fn file_of(path: &Path) -> Self {
+    fn from_file_path(path: &Path) -> Self {
         Self::File {
             path: path.to_owned(),
             element: None,
@@ -104,7 +104,7 @@ impl DesignSource {
 
     /// Replaces the path of the file, if there is one, by the result of `to`.
     #[must_use]
-    pub fn at(self, to: impl FnOnce(&Path) -> PathBuf) -> Self {
+    pub fn map_file(self, to: impl FnOnce(&Path) -> PathBuf) -> Self {
         match self {
             Self::File { path, element } => Self::File {
                 path: to(&path),
@@ -159,7 +159,7 @@ impl DesignSource {
 }
 
 /// Parses the text and font after `glyph:`.
-fn text_of(written: &str) -> DesignSource {
+fn parse_text(written: &str) -> DesignSource {
     let is_font = |path: &str| {
         let extension = Path::new(path).extension().and_then(|e| e.to_str());
         extension.is_some_and(|e| FONTS.iter().any(|font| e.eq_ignore_ascii_case(font)))
@@ -169,14 +169,14 @@ fn text_of(written: &str) -> DesignSource {
         _ => (written, None),
     };
     DesignSource::Text {
-        text: percent_decoded(text),
+        text: percent_decode(text),
         font,
     }
 }
 
 /// Decodes percent-encoding. Invalid codes stay as they are, and so does the whole text if
 /// the decoded bytes are not UTF-8.
-fn percent_decoded(text: &str) -> String {
+fn percent_decode(text: &str) -> String {
     let mut parts = text.split('%');
     let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
     for part in parts {
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn only_the_file_path_is_replaced() {
-        let moved = |written: &str| parsed(written).at(|file| Path::new("up").join(file));
+        let moved = |written: &str| parsed(written).map_file(|file| Path::new("up").join(file));
         assert_eq!(moved("a.svg#b"), file("up/a.svg", Some("b")));
         assert_eq!(moved("glyph:D@y.ttf"), text("D", Some("up/y.ttf")));
         assert_eq!(moved("glyph:D"), text("D", None));

@@ -101,7 +101,7 @@ pub(super) fn read(
             None => page,
         },
         regions,
-        coats: layers,
+        paint_layers: layers,
     })
 }
 

@@ -34,7 +34,7 @@ pub fn write_apng(
     let mut output = BufWriter::new(file.file_mut());
     let mut writer =
         writer(&mut output, camera, film, runs.len()).map_err(ExportError::encode(path))?;
-    camera.shoot_runs(
+    camera.draw_runs(
         &runs,
         DRAWING_STAGE,
         &ProgressSpan::new(progress, 0.0, DRAWN_FRACTION),
@@ -51,7 +51,7 @@ pub fn write_apng(
     // Flushed explicitly, because dropping the buffer would ignore write errors.
     output.flush().map_err(ExportError::write(path))?;
     drop(output);
-    let written = file.written().map_err(ExportError::write(path))?;
+    let written = file.reread().map_err(ExportError::write(path))?;
     let checking = ProgressSpan::new(progress, DRAWN_FRACTION, 1.0);
     check_apng(written, runs.len(), path, &checking)?;
     file.commit().map_err(ExportError::write(path))
@@ -133,7 +133,7 @@ mod tests {
             let control = reader.info().animation_control().expect("animated");
             assert_eq!((control.num_frames, control.num_plays), (4, 1));
             for &t in film.times() {
-                let exact = samples(&rasterise(&camera.shoot(t)), ground.is_some());
+                let exact = samples(&rasterise(&camera.draw(t)), ground.is_some());
                 let mut decoded = vec![0; exact.len()];
                 reader.next_frame(&mut decoded).expect("a frame");
                 assert!(exact == decoded, "t = {t}");

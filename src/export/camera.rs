@@ -66,23 +66,23 @@ impl Camera {
 
     /// Returns the frame at `t` as an SVG document.
     pub fn svg(&self, t: f64) -> String {
-        to_svg(&self.shoot(t))
+        to_svg(&self.draw(t))
     }
 
     /// Returns the frame at `t` as pixels with straight alpha.
     pub fn pixels(&self, t: f64) -> RgbaImage {
-        rasterise(&self.shoot(t))
+        rasterise(&self.draw(t))
     }
 
     /// Returns the frame at `t` as a drawing.
-    pub fn shoot(&self, t: f64) -> Drawing {
-        self.drawn(&self.sequence.frame(t))
+    pub fn draw(&self, t: f64) -> Drawing {
+        self.draw_frame(&self.sequence.frame(t))
     }
 
     /// Returns the drawing of an evaluated frame of this sequence.
-    pub(super) fn drawn(&self, frame: &SequenceFrame) -> Drawing {
+    pub(super) fn draw_frame(&self, frame: &SequenceFrame) -> Drawing {
         let style = frame.style(&self.style);
-        let mut drawing = Drawing::of_frame(frame.now(), &style, &self.view, self.ground);
+        let mut drawing = Drawing::of_frame(frame.frame(), &style, &self.view, self.ground);
         if let Some(captions) = &self.captions {
             captions.push(&mut drawing, frame.t());
         }
@@ -95,7 +95,7 @@ impl Camera {
     ///
     /// # Errors
     /// [`ExportError::Cancelled`], or the first error of `make` or `take`.
-    pub fn shoot_runs<T: Send>(
+    pub fn draw_runs<T: Send>(
         &self,
         runs: &[FrameRun],
         stage: &'static str,
@@ -113,7 +113,7 @@ impl Camera {
                     return Err(Cancelled.into());
                 }
                 frame.seek(run.t);
-                make(self.drawn(frame))
+                make(self.draw_frame(frame))
             };
             // A frame owns its working memory, so each thread gets one.
             let frame_of_thread = || self.sequence.frame(batch[0].t);
@@ -146,7 +146,7 @@ pub fn framing(shown: impl Into<Sequence>, times: &[f64]) -> Bounds {
     let mut framed = sequence.bounds();
     for &t in sampled {
         frame.seek(t);
-        let figure = frame.now().figure();
+        let figure = frame.frame().figure();
         let half_width = 0.5 * figure.bar_width;
         let ring_bounds = Bounds::of(figure.rings.iter().flatten().copied());
         let axis_bounds = Bounds::of(figure.bars.iter().flatten().copied());

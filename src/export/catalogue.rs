@@ -13,7 +13,7 @@ use super::target::StillKind;
 use super::view::PlaneView;
 use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
-use crate::io::file_name::safe;
+use crate::io::file_name::safe_file_name;
 use crate::io::sanitize::SanitizedLine;
 use crate::measure::{BlendMeasures, BlendSampler};
 use crate::project::SavedPlace;
@@ -31,7 +31,7 @@ const LONGER_SIDE_PX: u32 = 960;
 pub enum CatalogueOrder {
     /// In the order in which they were saved.
     #[default]
-    Kept,
+    Saved,
     /// Highest rating first.
     Stars,
     /// Alphabetically by name.
@@ -45,7 +45,7 @@ pub enum CatalogueOrder {
 }
 
 named! { CatalogueOrder {
-    Kept: "kept", "As saved", "In the order in which they were saved";
+    Saved: "kept", "As saved", "In the order in which they were saved";
     Stars: "stars", "Stars", "Highest rating first";
     Name: "name", "Name", "Alphabetically by name";
     Area: "area", "Area", "Smallest area first";
@@ -75,7 +75,8 @@ impl Catalogue {
     /// If the map does not have one site per design of the space.
     #[must_use]
     pub fn new(
-        (space, map): (&DesignSpace, &WeightMap),
+        space: &DesignSpace,
+        map: &WeightMap,
         saved: &[SavedPlace],
         least_stars: u8,
         order: CatalogueOrder,
@@ -86,10 +87,10 @@ impl Catalogue {
             map.weights(saved.at, &mut weights);
             let mut saved = saved.clone();
             if saved.name.is_empty() {
-                saved.name = space.told(&weights);
+                saved.name = space.blend_label(&weights);
             }
             CatalogueEntry {
-                measures: sampler.at(&weights),
+                measures: sampler.measure(&weights),
                 weights,
                 saved,
             }
@@ -99,7 +100,7 @@ impl Catalogue {
         let distortion =
             |entry: &CatalogueEntry| entry.measures.quality.conformal_p95.unwrap_or(1.0);
         entries.sort_by(|a, b| match order {
-            CatalogueOrder::Kept => std::cmp::Ordering::Equal,
+            CatalogueOrder::Saved => std::cmp::Ordering::Equal,
             CatalogueOrder::Stars => b.saved.stars.cmp(&a.saved.stars),
             CatalogueOrder::Name => a.saved.name.cmp(&b.saved.name),
             CatalogueOrder::Area => a.measures.area.total_cmp(&b.measures.area),
@@ -130,7 +131,8 @@ impl Catalogue {
     pub fn write(
         &self,
         space: &DesignSpace,
-        (style, ground): (&TransitionStyle, Option<Rgb>),
+        style: &TransitionStyle,
+        ground: Option<Rgb>,
         folder: &Path,
         progress: &dyn Progress,
     ) -> Result<Vec<PathBuf>, ExportError> {
@@ -274,7 +276,7 @@ impl Catalogue {
 /// File name without extension: the number of the place and the words of its name. The number makes
 /// it unique; the words have no spaces or punctuation.
 fn stem(k: usize, saved: &SavedPlace) -> String {
-    let name = safe(&saved.name);
+    let name = safe_file_name(&saved.name);
     let words: Vec<&str> = name
         .split(|c: char| !c.is_alphanumeric())
         .filter(|word| !word.is_empty())
@@ -295,11 +297,11 @@ mod tests {
     fn space() -> (DesignSpace, WeightMap) {
         let tent = |name: &str, h: f64| {
             let ring = [[0.0, 0.0], [2.0, 0.0], [1.0, h]];
-            Arc::new(Design::of_rings(name, [ring]).expect("a design"))
+            Arc::new(Design::from_rings(name, [ring]).expect("a design"))
         };
         let designs = vec![tent("low", 1.0), tent("high", 2.0), tent("tower", 4.0)];
         let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space");
-        let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+        let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances())).expect("sites");
         (space, map)
     }
 
@@ -322,9 +324,10 @@ mod tests {
         let saved = saved(&map);
         let folder = tempfile::tempdir().expect("a folder");
         let to = folder.path().join("new/catalogue");
-        let catalogue = Catalogue::new((&space, &map), &saved, 0, CatalogueOrder::Area);
-        let look = (&TransitionStyle::default(), None);
-        let written = catalogue.write(&space, look, &to, &Silent).expect("files");
+        let catalogue = Catalogue::new(&space, &map, &saved, 0, CatalogueOrder::Area);
+        let written = catalogue
+            .write(&space, &TransitionStyle::default(), None, &to, &Silent)
+            .expect("files");
         assert_eq!(written.len(), 3 * 2 + 2);
         assert!(written.iter().all(|path| path.exists()));
         let table = std::fs::read_to_string(to.join("catalogue.csv")).expect("a table");
@@ -337,7 +340,7 @@ mod tests {
     #[test]
     fn places_can_be_filtered_by_stars() {
         let (space, map) = space();
-        let all = Catalogue::new((&space, &map), &saved(&map), 1, CatalogueOrder::Stars);
+        let all = Catalogue::new(&space, &map, &saved(&map), 1, CatalogueOrder::Stars);
         let stars = all.entries.iter().map(|entry| entry.saved.stars);
         assert_eq!(stars.collect::<Vec<_>>(), [5, 2]);
     }
@@ -350,7 +353,7 @@ mod tests {
             ..SavedPlace::new(site)
         };
         let saved: Vec<SavedPlace> = map.sites().iter().map(|site| long(*site)).collect();
-        let catalogue = Catalogue::new((&space, &map), &saved, 0, CatalogueOrder::Kept);
+        let catalogue = Catalogue::new(&space, &map, &saved, 0, CatalogueOrder::Saved);
         let sheet = catalogue.sheet(&space, &TransitionStyle::default(), None);
         let spans = sheet.items.iter().filter_map(|item| match item {
             DrawingItem::Fill {
@@ -358,7 +361,7 @@ mod tests {
                 label: Some(_),
                 ..
             } => {
-                let xs = outline.steps.iter().filter_map(|step| match step {
+                let xs = outline.commands.iter().filter_map(|step| match step {
                     PathCommand::Move(p) | PathCommand::Line(p) => Some(p.x),
                     _ => None,
                 });

@@ -15,7 +15,7 @@ use crate::work::progress::{Cancelled, Progress};
 
 use super::camera::framing;
 use super::drawing::Drawing;
-use super::labels::{ERROR_COLOUR, LabelStyle, text_colour_on, time_label};
+use super::labels::{ERROR_COLOUR, LabelBox, LabelStyle, text_colour_on, time_label};
 use super::size::{MAX_SHEET_SIDE_PX, PixelSize, PixelSizeError};
 use super::view::PlaneView;
 
@@ -30,7 +30,7 @@ const NAMES_PX: f64 = 180.0;
 
 /// Style of names, labels and error messages.
 const LABEL_STYLE: LabelStyle = LabelStyle {
-    letters_px: 15.0,
+    font_px: 15.0,
     line_px: 20.0,
 };
 
@@ -39,7 +39,7 @@ const LINE_PX: f64 = LABEL_STYLE.line_px;
 
 /// Style of the rating below a method's name.
 const REMARK_STYLE: LabelStyle = LabelStyle {
-    letters_px: 12.0,
+    font_px: 12.0,
     line_px: 15.0,
 };
 
@@ -67,12 +67,12 @@ impl MethodRow {
     pub fn all(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Vec<Self>, Cancelled> {
         let is_colours = |cell: TransitionMethod| cell.content() == ContentKind::Colours;
         let suits = |cell: &TransitionMethod| {
-            is_colours(*cell) == is_colours(spec.cell)
+            is_colours(*cell) == is_colours(spec.method)
                 && TransitionSpec::available(*cell, &spec.source, &spec.target).is_ok()
         };
         let row = |cell: TransitionMethod| {
             let spec = TransitionSpec {
-                cell,
+                method: cell,
                 ..spec.clone()
             };
             let transition = match Transition::build(&spec, progress) {
@@ -114,22 +114,14 @@ pub fn comparison_sheet(
     let corner = DVec2::new(NAMES_PX + 2.0 * GAP_PX, GAP_PX);
     let count = DVec2::new(times.len() as f64, rows.len() as f64);
     let size = corner + count * step + DVec2::new(0.0, LINE_PX + GAP_PX);
-    let mut drawing = Drawing::new(PixelSize::holding(size)?, ground);
+    let mut drawing = Drawing::new(PixelSize::rounded_up(size)?, ground);
     let ink = text_colour_on(ground);
     let ratings: Vec<Option<FilmRating>> = rows.iter().map(|row| row.rating).collect();
-    let best = FilmRating::best(&ratings);
+    let best = FilmRating::index_of_best(&ratings);
     for (k, row) in rows.iter().enumerate() {
         let left = DVec2::new(corner.x, corner.y + k as f64 * step.y);
         let name_corner = DVec2::new(GAP_PX, left.y + 0.5 * cell.y - 2.0 * LINE_PX);
-        let name_lines = LABEL_STYLE.push(&mut drawing, &row.name, (NAMES_PX, 2), name_corner, ink);
-        if let Some(rating) = &row.rating {
-            let (words, colour) = match best == Some(k) {
-                true => (format!("Best: {rating}"), BEST_COLOUR),
-                false => (rating.to_string(), ink),
-            };
-            let below = name_corner + DVec2::new(0.0, name_lines as f64 * LINE_PX);
-            REMARK_STYLE.push(&mut drawing, &words, (NAMES_PX, 3), below, colour);
-        }
+        push_name(&mut drawing, row, best == Some(k), name_corner);
         match (&row.transition, bounds) {
             (Ok(transition), Some(bounds)) => {
                 let mut frame = transition.frame(0.0);
@@ -141,20 +133,47 @@ pub fn comparison_sheet(
                 }
             }
             (Err(reason), _) => {
-                let room = times.len() as f64 * step.x;
-                let at = DVec2::new(left.x, name_corner.y);
-                LABEL_STYLE.push(&mut drawing, reason, (room, 4), at, ERROR_COLOUR);
+                let area = LabelBox {
+                    corner: DVec2::new(left.x, name_corner.y),
+                    width_px: times.len() as f64 * step.x,
+                    max_lines: 4,
+                };
+                LABEL_STYLE.push(&mut drawing, reason, area, ERROR_COLOUR);
             }
             // Bounds exist as soon as one transition was built, so this case does not occur.
             (Ok(_), None) => {}
         }
     }
-    let middle = DVec2::new(0.5 * cell.x, count.y * step.y + LABEL_STYLE.letters_px);
+    let middle = DVec2::new(0.5 * cell.x, count.y * step.y + LABEL_STYLE.font_px);
     for (i, &t) in times.iter().enumerate() {
         let base = corner + middle + DVec2::new(i as f64 * step.x, 0.0);
-        drawing.push_label(&time_label(t), base, LABEL_STYLE.letters_px, ink);
+        drawing.push_label(&time_label(t), base, LABEL_STYLE.font_px, ink);
     }
     Ok(drawing)
+}
+
+/// Draws the name of a method, and its rating below.
+fn push_name(drawing: &mut Drawing, row: &MethodRow, is_best: bool, corner: DVec2) {
+    let ink = text_colour_on(drawing.ground);
+    let name_area = LabelBox {
+        corner,
+        width_px: NAMES_PX,
+        max_lines: 2,
+    };
+    let name_lines = LABEL_STYLE.push(drawing, &row.name, name_area, ink);
+    let Some(rating) = &row.rating else {
+        return;
+    };
+    let (words, colour) = match is_best {
+        true => (format!("Best: {rating}"), BEST_COLOUR),
+        false => (rating.to_string(), ink),
+    };
+    let rating_area = LabelBox {
+        corner: corner + DVec2::new(0.0, name_lines as f64 * LINE_PX),
+        width_px: NAMES_PX,
+        max_lines: 3,
+    };
+    REMARK_STYLE.push(drawing, &words, rating_area, colour);
 }
 
 /// Width and height of a frame in pixels.

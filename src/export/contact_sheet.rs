@@ -132,7 +132,7 @@ fn natural([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout 
     // Labels and gaps are scaled along with the cells.
     let scale = (MAX_SHEET_SIDE_PX / wanted.max_element()).min(1.0);
     let sides = (wanted * scale).round().max(DVec2::ONE);
-    let size = PixelSize::holding(sides)
+    let size = PixelSize::rounded_up(sides)
         .unwrap_or_else(|error| unreachable!("the sheet was scaled to fit: {error}"));
     SheetLayout {
         size,
@@ -176,7 +176,7 @@ pub fn contact_sheet(
         let (corner, inner, base) = layout.cell(index);
         frame.seek(t);
         let view = PlaneView::fit_cell(bounds, layout.size, corner, inner);
-        drawing.push_frame(frame.now(), &frame.style(style), &view);
+        drawing.push_frame(frame.frame(), &frame.style(style), &view);
         drawing.push_label(&time_label(t), base, layout.letters_px(), ink);
     }
     drawing

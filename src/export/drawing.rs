@@ -50,7 +50,7 @@ pub enum DrawingItem {
         label: Option<String>,
     },
     /// A stroke along closed outlines.
-    Line {
+    Stroke {
         /// Contours that the stroke is centred on.
         outline: OutlinePath,
         /// Paint, corner joins, and width in pixels.
@@ -146,7 +146,7 @@ impl Drawing {
                 self.push_pixels(&window.corners(), view, |raster| blend.picture(raster));
             }
             None => {
-                let tint = blend.space().tint(blend.weights());
+                let tint = blend.space().colour_fraction(blend.weights());
                 self.push_figure(&blend.figure(), tint, style, view);
             }
         }
@@ -174,7 +174,7 @@ impl Drawing {
         let raster = PictureRaster {
             size: size.to_array(),
             corner: view.to_plane(low),
-            pixel: 1.0 / view.px_per_unit(),
+            pixel_size: 1.0 / view.px_per_unit(),
         };
         if let Some(image) = picture(&raster) {
             let corner = low.as_uvec2();
@@ -192,12 +192,13 @@ impl Drawing {
         view: &PlaneView,
     ) {
         let colour = style.fill_at(t);
-        match figure.coats.as_slice() {
-            [] => self.push_rings(&figure.rings, (colour.into(), None), view),
+        match figure.layers.as_slice() {
+            [] => self.push_rings(&figure.rings, colour.into(), None, view),
             coats => self.push_layers(coats, figure, style, view),
         }
         let width_px = figure.bar_width * view.px_per_unit();
-        let by_paint = InkedBars::all(figure.bars.len(), &figure.bar_paints).into_iter();
+        let by_paint =
+            InkedBars::grouped_by_paint(figure.bars.len(), &figure.bar_paints).into_iter();
         let inked = by_paint.map(|inked| {
             let bars = inked.bars.iter().map(|&bar| figure.bars[bar]);
             let segments: Vec<[DVec2; 2]> = bars
@@ -254,7 +255,7 @@ impl Drawing {
             let gradients = layer.gradients.each_ref().map(Option::as_ref);
             let gradient = style.gradient_at(gradients, layer.paints, layer.t);
             let paint = style.paint_at(layer.paints, layer.t);
-            let line = StrokeStyle::between(layer.lines, layer.t);
+            let line = StrokeStyle::interpolated(layer.lines, layer.t);
             (layer.rings.clone(), (paint, gradient), line)
         });
         let mut next = layers.next();
@@ -267,7 +268,8 @@ impl Drawing {
                 rings.end = more.end;
                 next = layers.next();
             }
-            self.push_rings(&figure.rings[rings.clone()], ink, view);
+            let (paint, gradient) = ink;
+            self.push_rings(&figure.rings[rings.clone()], paint, gradient, view);
             if let Some(line) = line {
                 self.push_line(&figure.rings[rings], line, view);
             }
@@ -277,15 +279,16 @@ impl Drawing {
     fn push_rings(
         &mut self,
         rings: &[Vec<DVec2>],
-        (paint, gradient): (Paint, Option<Gradient>),
+        paint: Paint,
+        gradient: Option<Gradient>,
         view: &PlaneView,
     ) {
         let outline = outline_of(rings, view);
-        if !outline.steps.is_empty() && paint.opacity > 0.0 {
+        if !outline.commands.is_empty() && paint.opacity > 0.0 {
             self.items.push(DrawingItem::Fill {
                 outline,
                 paint,
-                gradient: gradient.map(|gradient| gradient.moved(view.affine())),
+                gradient: gradient.map(|gradient| gradient.transformed(view.affine())),
                 label: None,
             });
         }
@@ -297,8 +300,8 @@ impl Drawing {
             width: line.width * view.px_per_unit(),
             ..line
         };
-        if !outline.steps.is_empty() && line.paint.opacity > 0.0 && line.width > 0.0 {
-            self.items.push(DrawingItem::Line { outline, line });
+        if !outline.commands.is_empty() && line.paint.opacity > 0.0 && line.width > 0.0 {
+            self.items.push(DrawingItem::Stroke { outline, line });
         }
     }
 
@@ -389,13 +392,13 @@ mod tests {
         });
         let figure = VectorFigure {
             rings: [0.0, 1.0, 1.5, 2.0].map(square).to_vec(),
-            coats: coats.collect(),
+            layers: coats.collect(),
             ..VectorFigure::default()
         };
         let mut drawing = Drawing::new(PixelSize::new(4, 4).expect("a legal size"), None);
         drawing.push_figure(&figure, 0.0, &blue(), &view());
         let filled = |item: &DrawingItem| match item {
-            DrawingItem::Fill { outline, paint, .. } => (outline.steps.len(), *paint),
+            DrawingItem::Fill { outline, paint, .. } => (outline.commands.len(), *paint),
             other => panic!("expected only fills: {other:?}"),
         };
         let fills: Vec<_> = drawing.items.iter().map(filled).collect();
@@ -407,12 +410,12 @@ mod tests {
             join: StrokeJoin::Round,
         };
         let mut lined = figure.clone();
-        lined.coats[0].lines = [Some(line), None];
+        lined.layers[0].lines = [Some(line), None];
         drawing.items.clear();
         drawing.push_figure(&lined, 0.0, &blue(), &view());
         let [
             DrawingItem::Fill { .. },
-            DrawingItem::Line { line, .. },
+            DrawingItem::Stroke { line, .. },
             DrawingItem::Fill { .. },
             DrawingItem::Fill { .. },
         ] = drawing.items.as_slice()

@@ -34,7 +34,7 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
                 entities += &paper.polylines(outline, paint.colour, None);
                 paint.colour
             }
-            DrawingItem::Line { outline, line } => {
+            DrawingItem::Stroke { outline, line } => {
                 entities += &paper.polylines(outline, line.paint.colour, Some(line.width));
                 line.paint.colour
             }
@@ -121,7 +121,7 @@ impl DxfCoordinates {
 /// Flattens the contours to polygons.
 fn rings(outline: &OutlinePath) -> Vec<Vec<DVec2>> {
     let mut rings: Vec<Vec<DVec2>> = Vec::new();
-    for step in &outline.steps {
+    for step in &outline.commands {
         if let PathCommand::Move(p) = *step {
             rings.push(vec![p]);
             continue;
@@ -203,13 +203,13 @@ mod tests {
     #[test]
     fn a_frame_read_back_has_the_same_area() {
         let camera = camera(300, 200, None);
-        let text = to_dxf(&camera.shoot(0.5)).expect("outlines");
+        let text = to_dxf(&camera.draw(0.5)).expect("outlines");
         let read = import("half.dxf", text.as_bytes(), &ImportOptions::default());
         let read = read.expect("a design");
         let DesignForm::Outline(regions) = &read.form else {
             panic!("outlines: {:?}", read.form);
         };
-        let figure = camera.sequence.frame(0.5).now().figure();
+        let figure = camera.sequence.frame(0.5).frame().figure();
         let area = |ring: &[DVec2]| -> f64 {
             let next = ring.iter().cycle().skip(1);
             let twice: f64 = ring.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();

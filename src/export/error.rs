@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::io::atomic_file::refusal;
+use crate::io::atomic_file::write_error_message;
 use crate::work::progress::Cancelled;
 
 /// Reason why an export failed. Partly written files have been removed; finished frames of a
@@ -12,7 +12,7 @@ use crate::work::progress::Cancelled;
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The operating system refused to write.
-    #[error("cannot write `{}`: {}", .path.display(), refusal(.source))]
+    #[error("cannot write `{}`: {}", .path.display(), write_error_message(.source))]
     Write {
         /// Path of the output file.
         path: PathBuf,
@@ -32,7 +32,7 @@ pub enum ExportError {
         "`{}` was not written completely: {reason}; check the disk for free space and errors, then export again",
         .path.display()
     )]
-    NotWhole {
+    Corrupt {
         /// Path of the output file.
         path: PathBuf,
         /// Defect found when the file was read back.
@@ -87,14 +87,14 @@ impl ExportError {
     ) -> impl FnOnce(E) -> Self {
         let path = path.into();
         move |error| match error.into() {
-            EncodeFailure::BySystem(source) => Self::Write { path, source },
-            EncodeFailure::ByEncoder(reason) => Self::Encode { path, reason },
+            EncodeFailure::Io(source) => Self::Write { path, source },
+            EncodeFailure::Encoder(reason) => Self::Encode { path, reason },
         }
     }
 
     /// Error for a file at `path` that failed verification, for the given reason.
-    pub(super) fn not_whole(path: &Path, reason: impl Display) -> Self {
-        Self::NotWhole {
+    pub(super) fn corrupt(path: &Path, reason: impl Display) -> Self {
+        Self::Corrupt {
             path: path.to_owned(),
             reason: reason.to_string(),
         }
@@ -103,15 +103,15 @@ impl ExportError {
 
 /// Error of an encoder library, split by cause: these libraries report I/O errors among their own.
 pub(super) enum EncodeFailure {
-    BySystem(io::Error),
-    ByEncoder(String),
+    Io(io::Error),
+    Encoder(String),
 }
 
 impl From<gif::EncodingError> for EncodeFailure {
     fn from(error: gif::EncodingError) -> Self {
         match error {
-            gif::EncodingError::Io(error) => Self::BySystem(error),
-            error => Self::ByEncoder(error.to_string()),
+            gif::EncodingError::Io(error) => Self::Io(error),
+            error => Self::Encoder(error.to_string()),
         }
     }
 }
@@ -119,8 +119,8 @@ impl From<gif::EncodingError> for EncodeFailure {
 impl From<png::EncodingError> for EncodeFailure {
     fn from(error: png::EncodingError) -> Self {
         match error {
-            png::EncodingError::IoError(error) => Self::BySystem(error),
-            error => Self::ByEncoder(error.to_string()),
+            png::EncodingError::IoError(error) => Self::Io(error),
+            error => Self::Encoder(error.to_string()),
         }
     }
 }
@@ -128,6 +128,6 @@ impl From<png::EncodingError> for EncodeFailure {
 impl From<image::ImageError> for EncodeFailure {
     fn from(error: image::ImageError) -> Self {
         // These images are encoded in memory, so there is no I/O error to separate.
-        Self::ByEncoder(error.to_string())
+        Self::Encoder(error.to_string())
     }
 }

@@ -36,7 +36,7 @@ pub enum FilmSpecError {
         "there are no frames {}..{}: the film has {count} frames, numbered 0 to {last}, and the end of a range is exclusive",
         .range.start, .range.end
     )]
-    Part {
+    FrameRange {
         /// Requested range of frame numbers.
         range: Range<usize>,
         /// Number of frames of the film.
@@ -64,7 +64,7 @@ pub struct FrameRun {
 /// use morphospace::export::FilmSpec;
 /// let film = FilmSpec::evenly(0.0, 1.0, 5, 25.0)?;
 /// assert_eq!(film.times(), [0.0, 0.25, 0.5, 0.75, 1.0]);
-/// assert_eq!(film.part(2..4)?.first_number(), 2);
+/// assert_eq!(film.frame_range(2..4)?.first_number(), 2);
 /// # Ok::<(), morphospace::export::FilmSpecError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -105,7 +105,7 @@ impl FilmSpec {
         let named = stops.iter().filter(|stop| !stop.name.is_empty());
         Ok(Self {
             stops: named.map(|stop| (stop.t, stop.name.clone())).collect(),
-            ..film.playing(timing.play)
+            ..film.with_play_mode(timing.play)
         })
     }
 
@@ -125,7 +125,7 @@ impl FilmSpec {
     /// Applies a play mode to a single pass. Ping-pong appends the way back without the two end
     /// frames, which would otherwise show twice.
     #[must_use]
-    pub fn playing(mut self, play: PlayMode) -> Self {
+    pub fn with_play_mode(mut self, play: PlayMode) -> Self {
         self.repeats = play != PlayMode::Once;
         if play == PlayMode::PingPong && self.times.len() > 2 {
             let back = 1..self.times.len() - 1;
@@ -139,11 +139,11 @@ impl FilmSpec {
     /// numbers.
     ///
     /// # Errors
-    /// [`FilmSpecError::Part`] if the range is empty or extends beyond the film.
-    pub fn part(&self, range: Range<usize>) -> Result<Self, FilmSpecError> {
+    /// [`FilmSpecError::FrameRange`] if the range is empty or extends beyond the film.
+    pub fn frame_range(&self, range: Range<usize>) -> Result<Self, FilmSpecError> {
         let end = self.first_number + self.times.len();
         if range.is_empty() || range.start < self.first_number || range.end > end {
-            return Err(FilmSpecError::Part {
+            return Err(FilmSpecError::FrameRange {
                 range,
                 count: self.times.len(),
                 last: end - 1,
@@ -162,7 +162,7 @@ impl FilmSpec {
     ///
     /// # Errors
     /// [`FilmSpecError`] if the frame rate, the number of frames or a t is out of range.
-    pub fn at(times: Vec<f64>, fps: f64) -> Result<Self, FilmSpecError> {
+    pub fn at_times(times: Vec<f64>, fps: f64) -> Result<Self, FilmSpecError> {
         for &t in &times {
             check(fps, t, t)?;
         }
@@ -174,7 +174,7 @@ impl FilmSpec {
 
     /// Sets the title. Formats without titles ignore it.
     #[must_use]
-    pub fn titled(self, title: impl Into<String>) -> Self {
+    pub fn with_title(self, title: impl Into<String>) -> Self {
         Self {
             title: Some(title.into()).filter(|title: &String| !title.is_empty()),
             ..self
@@ -302,28 +302,28 @@ mod tests {
     #[test]
     fn ping_pong_returns_without_repeating_the_ends() {
         let once = FilmSpec::evenly(0.0, 1.0, 4, 10.0).expect("a film");
-        let film = once.clone().playing(PlayMode::PingPong);
+        let film = once.clone().with_play_mode(PlayMode::PingPong);
         let [a, b, c, d] = once.times() else {
             panic!("expected four frames");
         };
         assert_eq!(film.times(), [*a, *b, *c, *d, *c, *b]);
         assert!(film.repeats());
         let short = FilmSpec::evenly(0.0, 1.0, 2, 10.0).expect("a film");
-        assert_eq!(short.playing(PlayMode::PingPong).times(), [0.0, 1.0]);
+        assert_eq!(short.with_play_mode(PlayMode::PingPong).times(), [0.0, 1.0]);
     }
 
     #[test]
     fn ranges_join_to_the_whole_film() {
         let film = FilmSpec::of_timing(&timing(PlayMode::PingPong), &[], 7.0).expect("a film");
         let n = film.times().len();
-        let parts = [0..3, 3..n - 1, n - 1..n].map(|r| film.part(r).expect("a part"));
+        let parts = [0..3, 3..n - 1, n - 1..n].map(|r| film.frame_range(r).expect("a part"));
         let times: Vec<f64> = parts.iter().flat_map(|p| p.times().to_vec()).collect();
         assert_eq!(times, film.times());
         let ticks =
             |film: &FilmSpec| -> u64 { film.runs().iter().map(|&r| film.ticks(r, 100.0)).sum() };
         assert_eq!(parts.iter().map(ticks).sum::<u64>(), ticks(&film));
         assert_eq!(parts[1].first_number(), 3);
-        let of_part = parts[1].part(4..5).expect("a part of a part");
+        let of_part = parts[1].frame_range(4..5).expect("a part of a part");
         assert_eq!(of_part.times(), &film.times()[4..5]);
     }
 
@@ -354,7 +354,10 @@ mod tests {
         ));
         let film = FilmSpec::evenly(0.0, 1.0, 5, 1.0).expect("a film");
         for range in [0..0, 3..6, 5..6, 9..12] {
-            assert!(matches!(film.part(range), Err(FilmSpecError::Part { .. })));
+            assert!(matches!(
+                film.frame_range(range),
+                Err(FilmSpecError::FrameRange { .. })
+            ));
         }
         let endless = Timing {
             duration_secs: 1e12,

@@ -66,7 +66,7 @@ pub fn write_gif(
     let frames = film.times().len();
     let is_still =
         |run: FrameRun| run.count > 1 || run.first == 0 || run.first + run.count == frames;
-    camera.shoot_runs(
+    camera.draw_runs(
         &film.runs(),
         DRAWING_STAGE,
         &ProgressSpan::new(progress, PALETTE_FRACTION, DRAWN_FRACTION),
@@ -83,7 +83,7 @@ pub fn write_gif(
     let mut writer = encoder.into_inner().map_err(ExportError::encode(path))?;
     writer.flush().map_err(ExportError::write(path))?;
     drop(writer);
-    let written = file.written().map_err(ExportError::write(path))?;
+    let written = file.reread().map_err(ExportError::write(path))?;
     let checking = ProgressSpan::new(progress, DRAWN_FRACTION, 1.0);
     check_gif(written, film.runs().len(), path, &checking)?;
     file.commit().map_err(ExportError::write(path))
@@ -119,7 +119,7 @@ fn film_palette(
     // The stride may skip the last frame, whose colours are often seen longest.
     sampled.extend(runs.last());
     let mut counts = ColourHistogram::new();
-    camera.shoot_runs(
+    camera.draw_runs(
         &sampled,
         "choosing colours",
         progress,
@@ -252,7 +252,7 @@ mod tests {
         assert_eq!(once.delays, [3, 4, 3, 3, 4, 3, 3]);
         assert_eq!(once.frames[0].dimensions(), (40, 30));
         assert_eq!(once.repeat, Repeat::Finite(0));
-        let film = film.playing(PlayMode::PingPong);
+        let film = film.with_play_mode(PlayMode::PingPong);
         let looped = round_trip(&camera(40, 30, None), &film);
         assert_eq!(looped.frames.len(), 12);
         assert_eq!(looped.repeat, Repeat::Infinite);
@@ -265,7 +265,7 @@ mod tests {
         let film = FilmSpec::evenly(0.0, 1.0, 40, 25.0).expect("a film");
         let decoded = round_trip(&camera, &film);
         for (&t, frame) in film.times().iter().zip(&decoded.frames) {
-            let exact = rasterise(&camera.shoot(t));
+            let exact = rasterise(&camera.draw(t));
             for (a, b) in exact.pixels().zip(frame.pixels()) {
                 let worst = a.0.iter().zip(b.0).map(|(a, b)| a.abs_diff(b)).max();
                 assert!(worst <= Some(24), "{a:?} became {b:?} at t = {t}");
@@ -279,7 +279,7 @@ mod tests {
         let camera = camera(40, 30, None);
         let film = FilmSpec::evenly(0.0, 1.0, 5, 25.0).expect("a film");
         for (&t, frame) in film.times().iter().zip(round_trip(&camera, &film).frames) {
-            let exact = rasterise(&camera.shoot(t));
+            let exact = rasterise(&camera.draw(t));
             for (a, b) in exact.pixels().zip(frame.pixels()) {
                 assert_eq!(a.0[3] >= 128, b.0[3] == 255, "t = {t}");
             }

@@ -29,7 +29,7 @@ pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath {
         // A partly drawn glyph would be worse than a missing one.
         if glyph.is_some_and(|glyph| glyph.draw(settings, &mut path).is_ok()) {
             let steps = path.into_iter().map(|element| step(element, origin));
-            outline.steps.extend(steps);
+            outline.commands.extend(steps);
         }
         origin.x += advance;
     }
@@ -95,7 +95,7 @@ mod tests {
             | PathCommand::Cubic(_, _, p) => Some(p),
             PathCommand::Close => None,
         };
-        outline.steps.iter().filter_map(end).collect()
+        outline.commands.iter().filter_map(end).collect()
     }
 
     #[test]
@@ -124,7 +124,7 @@ mod tests {
 
     #[test]
     fn unknown_characters_are_boxes_and_empty_text_is_empty() {
-        assert!(!centred("\u{10ffff}", DVec2::ZERO, 20.0).steps.is_empty());
-        assert!(centred("", DVec2::ZERO, 20.0).steps.is_empty());
+        assert!(!centred("\u{10ffff}", DVec2::ZERO, 20.0).commands.is_empty());
+        assert!(centred("", DVec2::ZERO, 20.0).commands.is_empty());
     }
 }

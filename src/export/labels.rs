@@ -11,32 +11,36 @@ use super::glyph_outlines;
 /// Text colour of error messages.
 pub(super) const ERROR_COLOUR: Rgb = Rgb([0xc0, 0x3a, 0x20]);
 
+/// Area in which a label is wrapped.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LabelBox {
+    /// Upper left corner, in pixels.
+    pub corner: DVec2,
+    /// Width in pixels.
+    pub width_px: f64,
+    /// Maximum number of lines.
+    pub max_lines: usize,
+}
+
 /// Font size and line height of a label.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LabelStyle {
     /// Font size in pixels.
-    pub letters_px: f64,
+    pub font_px: f64,
     /// Line height in pixels.
     pub line_px: f64,
 }
 
 impl LabelStyle {
-    /// Draws text from its upper left `corner` on, wrapped to `width_px` and limited to
-    /// `max_lines`. Returns the number of lines drawn.
-    pub fn push(
-        self,
-        drawing: &mut Drawing,
-        words: &str,
-        (width_px, max_lines): (f64, usize),
-        corner: DVec2,
-        colour: Rgb,
-    ) -> usize {
-        let lines = self.wrapped(words, width_px, max_lines);
+    /// Draws text from the upper left corner of `area` on, wrapped to its width and limited to its
+    /// number of lines. Returns the number of lines drawn.
+    pub fn push(self, drawing: &mut Drawing, words: &str, area: LabelBox, colour: Rgb) -> usize {
+        let lines = self.wrapped(words, area.width_px, area.max_lines);
         for (i, line) in lines.iter().enumerate() {
-            let middle = 0.5 * glyph_outlines::width(line, self.letters_px);
+            let middle = 0.5 * glyph_outlines::width(line, self.font_px);
             // The last fifth of the line is for descenders.
-            let base = corner + DVec2::new(middle, (i as f64 + 0.8) * self.line_px);
-            drawing.push_label(line, base, self.letters_px, colour);
+            let base = area.corner + DVec2::new(middle, (i as f64 + 0.8) * self.line_px);
+            drawing.push_label(line, base, self.font_px, colour);
         }
         lines.len()
     }
@@ -44,7 +48,7 @@ impl LabelStyle {
     /// Breaks text into at most `max_lines` lines of `width_px`; what does not fit becomes an
     /// ellipsis. Words longer than a line are broken.
     fn wrapped(self, words: &str, width_px: f64, max_lines: usize) -> Vec<String> {
-        let fits = |line: &str| glyph_outlines::width(line, self.letters_px) <= width_px;
+        let fits = |line: &str| glyph_outlines::width(line, self.font_px) <= width_px;
         let mut lines: Vec<String> = Vec::new();
         let mut line = String::new();
         for word in words.split_whitespace() {
@@ -117,7 +121,7 @@ mod tests {
     use super::*;
 
     const STYLE: LabelStyle = LabelStyle {
-        letters_px: 13.0,
+        font_px: 13.0,
         line_px: 16.0,
     };
 
@@ -131,7 +135,7 @@ mod tests {
         assert!(lines[2].ends_with('\u{2026}'));
         for line in STYLE.wrapped("several words that do not fit", 60.0, 9) {
             assert!(
-                glyph_outlines::width(&line, STYLE.letters_px) <= 60.0,
+                glyph_outlines::width(&line, STYLE.font_px) <= 60.0,
                 "{line}"
             );
         }

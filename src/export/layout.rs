@@ -14,7 +14,7 @@ use crate::settings::named;
 #[non_exhaustive]
 pub enum Aspect {
     /// Aspect ratio of the drawing itself.
-    Own,
+    Original,
     /// 16 to 9.
     #[default]
     Wide,
@@ -31,14 +31,14 @@ named! { Aspect {
     Classic: "4:3", "4:3", "Older slides, and tablets";
     Square: "1:1", "1:1", "Square posts";
     Tall: "9:16", "9:16", "Phones, upright";
-    Own: "own", "Original", "Same shape as the drawing";
+    Original: "own", "Original", "Same shape as the drawing";
 } }
 
 impl Aspect {
     /// Width divided by height; `None` for the aspect ratio of the drawing.
     fn ratio(self) -> Option<f64> {
         match self {
-            Self::Own => None,
+            Self::Original => None,
             Self::Wide => Some(16.0 / 9.0),
             Self::Classic => Some(4.0 / 3.0),
             Self::Square => Some(1.0),
@@ -147,14 +147,14 @@ pub enum LayoutPreset {
     /// Upright, for phones.
     Story,
     /// Small, for a web page or a message.
-    Page,
+    WebPage,
 }
 
 named! { LayoutPreset {
     Deck: "deck", "Slides", "16:9, 1920 × 1080, with captions from the stops";
     Post: "post", "Post", "1:1, 1080 × 1080";
     Story: "story", "Story", "9:16, 1080 × 1920, with captions from the stops";
-    Page: "page", "Web page", "Original shape, 480 px";
+    WebPage: "page", "Web page", "Original shape, 480 px";
 } }
 
 impl LayoutPreset {
@@ -165,7 +165,7 @@ impl LayoutPreset {
             Self::Deck => (Aspect::Wide, 1080, true),
             Self::Post => (Aspect::Square, 1080, false),
             Self::Story => (Aspect::Tall, 1080, true),
-            Self::Page => (Aspect::Own, 480, false),
+            Self::WebPage => (Aspect::Original, 480, false),
         };
         PictureLayout {
             aspect,
@@ -220,7 +220,11 @@ mod tests {
 
     #[test]
     fn no_lines_and_too_many_are_refused() {
-        for (aspect, lines) in [(Aspect::Wide, 0), (Aspect::Own, 0), (Aspect::Own, 99_999)] {
+        for (aspect, lines) in [
+            (Aspect::Wide, 0),
+            (Aspect::Original, 0),
+            (Aspect::Original, 99_999),
+        ] {
             let layout = PictureLayout {
                 aspect,
                 lines,

@@ -20,7 +20,8 @@ use crate::transition::TransitionStyle;
 /// # Panics
 /// If the map does not have one site per design of the space.
 pub fn map_sheet(
-    (space, map): (&DesignSpace, &WeightMap),
+    space: &DesignSpace,
+    map: &WeightMap,
     style: &TransitionStyle,
     [columns, rows]: [usize; 2],
     size: Option<PixelSize>,
@@ -71,13 +72,13 @@ mod tests {
     fn designs_are_named_and_cells_outside_their_hull_are_empty() {
         let tent = |name: &str, h: f64| {
             let ring = [[0.0, 0.0], [2.0, 0.0], [1.0, h]];
-            Arc::new(Design::of_rings(name, [ring]).expect("a design"))
+            Arc::new(Design::from_rings(name, [ring]).expect("a design"))
         };
         let designs = vec![tent("low", 1.0), tent("high", 2.0), tent("tower", 4.0)];
         let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space");
-        let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+        let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances())).expect("sites");
         let style = TransitionStyle::default();
-        let drawing = map_sheet((&space, &map), &style, [5, 5], None, None);
+        let drawing = map_sheet(&space, &map, &style, [5, 5], None, None);
         let labels = drawing.items.iter().filter_map(|item| match item {
             DrawingItem::Fill { label, .. } => label.clone(),
             _ => None,

@@ -56,7 +56,7 @@ pub fn write_mp4(
     let command = ffmpeg::encode_command(camera.view.size(), film.fps(), job.temporary);
     let mut feeding = Ok(());
     let words = job.run(command, |mut stdin| {
-        feeding = camera.shoot_runs(
+        feeding = camera.draw_runs(
             &film.runs(),
             DRAWING_STAGE,
             &ProgressSpan::new(progress, 0.0, DRAWN_FRACTION),
@@ -124,7 +124,7 @@ impl FfmpegJob<'_> {
         match ended.words {
             _ if self.progress.is_cancelled() => Err(Cancelled.into()),
             words if ended.status.success() => Ok(words),
-            words if words.tell_of_full_disk => Err(self.full()),
+            words if words.report_full_disk => Err(self.full()),
             words if words.last.is_empty() => Err(self.failed(&ended.status.to_string())),
             words => Err(self.failed(&words.last)),
         }
@@ -145,11 +145,11 @@ impl FfmpegJob<'_> {
                 Err(error) => error.to_string(),
             };
         Err(match words.last.as_str() {
-            _ if words.tell_of_full_disk => self.full(),
-            "" => ExportError::not_whole(self.path, reason),
+            _ if words.report_full_disk => self.full(),
+            "" => ExportError::corrupt(self.path, reason),
             last => {
                 let last = self.renamed(last);
-                ExportError::not_whole(self.path, format!("{reason} (ffmpeg said: {last})"))
+                ExportError::corrupt(self.path, format!("{reason} (ffmpeg said: {last})"))
             }
         })
     }

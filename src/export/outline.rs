@@ -26,7 +26,7 @@ pub enum PathCommand {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutlinePath {
     /// Contours, each running from a [`PathCommand::Move`] to a [`PathCommand::Close`].
-    pub steps: Vec<PathCommand>,
+    pub commands: Vec<PathCommand>,
 }
 
 impl OutlinePath {
@@ -43,8 +43,8 @@ impl OutlinePath {
                 PathCommand::Line(p)
             }
         };
-        self.steps.extend(ring_px.enumerate().map(step));
-        self.steps.push(PathCommand::Close);
+        self.commands.extend(ring_px.enumerate().map(step));
+        self.commands.push(PathCommand::Close);
     }
 }
 

@@ -11,7 +11,7 @@ use crate::transition::{Transition, TransitionStyle, VectorFigure};
 
 use super::camera::framing;
 use super::drawing::Drawing;
-use super::labels::{ERROR_COLOUR, LabelStyle, text_colour_on};
+use super::labels::{ERROR_COLOUR, LabelBox, LabelStyle, text_colour_on};
 use super::size::{MAX_SHEET_SIDE_PX, PixelSize, PixelSizeError};
 use super::view::PlaneView;
 
@@ -26,7 +26,7 @@ const WORDS_PX: f64 = 230.0;
 
 /// Style of names and remarks.
 const LABEL_STYLE: LabelStyle = LabelStyle {
-    letters_px: 13.0,
+    font_px: 13.0,
     line_px: 16.0,
 };
 
@@ -83,13 +83,13 @@ impl PairStrip {
     pub fn failed(name: &str, reason: &str) -> Self {
         Self {
             name: name.to_owned(),
-            ..Self::default().saying(reason, true)
+            ..Self::default().with_remark(reason, true)
         }
     }
 
     /// Sets the remark below the name; it is shown in the error colour if `is_bad`.
     #[must_use]
-    pub fn saying(self, words: &str, is_bad: bool) -> Self {
+    pub fn with_remark(self, words: &str, is_bad: bool) -> Self {
         Self {
             words: words.to_owned(),
             is_bad,
@@ -202,7 +202,7 @@ pub fn pair_sheet(
     let frames = strips.iter().map(|s| s.frames.len());
     let columns = frames.max().unwrap_or(0).max(MIN_COLUMNS);
     let layout = PairSheetLayout::new(strips.len(), columns);
-    let mut drawing = Drawing::new(PixelSize::holding(layout.size())?, ground);
+    let mut drawing = Drawing::new(PixelSize::rounded_up(layout.size())?, ground);
     let shown = strips.len().min(layout.capacity());
     for (index, strip) in strips[..shown].iter().enumerate() {
         push_strip(&mut drawing, strip, &layout, layout.corner(index));
@@ -214,22 +214,30 @@ fn push_strip(drawing: &mut Drawing, strip: &PairStrip, layout: &PairSheetLayout
     let ink = text_colour_on(drawing.ground);
     let words_colour = if strip.is_bad { ERROR_COLOUR } else { ink };
     let lines = ((layout.strip().y - GAP_PX) / LINE_PX) as usize;
-    let name_lines = LABEL_STYLE.push(drawing, &strip.name, (WORDS_PX, lines.min(2)), corner, ink);
+    let name_area = LabelBox {
+        corner,
+        width_px: WORDS_PX,
+        max_lines: lines.min(2),
+    };
+    let name_lines = LABEL_STYLE.push(drawing, &strip.name, name_area, ink);
     let below = corner + DVec2::new(0.0, name_lines as f64 * LINE_PX);
     let frames = corner + DVec2::new(WORDS_PX + 2.0 * GAP_PX, 0.0);
     let step = layout.cell_px + GAP_PX;
     let Some(bounds) = strip.bounds else {
-        let room = (layout.columns as f64 * step, lines);
-        LABEL_STYLE.push(drawing, &strip.words, room, frames, words_colour);
+        let words_area = LabelBox {
+            corner: frames,
+            width_px: layout.columns as f64 * step,
+            max_lines: lines,
+        };
+        LABEL_STYLE.push(drawing, &strip.words, words_area, words_colour);
         return;
     };
-    LABEL_STYLE.push(
-        drawing,
-        &strip.words,
-        (WORDS_PX, lines - name_lines),
-        below,
-        words_colour,
-    );
+    let words_area = LabelBox {
+        corner: below,
+        width_px: WORDS_PX,
+        max_lines: lines - name_lines,
+    };
+    LABEL_STYLE.push(drawing, &strip.words, words_area, words_colour);
     for (i, (figure, t)) in strip.frames.iter().enumerate() {
         let at = frames + DVec2::new(i as f64 * step, 0.0);
         let view = PlaneView::fit_cell(bounds, drawing.size, at, DVec2::splat(layout.cell_px));

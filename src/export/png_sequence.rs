@@ -33,7 +33,7 @@ pub fn write_numbered(
     let mut written = Vec::with_capacity(film.times().len());
     // Only for error messages: if one frame cannot be encoded, no frame of this size can.
     let first = names.path(film.first_number());
-    camera.shoot_runs(
+    camera.draw_runs(
         &film.runs(),
         DRAWING_STAGE,
         progress,
@@ -41,7 +41,7 @@ pub fn write_numbered(
         |run, bytes| {
             for number in run.first..run.first + run.count {
                 let path = names.path(number);
-                let result = atomic_file::write_one_of_many(&path, &bytes);
+                let result = atomic_file::write_without_cleanup(&path, &bytes);
                 result.map_err(ExportError::write(&path))?;
                 written.push(path);
             }
@@ -99,7 +99,7 @@ mod tests {
         let written = write_numbered(&camera, &film, &all, &Silent).expect("written");
         assert_eq!(written.len(), 9);
         for range in [4..9, 0..4] {
-            let part = film.part(range).expect("a part");
+            let part = film.frame_range(range).expect("a part");
             let names = names(split.path(), "x-###.png");
             write_numbered(&camera, &part, &names, &Silent).expect("written");
         }

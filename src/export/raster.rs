@@ -49,7 +49,7 @@ fn paint(item: &DrawingItem, canvas: &mut PixmapMut<'_>) {
             let paint = shaded.unwrap_or_else(|| plain(*paint));
             fill(path_of(outline), &paint, canvas);
         }
-        DrawingItem::Line { outline, line } => draw_line(path_of(outline), line, canvas),
+        DrawingItem::Stroke { outline, line } => draw_line(path_of(outline), line, canvas),
         DrawingItem::Bars {
             segments,
             width_px,
@@ -84,7 +84,7 @@ fn disc(centre: DVec2, radius: f64) -> OutlinePath {
     let start = PathCommand::Move(centre + DVec2::new(radius, 0.0));
     let steps = std::iter::once(start).chain((0..4).map(quarter));
     OutlinePath {
-        steps: steps.chain([PathCommand::Close]).collect(),
+        commands: steps.chain([PathCommand::Close]).collect(),
     }
 }
 
@@ -145,7 +145,7 @@ fn draw_line(path: Option<Path>, line: &StrokeStyle, canvas: &mut PixmapMut<'_>)
 fn path_of(outline: &OutlinePath) -> Option<Path> {
     let mut builder = PathBuilder::new();
     let xy = |p: DVec2| (p.x as f32, p.y as f32);
-    for step in &outline.steps {
+    for step in &outline.commands {
         match *step {
             PathCommand::Move(p) => builder.move_to(xy(p).0, xy(p).1),
             PathCommand::Line(p) => builder.line_to(xy(p).0, xy(p).1),
@@ -199,7 +199,7 @@ fn shaded(gradient: &Gradient) -> Option<tiny_skia::Paint<'static>> {
     let stops = gradient.stops.iter().map(|stop| {
         let mut colour = color(stop.paint.colour);
         colour.set_alpha(stop.paint.opacity as f32);
-        GradientStop::new(stop.at as f32, colour)
+        GradientStop::new(stop.offset as f32, colour)
     });
     let mode = match gradient.spread {
         GradientSpread::Pad => SpreadMode::Pad,
@@ -209,11 +209,11 @@ fn shaded(gradient: &Gradient) -> Option<tiny_skia::Paint<'static>> {
     let [sx, ky, kx, sy, tx, ty] = gradient.frame.to_cols_array().map(|x| x as f32);
     let frame = Transform::from_row(sx, ky, kx, sy, tx, ty);
     let (stops, zero) = (stops.collect(), Point::zero());
-    let shader = match gradient.course {
-        GradientGeometry::Straight => {
+    let shader = match gradient.geometry {
+        GradientGeometry::Linear => {
             LinearGradient::new(zero, Point::from_xy(1.0, 0.0), stops, mode, frame)
         }
-        GradientGeometry::Round { focus, inner } => {
+        GradientGeometry::Radial { focus, inner } => {
             let focus = Point::from_xy(focus.x as f32, focus.y as f32);
             RadialGradient::new(focus, inner as f32, zero, 1.0, stops, mode, frame)
         }

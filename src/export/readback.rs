@@ -20,7 +20,7 @@ pub(super) const DRAWN_FRACTION: f64 = 0.9;
 /// Decodes a whole GIF. `path` is its final name, for error messages.
 ///
 /// # Errors
-/// [`ExportError::NotWhole`] if it cannot be decoded or does not have `count` frames, or
+/// [`ExportError::Corrupt`] if it cannot be decoded or does not have `count` frames, or
 /// [`ExportError::Cancelled`].
 pub(super) fn check_gif(
     written: &File,
@@ -32,7 +32,7 @@ pub(super) fn check_gif(
     // The frame size was chosen by the user and needs no further limit.
     options.set_memory_limit(gif::MemoryLimit::Unlimited);
     let mut decoder = (options.read_info(BufReader::new(written)))
-        .map_err(|error| ExportError::not_whole(path, error))?;
+        .map_err(|error| ExportError::corrupt(path, error))?;
     // One read more than there are frames must report the end of the file.
     for number in 0..=count {
         checkpoint(progress, CHECKING_STAGE, number as f64 / count as f64)?;
@@ -40,7 +40,7 @@ pub(super) fn check_gif(
         let frame = frame.map_err(broken_at(path, number, count))?;
         if frame.is_some() != (number < count) {
             let reason = format!("it does not have {count} frames");
-            return Err(ExportError::not_whole(path, reason));
+            return Err(ExportError::corrupt(path, reason));
         }
     }
     Ok(())
@@ -58,11 +58,11 @@ pub(super) fn check_apng(
 ) -> Result<(), ExportError> {
     let limits = png::Limits { bytes: usize::MAX };
     let decoder = png::Decoder::new_with_limits(BufReader::new(written), limits);
-    let mut reader = (decoder.read_info()).map_err(|error| ExportError::not_whole(path, error))?;
+    let mut reader = (decoder.read_info()).map_err(|error| ExportError::corrupt(path, error))?;
     let control = reader.info().animation_control;
     if control.map(|control| control.num_frames as usize) != Some(count) {
         let reason = format!("it does not have {count} frames");
-        return Err(ExportError::not_whole(path, reason));
+        return Err(ExportError::corrupt(path, reason));
     }
     let mut pixels = vec![0; reader.output_buffer_size().unwrap_or_default()];
     for number in 0..count {
@@ -81,7 +81,7 @@ fn broken_at<E: Display>(
 ) -> impl FnOnce(E) -> ExportError {
     move |error| {
         let reason = format!("it is unreadable after frame {number} of {count} ({error})");
-        ExportError::not_whole(path, reason)
+        ExportError::corrupt(path, reason)
     }
 }
 

@@ -101,7 +101,7 @@ impl PixelSize {
     ///
     /// # Errors
     /// [`PixelSizeError`] if a side is 0 or the image is too large.
-    pub(super) fn holding(sides_px: DVec2) -> Result<Self, PixelSizeError> {
+    pub(super) fn rounded_up(sides_px: DVec2) -> Result<Self, PixelSizeError> {
         // `as` saturates, so absurdly large sides are refused as too large.
         let [width, height] = sides_px.to_array().map(|side| side.ceil() as u32);
         Self::new(width, height)

@@ -51,7 +51,7 @@ fn element(k: usize, item: &DrawingItem) -> String {
             let fill = fill(outline, &format!("fill=\"url(#g{k})\""), label.as_deref());
             format!("{}{fill}", shaded(k, gradient))
         }
-        DrawingItem::Line { outline, line } => drawn_line(outline, line),
+        DrawingItem::Stroke { outline, line } => drawn_line(outline, line),
         DrawingItem::Bars {
             segments,
             width_px,
@@ -79,7 +79,7 @@ fn fill(outline: &OutlinePath, ink: &str, label: Option<&str>) -> String {
     let label = label.map_or_else(String::new, |words| {
         format!(" role=\"img\" aria-label=\"{}\"", XmlEscaped(words))
     });
-    let steps: String = outline.steps.iter().map(step).collect();
+    let steps: String = outline.commands.iter().map(step).collect();
     format!("<path{label} {ink} d=\"{steps}\"/>")
 }
 
@@ -103,13 +103,13 @@ fn shaded(k: usize, gradient: &Gradient) -> String {
             true => String::new(),
             false => format!(" stop-opacity=\"{}\"", ShortNumber(opacity)),
         };
-        let at = ShortNumber(100.0 * stop.at);
+        let at = ShortNumber(100.0 * stop.offset);
         format!("<stop offset=\"{at}%\" stop-color=\"{colour}\"{opacity}/>")
     };
     let stops: String = gradient.stops.iter().map(stop).collect();
-    let (kind, geometry) = match gradient.course {
-        GradientGeometry::Straight => ("linear", "x1=\"0\" y1=\"0\" x2=\"1\" y2=\"0\"".to_owned()),
-        GradientGeometry::Round { focus, inner } => {
+    let (kind, geometry) = match gradient.geometry {
+        GradientGeometry::Linear => ("linear", "x1=\"0\" y1=\"0\" x2=\"1\" y2=\"0\"".to_owned()),
+        GradientGeometry::Radial { focus, inner } => {
             let geometry = format!(
                 "cx=\"0\" cy=\"0\" r=\"1\" fx=\"{}\" fy=\"{}\" fr=\"{}\"",
                 ShortNumber(focus.x),
@@ -146,7 +146,7 @@ fn drawn_line(outline: &OutlinePath, line: &StrokeStyle) -> String {
         true => String::new(),
         false => format!(" stroke-opacity=\"{}\"", ShortNumber(paint.opacity)),
     };
-    let steps: String = outline.steps.iter().map(step).collect();
+    let steps: String = outline.commands.iter().map(step).collect();
     format!(
         "<path fill=\"none\" stroke=\"{}\"{opacity} stroke-width=\"{}\" stroke-linejoin=\"{join}\" d=\"{steps}\"/>",
         paint.colour,

@@ -3,7 +3,7 @@
 use crate::design::or_list;
 use std::path::{Path, PathBuf};
 
-use crate::settings::{Choice, keys, named};
+use crate::settings::{Choice, choice_keys, named};
 
 /// File name pattern of the frames in an output folder.
 const IN_FOLDER: &str = "frame-####.png";
@@ -54,7 +54,7 @@ named! { FilmKind {
 /// Lists the file extensions of all kinds for a sentence: `.png or .svg`.
 #[must_use]
 pub fn extension_list<K: Choice>() -> String {
-    or_list(keys::<K>().map(|key| format!(".{key}")))
+    or_list(choice_keys::<K>().map(|key| format!(".{key}")))
 }
 
 /// File names of numbered frames: `folder/prefix0007suffix`.
@@ -143,7 +143,7 @@ impl ExportTarget {
 impl ExportTarget {
     /// Resolves extensions that stand for both an image and a film (`.svg`) to the film.
     #[must_use]
-    pub fn moving(self) -> Self {
+    pub fn preferring_film(self) -> Self {
         match self {
             Self::Still(StillKind::Svg, path) => Self::Film(FilmKind::Svg, path),
             other => other,
@@ -194,7 +194,7 @@ mod tests {
         assert_eq!(target("b.mp4"), film(FilmKind::Mp4, "b.mp4"));
         assert_eq!(target("b.html"), film(FilmKind::Html, "b.html"));
         assert_eq!(target("b.json"), film(FilmKind::Lottie, "b.json"));
-        let moving = target("b.svg").map(ExportTarget::moving);
+        let moving = target("b.svg").map(ExportTarget::preferring_film);
         assert_eq!(moving, film(FilmKind::Svg, "b.svg"));
         assert!(matches!(
             target("b.jpg"),

@@ -78,7 +78,8 @@ impl VectorAnimation {
 pub(super) fn write_motion(
     camera: &Camera,
     film: &FilmSpec,
-    (kind, path): (FilmKind, &Path),
+    kind: FilmKind,
+    path: &Path,
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
     let motion = VectorAnimation::record(camera, film, progress)?;

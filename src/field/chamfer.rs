@@ -20,7 +20,7 @@ pub(super) fn distances(
     progress: &dyn Progress,
 ) -> Result<Vec<f32>, Cancelled> {
     let height = mask.height() as usize;
-    let mut lengths = ChamferWeights::of(mask);
+    let mut lengths = ChamferDistances::of(mask);
     let report = |done: usize| {
         let fraction = 0.5 * done as f64 / height as f64;
         checkpoint(progress, "measuring distances", fraction)
@@ -41,12 +41,12 @@ pub(super) fn distances(
         row.for_each(|i| lengths.visit(i, diagonal, |i, step| i + step));
     }
     let cells = (0..height).flat_map(|y| lengths.row(y));
-    Ok(cells.map(|i| lengths.signed(i)).collect())
+    Ok(cells.map(|i| lengths.signed_distance(i)).collect())
 }
 
 /// Sides and unsigned distances of all cells, including the ring of outside cells around the
 /// picture.
-struct ChamferWeights {
+struct ChamferDistances {
     /// Whether each cell is inside.
     sides: Vec<bool>,
     /// Distance of each cell to the nearest cell of the other side.
@@ -55,7 +55,7 @@ struct ChamferWeights {
     stride: usize,
 }
 
-impl ChamferWeights {
+impl ChamferDistances {
     /// Copies the sides; all distances are still infinite.
     fn of(mask: &Mask) -> Self {
         let (width, height) = (mask.width() as usize, mask.height() as usize);
@@ -97,7 +97,7 @@ impl ChamferWeights {
     }
 
     /// Signed distance of a cell.
-    fn signed(&self, i: usize) -> f32 {
+    fn signed_distance(&self, i: usize) -> f32 {
         // The boundary lies half a cell before the nearest cell of the other side.
         let distance = (self.lengths[i] - 0.5) as f32;
         if self.sides[i] { distance } else { -distance }

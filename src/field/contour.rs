@@ -55,12 +55,12 @@ pub fn trace<F>(width: u32, height: u32, value: F, level: f64) -> Vec<Vec<DVec2>
 where
     F: Fn(f64, f64) -> f64 + Sync,
 {
-    trace_knowing(width, height, |_, _| None, value, level)
+    trace_with_known(width, height, |_, _| None, value, level)
 }
 
 /// Same as [`trace`], but `known(column, row)` may return whether a sample is inside; `value` is
 /// not evaluated at those samples.
-pub(crate) fn trace_knowing<F>(
+pub(crate) fn trace_with_known<F>(
     width: u32,
     height: u32,
     known: impl Fn(usize, usize) -> Option<bool> + Sync,
@@ -83,7 +83,7 @@ where
     chains(&segments)
         .into_iter()
         .map(|edges| edges.par_iter().map(|&e| squares.crossing(e)).collect())
-        .map(cleaned)
+        .map(remove_redundant_points)
         .filter(|points| points.len() >= 3)
         .collect()
 }
@@ -166,7 +166,7 @@ where
             let corners = [l[0], l[1], u[1], u[0]];
             // Fast path: nearly all squares are entirely inside or outside.
             if corners != [corners[0]; 4] {
-                self.square(column, row, corners, &mut out);
+                self.push_square_segments(column, row, corners, &mut out);
             }
         }
         out
@@ -174,7 +174,13 @@ where
 
     /// Appends the one or two segments of a square. Corners and edges are ordered counter-clockwise
     /// from the lower left.
-    fn square(&self, column: usize, row: usize, corners: [bool; 4], out: &mut Vec<ContourSegment>) {
+    fn push_square_segments(
+        &self,
+        column: usize,
+        row: usize,
+        corners: [bool; 4],
+        out: &mut Vec<ContourSegment>,
+    ) {
         let node = row * self.columns + column;
         let edges = [
             2 * node,
@@ -231,13 +237,13 @@ fn root(f: impl Fn(f64) -> f64) -> f64 {
         if hi.0 - lo.0 <= BRACKET {
             break;
         }
-        let s = between(lo, hi, step % 3 == 2);
+        let s = next_estimate(lo, hi, step % 3 == 2);
         let value = f(s);
         if value.abs() <= max_residual {
             return s;
         }
         let is_low = (value >= 0.0) != is_rising;
-        let (replaced_end, kept_end) = if is_low {
+        let (replaced_end, other_end) = if is_low {
             (&mut lo, &mut hi)
         } else {
             (&mut hi, &mut lo)
@@ -246,15 +252,15 @@ fn root(f: impl Fn(f64) -> f64) -> f64 {
         // Illinois step: an end that stays twice has its value halved; otherwise the chord would
         // approach the root from one side only.
         if last_was_low == Some(is_low) {
-            kept_end.1 *= 0.5;
+            other_end.1 *= 0.5;
         }
         last_was_low = Some(is_low);
     }
-    between(lo, hi, false)
+    next_estimate(lo, hi, false)
 }
 
 /// Zero of the chord of a bracket, or the bracket's midpoint.
-fn between(lo: (f64, f64), hi: (f64, f64), bisect: bool) -> f64 {
+fn next_estimate(lo: (f64, f64), hi: (f64, f64), bisect: bool) -> f64 {
     let s = lo.0 + (hi.0 - lo.0) * (lo.1 / (lo.1 - hi.1));
     if bisect || !(lo.0..=hi.0).contains(&s) {
         0.5 * (lo.0 + hi.0)
@@ -288,7 +294,7 @@ fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
 
 /// Removes repeated points, and points within a straight run along an axis, of which the picture's
 /// border has many.
-fn cleaned(mut points: Vec<DVec2>) -> Vec<DVec2> {
+fn remove_redundant_points(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.dedup();
     if points.len() > 1 && points.first() == points.last() {
         points.pop();

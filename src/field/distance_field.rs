@@ -126,9 +126,9 @@ impl DistanceField {
     ) -> Result<Self, FieldError> {
         grid.check()?;
         // In lattice coordinates, so that distances are in cells.
-        let edges = inside::edges(regions, &grid);
+        let edges = inside::lattice_edges(regions, &grid);
         let mut values = polygon_distance::distances(&edges, &grid, progress)?;
-        for (value, inside) in values.iter_mut().zip(inside::inside(&edges, &grid)) {
+        for (value, inside) in values.iter_mut().zip(inside::inside_samples(&edges, &grid)) {
             if !inside {
                 *value = 0.0 - *value; // not −value: 0 must not become −0
             }

@@ -12,7 +12,7 @@ use crate::geometry::{DVec2, Regions};
 pub(super) type ScanlineEdge = (DVec2, DVec2);
 
 /// Returns all edges of `regions` in the lattice coordinates of `grid`.
-pub(super) fn edges(regions: &Regions, grid: &Grid) -> Vec<ScanlineEdge> {
+pub(super) fn lattice_edges(regions: &Regions, grid: &Grid) -> Vec<ScanlineEdge> {
     let place = |p| grid.lattice_from_plane(p);
     regions
         .rings()
@@ -22,7 +22,7 @@ pub(super) fn edges(regions: &Regions, grid: &Grid) -> Vec<ScanlineEdge> {
 }
 
 /// Returns for each sample whether its winding number is not zero, in row-major order.
-pub(super) fn inside(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
+pub(super) fn inside_samples(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
     let mut steps = vec![0_i32; grid.cells()];
     for &(a, b) in edges {
         // An edge changes the winding number to its right by +1 if it rises and by −1 if it falls.

@@ -70,7 +70,7 @@ impl Mask {
     /// Returns an error if the grid is invalid, or no cell centre is inside.
     pub fn from_regions(regions: &Regions, grid: &Grid) -> Result<Self, MaskError> {
         grid.check()?;
-        let bits = inside::inside(&inside::edges(regions, grid), grid);
+        let bits = inside::inside_samples(&inside::lattice_edges(regions, grid), grid);
         Self::new(grid.width, grid.height, bits)
     }
 

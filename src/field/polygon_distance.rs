@@ -104,7 +104,7 @@ impl PolygonSegment {
 }
 
 /// Pruning bound of a block: the edge nearest to its centre, with which all others are compared.
-struct NearestCandidate {
+struct PruningBound {
     /// Unit vector from the nearest edge to the centre.
     direction: DVec2,
     /// Distance of the nearest edge to the centre, plus the margin for rounding.
@@ -117,7 +117,7 @@ struct NearestCandidate {
     limit: f64,
 }
 
-impl NearestCandidate {
+impl PruningBound {
     fn new(away: DVec2, radius: f64) -> Self {
         let distance = away.length();
         let clearance = distance - radius;
@@ -244,7 +244,7 @@ impl<'a> SegmentSearch<'a> {
         else {
             return;
         };
-        let bound = NearestCandidate::new(nearest, radius);
+        let bound = PruningBound::new(nearest, radius);
         for (k, &away) in self.away.iter().enumerate() {
             if bound.can_be_nearest(away) {
                 self.stack.push(self.stack[bottom + k]);

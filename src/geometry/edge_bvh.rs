@@ -103,8 +103,8 @@ impl EdgeBvh {
             return;
         }
         if to - from <= LEAF_EDGES {
-            for &edge in &self.edges[from..to] {
-                let distance = ray_hit_parameter(ray.from, ray.direction, edge);
+            for &(a, b) in &self.edges[from..to] {
+                let distance = ray_hit_parameter(ray.from, ray.direction, [a, b]);
                 *nearest = distance
                     .filter(|distance| *distance > ray.min_distance)
                     .map_or(*nearest, |distance| nearest.min(distance));
@@ -161,7 +161,8 @@ mod tests {
         ) {
             let points: Vec<DVec2> = points.into_iter().map(DVec2::from).collect();
             let (from, direction) = (DVec2::from(from), DVec2::from_angle(turn));
-            let met = ring_edges(&points).filter_map(|edge| ray_hit_parameter(from, direction, edge));
+            let met = ring_edges(&points)
+                .filter_map(|(a, b)| ray_hit_parameter(from, direction, [a, b]));
             let slow = met.filter(|far| *far > own).fold(f64::INFINITY, f64::min);
             let fast = EdgeBvh::of(&points).first_hit_beyond(from, direction, own);
             prop_assert_eq!(slow, fast);
@@ -190,7 +191,8 @@ mod tests {
                 .collect();
             let direction = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y][turn as usize];
             let from = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let met = ring_edges(&stairs).filter_map(|edge| ray_hit_parameter(from, direction, edge));
+            let met = ring_edges(&stairs)
+                .filter_map(|(a, b)| ray_hit_parameter(from, direction, [a, b]));
             let slow = met.fold(f64::INFINITY, f64::min);
             prop_assert_eq!(slow, EdgeBvh::of(&stairs).first_hit_beyond(from, direction, 0.0));
         }

@@ -112,7 +112,7 @@ impl Regions {
     /// ```
     pub fn from_rings(rings: &[Vec<DVec2>], rule: FillRule) -> Result<Self, RegionsError> {
         check_range(rings)?;
-        Self::cleaned(rings, rule).map(|(regions, _)| regions)
+        Self::clean(rings, rule).map(|(regions, _)| regions)
     }
 
     /// As [`Regions::from_rings`], but a duplicate outline counts once, and the repairs are
@@ -126,12 +126,12 @@ impl Regions {
     ) -> Result<(Self, Repairs), RegionsError> {
         check_range(rings)?;
         let (used_rings, repairs) = Repairs::find(rings);
-        let (regions, slivers) = Self::cleaned(&used_rings, rule)?;
+        let (regions, slivers) = Self::clean(&used_rings, rule)?;
         Ok((regions, Repairs { slivers, ..repairs }))
     }
 
     /// Returns the regions and the number of slivers that were removed.
-    fn cleaned(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
+    fn clean(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
         let extent = DesignSizeError::check(&bounds)?;
         let area = Self::MIN_RELATIVE_AREA * extent * extent;
@@ -291,19 +291,19 @@ fn region_from(
         }
         Ring::new(points).ok()
     });
-    let outer = oriented(rings.next()?, true);
+    let outer = with_orientation(rings.next()?, true);
     if smallest.is_sliver(&outer) {
         return None;
     }
     let holes = rings
-        .map(|hole| oriented(hole, false))
+        .map(|hole| with_orientation(hole, false))
         .filter(|hole| !smallest.is_sliver(hole))
         .collect();
     Some(Region { outer, holes })
 }
 
 /// Returns the ring with the requested orientation.
-fn oriented(ring: Ring, ccw: bool) -> Ring {
+fn with_orientation(ring: Ring, ccw: bool) -> Ring {
     if (ring.signed_area() > 0.0) == ccw {
         ring
     } else {

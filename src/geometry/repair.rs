@@ -93,7 +93,7 @@ impl Repairs {
         let mut edges: Vec<BoxedEdge> = rings
             .iter()
             .flat_map(|ring| ring_edges(ring))
-            .map(BoxedEdge::new)
+            .map(|(a, b)| BoxedEdge::new(a, b))
             .collect();
         edges.sort_unstable_by(|e, f| e.bounds.min.x.total_cmp(&f.bounds.min.x));
         let mut tests = TESTS_PER_EDGE * edges.len();
@@ -145,7 +145,7 @@ struct BoxedEdge {
 }
 
 impl BoxedEdge {
-    fn new((a, b): (DVec2, DVec2)) -> Self {
+    fn new(a: DVec2, b: DVec2) -> Self {
         let bounds = Bounds::at(a).union(&Bounds::at(b));
         Self { a, b, bounds }
     }

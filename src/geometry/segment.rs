@@ -67,11 +67,7 @@ pub fn segments_cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 
 /// Returns where a ray hits the segment from `a` to `b`, in lengths of `direction`; `None` if it
 /// misses, or if the hit lies behind.
-pub(crate) fn ray_hit_parameter(
-    from: DVec2,
-    direction: DVec2,
-    (a, b): (DVec2, DVec2),
-) -> Option<f64> {
+pub(crate) fn ray_hit_parameter(from: DVec2, direction: DVec2, [a, b]: [DVec2; 2]) -> Option<f64> {
     let (edge, offset) = (b - a, a - from);
     let across = direction.perp_dot(edge);
     // For parallel lines this is infinite or NaN, and therefore out of range.

@@ -14,7 +14,7 @@ const SAMPLES_PER_DIAMETER: f64 = 200.0;
 pub(crate) fn total_turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
     let step = diameter / SAMPLES_PER_DIAMETER;
     let ring_turning = |ring: &Vec<DVec2>| {
-        let points = sampled(ring, step);
+        let points = resample(ring, step);
         let n = points.len();
         let angle = |i: usize| {
             let [a, b, c] = [i, i + 1, i + 2].map(|k| points[k % n]);
@@ -31,7 +31,7 @@ pub(crate) fn total_turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
 }
 
 /// Returns evenly spaced points along a closed ring: about one per step, at least three.
-fn sampled(ring: &[DVec2], step: f64) -> Vec<DVec2> {
+fn resample(ring: &[DVec2], step: f64) -> Vec<DVec2> {
     let length = perimeter(ring);
     // Written so that NaN fails the test.
     if !(length.is_finite() && length > 0.0 && step > 0.0) {

@@ -1,13 +1,10 @@
-//! Files that are there whole or not at all.
+//! Atomic writing: a file appears complete under its name, or not at all.
 //!
-//! A temporary file in the same folder is written and renamed at the end.
-//! Guarantees: until [`AtomicFile::commit`] the old file, if any, is untouched;
-//! after it the new one is on the disk, and not only on its way there; dropping
-//! without it removes the temporary file. A killed process can leave the
-//! temporary file behind, never a half one under the final name, and the next
-//! one that writes into the folder takes it away. A file that takes the place of
-//! another is as open as that was. Only files are replaced: never a device, a
-//! pipe or a folder.
+//! The bytes go into a temporary file in the same folder, which is renamed at the end. Until
+//! [`AtomicFile::commit`] the old file is untouched; after it the new one is flushed to the disk.
+//! Dropping without a commit removes the temporary file. A killed process may leave its temporary
+//! file behind; the next write into that folder removes it. A replaced file keeps its
+//! permissions. Devices, pipes and folders are never replaced.
 
 mod leftovers;
 mod refusal;
@@ -17,29 +14,30 @@ use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 pub(crate) use leftovers::remove_leftovers;
+pub(crate) use refusal::write_error_message;
 #[cfg(feature = "app")]
-pub(crate) use refusal::reason;
-pub(crate) use refusal::refusal;
+pub(crate) use refusal::write_error_reason;
 
-/// A file on its way.
+/// A temporary file that [`Self::commit`] renames to its final path.
 #[derive(Debug)]
 pub(crate) struct AtomicFile {
     file: File,
     temporary: PathBuf,
     path: PathBuf,
-    is_there: bool,
+    is_committed: bool,
 }
 
 impl AtomicFile {
-    /// Opens a temporary file beside `path`, and takes away those that killed
-    /// processes left there.
+    /// Creates a temporary file next to `path` and removes leftovers of killed processes there.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         remove_leftovers(folder_of(path));
-        Self::create_one_of_many(path)
+        Self::create_without_cleanup(path)
     }
 
-    /// The same for a folder of many, of which leftovers are taken away once.
-    pub(crate) fn create_one_of_many(path: &Path) -> io::Result<Self> {
+    /// Like [`Self::create`], but keeps leftovers.
+    ///
+    /// For writing many files into one folder, where [`remove_leftovers`] is called once.
+    pub(crate) fn create_without_cleanup(path: &Path) -> io::Result<Self> {
         let old = fs::metadata(path).ok();
         if let Some(old) = old.as_ref().filter(|old| !old.is_file()) {
             let is_folder = old.is_dir();
@@ -49,79 +47,82 @@ impl AtomicFile {
                 io::Error::other("it is a device or a pipe")
             });
         }
-        let (file, temporary) = leftovers::create_beside(path, folder_of(path))?;
+        let (file, temporary) = leftovers::create_temporary(path, folder_of(path))?;
         let created = Self {
             file,
             temporary,
             path: path.to_owned(),
-            is_there: false,
+            is_committed: false,
         };
-        // No old file, no permissions to take over.
         if let Some(old) = old {
             created.file.set_permissions(old.permissions())?;
         }
         Ok(created)
     }
 
-    /// Where the bytes go until [`Self::commit`].
+    /// Returns the temporary file, for writing.
     pub(crate) fn file_mut(&mut self) -> &mut File {
         &mut self.file
     }
 
-    /// What was written, from its beginning.
-    pub(crate) fn written(&mut self) -> io::Result<&mut File> {
+    /// Rewinds the temporary file, for reading back its contents.
+    pub(crate) fn reread(&mut self) -> io::Result<&mut File> {
         self.file.rewind()?;
         Ok(&mut self.file)
     }
 
-    /// The temporary file's path, for another program to write.
-    #[cfg(not(target_family = "wasm"))] // no other programs there
+    /// Returns the path of the temporary file, for another program to write to.
+    #[cfg(not(target_family = "wasm"))] // cannot start other programs
     pub(crate) fn temporary_path(&self) -> &Path {
         &self.temporary
     }
 
-    /// Gives the file its name, once it is on the disk: a full one on a network
-    /// tells so only then, and a power cut leaves the old file or the new one.
+    /// Flushes the file to the disk and gives it its final name.
+    ///
+    /// A full network disk reports its error only on flushing. After a power cut, either the old
+    /// or the new file exists, complete.
     pub(crate) fn commit(mut self) -> io::Result<()> {
         self.file.sync_all()?;
         fs::rename(&self.temporary, &self.path)?;
-        self.is_there = true;
+        self.is_committed = true;
         Ok(())
     }
 }
 
 impl Drop for AtomicFile {
     fn drop(&mut self) {
-        // After a commit the name is free, and may be another one's by now.
-        if !self.is_there {
+        // After a commit the temporary name is free, and another process may be using it.
+        if !self.is_committed {
             fs::remove_file(&self.temporary).unwrap_or_default();
         }
     }
 }
 
-/// Writes a whole file at once.
+/// Writes a whole file atomically.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_to(AtomicFile::create(path)?, bytes)
 }
 
-/// Writes one file of a folder of many, as [`AtomicFile::create_one_of_many`].
-pub(crate) fn write_one_of_many(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    write_to(AtomicFile::create_one_of_many(path)?, bytes)
+/// Like [`write`], but keeps leftovers; see [`AtomicFile::create_without_cleanup`].
+pub(crate) fn write_without_cleanup(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_to(AtomicFile::create_without_cleanup(path)?, bytes)
 }
 
+/// Writes and commits, after reading the bytes back to detect a faulty disk.
 fn write_to(mut file: AtomicFile, bytes: &[u8]) -> io::Result<()> {
     file.file_mut().write_all(bytes)?;
     let mut written = Vec::with_capacity(bytes.len());
-    file.written()?.read_to_end(&mut written)?;
+    file.reread()?.read_to_end(&mut written)?;
     if written != bytes {
-        return Err(io::Error::other("the disk gives back other bytes"));
+        return Err(io::Error::other("reading back gave different bytes"));
     }
     file.commit()
 }
 
+/// Returns the folder that contains `path`.
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
-        // A bare name has a parent without a name, which cannot be opened.
+        // The parent of a bare file name is the empty path, which cannot be opened.
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     }
@@ -156,7 +157,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn others_may_read_what_any_new_file_lets_them() {
+    fn permissions_are_those_of_a_new_file_or_of_the_replaced_one() {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().expect("a folder");
         let mode = |name: &str| {

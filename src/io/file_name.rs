@@ -1,20 +1,22 @@
-//! Names of files that every system takes.
+//! File names that are valid on every common file system.
 
-/// A name that every file system takes: signs that mean something to one of them become `-`.
+/// Returns `name` with every character that some file system does not allow replaced by `-`.
+///
+/// The result has at most 80 characters and is never empty.
 #[must_use]
-pub fn safe(name: &str) -> String {
-    let keep = |c: char| {
+pub fn safe_file_name(name: &str) -> String {
+    let replace = |c: char| {
         if c.is_alphanumeric() || "-_. ,()+&".contains(c) {
             c
         } else {
             '-'
         }
     };
-    // File systems take names of 255 bytes: 80 signs of three leave room for a number and an
-    // ending.
-    let kept: String = name.chars().take(80).map(keep).collect();
-    // A dot in front hides a file on Unix; dots and blanks at the end are dropped on Windows.
-    let trimmed = kept.trim_matches(|c| c == '.' || c == ' ');
+    // File systems allow 255 bytes. 80 characters of up to 3 bytes leave room for a number and
+    // an extension.
+    let replaced: String = name.chars().take(80).map(replace).collect();
+    // A leading dot hides a file on Unix. Windows drops trailing dots and spaces.
+    let trimmed = replaced.trim_matches(|c| c == '.' || c == ' ');
     if trimmed.is_empty() {
         "untitled".to_owned()
     } else {
@@ -28,9 +30,12 @@ mod tests {
 
     #[test]
     fn names_are_safe() {
-        assert_eq!(safe("a/b\\c:d"), "a-b-c-d");
-        assert_eq!(safe("a to d, 4 designs (2)"), "a to d, 4 designs (2)");
-        assert_eq!(safe(".."), "untitled");
-        assert_eq!(safe("  Brücke 2 "), "Brücke 2");
+        assert_eq!(safe_file_name("a/b\\c:d"), "a-b-c-d");
+        assert_eq!(
+            safe_file_name("a to d, 4 designs (2)"),
+            "a to d, 4 designs (2)"
+        );
+        assert_eq!(safe_file_name(".."), "untitled");
+        assert_eq!(safe_file_name("  Brücke 2 "), "Brücke 2");
     }
 }

@@ -1,26 +1,24 @@
-//! What came from elsewhere, told in one line.
+//! Escaping of text from files, so that it can be shown in a message of one line.
 //!
-//! A key in a JSON file, an id in a drawing, a path: whatever is in them may
-//! stand in a message, and a message is one line of characters that show. So
-//! all that is told of a file goes through [`SanitizedLine`], and what a terminal
-//! prints once more: told twice is told as once.
+//! A JSON key, an id in a drawing or a path may contain line breaks and terminal commands. Every
+//! message that quotes a file goes through [`SanitizedLine`]; output to a terminal goes through
+//! it once more, which changes nothing the second time.
 //!
-//! Guaranteed: no line breaks, no control characters, no characters that turn
-//! the direction of writing; they are escaped as Rust does it (`\n`,
-//! `\u{1b}`). What is longer than [`MOST`] characters loses its middle, for
-//! files are named at the beginning and the way out stands at the end. Not
-//! guaranteed: that the text can be had back; a backslash stays one.
+//! The result has no line breaks, no control characters and no characters that override the
+//! writing direction; they are escaped as in Rust (`\n`, `\u{1b}`). Text longer than
+//! [`MAX_CHARS`] loses its middle, because messages name the file at the start and the remedy at
+//! the end. Escaping is not reversible: backslashes are not escaped.
 
 use std::fmt;
 
-/// Most characters of a message: twice those of the longest of our own, an
-/// unknown key of a project with all keys that there are.
-const MOST: usize = 1_000;
+/// Maximum number of characters of a message (resource limit: twice the longest message of the
+/// program, which lists all keys of a project file).
+const MAX_CHARS: usize = 1_000;
 
-/// How many of [`MOST`] stay of the end: room for any way out.
-const TAIL: usize = 400;
+/// Number of characters at the end of a shortened message, enough for any remedy (heuristic).
+const TAIL_CHARS: usize = 400;
 
-/// Shows what it holds in one line.
+/// Wrapper whose `Display` escapes and shortens the text of the value to one safe line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SanitizedLine<T>(pub T);
 
@@ -28,23 +26,24 @@ impl<T: fmt::Display> fmt::Display for SanitizedLine<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shown: String = self.0.to_string().chars().flat_map(visible).collect();
         let count = shown.chars().count();
-        if count <= MOST {
+        if count <= MAX_CHARS {
             return f.write_str(&shown);
         }
-        let head = shown.chars().take(MOST - TAIL - 1);
-        let tail = shown.chars().skip(count - TAIL);
+        let head = shown.chars().take(MAX_CHARS - TAIL_CHARS - 1);
+        let tail = shown.chars().skip(count - TAIL_CHARS);
         f.write_str(&head.chain(['…']).chain(tail).collect::<String>())
     }
 }
 
-/// Whether a character acts on what shows it, instead of being shown.
+/// Returns whether a character controls the display instead of being visible.
 pub(crate) fn is_hidden(c: char) -> bool {
-    // Line and paragraph separators, and all that override the direction
-    // (Unicode, UAX #9): with them a name can be made to look like another.
-    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    c.is_control() || turns
+    // Line and paragraph separators, and directional formatting characters (Unicode UAX #9),
+    // which can make one name look like another.
+    let is_directional = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    c.is_control() || is_directional
 }
 
+/// Returns the character itself, or its escape sequence if it is hidden.
 fn visible(c: char) -> impl Iterator<Item = char> {
     let hidden = is_hidden(c);
     let escaped = hidden.then(|| c.escape_default());
@@ -55,12 +54,12 @@ fn visible(c: char) -> impl Iterator<Item = char> {
 mod tests {
     use super::*;
 
-    fn told(text: &str) -> String {
+    fn sanitized(text: &str) -> String {
         SanitizedLine(text).to_string()
     }
 
     #[test]
-    fn what_acts_is_escaped_once() {
+    fn hidden_characters_are_escaped_once() {
         for (text, line) in [
             ("plain: ä “x” \\n", "plain: ä “x” \\n"),
             ("a\nb\r\tc", "a\\nb\\r\\tc"),
@@ -68,16 +67,16 @@ mod tests {
             ("\u{9b}2J\u{7f}", "\\u{9b}2J\\u{7f}"),
             ("a\u{202e}gpj.exe\u{2028}", "a\\u{202e}gpj.exe\\u{2028}"),
         ] {
-            assert_eq!(told(text), line);
-            assert_eq!(told(&told(text)), line);
+            assert_eq!(sanitized(text), line);
+            assert_eq!(sanitized(&sanitized(text)), line);
         }
     }
 
     #[test]
-    fn what_is_long_keeps_its_ends() {
-        let line = told(&format!("a.svg: {}; save it again", "é".repeat(1_000_000)));
-        assert_eq!(line.chars().count(), MOST);
+    fn long_text_keeps_its_start_and_end() {
+        let line = sanitized(&format!("a.svg: {}; save it again", "é".repeat(1_000_000)));
+        assert_eq!(line.chars().count(), MAX_CHARS);
         assert!(line.starts_with("a.svg: é") && line.ends_with("é; save it again"));
-        assert_eq!(told(&line), line);
+        assert_eq!(sanitized(&line), line);
     }
 }

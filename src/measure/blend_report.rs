@@ -1,4 +1,4 @@
-//! What is measured of one blend of many designs.
+//! Measures of one blend of many designs.
 
 use super::distortion::{Distortion, distortion};
 use crate::compatible::CompatibleMesh;
@@ -6,37 +6,39 @@ use crate::geometry::{DVec2, count_crossings, perimeter, signed_area};
 use crate::space::{DesignSpace, SpaceFrame};
 use serde::Serialize;
 
-/// What is wrong with a blend, and how far it is from the designs.
+/// Defects and distortion of a blend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct BlendReport {
-    /// Faces that are turned over or flat.
+    /// Number of faces that are folded or flat.
     pub folds: usize,
-    /// Proper crossings among the outlines.
+    /// Number of proper crossings among the outlines.
     pub crossings: usize,
-    /// σ₁/σ₂ that 95 % of the area keeps to, from the design that is nearest by that; none
-    /// without a mesh.
+    /// 95th percentile by area of the conformal distortion σ₁/σ₂, relative to the design for
+    /// which it is smallest; `None` without a mesh.
     pub conformal_p95: Option<f64>,
-    /// How far the area is from that of the designs, blended, as a share of it.
+    /// Difference between the area and the weighted mean of the designs' areas, as a fraction of
+    /// that mean.
     pub area_off: f64,
 }
 
-/// A blend in numbers.
+/// All measures of one blend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct BlendMeasures {
-    /// What is wrong with it.
+    /// Defects and distortion.
     #[serde(flatten)]
     pub quality: BlendReport,
-    /// What it fills, in square units of the designs; of bars their lengths times their width.
+    /// Filled area in squared design units; for bars, length times width.
     pub area: f64,
-    /// The length of its outlines; of bars of both their sides.
+    /// Length of the outlines in design units; for bars, of both sides.
     pub perimeter: f64,
-    /// How far its vertices are from those of the design that is nearest by that, on the mean,
-    /// in diameters of the designs; none of fields.
+    /// Mean distance of the vertices from those of the nearest design, in design diameters; `None`
+    /// without a mesh.
     pub travel: Option<f64>,
 }
 
 impl BlendReport {
-    pub(super) fn or_worse(self, other: Self) -> Self {
+    /// Combines two reports, taking the worse value of each measure.
+    pub(super) fn worst_of(self, other: Self) -> Self {
         Self {
             folds: self.folds.max(other.folds),
             crossings: self.crossings.max(other.crossings),
@@ -49,19 +51,19 @@ impl BlendReport {
     }
 }
 
-/// Measures blends of a space, with memory of its own.
+/// Measures blends of a space; owns a frame, so that each thread needs its own sampler.
 #[derive(Debug)]
 pub struct BlendSampler {
     frame: SpaceFrame,
-    /// From each design, where there is a mesh with faces.
+    /// Common mesh with each design as its reference; empty if the space has no mesh.
     meshes: Vec<CompatibleMesh>,
-    /// Of each design.
+    /// Area of each design.
     areas: Vec<f64>,
     diameter: f64,
 }
 
 impl BlendSampler {
-    /// Of the blends of a space.
+    /// Creates a sampler for a space.
     #[must_use]
     pub fn of(space: &DesignSpace) -> Self {
         let mut frame = space.frame();
@@ -83,50 +85,52 @@ impl BlendSampler {
         }
     }
 
-    /// The blend with these weights.
+    /// Measures the blend with the given weights, one per design.
     ///
     /// # Panics
     /// If there are not as many weights as designs.
-    pub fn at(&mut self, weights: &[f64]) -> BlendMeasures {
+    pub fn measure(&mut self, weights: &[f64]) -> BlendMeasures {
         self.frame.seek(weights);
-        let seen = BlendMoment::of(&self.frame);
-        let (found, travel) = match self.frame.places() {
+        let shape = BlendMoment::of(&self.frame);
+        let (distortions, travel) = match self.frame.places() {
             Some(places) => (self.distortion(places), self.travel(places)),
             None => (Vec::new(), None),
         };
-        let p95 = found.iter().map(|found| found.conformal.p95);
-        let wanted: f64 = self.areas.iter().zip(weights).map(|(a, w)| a * w).sum();
-        let off = (seen.area - wanted).abs() / wanted;
+        let p95 = distortions.iter().map(|of_design| of_design.conformal.p95);
+        let mean_area: f64 = self.areas.iter().zip(weights).map(|(a, w)| a * w).sum();
+        let off = (shape.area - mean_area).abs() / mean_area;
         BlendMeasures {
             quality: BlendReport {
-                folds: found.first().map_or(0, |found| found.folds),
-                crossings: seen.crossings,
+                folds: distortions.first().map_or(0, |of_design| of_design.folds),
+                crossings: shape.crossings,
                 conformal_p95: p95.min_by(f64::total_cmp),
-                // Of bars that have none there is none.
+                // Bars of width 0 have no area, which would give NaN.
                 area_off: if off.is_finite() { off } else { 0.0 },
             },
-            area: seen.area,
-            perimeter: seen.perimeter,
+            area: shape.area,
+            perimeter: shape.perimeter,
             travel,
         }
     }
 
+    /// Returns the distortion relative to each design.
     fn distortion(&self, places: &[DVec2]) -> Vec<Distortion> {
         let each = self.meshes.iter();
         each.filter_map(|mesh| distortion(mesh, places)).collect()
     }
 
+    /// Returns the mean vertex distance from the nearest design.
     fn travel(&self, places: &[DVec2]) -> Option<f64> {
-        let far = |mesh: &CompatibleMesh| {
+        let mean_distance = |mesh: &CompatibleMesh| {
             let gaps = mesh.source().iter().zip(places);
             let sum: f64 = gaps.map(|(p, q)| p.distance(*q)).sum();
             sum / (places.len() as f64 * self.diameter)
         };
-        self.meshes.iter().map(far).min_by(f64::total_cmp)
+        self.meshes.iter().map(mean_distance).min_by(f64::total_cmp)
     }
 }
 
-/// What is seen of a blend, in numbers.
+/// Measures of the drawn shape of a blend.
 struct BlendMoment {
     area: f64,
     perimeter: f64,

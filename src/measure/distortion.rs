@@ -1,44 +1,43 @@
-//! How much each face is distorted, by the singular values σ₁ ≥ σ₂ of its
-//! Jacobian.
+//! Distortion of each face, from the singular values σ₁ ≥ σ₂ of its Jacobian.
 //!
-//! Guaranteed: whether a face is folded is decided by exact predicates. Not
-//! guaranteed: digits of the values of faces that are nearly flat.
+//! Whether a face is folded is decided by exact predicates. The values of nearly flat faces are
+//! affected by rounding.
 
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, orient2d};
 use serde::Serialize;
 
-/// A measure over faces, weighted by area in the source.
+/// Distribution of a measure over the faces, weighted by area in the source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distribution {
-    /// Half of the area is at or below this.
+    /// Value that half of the area does not exceed.
     pub median: f64,
-    /// Of the area, 95 % is at or below this.
+    /// Value that 95 % of the area does not exceed.
     pub p95: f64,
-    /// The worst face.
+    /// Value of the worst face.
     pub worst: f64,
 }
 
-/// Distortion of the faces between the source and a placement of its
-/// vertices. 1 is none.
+/// Distortion of the faces between the source and a placement of its vertices. 1 means none.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distortion {
-    /// Faces that are turned over or flat (det ≤ 0).
+    /// Number of faces that are folded or flat (det ≤ 0).
     pub folds: usize,
-    /// The least determinant of a face: its signed area by that in the source.
+    /// Smallest determinant of a face: its signed area divided by that in the source.
     pub min_det: f64,
-    /// The greatest one.
+    /// Largest determinant of a face.
     pub max_det: f64,
-    /// σ₁/σ₂: of angles.
+    /// Distortion of angles, σ₁/σ₂.
     pub conformal: Distribution,
-    /// max(σ₁, 1/σ₂): of lengths.
+    /// Distortion of lengths, max(σ₁, 1/σ₂).
     pub isometric: Distribution,
-    /// max(det, 1/det): of areas.
+    /// Distortion of areas, max(det, 1/det).
     pub area: Distribution,
 }
 
-/// Measures the map from the source to `places`; `None` where there are no
-/// faces. Folded faces count as infinitely distorted.
+/// Measures the map from the source to `places`; returns `None` if there are no faces.
+///
+/// The distortion of folded faces is infinite.
 ///
 /// # Panics
 /// If there are fewer places than the mesh has vertices.
@@ -58,15 +57,15 @@ pub fn distortion(mesh: &CompatibleMesh, places: &[DVec2]) -> Option<Distortion>
         .faces()
         .iter()
         .map(|face| {
-            let rest = edges(mesh.source(), face);
+            let in_source = edges(mesh.source(), face);
             let strain = FaceStrain {
                 folded: is_folded(places, face),
-                ..FaceStrain::of(edges(places, face) * rest.inverse())
+                ..FaceStrain::of(edges(places, face) * in_source.inverse())
             };
-            (strain, rest.determinant())
+            (strain, in_source.determinant())
         })
         .collect();
-    let over = |measure: fn(&FaceStrain) -> f64| {
+    let distribution_of = |measure: fn(&FaceStrain) -> f64| {
         distribution(faces.iter().map(|(s, area)| (measure(s), *area)).collect())
     };
     let dets = faces.iter().map(|(strain, _)| strain.det);
@@ -74,36 +73,40 @@ pub fn distortion(mesh: &CompatibleMesh, places: &[DVec2]) -> Option<Distortion>
         folds: faces.iter().filter(|(s, _)| s.folded).count(),
         min_det: dets.clone().fold(f64::INFINITY, f64::min),
         max_det: dets.fold(f64::NEG_INFINITY, f64::max),
-        conformal: over(FaceStrain::conformal)?,
-        isometric: over(FaceStrain::isometric)?,
-        area: over(FaceStrain::area)?,
+        conformal: distribution_of(FaceStrain::conformal)?,
+        isometric: distribution_of(FaceStrain::isometric)?,
+        area: distribution_of(FaceStrain::area)?,
     })
 }
 
-/// Two edges of a face as a matrix.
+/// Returns the matrix whose columns are two edge vectors of a face.
 pub(super) fn edges(points: &[DVec2], face: &[u32; 3]) -> DMat2 {
     let [a, b, c] = face.map(|v| points[v as usize]);
     DMat2::from_cols(b - a, c - a)
 }
 
-/// Whether a face is turned over or flat (det ≤ 0), exactly.
+/// Returns whether a face is folded or flat (det ≤ 0), by an exact predicate.
 pub(super) fn is_folded(places: &[DVec2], face: &[u32; 3]) -> bool {
     let [a, b, c] = face.map(|v| places[v as usize]);
-    // NaN counts as folded.
-    let exact = orient2d(a, b, c);
-    exact.is_nan() || exact <= 0.0
+    let orientation = orient2d(a, b, c);
+    // NaN coordinates count as folded.
+    orientation.is_nan() || orientation <= 0.0
 }
 
-/// What a Jacobian does to lengths.
+/// Singular values and determinant of a face's Jacobian.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceStrain {
+    /// Larger singular value σ₁.
     large: f64,
+    /// Smaller singular value σ₂, with the sign of the determinant.
     small: f64,
+    /// Determinant σ₁σ₂.
     pub(super) det: f64,
     folded: bool,
 }
 
 impl FaceStrain {
+    /// Decomposes a Jacobian. Rounding decides whether a nearly flat face counts as folded.
     pub(super) fn of(m: DMat2) -> Self {
         let (large, small) = singular_values(m);
         let det = m.determinant();
@@ -115,8 +118,8 @@ impl FaceStrain {
         }
     }
 
-    fn whole(&self, value: f64) -> f64 {
-        // 0 / 0 of a face that collapsed is as bad as a fold.
+    /// Returns `value`, or infinity for folded faces and for 0/0 of collapsed ones.
+    fn or_infinite(&self, value: f64) -> f64 {
         if self.folded || value.is_nan() {
             f64::INFINITY
         } else {
@@ -124,38 +127,42 @@ impl FaceStrain {
         }
     }
 
+    /// Returns σ₁/σ₂; infinite if folded.
     pub(super) fn conformal(&self) -> f64 {
-        self.whole(self.large / self.small.abs())
+        self.or_infinite(self.large / self.small.abs())
     }
 
+    /// Returns max(σ₁, 1/σ₂); infinite if folded.
     pub(super) fn isometric(&self) -> f64 {
-        self.whole(self.large.max(1.0 / self.small.abs()))
+        self.or_infinite(self.large.max(1.0 / self.small.abs()))
     }
 
+    /// Returns max(det, 1/det); infinite if folded.
     pub(super) fn area(&self) -> f64 {
-        self.whole(self.det.max(1.0 / self.det).abs())
+        self.or_infinite(self.det.max(1.0 / self.det).abs())
     }
 }
 
-/// σ₁ ≥ |σ₂|, the second with the sign of the determinant.
+/// Returns σ₁ ≥ |σ₂|, the second with the sign of the determinant.
+///
+/// Follows Blinn (1996): splits the matrix into a scaled rotation and a scaled reflection.
 fn singular_values(m: DMat2) -> (f64, f64) {
-    // Blinn (1996): the matrix as a rotation-like and a reflection-like half.
     let (a, b, c, d) = (m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y);
-    let turning = 0.5 * (a + d).hypot(c - b);
-    let flipping = 0.5 * (a - d).hypot(c + b);
-    (turning + flipping, turning - flipping)
+    let rotation = 0.5 * (a + d).hypot(c - b);
+    let reflection = 0.5 * (a - d).hypot(c + b);
+    (rotation + reflection, rotation - reflection)
 }
 
-/// Quantiles of values with weights; `None` for no values.
+/// Returns the quantiles of `(value, weight)` pairs; `None` without values.
 pub(super) fn distribution(mut values: Vec<(f64, f64)>) -> Option<Distribution> {
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let total: f64 = values.iter().map(|(_, weight)| weight).sum();
     let worst = values.last()?.0;
-    let quantile = |share: f64| {
+    let quantile = |fraction: f64| {
         let mut sum = 0.0;
         let reached = values.iter().find(|(_, weight)| {
             sum += weight;
-            sum >= share * total
+            sum >= fraction * total
         });
         reached.map_or(worst, |(value, _)| *value)
     };
@@ -180,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shear_by_hand() {
+    fn a_shear_matches_the_closed_form() {
         // [1 s; 0 1] has σ₁ − 1/σ₁ = s and det 1.
         let s = 1.5;
         let strain = FaceStrain::of(DMat2::from_cols(DVec2::X, DVec2::new(s, 1.0)));
@@ -191,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn nearly_flat_faces_are_told_apart_exactly() {
+    fn nearly_flat_faces_are_classified_exactly() {
         let sliver = |y: f64| [DVec2::ZERO, DVec2::X, DVec2::new(0.5, y)];
         assert!(!is_folded(&sliver(1e-300), &[0, 1, 2]));
         assert!(is_folded(&sliver(0.0), &[0, 1, 2]));

@@ -1,8 +1,8 @@
-//! A transition sampled over t.
+//! Measures of a whole film, sampled at evenly spaced t.
 //!
-//! Guaranteed: every sample is a frame as it is drawn. Not guaranteed:
-//! anything between two samples. The cost is that of the frames, for rigid
-//! parts some microseconds a face and sample, for fields a contour each.
+//! Every sample is a frame exactly as it is drawn; nothing is known between samples. The cost is
+//! that of the frames: a few microseconds per face and sample for rigid parts, one contour per
+//! sample for fields.
 
 use super::distortion::{Distortion, Distribution, distortion};
 use super::motion;
@@ -16,45 +16,44 @@ use crate::geometry::{
 use crate::transition::{Frame, Transition};
 use crate::warp::ArapError;
 use crate::work::progress::{
-    Cancelled, Progress, ProgressSpan, WholeProgress, checkpoint, still_wanted,
+    Cancelled, Progress, ProgressSpan, WholeProgress, check_cancelled, checkpoint,
 };
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// What is measured at one t.
+/// Measures at one t.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct FilmSample {
-    /// Where.
+    /// Blend parameter of the sample.
     pub t: f64,
-    /// Filled area, in squared units of the designs.
+    /// Filled area, in squared design units.
     pub area: f64,
-    /// Length of all boundaries, in units of the designs.
+    /// Length of all boundaries, in design units.
     pub perimeter: f64,
-    /// By how much all boundaries turn, in radians; 2π for each that is convex.
+    /// Total absolute turning of all boundaries, in radians; 2π for each convex ring.
     pub turning: f64,
-    /// The same of parts that both designs have.
+    /// Total turning of the parts that exist in both designs, in radians.
     pub turning_of_both: f64,
-    /// Separate pieces; of a solid as its boundary walks have them.
+    /// Number of separate pieces; for a solid, the number of outer boundary loops.
     pub pieces: Option<usize>,
-    /// Holes in them, likewise.
+    /// Number of holes; for a solid, the number of inner boundary loops.
     pub holes: Option<usize>,
-    /// Crossings of the boundary with itself, different rings included;
-    /// solids only.
+    /// Number of crossings of the boundary, including those between rings; only for solids.
     pub crossings: Option<usize>,
-    /// Distortion against the source; meshes only.
+    /// Distortion relative to the source; only for meshes.
     pub distortion: Option<Distortion>,
 }
 
-/// A whole film.
+/// Measures of a whole film.
 ///
 /// ```
-/// use morphospace::measure::{Quantity, film};
-/// use morphospace::{progress::Silent, project::gallery, transition::Transition};
+/// use morphospace::measure::{Quantity, film_report};
+/// use morphospace::{project::gallery, transition::Transition, work::progress::Silent};
 ///
 /// let spec = gallery::load("triangle-polar")?.spec()?;
 /// let transition = Transition::build(&spec, &Silent)?;
-/// let report = film(&transition, 65, &Silent)?;
+/// let report = film_report(&transition, 65, &Silent)?;
 /// assert_eq!(report.worst_folds, Some(0));
 /// assert_eq!(report.series(Quantity::Area).len(), 65);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -62,22 +61,23 @@ pub struct FilmSample {
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct FilmReport {
-    /// The samples, evenly spaced over [0, 1].
+    /// Samples, evenly spaced over [0, 1].
     pub samples: Vec<FilmSample>,
-    /// Faces that are folded at any sample, counted at the worst one.
+    /// Largest number of folded faces at any sample.
     pub worst_folds: Option<usize>,
-    /// Where the first fold is seen.
+    /// First sampled t with a folded face.
     pub first_fold_t: Option<f64>,
-    /// The least determinant of a face at any sample, against the source.
+    /// Smallest determinant of a face at any sample, relative to the source.
     pub min_det: Option<f64>,
-    /// Most crossings of the boundary at any sample.
+    /// Largest number of boundary crossings at any sample.
     pub worst_crossings: Option<usize>,
-    /// Where the first crossing is seen.
+    /// First sampled t with a crossing.
     pub first_crossing_t: Option<f64>,
-    /// The largest conformal distortion of a face at any sample, by the largest one at
-    /// the worse end: 1 where it is bounded by the ends.
+    /// Largest conformal distortion of a face at any sample, divided by the largest one at the
+    /// worse end; 1 if the ends bound it.
     pub conformal_by_end: Option<f64>,
-    /// The same of what 95 % of the area is at or below.
+    /// Largest 95th percentile (by area) of the conformal distortion at any sample, divided by
+    /// that of the worse end.
     pub conformal_p95_by_end: Option<f64>,
     /// Largest excess of a face's conformal distortion over its worse end.
     pub conformal_excess: Option<f64>,
@@ -85,35 +85,36 @@ pub struct FilmReport {
     pub isometric_excess: Option<f64>,
     /// Largest excess of a face's area distortion over its worse end.
     pub area_distortion_excess: Option<f64>,
-    /// max ‖X_AB(t) − X_BA(1−t)‖ / diameter.
+    /// Asymmetry under exchange of the designs: max ‖X_AB(t) − X_BA(1−t)‖ / diameter.
     pub asymmetry: Option<f64>,
-    /// Total variation of the area beyond |end − end|, as a fraction of the
-    /// larger end.
+    /// Total variation of the area beyond the difference of the ends, as a fraction of the larger
+    /// end.
     pub area_variation_excess: f64,
-    /// The same of the perimeter.
+    /// Total variation of the perimeter beyond the difference of the ends, as a fraction of the
+    /// larger end.
     pub perimeter_variation_excess: f64,
-    /// Largest excess of the boundaries' turning over what lies between the
-    /// ends, as a share of that: jagged or wavy where neither end is.
+    /// Largest excess of the boundaries' turning over the value interpolated between the ends, as a
+    /// fraction of that value. Large if the shape is jagged or wavy where neither end is.
     pub turning_excess: f64,
-    /// The same of parts that both designs have, without holes that come and go: what is
-    /// born as it is drawn turns as much as it ever does from the first moment.
+    /// Excess of turning for the parts that exist in both designs, without transient holes. A
+    /// transient part adds its full turning the moment it appears.
     pub turning_of_both_excess: f64,
-    /// Pieces beyond the larger end.
+    /// Number of pieces beyond the larger end.
     pub pieces_excess: Option<usize>,
-    /// Holes beyond the larger end.
+    /// Number of holes beyond the larger end.
     pub holes_excess: Option<usize>,
-    /// Travel and acceleration with the rigid motion taken out.
+    /// Travel and acceleration of the vertices without the rigid motion.
     pub motion: Option<MotionReport>,
 }
 
-/// How much of the measuring is done once all samples are taken, as it is told.
-const SAMPLED: f64 = 0.8;
+/// Fraction of the progress that is reached once all samples are taken (heuristic).
+const SAMPLED_FRACTION: f64 = 0.8;
 
 /// Measures a transition at `samples` evenly spaced t, at least 2.
 ///
 /// # Errors
-/// [`Cancelled`] if nobody wants the result any more.
-pub fn film(
+/// [`Cancelled`] if the work was cancelled.
+pub fn film_report(
     transition: &Transition,
     samples: usize,
     progress: &dyn Progress,
@@ -122,42 +123,42 @@ pub fn film(
     let mesh = transition.compatible();
     let sampler = FilmSampler::of(transition);
     let mut frame = transition.frame(0.0);
-    let mut found = Vec::with_capacity(samples);
+    let mut measured = Vec::with_capacity(samples);
     let mut paths = Vec::new();
-    for t in even_steps(samples) {
-        checkpoint(progress, "measuring", SAMPLED * t)?;
+    for t in evenly_spaced_times(samples) {
+        checkpoint(progress, "measuring", SAMPLED_FRACTION * t)?;
         frame.seek(t);
-        found.push(sampler.sample(&frame));
-        // Only vertices of a mesh can be followed: a contour has others at each t.
+        measured.push(sampler.sample(&frame));
+        // Only mesh vertices can be tracked; a contour has different points at each t.
         if mesh.is_some() {
             paths.push(frame.placement().in_frame.clone());
         }
     }
     let step = 1.0 / (paths.len().max(2) - 1) as f64;
-    let motion = mesh.and_then(|mesh| motion::motion(&paths, step, mesh.diameter()));
-    still_wanted(progress)?;
+    let motion = mesh.and_then(|mesh| motion::motion_report(&paths, step, mesh.diameter()));
+    check_cancelled(progress)?;
     let asymmetry = asymmetry(
         transition,
         &paths,
-        &ProgressSpan::new(progress, SAMPLED, 1.0),
+        &ProgressSpan::new(progress, SAMPLED_FRACTION, 1.0),
     )?;
-    let excess = mesh.map(|mesh| overshoot::of_distortion(mesh, &paths));
-    Ok(report(found, excess, asymmetry, motion))
+    let excess = mesh.map(|mesh| overshoot::distortion_over_ends(mesh, &paths));
+    Ok(report(measured, excess, asymmetry, motion))
 }
 
-/// Values of t, evenly from 0 to 1, both included: two at least.
-pub(super) fn even_steps(count: usize) -> impl Iterator<Item = f64> + Clone {
+/// Returns evenly spaced t from 0 to 1, both included; at least two.
+pub(super) fn evenly_spaced_times(count: usize) -> impl Iterator<Item = f64> + Clone {
     let last = count.max(2) - 1;
     (0..=last).map(move |i| i as f64 / last as f64)
 }
 
-/// What a sample needs and does not change with t.
+/// Data for taking samples that does not change with t.
 struct FilmSampler<'a> {
     content: &'a Content,
     mesh: Option<&'a CompatibleMesh>,
-    /// Pieces and holes of a solid.
+    /// Numbers of pieces and holes of a solid.
     topology: Option<[usize; 2]>,
-    /// Of the larger design.
+    /// Diameter of the larger design.
     diameter: f64,
 }
 
@@ -167,17 +168,18 @@ impl<'a> FilmSampler<'a> {
         Self {
             content,
             mesh: transition.compatible(),
-            // The walks are the same at every t, so that one count does.
+            // The boundary loops are the same at every t, so one count suffices.
             topology: match content {
                 Content::Solid(solid) if !solid.loops.is_empty() => {
                     Some(topology(solid, &transition.frame(0.0)))
                 }
                 _ => None,
             },
-            diameter: larger(transition),
+            diameter: larger_diameter(transition),
         }
     }
 
+    /// Measures one frame.
     fn sample(&self, frame: &Frame) -> FilmSample {
         match self.content {
             Content::Solid(solid) => self.of_solid(frame.t(), solid, &frame.placement().in_frame),
@@ -196,8 +198,8 @@ impl<'a> FilmSampler<'a> {
             area: rings.iter().map(|ring| signed_area(ring)).sum::<f64>()
                 + lengths * solid.bar_width,
             perimeter: rings_perimeter(&rings) + 2.0 * lengths,
-            turning: total_turning(&rings, self.diameter) + TAU * solid.gone_at(t) as f64,
-            turning_of_both: total_turning(&solid.lasting_at(places), self.diameter),
+            turning: total_turning(&rings, self.diameter) + TAU * solid.absent_ring_count(t) as f64,
+            turning_of_both: total_turning(&solid.shared_loops_at(places), self.diameter),
             pieces: self.topology.map(|[pieces, _]| pieces),
             holes: self.topology.map(|[_, holes]| holes),
             crossings: (!rings.is_empty()).then(|| crossings_at(t, solid, places)),
@@ -206,9 +208,10 @@ impl<'a> FilmSampler<'a> {
     }
 }
 
-/// How often the rings of a solid cross at `t`. At its ends a film is the designs: parts that
-/// one of them was cut into share their seams there, to the last digit and no
-/// further.
+/// Returns the number of crossings of a solid's rings at `t`.
+///
+/// Returns 0 at t = 0 and t = 1, where the film shows the designs themselves. Parts into which a
+/// design was cut share seams there, whose rounded coordinates may cross.
 pub(super) fn crossings_at(t: f64, solid: &SolidContent, places: &[DVec2]) -> usize {
     if t == 0.0 || t == 1.0 {
         return 0;
@@ -216,8 +219,7 @@ pub(super) fn crossings_at(t: f64, solid: &SolidContent, places: &[DVec2]) -> us
     solid.count_crossings(places, t)
 }
 
-/// The diameter of the larger design.
-fn larger(transition: &Transition) -> f64 {
+fn larger_diameter(transition: &Transition) -> f64 {
     let diameters = transition
         .designs()
         .iter()
@@ -225,24 +227,27 @@ fn larger(transition: &Transition) -> f64 {
     diameters.fold(0.0, f64::max)
 }
 
-/// Pieces and holes by the sense of each boundary walk; one that is born from
-/// a point has it from its larger end.
+/// Counts pieces and holes by the orientation of each boundary loop.
+///
+/// The orientation is taken at the end where the loop is larger, because a transient loop shrinks
+/// to a point at the other.
 fn topology(solid: &SolidContent, frame: &Frame) -> [usize; 2] {
     let placement = frame.placement();
-    let at = |places: &Vec<DVec2>| {
-        let walk = |walk: &Vec<u32>| walk.iter().map(|&v| places[v as usize]).collect();
-        solid.loops.iter().map(walk).collect::<Vec<Vec<DVec2>>>()
+    let rings_at = |places: &Vec<DVec2>| {
+        let ring = |vertices: &Vec<u32>| vertices.iter().map(|&v| places[v as usize]).collect();
+        solid.loops.iter().map(ring).collect::<Vec<Vec<DVec2>>>()
     };
-    let ends = [&placement.in_source, &placement.in_target].map(at);
+    let ends = [&placement.in_source, &placement.in_target].map(rings_at);
     let is_hole = |(a, b): &(&Vec<DVec2>, &Vec<DVec2>)| {
         let areas = [signed_area(a), signed_area(b)];
         areas[usize::from(areas[1].abs() > areas[0].abs())] < 0.0
     };
     let holes = ends[0].iter().zip(&ends[1]).filter(is_hole).count();
-    // One that comes or goes is a point where it is not, like one that closes.
+    // Transient holes are kept apart from the loops and counted like the others.
     [ends[0].len() - holes, holes + solid.holes.len()]
 }
 
+/// Measures the rings of a contour.
 fn of_rings(t: f64, rings: &[Vec<DVec2>], diameter: f64) -> FilmSample {
     let areas: Vec<f64> = rings.iter().map(|ring| signed_area(ring)).collect();
     let holes = areas.iter().filter(|area| **area < 0.0).count();
@@ -259,6 +264,7 @@ fn of_rings(t: f64, rings: &[Vec<DVec2>], diameter: f64) -> FilmSample {
     }
 }
 
+/// Summarises the samples of a film.
 fn report(
     samples: Vec<FilmSample>,
     excess: Option<[f64; 3]>,
@@ -275,7 +281,7 @@ fn report(
     let turning: Vec<_> = samples.iter().map(|s| [s.t, s.turning]).collect();
     let turning_of_both: Vec<_> = samples.iter().map(|s| [s.t, s.turning_of_both]).collect();
     let peak = |of: fn(Distribution) -> f64| {
-        overshoot::of_peak(samples.iter().map(|s| Some(of(s.distortion?.conformal))))
+        overshoot::peak_over_ends(samples.iter().map(|s| Some(of(s.distortion?.conformal))))
     };
     let dets = samples.iter().filter_map(|s| Some(s.distortion?.min_det));
     FilmReport {
@@ -294,8 +300,8 @@ fn report(
         perimeter_variation_excess: excess_variation(samples.iter().map(|s| s.perimeter)),
         turning_excess: max_overshoot(&turning),
         turning_of_both_excess: max_overshoot(&turning_of_both),
-        pieces_excess: overshoot::of_count(samples.iter().map(|s| s.pieces)),
-        holes_excess: overshoot::of_count(samples.iter().map(|s| s.holes)),
+        pieces_excess: overshoot::count_over_ends(samples.iter().map(|s| s.pieces)),
+        holes_excess: overshoot::count_over_ends(samples.iter().map(|s| s.holes)),
         motion,
         samples,
     }
@@ -305,7 +311,7 @@ fn rings_perimeter(rings: &[Vec<DVec2>]) -> f64 {
     rings.iter().map(|ring| perimeter(ring)).sum()
 }
 
-/// The film against the one of the exchanged designs, played backwards.
+/// Compares the film with that of the exchanged designs played backwards.
 fn asymmetry(
     transition: &Transition,
     paths: &[Vec<DVec2>],
@@ -314,20 +320,20 @@ fn asymmetry(
     let (Some(arap), Some(mesh)) = (transition.arap(), transition.compatible()) else {
         return Ok(None);
     };
-    // Turned back the same way, whole turns included: what is asked is whether
-    // the energy is symmetric, not whether turns are chosen alike.
+    // The way back uses the same turns, whole turns included: this measures the symmetry of the
+    // energy, not of the choice of turns.
     let back = match arap.swapped(progress) {
         Ok(back) => back,
         Err(ArapError::Cancelled(cancelled)) => return Err(cancelled),
         Err(_) => return Ok(None),
     };
-    let mut placer = transition.placer_backwards(&back);
+    let mut placer = transition.reversed_placer_for(&back);
     let mut worst = 0.0_f64;
-    for (t, there) in even_steps(paths.len()).zip(paths) {
-        still_wanted(progress)?;
+    for (t, forwards) in evenly_spaced_times(paths.len()).zip(paths) {
+        check_cancelled(progress)?;
         placer.place(1.0 - t);
-        let here = &placer.placement().in_frame;
-        let gaps = there.iter().zip(here).map(|(p, q)| p.distance(*q));
+        let backwards = &placer.placement().in_frame;
+        let gaps = forwards.iter().zip(backwards).map(|(p, q)| p.distance(*q));
         worst = gaps.fold(worst, f64::max);
     }
     Ok(Some(worst / mesh.diameter()))

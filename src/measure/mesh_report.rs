@@ -1,4 +1,4 @@
-//! The two embeddings of a compatible mesh in numbers.
+//! Measures of a compatible mesh: angles, Steiner points, boundary stretch and distortion.
 
 use super::distortion::{Distortion, Distribution, distortion};
 use super::stretch;
@@ -6,48 +6,48 @@ use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 use serde::Serialize;
 
-/// Faces with an angle below this count as thin, in degrees.
+/// Angle below which a face counts as thin, in degrees (heuristic).
 const THIN_DEG: f64 = 5.0;
 
-/// The two embeddings of a compatible mesh.
+/// Measures of the two embeddings of a compatible mesh.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct MeshReport {
-    /// How many vertices there are.
+    /// Number of vertices.
     pub vertices: usize,
-    /// How many faces there are.
+    /// Number of faces.
     pub faces: usize,
-    /// How many vertices lie on the boundary.
+    /// Number of vertices on the boundary.
     pub boundary_vertices: usize,
-    /// How many lie inside: the Steiner points of a triangulated outline.
+    /// Number of inner vertices: the Steiner points of a triangulated outline.
     pub inner_vertices: usize,
-    /// Inner vertices for each one of the boundary.
+    /// Number of inner vertices per boundary vertex.
     pub steiner_per_boundary_point: f64,
-    /// The smallest angle of any face in the source, in degrees.
+    /// Smallest angle of any face in the source, in degrees.
     pub min_angle_source_deg: f64,
-    /// The smallest angle of any face in the target, in degrees.
+    /// Smallest angle of any face in the target, in degrees.
     pub min_angle_target_deg: f64,
     /// Fraction of faces with an angle below 5° in either embedding.
     pub thin_faces: f64,
-    /// How unevenly the boundary is stretched, by length in the source: max(k,
-    /// 1/k) for k times the loop's own stretch. 1 is even.
+    /// Unevenness of the boundary stretch, weighted by length in the source: max(k, 1/k), where k
+    /// is the local stretch divided by the stretch of the whole loop. 1 is even.
     pub boundary_stretch: Distribution,
-    /// Of the map from source to target.
+    /// Distortion of the map from source to target.
     pub distortion: Distortion,
 }
 
-/// Measures a compatible mesh that has faces; `None` for bars alone.
+/// Measures a compatible mesh; returns `None` if it has only bars and no faces.
 ///
 /// ```
 /// use morphospace::{compatible::CompatibleMesh, geometry::DVec2, measure};
 /// let points = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
 /// let mesh = CompatibleMesh::new(vec![[0, 1, 2]], points.clone(), points, vec![])?;
-/// let report = measure::mesh(&mesh).expect("there is a face");
+/// let report = measure::mesh_report(&mesh).expect("there is a face");
 /// assert!((report.min_angle_source_deg - 45.0).abs() < 1e-12);
 /// # Ok::<(), morphospace::compatible::CompatibleError>(())
 /// ```
 #[must_use]
-pub fn mesh(mesh: &CompatibleMesh) -> Option<MeshReport> {
+pub fn mesh_report(mesh: &CompatibleMesh) -> Option<MeshReport> {
     let angles = |points: &[DVec2]| -> Vec<f64> {
         let angle = |f: &[u32; 3]| smallest_angle(f.map(|v| points[v as usize])).to_degrees();
         mesh.faces().iter().map(angle).collect()
@@ -67,12 +67,12 @@ pub fn mesh(mesh: &CompatibleMesh) -> Option<MeshReport> {
         min_angle_source_deg: least(&source),
         min_angle_target_deg: least(&target),
         thin_faces: thin as f64 / mesh.faces().len() as f64,
-        boundary_stretch: stretch::distribution(mesh)?,
+        boundary_stretch: stretch::stretch_distribution(mesh)?,
         distortion: distortion(mesh, mesh.target())?,
     })
 }
 
-/// Each once, however often the boundary passes it.
+/// Returns the number of boundary vertices, each counted once even where loops touch.
 fn boundary_vertices(mesh: &CompatibleMesh) -> usize {
     let mut on_boundary = vec![false; mesh.source().len()];
     for v in mesh.boundary_loops().into_iter().flatten() {
@@ -81,11 +81,13 @@ fn boundary_vertices(mesh: &CompatibleMesh) -> usize {
     on_boundary.iter().filter(|&&on| on).count()
 }
 
-/// In radians.
+/// Returns the smallest angle of a triangle, in radians.
 pub(super) fn smallest_angle([a, b, c]: [DVec2; 3]) -> f64 {
-    let at = |p: DVec2, q: DVec2, r: DVec2| {
+    let angle_at = |p: DVec2, q: DVec2, r: DVec2| {
         let (u, v) = (q - p, r - p);
         u.perp_dot(v).abs().atan2(u.dot(v))
     };
-    at(a, b, c).min(at(b, c, a)).min(at(c, a, b))
+    angle_at(a, b, c)
+        .min(angle_at(b, c, a))
+        .min(angle_at(c, a, b))
 }

@@ -1,50 +1,54 @@
-//! How vertices travel, with the motion of the whole taken out.
+//! Travel and acceleration of the vertices, relative to the rigid motion of the whole shape.
 
 use crate::geometry::{DMat2, DVec2};
 use serde::Serialize;
 
-/// Travel and acceleration of the vertices relative to the moving whole, as
-/// fractions of the design's diameter.
+/// Travel and acceleration of the vertices after removing the rigid motion of the whole, in
+/// design diameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct MotionReport {
     /// Mean length of the vertices' paths.
     pub mean_travel: f64,
-    /// Length of the longest one.
+    /// Length of the longest path.
     pub max_travel: f64,
-    /// Largest second difference of a path per squared step of t.
+    /// Largest second derivative of a path with respect to t, by second differences.
     pub max_acceleration: f64,
 }
 
-/// Measures paths sampled at evenly spaced t; `None` for fewer than three
+/// Measures vertex paths sampled at t values spaced by `step`; `None` for fewer than three
 /// samples.
-pub(super) fn motion(samples: &[Vec<DVec2>], step: f64, diameter: f64) -> Option<MotionReport> {
+pub(super) fn motion_report(
+    samples: &[Vec<DVec2>],
+    step: f64,
+    diameter: f64,
+) -> Option<MotionReport> {
     let first = samples.first()?;
     if samples.len() < 3 || first.is_empty() || diameter <= 0.0 {
         return None;
     }
-    let still: Vec<Vec<DVec2>> = samples
+    let aligned: Vec<Vec<DVec2>> = samples
         .iter()
         .map(|now| without_rigid(now, first))
         .collect();
     let mut travel = vec![0.0; first.len()];
-    for pair in still.windows(2) {
+    for pair in aligned.windows(2) {
         for (sum, (a, b)) in travel.iter_mut().zip(pair[0].iter().zip(&pair[1])) {
             *sum += a.distance(*b) / diameter;
         }
     }
-    let bends = still.windows(3).flat_map(|three| {
+    let second_differences = aligned.windows(3).flat_map(|three| {
         let [a, b, c] = [&three[0], &three[1], &three[2]];
         (0..a.len()).map(move |i| (a[i] - 2.0 * b[i] + c[i]).length())
     });
     Some(MotionReport {
         mean_travel: travel.iter().sum::<f64>() / travel.len() as f64,
         max_travel: travel.iter().copied().fold(0.0, f64::max),
-        max_acceleration: bends.fold(0.0, f64::max) / (step * step * diameter),
+        max_acceleration: second_differences.fold(0.0, f64::max) / (step * step * diameter),
     })
 }
 
-/// The points moved rigidly so that they fit `onto` best.
+/// Returns the points moved rigidly to the least-squares fit onto `onto`.
 fn without_rigid(points: &[DVec2], onto: &[DVec2]) -> Vec<DVec2> {
     let mean = |all: &[DVec2]| all.iter().sum::<DVec2>() / all.len() as f64;
     let (c, d) = (mean(points), mean(onto));
@@ -72,7 +76,7 @@ mod tests {
                 .collect()
         };
         let samples: Vec<_> = (0..9).map(|i| at(f64::from(i) / 8.0)).collect();
-        let found = motion(&samples, 0.125, 3.0).expect("samples");
+        let found = motion_report(&samples, 0.125, 3.0).expect("samples");
         assert!(
             found.max_travel < 1e-12 && found.max_acceleration < 1e-10,
             "{found:?}"
@@ -80,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lone_traveller_is_seen() {
+    fn a_single_moving_vertex_is_measured() {
         let samples: Vec<Vec<DVec2>> = (0..5)
             .map(|i| {
                 let mut points: Vec<_> =
@@ -89,7 +93,7 @@ mod tests {
                 points
             })
             .collect();
-        let found = motion(&samples, 0.25, 2.0).expect("samples");
+        let found = motion_report(&samples, 0.25, 2.0).expect("samples");
         assert!((found.max_travel - 2.0).abs() < 0.1, "{found:?}");
     }
 }

@@ -1,6 +1,6 @@
-//! How much trouble a film is, to hold one method against another.
+//! Rating of a film by its defects, for comparing methods, and the choice of the best method.
 
-use super::film_report::{FilmReport, film};
+use super::film_report::{FilmReport, film_report};
 use crate::content::ContentKind;
 use crate::transition::{BuildError, Transition, TransitionMethod, TransitionSpec};
 use crate::warp::WarpKind;
@@ -8,23 +8,24 @@ use crate::work::progress::{Progress, ProgressShares, ProgressSpan};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Samples of a film that is rated: what lasts for less than a sixteenth of it
-/// tells little of a method.
+/// Number of samples of a rated film, which misses defects shorter than a sixteenth of it
+/// (heuristic).
 const SAMPLES: usize = 17;
 
-/// How much of a method is done once it is built.
-const BUILT: f64 = 0.9;
+/// Fraction of a method's progress that is reached once its transition is built (heuristic).
+const BUILT_FRACTION: f64 = 0.9;
 
-/// How much trouble a film is. Of two, the lesser is the one with fewer things
-/// that are wrong at its worst t; of two alike, the one whose outlines turn and
-/// whose area changes less beyond what its ends need.
+/// Defects of a film at its worst t, comparable between methods.
+///
+/// The better of two films has fewer defects. With equal counts it is the one with less
+/// overshoot: turning of the outlines and change of area beyond what the two ends require.
 ///
 /// ```
-/// use morphospace::measure::Rating;
-/// use morphospace::{progress::Silent, project::gallery, transition::Transition};
+/// use morphospace::measure::FilmRating;
+/// use morphospace::{project::gallery, transition::Transition, work::progress::Silent};
 ///
 /// let transition = Transition::build(&gallery::load("triangle-polar")?.spec()?, &Silent)?;
-/// let rating = Rating::of(&transition, &Silent)?.expect("a solid");
+/// let rating = FilmRating::of(&transition, &Silent)?.expect("a solid");
 /// assert_eq!(rating.to_string(), "no folds, no crossings");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -32,88 +33,92 @@ const BUILT: f64 = 0.9;
 pub struct FilmRating {
     folds: usize,
     crossings: usize,
-    /// Pieces and holes that neither design has.
-    pieces: usize,
-    holes: usize,
-    /// Nothing is left of it.
-    is_gone: bool,
-    /// Turning and area beyond the ends, as shares.
-    unrest: f64,
+    /// Number of pieces beyond the larger end.
+    extra_pieces: usize,
+    /// Number of holes beyond the larger end.
+    extra_holes: usize,
+    /// Whether the shape disappears completely at some t.
+    disappears: bool,
+    /// Turning and change of area beyond what the ends require, as fractions.
+    overshoot: f64,
     is_solid: bool,
 }
 
 impl FilmRating {
-    /// A look at a film; none of pictures, of which nothing is measured.
+    /// Samples and rates a film; returns `None` for pictures, which have no measures.
     ///
     /// # Errors
-    /// [`Cancelled`](crate::progress::Cancelled) if nobody wants it any more.
+    /// [`Cancelled`](crate::work::progress::Cancelled) if the work was cancelled.
     pub fn of(
         transition: &Transition,
         progress: &dyn Progress,
     ) -> Result<Option<Self>, crate::work::progress::Cancelled> {
-        let content = transition.cell().content();
+        let content = transition.method().content();
         if content == ContentKind::Colours {
             return Ok(None);
         }
-        let report = film(transition, SAMPLES, progress)?;
+        let report = film_report(transition, SAMPLES, progress)?;
         Ok(Some(Self::of_report(&report, content)))
     }
 
-    /// What a look that was taken comes to, at as many moments as it has.
+    /// Rates a film that was already sampled.
     #[must_use]
     pub fn of_report(report: &FilmReport, content: ContentKind) -> Self {
-        let inner = report.samples.iter();
+        let samples = report.samples.iter();
         Self {
             folds: report.worst_folds.unwrap_or(0),
             crossings: report.worst_crossings.unwrap_or(0),
-            pieces: report.pieces_excess.unwrap_or(0),
-            holes: report.holes_excess.unwrap_or(0),
-            is_gone: inner.clone().any(|sample| sample.area <= 0.0),
-            unrest: report.turning_excess + report.area_variation_excess,
+            extra_pieces: report.pieces_excess.unwrap_or(0),
+            extra_holes: report.holes_excess.unwrap_or(0),
+            disappears: samples.clone().any(|sample| sample.area <= 0.0),
+            overshoot: report.turning_excess + report.area_variation_excess,
             is_solid: content == ContentKind::Solid,
         }
     }
 
-    fn faults(&self) -> usize {
-        self.folds + self.crossings + self.pieces + self.holes
+    /// Total number of defects.
+    fn defects(&self) -> usize {
+        self.folds + self.crossings + self.extra_pieces + self.extra_holes
     }
 
-    /// Nothing is wrong with it.
+    /// Returns whether no defects were found.
     #[must_use]
     pub fn is_flawless(&self) -> bool {
-        !self.is_gone && self.faults() == 0
+        !self.disappears && self.defects() == 0
     }
 
-    /// Less is wrong with it, however calm the two are.
+    /// Returns whether this film has fewer defects than `other`, regardless of overshoot.
     #[must_use]
-    pub fn has_fewer_faults_than(&self, other: &Self) -> bool {
-        (self.is_gone, self.faults()) < (other.is_gone, other.faults())
+    pub fn has_fewer_defects_than(&self, other: &Self) -> bool {
+        (self.disappears, self.defects()) < (other.disappears, other.defects())
     }
 
-    /// Turning and change of area beyond what the ends need, as shares.
+    /// Returns turning and change of area beyond what the ends require, as a fraction.
     #[must_use]
-    pub fn unrest(&self) -> f64 {
-        self.unrest
+    pub fn overshoot(&self) -> f64 {
+        self.overshoot
     }
 
-    /// Which of two is less trouble.
+    /// Orders two ratings, the better one first.
     #[must_use]
     pub fn compare(&self, other: &Self) -> Ordering {
-        let gone = self.is_gone.cmp(&other.is_gone);
-        let faults = self.faults().cmp(&other.faults());
-        gone.then(faults).then(self.unrest.total_cmp(&other.unrest))
+        let by_disappearing = self.disappears.cmp(&other.disappears);
+        let by_defects = self.defects().cmp(&other.defects());
+        let by_overshoot = self.overshoot.total_cmp(&other.overshoot);
+        by_disappearing.then(by_defects).then(by_overshoot)
     }
 
-    /// The number of the one with the least trouble, the first of several; none
-    /// where there are not two to choose from.
+    /// Returns the index of the best rating, the first of several equal ones.
+    ///
+    /// Returns `None` if fewer than two films are rated.
     #[must_use]
-    pub fn best(ratings: &[Option<Self>]) -> Option<usize> {
-        let known = ratings.iter().enumerate();
-        let known: Vec<(usize, &Self)> = known
+    pub fn index_of_best(ratings: &[Option<Self>]) -> Option<usize> {
+        let indexed = ratings.iter().enumerate();
+        let rated: Vec<(usize, &Self)> = indexed
             .filter_map(|(k, rating)| Some((k, rating.as_ref()?)))
             .collect();
-        let best = known.iter().min_by(|(_, a), (_, b)| a.compare(b))?;
-        (known.len() > 1).then_some(best.0)
+        let best = rated.iter().min_by(|(_, a), (_, b)| a.compare(b))?;
+        (rated.len() > 1).then_some(best.0)
     }
 }
 
@@ -122,67 +127,70 @@ impl fmt::Display for FilmRating {
         let counts = [
             (self.folds, "face folds", "faces fold"),
             (self.crossings, "crossing", "crossings"),
-            (self.pieces, "piece too many", "pieces too many"),
-            (self.holes, "hole too many", "holes too many"),
+            (self.extra_pieces, "extra piece", "extra pieces"),
+            (self.extra_holes, "extra hole", "extra holes"),
         ];
-        let told = counts.into_iter().filter(|(count, ..)| *count > 0);
-        let told: Vec<String> = told
+        let nonzero = counts.into_iter().filter(|(count, ..)| *count > 0);
+        let defects: Vec<String> = nonzero
             .map(|(count, one, many)| format!("{count} {}", if count == 1 { one } else { many }))
             .collect();
-        f.write_str(&match (self.is_gone, told.is_empty(), self.is_solid) {
-            (true, ..) => "vanishes on the way".to_owned(),
-            (_, false, _) => told.join(", "),
-            (.., true) => "no folds, no crossings".to_owned(),
-            (.., false) => "nothing tears".to_owned(),
-        })
+        f.write_str(
+            &match (self.disappears, defects.is_empty(), self.is_solid) {
+                (true, ..) => "disappears in between".to_owned(),
+                (_, false, _) => defects.join(", "),
+                (.., true) => "no folds, no crossings".to_owned(),
+                (.., false) => "no extra pieces or holes".to_owned(),
+            },
+        )
     }
 }
 
-/// Builds two designs by each cell that could suit shapes (rigid parts, fields
-/// that rigid parts carry, fields that blend where they are), and keeps the one
-/// whose film is the least trouble, the first of several, with its rating.
-/// Pictures are built as the specification has them, and not rated.
+/// Builds the transition by each method for shapes and returns the best one with its rating.
+///
+/// The methods are rigid parts, distance fields carried by rigid parts, and distance fields
+/// blended in place; of equal ratings the first wins. Pictures are built with the specified
+/// method and are not rated.
 ///
 /// # Errors
-/// [`BuildError`] where none can be built: why the first cannot; and on a
-/// cancel.
-pub fn auto(
+/// [`BuildError`] of the first method if none can be built, or if the work was cancelled.
+pub fn build_best_method(
     spec: &TransitionSpec,
     progress: &dyn Progress,
 ) -> Result<(Transition, Option<FilmRating>), BuildError> {
-    if spec.cell.content() == ContentKind::Colours {
+    if spec.method.content() == ContentKind::Colours {
         return Ok((Transition::build(spec, progress)?, None));
     }
     let carried = TransitionMethod::new(WarpKind::Arap, ContentKind::Field)?;
-    let cells = [
+    let methods = [
         TransitionMethod::RIGID_PARTS,
         carried,
         TransitionMethod::FIELD_BLEND,
     ];
-    let shares = ProgressShares::new(progress, cells.len());
+    let shares = ProgressShares::new(progress, methods.len());
     let mut built = Vec::new();
-    let mut failed = None;
-    for (k, cell) in cells.into_iter().enumerate() {
+    let mut first_error = None;
+    for (k, cell) in methods.into_iter().enumerate() {
         let spec = TransitionSpec {
-            cell,
+            method: cell,
             ..spec.clone()
         };
         let share = shares.part(k);
-        match Transition::build(&spec, &ProgressSpan::new(&share, 0.0, BUILT)) {
+        match Transition::build(&spec, &ProgressSpan::new(&share, 0.0, BUILT_FRACTION)) {
             Ok(transition) => {
-                let rating = FilmRating::of(&transition, &ProgressSpan::new(&share, BUILT, 1.0))?;
+                let rating_span = ProgressSpan::new(&share, BUILT_FRACTION, 1.0);
+                let rating = FilmRating::of(&transition, &rating_span)?;
                 built.push((transition, rating));
             }
             Err(error) if progress.is_cancelled() => return Err(error),
-            Err(error) => failed = failed.or(Some(error)),
+            Err(error) => first_error = first_error.or(Some(error)),
         }
     }
     let ratings: Vec<Option<FilmRating>> = built.iter().map(|(_, rating)| *rating).collect();
-    let best = FilmRating::best(&ratings).unwrap_or(0);
-    match (best < built.len(), failed) {
+    let best = FilmRating::index_of_best(&ratings).unwrap_or(0);
+    match (best < built.len(), first_error) {
         (true, _) => Ok(built.swap_remove(best)),
         (false, Some(error)) => Err(error),
-        (false, None) => unreachable!("each cell is built or fails"),
+        (false, None) => unreachable!("each method is built or fails"),
     }
 }
 
@@ -190,47 +198,47 @@ pub fn auto(
 mod tests {
     use super::*;
 
-    fn rating(crossings: usize, pieces: usize, unrest: f64) -> FilmRating {
+    fn rating(crossings: usize, extra_pieces: usize, overshoot: f64) -> FilmRating {
         FilmRating {
             folds: 0,
             crossings,
-            pieces,
-            holes: 0,
-            is_gone: false,
-            unrest,
-            is_solid: pieces == 0,
+            extra_pieces,
+            extra_holes: 0,
+            disappears: false,
+            overshoot,
+            is_solid: extra_pieces == 0,
         }
     }
 
     #[test]
-    fn faults_count_before_unrest_and_nothing_is_worst() {
-        let (calm, restless) = (rating(0, 0, 0.1), rating(0, 0, 0.4));
-        let (crossed, torn) = (rating(2, 0, 0.0), rating(0, 3, 0.0));
-        let gone = FilmRating {
-            is_gone: true,
-            ..calm
+    fn defects_count_before_overshoot_and_disappearing_is_worst() {
+        let (steady, overshooting) = (rating(0, 0, 0.1), rating(0, 0, 0.4));
+        let (crossing, broken) = (rating(2, 0, 0.0), rating(0, 3, 0.0));
+        let disappearing = FilmRating {
+            disappears: true,
+            ..steady
         };
-        let mut all = [gone, torn, crossed, restless, calm];
+        let mut all = [disappearing, broken, crossing, overshooting, steady];
         all.sort_by(FilmRating::compare);
-        assert_eq!(all, [calm, restless, crossed, torn, gone]);
-        let words = [crossed, torn, gone, calm].map(|rating| rating.to_string());
-        let wanted = [
+        assert_eq!(all, [steady, overshooting, crossing, broken, disappearing]);
+        let texts = [crossing, broken, disappearing, steady].map(|rating| rating.to_string());
+        let expected = [
             "2 crossings",
-            "3 pieces too many",
-            "vanishes on the way",
+            "3 extra pieces",
+            "disappears in between",
             "no folds, no crossings",
         ];
-        assert_eq!(words, wanted);
+        assert_eq!(texts, expected);
     }
 
     #[test]
-    fn the_first_of_the_best_is_chosen_where_there_is_a_choice() {
+    fn the_first_of_the_best_wins_if_at_least_two_are_rated() {
         let (a, b) = (rating(0, 0, 0.1), rating(1, 0, 0.0));
         assert_eq!(
-            FilmRating::best(&[Some(b), None, Some(a), Some(a)]),
+            FilmRating::index_of_best(&[Some(b), None, Some(a), Some(a)]),
             Some(2)
         );
-        assert_eq!(FilmRating::best(&[None, Some(a)]), None);
-        assert_eq!(FilmRating::best(&[]), None);
+        assert_eq!(FilmRating::index_of_best(&[None, Some(a)]), None);
+        assert_eq!(FilmRating::index_of_best(&[]), None);
     }
 }

@@ -1,73 +1,74 @@
-//! Quality of a space of many designs: of its edges, its middle, and of blends all over it.
+//! Measures of a space of many designs: its edges, its centre, and blends spread over it.
 
 use super::blend_report::{BlendReport, BlendSampler};
-use crate::space::{DesignSpace, spread};
+use crate::space::{DesignSpace, weight_sample};
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 use serde::Serialize;
 
-/// Blends along an edge that are looked at.
+/// Number of blends measured on each edge (heuristic).
 const ON_EDGE: usize = 9;
 
-/// A space, measured.
+/// Measures of a space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpaceReport {
-    /// The names of the designs.
+    /// Names of the designs.
     pub designs: Vec<String>,
-    /// Vertices of the common mesh; none of fields.
+    /// Number of vertices of the common mesh; `None` without one.
     pub vertices: Option<usize>,
-    /// Faces of the common mesh; none of fields.
+    /// Number of faces of the common mesh; `None` without one.
     pub faces: Option<usize>,
-    /// What was done otherwise than asked.
+    /// Notes on what was done differently from what was requested.
     pub notes: Vec<String>,
-    /// Between each two designs the worst of nine blends.
+    /// One report per pair of designs.
     pub edges: Vec<EdgeReport>,
-    /// All designs in equal parts.
+    /// Blend of all designs with equal weights.
     pub middle: BlendReport,
-    /// Blends all over the space.
+    /// Summary of blends spread over the whole space.
     pub all_over: BlendStatistics,
 }
 
-/// Between two designs, the worst of some blends.
+/// Measures of the blends between two designs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EdgeReport {
-    /// The two designs, counted from 0.
+    /// Indices of the two designs, from 0.
     pub designs: [usize; 2],
-    /// How unlike they are.
+    /// Dissimilarity of the two designs; see [`DesignDistances`](crate::space::DesignDistances).
     pub unlike: f64,
-    /// The worst, measure by measure.
+    /// Worst value of each measure over nine blends.
     pub worst: BlendReport,
 }
 
-/// Blends all over a space.
+/// Summary of blends spread over a whole space.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct BlendStatistics {
-    /// How many blends were looked at.
+    /// Number of blends measured.
     pub blends: usize,
-    /// How many of them fold.
+    /// Number of blends with folds.
     pub folded: usize,
-    /// How many of them cross themselves.
+    /// Number of blends whose outlines cross.
     pub crossed: usize,
-    /// The worst, measure by measure.
+    /// Worst value of each measure over all blends.
     pub worst: BlendReport,
 }
 
-/// Measures a space at so many weights besides its edges and its middle: the same for the
-/// same number of designs.
+/// Measures a space on its edges, at its centre, and at `blends` weights spread over it.
+///
+/// The weights are deterministic: they depend only on the number of designs.
 ///
 /// # Errors
-/// [`Cancelled`] if nobody wants the result any more.
-pub fn space(
+/// [`Cancelled`] if the work was cancelled.
+pub fn space_report(
     space: &DesignSpace,
     blends: usize,
     progress: &dyn Progress,
 ) -> Result<SpaceReport, Cancelled> {
     let count = space.designs().len();
     let mut sampler = BlendSampler::of(space);
-    let two = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
-    let two: Vec<[usize; 2]> = two.collect();
-    let whole = (two.len() * ON_EDGE + blends) as f64;
+    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+    let pairs: Vec<[usize; 2]> = pairs.collect();
+    let whole = (pairs.len() * ON_EDGE + blends) as f64;
     let mut edges = Vec::new();
-    for [a, b] in two {
+    for [a, b] in pairs {
         checkpoint(
             progress,
             "measuring",
@@ -78,15 +79,15 @@ pub fn space(
             let t = k as f64 / (ON_EDGE + 1) as f64;
             let mut weights = vec![0.0; count];
             (weights[a], weights[b]) = (1.0 - t, t);
-            worst = worst.or_worse(sampler.at(&weights).quality);
+            worst = worst.worst_of(sampler.measure(&weights).quality);
         }
         edges.push(EdgeReport {
             designs: [a, b],
-            unlike: space.likeness().between(a, b),
+            unlike: space.distances().between(a, b),
             worst,
         });
     }
-    let middle = sampler.at(&vec![1.0 / count as f64; count]).quality;
+    let middle = sampler.measure(&vec![1.0 / count as f64; count]).quality;
     let mut all_over = BlendStatistics {
         blends,
         folded: 0,
@@ -96,15 +97,15 @@ pub fn space(
     for k in 0..blends {
         let done = edges.len() * ON_EDGE + k;
         checkpoint(progress, "measuring", done as f64 / whole)?;
-        let found = sampler.at(&spread(k, count)).quality;
-        all_over.folded += usize::from(found.folds > 0);
-        all_over.crossed += usize::from(found.crossings > 0);
-        all_over.worst = all_over.worst.or_worse(found);
+        let quality = sampler.measure(&weight_sample(k, count)).quality;
+        all_over.folded += usize::from(quality.folds > 0);
+        all_over.crossed += usize::from(quality.crossings > 0);
+        all_over.worst = all_over.worst.worst_of(quality);
     }
     let family = space.family();
     Ok(SpaceReport {
         designs: space.designs().iter().map(|d| d.name.clone()).collect(),
-        vertices: family.map(|family| family.places()[0].len()),
+        vertices: family.map(|family| family.embeddings()[0].len()),
         faces: family.map(|family| family.faces().len()),
         notes: space.notes().iter().map(ToString::to_string).collect(),
         edges,
@@ -122,18 +123,18 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn rectangles_are_no_trouble() {
+    fn rectangles_have_no_defects() {
         let rectangle = |w: f64, h: f64| {
             let ring = [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]];
-            Arc::new(Design::of_rings("rectangle", [ring]).expect("a design"))
+            Arc::new(Design::from_rings("rectangle", [ring]).expect("a design"))
         };
         let designs = vec![
             rectangle(1.0, 1.0),
             rectangle(3.0, 1.0),
             rectangle(1.0, 2.0),
         ];
-        let made = DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space");
-        let report = space(&made, 20, &Silent).expect("measured");
+        let built = DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space");
+        let report = space_report(&built, 20, &Silent).expect("measured");
         assert_eq!((report.edges.len(), report.all_over.folded), (3, 0));
         let worst = report.all_over.worst;
         assert_eq!((worst.folds, worst.crossings), (0, 0));

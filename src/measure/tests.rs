@@ -1,4 +1,4 @@
-//! Identities of the measures, on transitions as they are played.
+//! Tests of the measures on built transitions, against closed forms and identities.
 
 use super::*;
 use crate::content::ContentKind;
@@ -12,7 +12,7 @@ use crate::work::progress::{Cancelled, Progress, Silent};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// A mesh as its file gives it.
+/// A mesh imported from OBJ text.
 pub(super) fn design(points: &[DVec2], faces: &[[u32; 3]]) -> Arc<Design> {
     let mut text = String::new();
     for p in points {
@@ -51,6 +51,7 @@ pub(super) fn sheet(n: u32, m: u32) -> (Vec<[u32; 3]>, Vec<DVec2>) {
     )
 }
 
+/// Film of a rectangle whose target is its image under `map`.
 fn film_of(map: impl Fn(DVec2) -> DVec2, homotopy: Homotopy) -> FilmReport {
     let (faces, source) = sheet(4, 2);
     let target: Vec<_> = source.iter().map(|&p| map(p)).collect();
@@ -58,18 +59,18 @@ fn film_of(map: impl Fn(DVec2) -> DVec2, homotopy: Homotopy) -> FilmReport {
         homotopy,
         ..ArapOptions::default()
     };
-    film(&transition(&faces, &source, &target, options), 17, &Silent).expect("not cancelled")
+    film_report(&transition(&faces, &source, &target, options), 17, &Silent).expect("not cancelled")
 }
 
 #[test]
-fn boundary_paths_are_measured_by_what_is_seen() {
+fn boundary_paths_are_measured_without_a_mesh() {
     let loaded = gallery::load("gecko").expect("bundled");
     let mut spec = loaded.spec().expect("a specification");
-    spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).expect("a cell");
+    spec.method = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).expect("a cell");
     for course in [VertexPath::Straight, VertexPath::Intrinsic] {
         spec.options.paths.course = course;
         let transition = Transition::build(&spec, &Silent).expect("a transition");
-        let report = film(&transition, 17, &Silent).expect("not cancelled");
+        let report = film_report(&transition, 17, &Silent).expect("not cancelled");
         assert_eq!((report.worst_folds, report.asymmetry), (None, None));
         assert!(report.motion.is_none() && report.conformal_excess.is_none());
         assert_eq!(report.pieces_excess, Some(0));
@@ -81,8 +82,11 @@ fn boundary_paths_are_measured_by_what_is_seen() {
         assert_eq!(verdict.is_clear(), report.worst_crossings == Some(0));
         if let Some(finding) = verdict.findings.first() {
             assert!(matches!(finding.trouble, FindingKind::Crossings { .. }));
-            let said = (&finding.cause, &finding.remedy);
-            assert_eq!(said, (&FindingCause::NothingInside, &Remedy::RigidParts));
+            let cause_and_remedy = (&finding.cause, &finding.remedy);
+            assert_eq!(
+                cause_and_remedy,
+                (&FindingCause::NothingInside, &Remedy::RigidParts)
+            );
         } else {
             assert_eq!(verdict.headline(), "no crossings");
         }
@@ -90,7 +94,7 @@ fn boundary_paths_are_measured_by_what_is_seen() {
 }
 
 #[test]
-fn a_rigid_motion_has_no_excess_of_anything() {
+fn a_rigid_motion_has_no_excess_in_any_measure() {
     let turn = DMat2::from_angle(2.5);
     let report = film_of(|p| turn * p + DVec2::new(30.0, -7.0), Homotopy::Exponential);
     assert_eq!(report.worst_folds, Some(0));
@@ -117,7 +121,7 @@ fn a_rigid_motion_has_no_excess_of_anything() {
 }
 
 #[test]
-fn a_shear_distorts_as_by_hand() {
+fn the_distortion_of_a_shear_matches_the_closed_form() {
     let s: f64 = 1.5;
     let report = film_of(|p| DVec2::new(p.x + s * p.y, p.y), Homotopy::Polar);
     let large = 0.5 * (s + s.hypot(2.0));
@@ -143,7 +147,7 @@ fn scaling_to_nine_times_the_area_rises_evenly() {
 }
 
 #[test]
-fn each_quantity_is_there_or_empty() {
+fn each_quantity_has_a_value_per_sample_or_none() {
     let report = film_of(|p| p, Homotopy::Polar);
     for quantity in Quantity::ALL {
         assert_eq!(report.series(quantity).len(), 17, "{}", quantity);
@@ -153,16 +157,16 @@ fn each_quantity_is_there_or_empty() {
     let truss = Arc::new(read.expect("a truss"));
     let spec = TransitionSpec::new(Arc::clone(&truss), truss);
     let transition = Transition::build(&spec, &Silent).expect("a transition");
-    let report = film(&transition, 3, &Silent).expect("not cancelled");
+    let report = film_report(&transition, 3, &Silent).expect("not cancelled");
     assert_eq!(report.series(Quantity::Crossings), Vec::<[f64; 2]>::new());
     assert_eq!(report.series(Quantity::Perimeter).len(), 3);
 }
 
 #[test]
-fn steiner_points_are_those_inside() {
+fn steiner_points_are_the_inner_vertices() {
     let (faces, points) = sheet(4, 2);
     let mesh = transition(&faces, &points, &points, ArapOptions::default());
-    let report = super::mesh(mesh.compatible().expect("a mesh")).expect("faces");
+    let report = super::mesh_report(mesh.compatible().expect("a mesh")).expect("faces");
     assert_eq!((report.boundary_vertices, report.inner_vertices), (12, 3));
     assert_eq!(report.steiner_per_boundary_point, 0.25);
     assert_eq!(report.thin_faces, 0.0);
@@ -180,11 +184,11 @@ impl Progress for CancelledMeasure {
 }
 
 #[test]
-fn both_looks_stop_when_cancelled() {
+fn film_and_check_stop_when_cancelled() {
     let (faces, points) = sheet(1, 1);
     let still = transition(&faces, &points, &points, ArapOptions::default());
     assert_eq!(
-        film(&still, 9, &CancelledMeasure).map(|_| ()),
+        film_report(&still, 9, &CancelledMeasure).map(|_| ()),
         Err(Cancelled)
     );
     assert_eq!(Verdict::of(&still, 9, &CancelledMeasure), Err(Cancelled));

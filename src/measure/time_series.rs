@@ -1,64 +1,63 @@
-//! What runs along t, for plots.
+//! Measures of a film as functions of t, for graphs.
 
 use super::film_report::{FilmReport, FilmSample};
-use crate::settings::choice::named;
+use crate::settings::named;
 
-/// A quantity that a film has at every t.
+/// A measure that a film has at every t.
 ///
 /// ```
-/// use morphospace::{measure::Quantity, names::Choice};
+/// use morphospace::{measure::Quantity, settings::Choice};
 /// assert_eq!(Quantity::WorstConformal.name().title, "Worst shear");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Quantity {
-    /// Filled area, in squared units of the designs.
+    /// Filled area, in squared design units.
     Area,
-    /// Length of all boundaries, in units of the designs.
+    /// Length of all boundaries, in design units.
     Perimeter,
-    /// By how much all boundaries turn, in radians.
+    /// Total absolute turning of all boundaries, in radians.
     Turning,
-    /// σ₁/σ₂ of the worst face, at least 1.
+    /// Conformal distortion σ₁/σ₂ of the worst face, at least 1.
     WorstConformal,
-    /// max(σ₁, 1/σ₂) of the worst face, at least 1.
+    /// Isometric distortion max(σ₁, 1/σ₂) of the worst face, at least 1.
     WorstIsometric,
-    /// The least determinant of a face, 1 at t = 0; a fold where it is not
-    /// positive.
+    /// Smallest determinant of a face relative to the source, 1 at t = 0; a fold unless positive.
     MinDet,
-    /// Faces that are turned over or flat.
+    /// Number of faces that are folded or flat.
     Folds,
-    /// Crossings of the boundary.
+    /// Number of crossings of the boundary.
     Crossings,
-    /// Separate pieces.
+    /// Number of separate pieces.
     Pieces,
-    /// Holes in them.
+    /// Number of holes.
     Holes,
 }
 
 named! { Quantity {
-    Area: "area", "Area", "The filled area.";
-    Perimeter: "perimeter", "Perimeter", "The length of all boundaries.";
+    Area: "area", "Area", "Filled area.";
+    Perimeter: "perimeter", "Perimeter", "Total length of the outlines.";
     Turning: "turning", "Turning",
-        "By how much the boundaries turn, to and fro, in radians; a jagged form turns more.";
+        "Total turning of the outlines, left and right, in radians. Jagged shapes turn more.";
     WorstConformal: "worst-conformal", "Worst shear",
-        "Conformal distortion of the worst triangle: its longer stretch by its shorter; 1 keeps \
-         all angles.";
+        "Conformal distortion of the worst triangle: its largest stretch divided by its smallest. \
+         At 1 all angles are preserved.";
     WorstIsometric: "worst-isometric", "Worst stretch",
-        "Isometric distortion of the worst triangle: the larger of its stretch and its squeeze; \
-         1 keeps all lengths.";
-    MinDet: "min-det", "Least area ratio",
-        "The least determinant: the area of the triangle that has shrunk most, as a share of \
-         what it was. At 0 and below it folds over.";
-    Folds: "folds", "Folded faces", "Triangles that are turned over or flat.";
-    Crossings: "crossings", "Crossings", "How often the boundary crosses itself.";
-    Pieces: "pieces", "Pieces", "Separate pieces.";
-    Holes: "holes", "Holes", "Holes in them.";
+        "Isometric distortion of the worst triangle: the larger of its stretch and compression. \
+         At 1 all lengths are preserved.";
+    MinDet: "min-det", "Smallest area ratio",
+        "Area of the most shrunken triangle, as a fraction of its area in the source. At 0 or \
+         below, the triangle is folded.";
+    Folds: "folds", "Folded triangles", "Number of triangles that are folded or flat.";
+    Crossings: "crossings", "Crossings", "Number of times the outlines cross.";
+    Pieces: "pieces", "Pieces", "Number of separate pieces.";
+    Holes: "holes", "Holes", "Number of holes.";
 } }
 
 impl Quantity {
-    /// At one sample; `None` where this kind of transition has none of it.
+    /// Returns the value at one sample; `None` if this kind of transition does not have it.
     #[must_use]
-    pub fn at(self, sample: &FilmSample) -> Option<f64> {
+    pub fn value_at(self, sample: &FilmSample) -> Option<f64> {
         let count = |n: Option<usize>| n.map(|n| n as f64);
         let distortion = sample.distortion;
         match self {
@@ -77,14 +76,15 @@ impl Quantity {
 }
 
 impl FilmReport {
-    /// A quantity against t as pairs `[t, value]`, t rising from 0 to 1;
-    /// empty where this kind of transition has none of it. The distortion of
-    /// a folded face is infinite: a gap in a plot.
+    /// Returns a quantity as pairs `[t, value]` with t increasing from 0 to 1.
+    ///
+    /// Empty if this kind of transition does not have it. The distortion of a folded face is
+    /// infinite, which a graph shows as a gap.
     #[must_use]
     pub fn series(&self, quantity: Quantity) -> Vec<[f64; 2]> {
         let samples = self.samples.iter();
         samples
-            .filter_map(|sample| Some([sample.t, quantity.at(sample)?]))
+            .filter_map(|sample| Some([sample.t, quantity.value_at(sample)?]))
             .collect()
     }
 }

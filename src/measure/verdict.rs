@@ -1,18 +1,15 @@
-//! A film in words: what goes wrong, where, why, and what helps.
+//! Check of a film: finds defects, their place, cause and remedy, and describes them in words.
 //!
-//! Every cause is a measured fact about the place where the trouble is worst:
-//! an angle, a stretch of the boundary, an overlap. A remedy that changes an
-//! option was tried on the same designs at the same t, and says what it
-//! leaves; pins and edits, which cannot be tried, are named with their place.
-//! Guaranteed: what is said was seen at one of the steps. Not guaranteed:
-//! anything between two steps, or that a cause is the only one.
+//! Every cause is a measured fact about the place of the worst defect: an angle, a boundary
+//! stretch, an overlap. A remedy that changes an option was tested on the same designs at the same
+//! t; pins and edits cannot be tested and are only suggested. Every reported defect was seen at a
+//! sampled t. Defects between samples are missed, and a cause need not be the only one.
 //!
-//! - `scan`: at each t, how much is wrong
-//! - `cause`: rigid parts at the t of a trouble, and the facts about it
-//! - `solid`, `field`, `plane`: what is found in rigid parts and boundaries, in
-//!   fields, and with warps of the plane
-//! - `remedy`: what was tried
-//! - `finding`, `words`: what can be found, and how it is said
+//! - `defect_scan`: counts defects at each sampled t
+//! - `cause`: finds the cause of a defect of rigid parts
+//! - `solid`, `field`, `plane`: defects of solids, of distance fields, and of warps of the plane
+//! - `remedy`: tests changed options
+//! - `finding`, `sentences`: the data of a finding, and its text
 
 mod cause;
 mod defect_scan;
@@ -34,12 +31,13 @@ use crate::work::progress::{Cancelled, Progress, ProgressSpan, WholeProgress};
 use defect_scan::MomentCounts;
 use serde::Serialize;
 
-/// What is wrong with a film; see [`Self::headline`]. What is noted of how it
-/// was made is told, but is no trouble.
+/// Result of checking a film: its defects, as text in [`Self::headline`].
+///
+/// The notes of the transition are included, but do not count as defects.
 ///
 /// ```
 /// use morphospace::measure::Verdict;
-/// use morphospace::{progress::Silent, project::gallery, transition::Transition};
+/// use morphospace::{project::gallery, transition::Transition, work::progress::Silent};
 ///
 /// let spec = gallery::load("triangle-polar")?.spec()?;
 /// let verdict = Verdict::of(&Transition::build(&spec, &Silent)?, 65, &Silent)?;
@@ -49,57 +47,57 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Verdict {
-    /// At how many t the film was looked at.
+    /// Number of sampled t.
     pub steps: usize,
-    /// What can be said where nothing was found.
+    /// Headline to show if no defects were found; depends on the kind of content.
     pub clear: &'static str,
-    /// What was found, one of each kind of trouble, folds first.
+    /// Defects, at most one of each kind, folds first.
     pub findings: Vec<Finding>,
-    /// What was done otherwise than asked while the film was made.
+    /// Notes on what was done differently from what was requested.
     pub notes: Vec<TransitionNote>,
 }
 
-/// At how many t warps of the plane are looked at where nothing else is
-/// measured.
+/// Minimum number of t at which a warp of the plane is checked (heuristic).
 const PLANE_STEPS: usize = 33;
 
 impl Verdict {
-    /// Looks at a transition at `steps` evenly spaced t, at least 2. Where
-    /// something is wrong, options are tried, each at the cost of another
-    /// look; not for more than some thousand faces.
+    /// Checks a transition at `steps` evenly spaced t, at least 2.
+    ///
+    /// If there are defects, changed options are tested, each at the cost of another scan; large
+    /// meshes are excluded.
     ///
     /// # Errors
-    /// [`Cancelled`] if nobody wants the result any more.
+    /// [`Cancelled`] if the work was cancelled.
     pub fn of(
         transition: &Transition,
         steps: usize,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let whole = WholeProgress::new(progress);
-        let glances =
-            defect_scan::transition(transition, steps, &ProgressSpan::new(&whole, 0.0, 0.4))?;
-        Self::of_glances(transition, &glances, &ProgressSpan::new(&whole, 0.4, 1.0))
+        let moments =
+            defect_scan::scan_transition(transition, steps, &ProgressSpan::new(&whole, 0.0, 0.4))?;
+        Self::of_moments(transition, &moments, &ProgressSpan::new(&whole, 0.4, 1.0))
     }
 
-    /// The verdict on a film that has been measured already.
+    /// Checks a film that has already been measured.
     ///
     /// # Errors
-    /// [`Cancelled`] if nobody wants the result any more.
+    /// [`Cancelled`] if the work was cancelled.
     pub fn of_film(
         transition: &Transition,
         film: &FilmReport,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let glances: Vec<_> = film.samples.iter().map(MomentCounts::of_sample).collect();
-        Self::of_glances(transition, &glances, &WholeProgress::new(progress))
+        let moments: Vec<_> = film.samples.iter().map(MomentCounts::of_sample).collect();
+        Self::of_moments(transition, &moments, &WholeProgress::new(progress))
     }
 
-    fn of_glances(
+    fn of_moments(
         transition: &Transition,
-        glances: &[MomentCounts],
+        moments: &[MomentCounts],
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let of_content = &ProgressSpan::new(progress, 0.0, 0.8);
+        let content_progress = &ProgressSpan::new(progress, 0.0, 0.8);
         let (clear, mut findings) = match transition.content() {
             Content::Solid(solid) => (
                 match (solid.loops.is_empty(), transition.compatible()) {
@@ -107,27 +105,27 @@ impl Verdict {
                     (false, Some(_)) => "no folds, no crossings",
                     (false, None) => "no crossings",
                 },
-                solid::findings(transition, solid, glances, of_content)?,
+                solid::solid_findings(transition, solid, moments, content_progress)?,
             ),
             Content::Field(fields) => (
-                "no more pieces or holes than at the ends",
-                field::findings(transition, fields.first(), glances, of_content)?,
+                "no extra pieces or holes",
+                field::field_findings(transition, fields.first_pair(), moments, content_progress)?,
             ),
             Content::Colours(_) => ("no folds", Vec::new()),
         };
-        // Pictures have no glances, and a fold of the plane may be short.
-        let steps = glances.len().max(PLANE_STEPS);
-        let of_plane = ProgressSpan::new(progress, 0.8, 1.0);
-        findings.extend(plane::findings(transition, steps, &of_plane)?);
+        // Pictures have no sampled moments, and a fold of the plane may be short.
+        let steps = moments.len().max(PLANE_STEPS);
+        let plane_progress = ProgressSpan::new(progress, 0.8, 1.0);
+        findings.extend(plane::plane_findings(transition, steps, &plane_progress)?);
         Ok(Self {
-            steps: glances.len(),
+            steps: moments.len(),
             clear,
             findings,
             notes: transition.notes().to_vec(),
         })
     }
 
-    /// Everything that was found on one line, or that nothing was.
+    /// Returns all findings in one line, or [`Self::clear`] if there are none.
     #[must_use]
     pub fn headline(&self) -> String {
         if self.is_clear() {
@@ -137,7 +135,7 @@ impl Verdict {
         findings.join("; ")
     }
 
-    /// Whether nothing was found.
+    /// Returns whether no defects were found.
     #[must_use]
     pub fn is_clear(&self) -> bool {
         self.findings.is_empty()

@@ -1,4 +1,4 @@
-//! The document itself, as it stands in the file.
+//! Data of a project file, exactly as it is serialised.
 
 use super::map::MapSettings;
 use super::segment_settings::SegmentRecord;
@@ -13,14 +13,14 @@ use crate::warp::WarpKind;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// The newest version: older ones are read, newer ones refused. A document is written
-/// in the oldest that can say it.
+/// Newest version of the format. Older versions can be read, newer ones are errors. A project is
+/// written in the oldest version that can represent it.
 pub const FORMAT_VERSION: u32 = 2;
 
-/// What two designs need.
-const OF_A_PAIR: u32 = 1;
+/// Version of the format that suffices for two designs without a map.
+const PAIR_VERSION: u32 = 1;
 
-/// A `.morph` document.
+/// Contents of a `.morph` project file.
 ///
 /// ```
 /// use morphospace::project::Project;
@@ -38,69 +38,67 @@ const OF_A_PAIR: u32 = 1;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct Project {
-    /// The version of the format.
+    /// Version of the format.
     pub version: u32,
-    /// What the transition is called.
+    /// Title of the project.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// A sentence about it.
+    /// One sentence about the project.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub description: String,
-    /// The row of the table; where it is not given, the method that suits the
-    /// designs is chosen.
+    /// Warp, a row of the table of methods; `None` chooses the one that suits the designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub warp: Option<WarpKind>,
-    /// The column of the table, likewise.
+    /// Content, a column of the table of methods; `None` chooses the one that suits the designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub content: Option<ContentKind>,
-    /// How the target is fitted to the source.
+    /// How the other designs are aligned with the first.
     #[serde(default)]
     pub fit: DesignFit,
-    /// The given forms, at least two, in the order in which the film goes through them.
+    /// Designs, at least two, in the order in which the film shows them.
     pub designs: Vec<DesignEntry>,
-    /// Whether the last one leads back to the first. From version 2 on.
+    /// Whether the last design leads back to the first. From version 2 on.
     #[serde(default, skip_serializing_if = "is_default")]
     pub closed: bool,
-    /// Where there are more than two: what belongs to the way from each to the next, in
-    /// order; what is missing at the end has nothing of its own. From version 2 on.
+    /// Settings of each segment between two consecutive designs, if there are more than two
+    /// designs. Entries missing at the end are defaults. From version 2 on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub legs: Vec<SegmentRecord>,
-    /// The map of all designs. From version 2 on.
+    /// Map of all designs. From version 2 on.
     #[serde(default, skip_serializing_if = "is_default")]
     pub map: MapSettings,
-    /// The options of all methods, whose keys stand beside the others in the
-    /// file.
-    // Reading through `flatten` would lose unknown keys and lines.
+    /// Options of all methods; their keys are at the top level of the file.
+    // Deserialising through `flatten` would accept unknown keys and lose line numbers.
     #[serde(flatten, skip_deserializing)]
     pub options: TransitionOptions,
-    /// How it runs over time.
+    /// Duration, easing and playback.
     #[serde(default)]
     pub timing: Timing,
-    /// How it is painted.
+    /// Colours.
     #[serde(default)]
     pub style: TransitionStyle,
-    /// Named places on the way.
+    /// Named moments of the film.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stops: Vec<TransitionStop>,
-    /// The film that was found for it when it was saved.
+    /// Match and motion that were solved when the project was saved.
     #[serde(default, skip_serializing_if = "CachedMatch::is_none")]
     pub found: CachedMatch,
 }
 
-/// One of the given forms.
+/// One design of a project.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct DesignEntry {
-    /// The file, relative to the document, with `/` between folders; or an
-    /// element of a drawing or text, as [`DesignSource`] has it.
+    /// Path of the file relative to the project file, with `/` between folders; or an element of a
+    /// drawing, or text, in the forms of [`DesignSource`].
     pub path: PathBuf,
-    /// What it is called; where it is empty, the file's name.
+    /// Name of the design; if empty, the file name is used.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// How the file is read.
+    /// Options for reading the file.
     #[serde(default, skip_serializing_if = "is_default")]
     pub import: ImportOptions,
-    /// Where it is laid, about its own middle.
+    /// Placement of the design, relative to its own centre.
     #[serde(default, skip_serializing_if = "is_default")]
     pub placement: Similarity,
 }
@@ -110,7 +108,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 }
 
 impl DesignEntry {
-    /// A file as it is.
+    /// Creates an entry with default options.
     #[must_use]
     pub fn new(path: impl Into<PathBuf>) -> Self {
         Self {
@@ -121,9 +119,9 @@ impl DesignEntry {
         }
     }
 
-    /// The name that is shown: its own, or else that of its file.
+    /// Returns the name of the design, or the file name without its extension.
     #[must_use]
-    pub fn shown_name(&self) -> String {
+    pub fn display_name(&self) -> String {
         match self.name.as_str() {
             "" => {
                 let stem = self.path.file_stem().unwrap_or_default();
@@ -135,42 +133,43 @@ impl DesignEntry {
 }
 
 impl Project {
-    /// How the names of documents end, without the dot.
+    /// File extension of projects, without the dot.
     pub const EXTENSION: &'static str = "morph";
 
-    /// Whether a path is named as a document.
+    /// Returns whether a path has the extension of projects, in any case.
     #[must_use]
-    pub fn is_named(path: &Path) -> bool {
+    pub fn has_document_extension(path: &Path) -> bool {
         path.extension()
             .is_some_and(|e| e.eq_ignore_ascii_case(Self::EXTENSION))
     }
 
-    /// Two files with default options. Paths are kept as they are given.
+    /// Creates a project of two files with default options; the paths are stored as given.
     #[must_use]
-    pub fn pair(source: impl Into<PathBuf>, target: impl Into<PathBuf>) -> Self {
-        Self::of([source.into(), target.into()])
+    pub fn from_pair(source: impl Into<PathBuf>, target: impl Into<PathBuf>) -> Self {
+        Self::from_paths([source.into(), target.into()])
     }
 
-    /// Files with default options, one after the other, at least two: a pass goes through
-    /// all of them and rests at each. Paths are kept as they are given.
+    /// Creates a project of at least two files with default options; the paths are stored as given.
+    ///
+    /// The film goes through all designs in order and pauses at each.
     #[must_use]
-    pub fn of<P: Into<PathBuf>>(designs: impl IntoIterator<Item = P>) -> Self {
+    pub fn from_paths<P: Into<PathBuf>>(designs: impl IntoIterator<Item = P>) -> Self {
         let designs: Vec<_> = designs.into_iter().map(DesignEntry::new).collect();
-        // Of the paths, for nothing is read yet.
+        // Taken from the paths, because the designs have not been read yet.
         let names: Vec<_> = designs
             .iter()
-            .map(|d| DesignSource::of(&d.path).name())
+            .map(|d| DesignSource::from_path(&d.path).name())
             .collect();
-        let mut project = Self::bare(title_of(&names), designs);
-        let legs = project.leg_count() as f64;
-        project.timing.to = legs;
-        project.timing.duration_secs *= legs;
-        project.resting_at_designs()
+        let mut project = Self::with_defaults(title_of(&names), designs);
+        let segments = project.segment_count() as f64;
+        project.timing.to = segments;
+        project.timing.duration_secs *= segments;
+        project.with_pauses_at_designs()
     }
 
-    fn bare(title: String, designs: Vec<DesignEntry>) -> Self {
+    fn with_defaults(title: String, designs: Vec<DesignEntry>) -> Self {
         Self {
-            version: OF_A_PAIR,
+            version: PAIR_VERSION,
             title,
             description: String::new(),
             warp: None,
@@ -188,7 +187,7 @@ impl Project {
         }
     }
 
-    /// The oldest version that can say it.
+    /// Returns the oldest version of the format that can represent the project.
     pub(super) fn needed_version(&self) -> u32 {
         let has_times =
             |stop: &TransitionStop| stop.hold_secs != 0.0 || stop.duration_secs.is_some();
@@ -196,7 +195,7 @@ impl Project {
         if self.is_sequence() || has_map || self.stops.iter().any(has_times) {
             FORMAT_VERSION
         } else {
-            OF_A_PAIR
+            PAIR_VERSION
         }
     }
 }

@@ -1,8 +1,8 @@
-//! What can be wrong with a project.
+//! Errors of reading, checking, loading and writing project files.
 
 use super::document::FORMAT_VERSION;
 use super::map::MapError;
-use crate::content::{ColourMixError, FieldPairError};
+use crate::content::{ColourMixError, FieldBlendError};
 use crate::correspondence::MatchPlaceError;
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
@@ -14,123 +14,124 @@ use crate::transition::{BuildError, PaintLayerOptionsError, PartTimeError, Timin
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// Why a project could not be read, written or loaded.
+/// Error while reading, loading or writing a project.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProjectError {
-    /// What is wrong, and in which file.
+    /// An error together with the file in which it occurred.
     #[error("{}", SanitizedLine(format_args!("{}: {error}", file.display())))]
     InFile {
-        /// The document.
+        /// The project file.
         file: PathBuf,
-        /// What is wrong with it.
+        /// The error in it.
         error: Box<ProjectError>,
     },
-    /// The file is not there, is no file, or is too large.
+    /// The file could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The system refused to write it.
+    /// The operating system refused to write the file.
     #[error("the project cannot be written: {0}")]
     Unwritable(String),
-    /// The bytes are no text.
-    #[error("this is not a text file; a .morph document is TOML in UTF-8")]
+    /// The file is not UTF-8 text.
+    #[error("this is not a text file; a .morph project is TOML in UTF-8")]
     NotText,
-    /// A key or value is wrong.
+    /// A key or value is invalid.
     #[error("line {line}: {}", SanitizedLine(message))]
     Syntax {
-        /// Counted from 1.
+        /// Line number, from 1.
         line: usize,
-        /// In the parser's words.
+        /// Message of the parser.
         message: String,
     },
-    /// The version is from the future.
+    /// The version is newer than this program supports.
     #[error(
-        "line {line}: the document has version {version}, this program reads up to {}; update the program",
+        "line {line}: the project has version {version}, but this program reads versions up to {}; update the program",
         FORMAT_VERSION
     )]
     NewerVersion {
-        /// Counted from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What the document says.
+        /// Version of the file.
         version: u64,
     },
-    /// There is no version 0.
+    /// The version is 0.
     #[error(
         "there is no version 0 of this format; write version = {}",
         FORMAT_VERSION
     )]
     VersionZero,
     /// Fewer than two designs.
-    #[error("a transition needs two designs, the document lists {0}; add [[designs]] with a path")]
+    #[error("a project needs at least two designs, but has {0}; add [[designs]] with a path")]
     TooFewDesigns(usize),
-    /// There are more legs than ways from one design to the next.
+    /// There are more segment settings than segments.
     #[error(
-        "the document has {has} [[legs]], and its designs have {may_have} (a pair has none): take the others out"
+        "the project has {has} [[legs]], but its designs allow only {may_have} (a pair has none); remove the others"
     )]
-    TooManyLegs {
-        /// How many it has.
+    TooManySegments {
+        /// Number of entries.
         has: usize,
-        /// How many it may have; a pair has none.
+        /// Maximum number of entries; 0 for a pair.
         may_have: usize,
     },
-    /// Of many designs it is not said which two a match is for.
+    /// Match settings are given both at the top level and in segments.
     #[error(
-        "match and parts stand at the top and there are [[legs]]: move them into the first of these"
+        "match and parts are at the top level although there are [[legs]]; move them into the first of these"
     )]
-    MatchOfNoLeg,
-    /// A placement is no similarity.
+    AmbiguousMatch,
+    /// The placement of a design is not a valid similarity.
     #[error(transparent)]
     Placement(#[from] SimilarityError),
-    /// ε or the threshold is out of range.
+    /// ε or the threshold of the field blend is out of range.
     #[error(transparent)]
-    Blend(#[from] FieldPairError),
-    /// The span in which colours change is none.
+    Blend(#[from] FieldBlendError),
+    /// The interval in which colours are mixed is invalid.
     #[error(transparent)]
     Colours(#[from] ColourMixError),
-    /// A pin or the like is nowhere.
+    /// A pin, line or other match setting has an invalid position.
     #[error(transparent)]
-    Place(#[from] MatchPlaceError),
-    /// There are too many subdivisions.
+    MatchPlace(#[from] MatchPlaceError),
+    /// The mesh would have too many vertices after subdivision.
     #[error(transparent)]
     Subdivisions(#[from] TooManyVertices),
-    /// The timing gives no pass.
+    /// The timing is invalid.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// A part's own time is none.
+    /// The timing of a part is invalid.
     #[error(transparent)]
     PartTime(#[from] PartTimeError),
-    /// Coats change places at no time.
+    /// The time at which paint layers are reordered is invalid.
     #[error(transparent)]
-    Coats(#[from] PaintLayerOptionsError),
-    /// The map is none.
+    PaintLayers(#[from] PaintLayerOptionsError),
+    /// The map is invalid.
     #[error(transparent)]
     Map(#[from] MapError),
-    /// The designs span no space.
+    /// The design space could not be built.
     #[error(transparent)]
     Space(#[from] SpaceError),
     /// A design could not be read.
     #[error(transparent)]
     Import(#[from] ImportError),
-    /// The designs do not go together.
+    /// The transition could not be built.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// A value cannot be written.
+    /// A value cannot be represented in TOML.
     #[error("the project cannot be written ({0}); correct that value")]
-    Write(String),
-    /// No bundled project of that name.
+    NotSerializable(String),
+    /// There is no bundled project with that name.
     #[error(
         "the gallery has no project \"{}\"; it has {known}",
         SanitizedLine(name)
     )]
     NotInGallery {
-        /// What was asked for.
+        /// Requested name.
         name: String,
-        /// What there is.
+        /// Names of all bundled projects.
         known: String,
     },
 }
 
 impl ProjectError {
+    /// Adds the file to an error.
     pub(super) fn in_file(self, file: &Path) -> Self {
         Self::InFile {
             file: file.to_owned(),
@@ -138,6 +139,7 @@ impl ProjectError {
         }
     }
 
+    /// Creates a syntax error from an error of the TOML parser.
     pub(super) fn syntax(text: &str, error: &toml::de::Error) -> Self {
         let message = error.message().replace('\n', "; ");
         Self::Syntax {
@@ -146,6 +148,7 @@ impl ProjectError {
         }
     }
 
+    /// Creates the error for an unknown top-level key; `known` are all keys.
     pub(super) fn unknown_key(
         text: &str,
         key: &toml::Spanned<Cow<'_, str>>,
@@ -161,6 +164,7 @@ impl ProjectError {
         }
     }
 
+    /// Creates the error for a newer version found at byte `at` of the text.
     pub(super) fn newer(text: &str, at: usize, version: u64) -> Self {
         Self::NewerVersion {
             line: line_of(text, at),
@@ -169,6 +173,7 @@ impl ProjectError {
     }
 }
 
+/// Returns the line, from 1, of a byte of the text.
 fn line_of(text: &str, byte: usize) -> usize {
     let before = text.as_bytes().iter().take(byte);
     1 + before.filter(|&&b| b == b'\n').count()

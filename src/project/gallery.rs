@@ -1,4 +1,4 @@
-//! The projects that come with the program, held in the binary.
+//! The gallery: example projects that are embedded in the binary.
 
 use super::document::Project;
 use super::error::ProjectError;
@@ -8,21 +8,21 @@ use std::path::Path;
 
 pub use super::loaded::bytes;
 
-/// A bundled project.
+/// Name and description of a bundled project.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct GalleryEntry {
-    /// What it is opened by: `gallery:NAME`.
+    /// Name by which it can be opened: `gallery:NAME`.
     pub name: String,
-    /// What it is called.
+    /// Title of the project.
     pub title: String,
-    /// What it shows.
+    /// One sentence about the project.
     pub description: String,
 }
 
-/// All bundled projects, by name.
+/// Returns all bundled projects, sorted by name.
 ///
 /// # Errors
-/// [`ProjectError`] if a bundled document is wrong; the tests read them all.
+/// [`ProjectError`] if a bundled project is invalid; the tests read all of them.
 pub fn list() -> Result<Vec<GalleryEntry>, ProjectError> {
     let mut entries = names()
         .map(|name| {
@@ -34,7 +34,7 @@ pub fn list() -> Result<Vec<GalleryEntry>, ProjectError> {
             })
         })
         .collect::<Result<Vec<_>, ProjectError>>()?;
-    // By name and not by file, whose ending would put `a-b` before `a`.
+    // Sorted by name, because file names with their extension would put `a-b` before `a`.
     entries.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(entries)
 }
@@ -42,15 +42,15 @@ pub fn list() -> Result<Vec<GalleryEntry>, ProjectError> {
 /// Reads a bundled project and its designs.
 ///
 /// # Errors
-/// [`ProjectError::NotInGallery`] for another name.
+/// [`ProjectError::NotInGallery`] for an unknown name.
 pub fn load(name: &str) -> Result<LoadedProject, ProjectError> {
     LoadedProject::load(document(name)?, None)
 }
 
-/// A bundled document, without its designs.
+/// Reads a bundled project without its designs.
 ///
 /// # Errors
-/// [`ProjectError::NotInGallery`] for another name.
+/// [`ProjectError::NotInGallery`] for an unknown name.
 pub fn document(name: &str) -> Result<Project, ProjectError> {
     let file = format!("{name}.morph");
     let path = Path::new(&file);
@@ -65,7 +65,7 @@ pub fn document(name: &str) -> Result<Project, ProjectError> {
     Project::parse(text).map_err(|error| error.in_file(path))
 }
 
-/// The names of the bundled documents.
+/// Returns the names of the bundled projects, in no particular order.
 fn names() -> impl Iterator<Item = &'static str> {
     FILES
         .files()

@@ -1,8 +1,8 @@
-//! A document together with the designs it names.
+//! A project together with its designs, and the building of its transitions and design space.
 
 use super::document::{DesignEntry, Project};
 use super::error::ProjectError;
-use super::segment_features::strung;
+use super::segment_features::features_in_all_designs;
 use super::title::title_of;
 use crate::content::ContentKind;
 use crate::correspondence::MatchSettings;
@@ -16,61 +16,63 @@ use crate::transition::{
     TransitionSpec, UnsupportedMethod, frame_similarity, place_in_frame,
 };
 use crate::warp::{ManyFeatures, WarpKind};
-use crate::work::progress::{Progress, WholeProgress as WholeWork};
+use crate::work::progress::{Progress, WholeProgress};
 use include_dir::{Dir, File, include_dir};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The files of the gallery, held in the binary.
+/// Files of the gallery, embedded in the binary.
 pub(super) static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/gallery");
 
-/// The content of a bundled file, by its path in a bundled document.
+/// Returns the content of a bundled file, by its path in a bundled project.
 #[must_use]
 pub fn bytes(path: &Path) -> Option<&'static [u8]> {
     FILES.get_file(path).map(File::contents)
 }
 
-/// What is said where many designs are asked to be blended as only two can be.
-const NO_SPACE: &str = "many designs are blended as rigid parts or as fields at rest, and pictures at rest or by \
-     lines, points or a lattice; choose one of these";
+/// Message for methods that can blend only two designs.
+const UNSUPPORTED_FOR_SPACE: &str = "three or more designs can be blended as rigid parts, as \
+     distance fields without a warp, or as pictures (without a warp, or by lines, points or a \
+     lattice); choose one of these";
 
 /// A project whose designs have been read.
 #[derive(Clone, Debug)]
 pub struct LoadedProject {
-    /// The document.
+    /// Contents of the project file.
     pub project: Project,
-    /// The designs as their files give them, in the document's order.
+    /// Designs as imported, in the order of the project.
     pub designs: Vec<Arc<Design>>,
-    /// What relative paths are relative to; `None` for a bundled project.
+    /// Folder to which paths are relative; `None` for a bundled project.
     pub folder: Option<PathBuf>,
-    /// Whether what takes very long is begun all the same; see
-    /// [`crate::work::budget`].
+    /// Whether jobs beyond the limits of [`crate::work::budget`] may start.
     pub patient: bool,
-    /// Where this is a leg of a sequence: all its designs.
+    /// All designs of the sequence, if this is one of its segments.
     whole: Option<Arc<WholeSource>>,
-    /// Where this is a leg of a path over the map: its number.
-    path_leg: Option<usize>,
-    /// The spaces that were built of it last, the newest first.
+    /// Index of the segment, if this is a segment of a path over the map.
+    path_segment: Option<usize>,
+    /// Design spaces built most recently, the newest first.
     spaces: Arc<Mutex<Vec<(SpaceSpec, DesignSpace)>>>,
 }
 
-/// Spaces that are remembered: a draft and the best, as rigid parts and as fields.
-const SPACES: usize = 4;
+/// Maximum number of cached design spaces (resource limit: draft and best quality, as rigid parts
+/// and as distance fields).
+const MAX_CACHED_SPACES: usize = 4;
 
-/// What is said where a path is asked for what only two designs have.
-const NO_PAIR: &str = "this is of two designs, and a path over the map goes between all of them: take the path away first";
+/// Message where a path is requested to do what only two designs can do.
+const PAIR_REQUIRED: &str = "this applies to two designs, but the film follows a path between \
+     all of them; remove the path first";
 
-/// Whether as many designs as one likes can be blended like that.
-fn is_of_many(cell: TransitionMethod) -> bool {
-    match cell.content() {
-        ContentKind::Solid => cell.warp() == WarpKind::Arap,
-        ContentKind::Field => cell.warp() == WarpKind::None,
-        ContentKind::Colours => cell.warp() != WarpKind::Arap,
+/// Returns whether a method can blend any number of designs.
+fn supports_spaces(method: TransitionMethod) -> bool {
+    match method.content() {
+        ContentKind::Solid => method.warp() == WarpKind::Arap,
+        ContentKind::Field => method.warp() == WarpKind::None,
+        ContentKind::Colours => method.warp() != WarpKind::Arap,
     }
 }
 
-/// What a leg has of the sequence that it belongs to.
+/// Designs and placements of the whole sequence to which a segment belongs.
 #[derive(Debug)]
 struct WholeSource {
     designs: Vec<Arc<Design>>,
@@ -81,52 +83,56 @@ impl LoadedProject {
     /// Reads a `.morph` file and its designs.
     ///
     /// # Errors
-    /// [`ProjectError`] names the file and the place.
+    /// [`ProjectError`] names the file and the place in it.
     pub fn open(path: &Path) -> Result<Self, ProjectError> {
         let project = Project::read(path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         Self::load(project, Some(folder))
     }
 
-    /// Whether this is one of several legs.
+    /// Returns whether this is one of several segments.
     #[must_use]
-    pub fn is_leg(&self) -> bool {
-        self.whole.is_some() || self.path_leg.is_some()
+    pub fn is_segment(&self) -> bool {
+        self.whole.is_some() || self.path_segment.is_some()
     }
 
-    /// The number of the leg of a path over the map that this is.
+    /// Returns the index of this segment of a path over the map; `None` otherwise.
     #[must_use]
-    pub fn path_leg(&self) -> Option<usize> {
-        self.path_leg
+    pub fn path_segment(&self) -> Option<usize> {
+        self.path_segment
     }
 
-    /// The name of the design at each whole t: that of the first once more at the end, where
-    /// the last one leads back to it. Of a path the names of its stops.
+    /// Returns the name shown at each whole t: that of the design, or of the stop of a path.
+    ///
+    /// A closed sequence ends with the name of the first design.
     #[must_use]
-    pub fn names_on_the_way(&self) -> Vec<&str> {
+    pub fn stop_names(&self) -> Vec<&str> {
         if self.project.follows_path() {
             let stops = self.project.map.path.stops();
             let stops = stops.map(|(_, stop)| stop.name.as_str());
-            return match self.path_leg {
-                Some(leg) => stops.skip(leg).take(2).collect(),
+            return match self.path_segment {
+                Some(segment) => stops.skip(segment).take(2).collect(),
                 None => stops.collect(),
             };
         }
-        let legs = self.project.leg_count();
-        let designs = self.designs.iter().cycle().take(legs + 1);
+        let segments = self.project.segment_count();
+        let designs = self.designs.iter().cycle().take(segments + 1);
         designs.map(|design| design.name.as_str()).collect()
     }
 
-    /// The legs of a sequence as projects of two designs each; of a pair itself; of a path
-    /// over the map each with all designs.
+    /// Returns the segments as separate projects of two designs each.
+    ///
+    /// A project of two designs is its own segment. Segments of a path keep all designs.
     #[must_use]
-    pub fn legs(&self) -> Vec<Self> {
+    pub fn segments(&self) -> Vec<Self> {
         if self.project.follows_path() {
-            let leg = |leg: usize| Self {
-                path_leg: Some(leg),
+            let path_segment = |segment: usize| Self {
+                path_segment: Some(segment),
                 ..self.clone()
             };
-            return (0..self.project.leg_count()).map(leg).collect();
+            return (0..self.project.segment_count())
+                .map(path_segment)
+                .collect();
         }
         if !self.project.is_sequence() {
             return vec![self.clone()];
@@ -140,37 +146,38 @@ impl LoadedProject {
                 .map(|entry| entry.placement)
                 .collect(),
         });
-        let leg = |leg: usize| {
-            let designs = self.project.leg_designs(leg);
+        let segment = |segment: usize| {
+            let designs = self.project.segment_designs(segment);
             Self {
-                project: self.project.leg(leg),
+                project: self.project.segment(segment),
                 designs: designs.map(|k| Arc::clone(&self.designs[k])).to_vec(),
                 folder: self.folder.clone(),
                 patient: self.patient,
                 whole: Some(Arc::clone(&whole)),
-                path_leg: None,
+                path_segment: None,
                 spaces: Arc::default(),
             }
         };
-        (0..self.project.leg_count()).map(leg).collect()
+        (0..self.project.segment_count()).map(segment).collect()
     }
 
     /// Reads two designs into a project with default options.
     ///
     /// # Errors
-    /// [`ProjectError::Import`] names the file and the place.
+    /// [`ProjectError::Import`] names the file and the place in it.
     pub fn open_pair(source: &Path, target: &Path) -> Result<Self, ProjectError> {
-        Self::load(Project::pair(source, target), Some(PathBuf::new()))
+        Self::load(Project::from_pair(source, target), Some(PathBuf::new()))
     }
 
-    /// Reads the designs of a document. Its paths are relative to `folder`, or
-    /// where there is none to the gallery.
+    /// Reads the designs of a project, whose paths are relative to `folder`.
+    ///
+    /// Without a folder they are files of the gallery.
     ///
     /// # Errors
-    /// [`ProjectError`] names the file and the place.
+    /// [`ProjectError`] names the file and the place in it.
     pub fn load(project: Project, folder: Option<PathBuf>) -> Result<Self, ProjectError> {
         let read = |entry: &DesignEntry| named(entry, folder.as_deref());
-        // Beside each other: large ones take a second each.
+        // Read in parallel, because large designs take a second each.
         let designs: Vec<_> = project.designs.par_iter().map(read).collect();
         let designs: Result<_, ProjectError> = designs.into_iter().collect();
         Ok(Self {
@@ -179,37 +186,37 @@ impl LoadedProject {
             folder,
             patient: false,
             whole: None,
-            path_leg: None,
+            path_segment: None,
             spaces: Arc::default(),
         })
     }
 
-    /// The same designs with other settings, which name as many.
+    /// Returns the same designs with another project, which must list as many designs.
     #[must_use]
-    pub fn with(&self, project: Project) -> Self {
+    pub fn with_project(&self, project: Project) -> Self {
         Self {
             project,
             ..self.clone()
         }
     }
 
-    /// Reads the designs again, after the document has changed what they are
-    /// or how they are read.
+    /// Reads all designs again, after changes of their paths or import options.
     ///
     /// # Errors
-    /// [`ProjectError`] names the file and the place.
+    /// [`ProjectError`] names the file and the place in it.
     pub fn reread(self) -> Result<Self, ProjectError> {
         let patient = self.patient;
         let read = Self::load(self.project, self.folder)?;
         Ok(Self { patient, ..read })
     }
 
-    /// Reads the designs that are new in the document, or read otherwise, since it was `before`:
-    /// then it had the designs that are here.
+    /// Reads only the designs that are new, or have other import options, compared with `before`.
+    ///
+    /// The designs currently loaded must be those of `before`.
     ///
     /// # Errors
-    /// [`ProjectError`] names the file and the place.
-    pub fn read_beside(self, before: &Project) -> Result<Self, ProjectError> {
+    /// [`ProjectError`] names the file and the place in it.
+    pub fn reread_changed(self, before: &Project) -> Result<Self, ProjectError> {
         let known = before.designs.iter().zip(&self.designs);
         let known: Vec<_> = known.collect();
         let is_same = |a: &DesignEntry, b: &DesignEntry| {
@@ -229,7 +236,7 @@ impl LoadedProject {
         })
     }
 
-    /// What the transition is called, in one line.
+    /// Returns the title of the project in one line, or one made from the names of the designs.
     #[must_use]
     pub fn title(&self) -> String {
         if self.project.title.is_empty() {
@@ -240,71 +247,74 @@ impl LoadedProject {
         }
     }
 
-    /// The cell that is asked for, or that suits the designs best.
+    /// Returns the requested method, completed by what suits the designs best.
     ///
     /// # Errors
-    /// [`UnsupportedMethod`] if warp and content do not go together.
+    /// [`UnsupportedMethod`] if warp and content cannot be combined.
     ///
     /// # Panics
     /// If there are fewer than two designs.
-    pub fn cell(&self) -> Result<TransitionMethod, UnsupportedMethod> {
+    pub fn method(&self) -> Result<TransitionMethod, UnsupportedMethod> {
         let default =
-            TransitionSpec::new(Arc::clone(&self.designs[0]), Arc::clone(&self.designs[1])).cell;
+            TransitionSpec::new(Arc::clone(&self.designs[0]), Arc::clone(&self.designs[1])).method;
         match (self.project.warp, self.project.content) {
             (None, None) => Ok(default),
             (Some(warp), Some(content)) => TransitionMethod::new(warp, content),
             (Some(warp), None) => {
-                let photographs = default.content() == ContentKind::Colours;
-                let suits = |cell: &TransitionMethod| {
-                    (cell.content() == ContentKind::Colours) == photographs
+                let are_pictures = default.content() == ContentKind::Colours;
+                let suits = |method: &TransitionMethod| {
+                    (method.content() == ContentKind::Colours) == are_pictures
                 };
-                let cells = TransitionMethod::all().filter(|cell| cell.warp() == warp);
-                // The first that suits, or the first of all.
-                let found = cells.min_by_key(|cell| !suits(cell));
-                Ok(found.unwrap_or(default))
+                let methods = TransitionMethod::all().filter(|method| method.warp() == warp);
+                // The first method that suits, or simply the first.
+                let chosen = methods.min_by_key(|method| !suits(method));
+                Ok(chosen.unwrap_or(default))
             }
             (None, Some(content)) => {
-                let mut cells = TransitionMethod::all().filter(|cell| cell.content() == content);
-                let found = match content {
-                    // Without pins the plane stands still.
-                    ContentKind::Field | ContentKind::Colours => cells.last(),
-                    ContentKind::Solid => cells.next(),
+                let mut methods =
+                    TransitionMethod::all().filter(|method| method.content() == content);
+                let chosen = match content {
+                    // The last one has no warp; the others need pins or lines.
+                    ContentKind::Field | ContentKind::Colours => methods.last(),
+                    ContentKind::Solid => methods.next(),
                 };
-                Ok(found.unwrap_or(default))
+                Ok(chosen.unwrap_or(default))
             }
         }
     }
 
-    /// Whether these designs can be seen by a cell, without building it.
+    /// Checks whether a method is available for these designs, without building it.
     ///
     /// # Errors
-    /// [`BuildError`] with the reason, for a greyed button.
+    /// [`BuildError`] with the reason, for the tooltip of a disabled button.
     ///
     /// # Panics
     /// If there are fewer than two designs.
-    pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), BuildError> {
-        let cell = TransitionMethod::new(warp, content)?;
-        if self.path_leg.is_some() && !is_of_many(cell) {
-            return Err(BuildError::Unavailable(NO_SPACE.to_owned()));
+    pub fn check_available(&self, warp: WarpKind, content: ContentKind) -> Result<(), BuildError> {
+        let method = TransitionMethod::new(warp, content)?;
+        if self.path_segment.is_some() && !supports_spaces(method) {
+            return Err(BuildError::Unavailable(UNSUPPORTED_FOR_SPACE.to_owned()));
         }
-        TransitionSpec::available(cell, &self.designs[0], &self.designs[1])
+        TransitionSpec::available(method, &self.designs[0], &self.designs[1])
     }
 
-    /// What lays both designs into one frame.
+    /// Returns the similarities that place the first two designs in one frame.
     ///
     /// # Errors
-    /// A placement that is no similarity.
+    /// [`ProjectError`] if a placement is not a valid similarity.
     ///
     /// # Panics
     /// If there are fewer than two designs.
-    pub fn arrangement(&self) -> Result<[Similarity; 2], ProjectError> {
-        let first = (self.first(), self.project.fit);
-        let by =
-            |k: usize| frame_similarity(&self.designs[k], first, self.project.designs[k].placement);
+    pub fn frame_similarities(&self) -> Result<[Similarity; 2], ProjectError> {
+        let (first, fit) = (self.first(), self.project.fit);
+        let by = |k: usize| {
+            let place = self.project.designs[k].placement;
+            frame_similarity(&self.designs[k], first, fit, place)
+        };
         Ok([by(0)?, by(1)?])
     }
 
-    /// The design that all others are fitted to.
+    /// Returns the design to which all others are aligned.
     fn first(&self) -> &Design {
         let whole = self
             .whole
@@ -313,183 +323,188 @@ impl LoadedProject {
         &whole[0]
     }
 
-    /// The other designs of a sequence, as far as a leg's film depends on them.
-    fn others(&self, cell: TransitionMethod) -> Result<Vec<Arc<Design>>, ProjectError> {
+    /// Returns the designs of the whole sequence if the film of a segment depends on them.
+    fn others(&self, method: TransitionMethod) -> Result<Vec<Arc<Design>>, ProjectError> {
         let Some(whole) = &self.whole else {
             return Ok(Vec::new());
         };
         let has_bars = |design: &Arc<Design>| matches!(design.form, DesignForm::Truss(_));
-        // Fields share a grid, bars a width; all else would be laid in vain.
-        if cell.content() != ContentKind::Field && !whole.designs.iter().any(has_bars) {
+        // Distance fields share a grid and bars share a width; nothing else depends on others.
+        if method.content() != ContentKind::Field && !whole.designs.iter().any(has_bars) {
             return Ok(Vec::new());
         }
-        let first = (self.first(), self.project.fit);
+        let (first, fit) = (self.first(), self.project.fit);
         let laid = whole.designs.iter().zip(&whole.places);
-        let laid = laid.map(|(design, place)| place_in_frame(design, first, *place));
+        let laid = laid.map(|(design, place)| place_in_frame(design, first, fit, *place));
         Ok(laid.collect::<Result<_, _>>()?)
     }
 
-    /// What the space of all designs is to be built from.
+    /// Returns the specification of the space of all designs.
     ///
     /// # Errors
-    /// [`ProjectError`] if the cell does not exist, or has no blend of many, or a placement
-    /// is no similarity.
-    pub fn space(&self) -> Result<SpaceSpec, ProjectError> {
+    /// [`ProjectError`] if the method does not exist or cannot blend several designs, or if a
+    /// placement is not a valid similarity.
+    pub fn space_spec(&self) -> Result<SpaceSpec, ProjectError> {
         let project = &self.project;
-        let mut cell = self.cell().map_err(BuildError::from)?;
-        let is_asked = project.warp.is_some() || project.content.is_some();
-        if !is_asked && self.designs.iter().any(|design| design.picture.is_none()) {
-            // The first two are photographs, others are not.
-            cell = TransitionMethod::RIGID_PARTS;
+        let mut method = self.method().map_err(BuildError::from)?;
+        let is_requested = project.warp.is_some() || project.content.is_some();
+        if !is_requested && self.designs.iter().any(|design| design.picture.is_none()) {
+            // The default looks only at the first two designs, but not all are pictures.
+            method = TransitionMethod::RIGID_PARTS;
         }
-        if !is_of_many(cell) {
-            return Err(BuildError::Unavailable(NO_SPACE.to_owned()).into());
+        if !supports_spaces(method) {
+            return Err(BuildError::Unavailable(UNSUPPORTED_FOR_SPACE.to_owned()).into());
         }
-        let first = (self.first(), project.fit);
+        let (first, fit) = (self.first(), project.fit);
         let laid = self.designs.iter().zip(&project.designs);
-        let laid = laid.map(|(design, entry)| place_in_frame(design, first, entry.placement));
+        let laid = laid.map(|(design, entry)| place_in_frame(design, first, fit, entry.placement));
         let mut spec = SpaceSpec {
-            // As rigid parts where all have a common mesh.
-            content: Some(cell.content()).filter(|content| *content != ContentKind::Solid),
-            warp: cell.warp(),
+            // `None` lets designs without a common mesh fall back to distance fields.
+            content: Some(method.content()).filter(|content| *content != ContentKind::Solid),
+            warp: method.warp(),
             options: project.options.clone(),
             patient: self.patient,
             ..SpaceSpec::new(laid.collect::<Result<_, _>>()?)
         };
-        if cell.content() == ContentKind::Colours && cell.warp() != WarpKind::None {
-            (spec.features, spec.lone_features) = self.features()?;
+        if method.content() == ContentKind::Colours && method.warp() != WarpKind::None {
+            (spec.features, spec.unmatched_features) = self.features()?;
         }
         Ok(spec)
     }
 
-    /// What all designs have in common, laid into their frame, and how many features only
-    /// some of them have.
+    /// Returns the features common to all designs, in the common frame, and the number of features
+    /// that exist in only some designs.
     fn features(&self) -> Result<(ManyFeatures, usize), ProjectError> {
         let count = self.designs.len();
-        let legs = (0..count.saturating_sub(1)).map(|leg| {
-            let alone = self.project.pair_alone(leg);
-            alone.options.matching
+        let segments = (0..count.saturating_sub(1)).map(|pair| {
+            let project = self.project.pair_project(pair);
+            project.options.matching
         });
-        let legs: Vec<MatchSettings> = legs.collect();
+        let segments: Vec<MatchSettings> = segments.collect();
         let diameters: Vec<f64> = self.designs.iter().map(|d| d.extent.diameter()).collect();
-        let (mut features, lone) = strung(&legs, &diameters);
-        let first = (self.first(), self.project.fit);
+        let (mut features, unmatched) = features_in_all_designs(&segments, &diameters);
+        let (first, fit) = (self.first(), self.project.fit);
         for design in 0..count {
             let place = self.project.designs[design].placement;
-            let by = frame_similarity(&self.designs[design], first, place)?;
+            let by = frame_similarity(&self.designs[design], first, fit, place)?;
             let points = features.points.iter_mut().map(|each| &mut each[design]);
             let ends = features.lines.iter_mut().flat_map(|each| &mut each[design]);
             points.chain(ends).for_each(|p| *p = by.apply(*p));
         }
-        Ok((features, lone))
+        Ok((features, unmatched))
     }
 
-    /// The space of all designs, of this quality or as the project asks for: built, or as it
-    /// was built before.
+    /// Builds the space of all designs, or returns a cached one.
+    ///
+    /// `quality` overrides that of the project.
     ///
     /// # Errors
-    /// As [`Self::space`], and why the designs span none.
-    pub fn built_space(
+    /// As [`Self::space_spec`] and [`DesignSpace::build`].
+    pub fn build_space(
         &self,
         quality: Option<BuildQuality>,
         progress: &dyn Progress,
     ) -> Result<DesignSpace, ProjectError> {
-        let mut spec = self.space()?;
+        let mut spec = self.space_spec()?;
         if let Some(quality) = quality {
             spec.options.quality = quality;
         }
-        // Held while it is built: who asks for the same meanwhile waits for it.
+        // Locked while building, so that a second request for the same space waits for it.
         let mut known = self.spaces.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, space)) = known.iter().find(|(of, _)| *of == spec) {
             return Ok(space.clone());
         }
         let space = DesignSpace::build(&spec, progress)?;
         known.insert(0, (spec, space.clone()));
-        known.truncate(SPACES);
+        known.truncate(MAX_CACHED_SPACES);
         Ok(space)
     }
 
-    /// The map of a space of these designs.
+    /// Returns the map of a space of these designs.
     ///
     /// # Errors
-    /// Two designs are in one place.
+    /// [`ProjectError`] if two sites coincide.
     pub fn map_of(&self, space: &DesignSpace) -> Result<WeightMap, ProjectError> {
-        let sites = self.project.map.sites(space.likeness());
+        let sites = self.project.map.sites(space.distances());
         Ok(WeightMap::new(&sites).map_err(super::map::MapError::from)?)
     }
 
-    /// Builds the transition: of a leg of a path from its space, of all else as
-    /// [`Self::spec`] says.
+    /// Builds the transition of [`Self::spec`], or, for a segment of a path, that of the space.
     ///
     /// # Errors
-    /// [`ProjectError`] says what does not go together.
+    /// [`ProjectError`] says why the designs are incompatible, or that the work was cancelled.
     pub fn build(&self, progress: &dyn Progress) -> Result<Transition, ProjectError> {
-        let Some(leg) = self.path_leg else {
+        let Some(segment) = self.path_segment else {
             return Ok(Transition::build(&self.spec()?, progress)?);
         };
-        let space = self.built_space(None, progress)?;
+        let space = self.build_space(None, progress)?;
         let map = self.map_of(&space)?;
-        let progress = &WholeWork::new(progress).patient(self.patient);
-        Ok(space.leg((&map, &self.project.map.path), leg, progress)?)
+        let progress = &WholeProgress::new(progress).patient(self.patient);
+        Ok(space.segment(&map, &self.project.map.path, segment, progress)?)
     }
 
-    /// The first film, where the one that is asked for takes longer: as
-    /// [`TransitionSpec::draft`] has it. None where it is not sooner there, or cannot be had.
+    /// Builds a draft, to be shown until the requested quality is ready.
+    ///
+    /// Returns `None` if a draft would not be faster, see [`TransitionSpec::draft`], or cannot be
+    /// built.
     #[must_use]
     pub fn draft(&self, progress: &dyn Progress) -> Option<(BuildQuality, Transition)> {
-        if self.path_leg.is_none() {
+        if self.path_segment.is_none() {
             let spec = self.spec().ok()?.draft(progress)?;
             let built = Transition::build(&spec, progress).ok()?;
             return Some((spec.options.quality, built));
         }
         let is_outline = |design: &Arc<Design>| matches!(design.form, DesignForm::Outline(_));
-        let is_sooner = self.space().ok()?.content.is_none()
+        let is_faster = self.space_spec().ok()?.content.is_none()
             && self.project.options.quality != BuildQuality::Draft
             && self.designs.iter().any(is_outline);
-        if !is_sooner {
+        if !is_faster {
             return None;
         }
         let mut project = self.project.clone();
         project.options.quality = BuildQuality::Draft;
         Some((
             BuildQuality::Draft,
-            self.with(project).build(progress).ok()?,
+            self.with_project(project).build(progress).ok()?,
         ))
     }
 
-    /// What the transition is to be built from; of a sequence, that of its first leg.
+    /// Returns the specification of the transition; for a sequence, that of its first segment.
     ///
     /// # Errors
-    /// [`ProjectError`] if the cell does not exist or a placement is no
-    /// similarity.
+    /// [`ProjectError`] if the method does not exist, a placement is not a valid similarity, or the
+    /// film follows a path.
     ///
     /// # Panics
     /// If there are fewer than two designs.
     pub fn spec(&self) -> Result<TransitionSpec, ProjectError> {
         if self.project.follows_path() {
-            return Err(BuildError::Unavailable(NO_PAIR.to_owned()).into());
+            return Err(BuildError::Unavailable(PAIR_REQUIRED.to_owned()).into());
         }
         if self.project.is_sequence() {
-            return self.legs()[0].spec();
+            return self.segments()[0].spec();
         }
         let project = &self.project;
-        let by = self.arrangement()?;
-        let first = (self.first(), project.fit);
-        let laid = |k: usize| place_in_frame(&self.designs[k], first, project.designs[k].placement);
-        let cell = self.cell().map_err(BuildError::from)?;
+        let by = self.frame_similarities()?;
+        let (first, fit) = (self.first(), project.fit);
+        let laid = |k: usize| {
+            let place = project.designs[k].placement;
+            place_in_frame(&self.designs[k], first, fit, place)
+        };
+        let method = self.method().map_err(BuildError::from)?;
         Ok(TransitionSpec {
             source: laid(0)?,
             target: laid(1)?,
-            cell,
-            others: self.others(cell)?,
+            method,
+            others: self.others(method)?,
             options: TransitionOptions {
-                // Pins are written in the designs' own units, and matched where they are laid.
+                // Pins are stored in the designs' own coordinates, but matched in the common frame.
                 matching: project.options.matching.placed(&by),
                 parts: placed(&project.options.parts, &by),
                 ..project.options.clone()
             },
             patient: self.patient,
-            found: project.found.clone(),
+            cached_match: project.found.clone(),
         })
     }
 }
@@ -498,7 +513,7 @@ fn placed(parts: &[PartTime], by: &[Similarity; 2]) -> Vec<PartTime> {
     parts.iter().map(|part| part.placed(by)).collect()
 }
 
-/// A design under the name that the document gives it, if any.
+/// Reads a design and gives it the name from the project, if there is one.
 fn named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>, ProjectError> {
     let mut design = read(entry, folder)?;
     if !entry.name.is_empty() {
@@ -507,13 +522,13 @@ fn named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>, Proj
     Ok(Arc::new(design))
 }
 
-/// A design that a document in a folder names, or one of the gallery.
+/// Reads a design whose path is relative to `folder`, or one of the gallery without a folder.
 fn read(entry: &DesignEntry, folder: Option<&Path>) -> Result<Design, ProjectError> {
     let source = match folder {
         Some(folder) => DesignSource::in_folder(folder, &entry.path),
-        // A bundled project whose design a user has replaced by a file.
-        None if entry.path.is_absolute() => DesignSource::of(&entry.path),
-        // The binary is its own file system: no path of it is one of the disk's.
+        // A bundled project in which the user has replaced a design by a file.
+        None if entry.path.is_absolute() => DesignSource::from_path(&entry.path),
+        // Other paths of a bundled project refer to embedded files, never to the disk.
         None => {
             let source = DesignSource::parse(&entry.path, |path| bytes(path).is_some());
             let missing = |file: &Path| ProjectError::from(ReadError::Missing).in_file(file);

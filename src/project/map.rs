@@ -1,55 +1,55 @@
-//! What a document says of the map of its designs.
+//! Map settings of a project: layout, path and saved blends.
 
 use crate::geometry::DVec2;
 use crate::mesh::{NaturalNeighbours, SitesError};
 use crate::space::{DesignDistances, MapLayout, MapPath};
 use serde::{Deserialize, Serialize};
 
-/// The map of all designs: how they are laid out, the path over it, and the places that
-/// are kept. From version 2 on.
+/// Map of all designs: their layout, the path over it, and saved blends. From version 2 on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MapSettings {
-    /// How the designs are laid out, where nobody has put them elsewhere.
+    /// Automatic layout, used unless `sites` are given.
     #[serde(skip_serializing_if = "is_default")]
     pub layout: MapLayout,
-    /// Where somebody has put them, one for each design; none as the layout has it.
+    /// Manually chosen sites, one per design; empty for the automatic layout.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sites: Vec<DVec2>,
-    /// What the film goes along; where there is none, from design to design.
+    /// Path that the film follows; if it is empty, the film goes from design to design.
     #[serde(skip_serializing_if = "is_default")]
     pub path: MapPath,
-    /// Blends that are worth keeping.
+    /// Saved blends.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub kept: Vec<SavedPlace>,
 }
 
-/// A blend that is worth keeping.
+/// A saved blend: a place on the map with a name, a note and a rating.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SavedPlace {
-    /// Where it is on the map.
+    /// Position on the map.
     pub at: DVec2,
-    /// What it is called; may be empty.
+    /// Name; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// What there is to say about it; may be empty.
+    /// Note; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// How good it is: up to [`SavedPlace::MOST_STARS`], none where nobody has said.
+    /// Rating from 1 to [`SavedPlace::MOST_STARS`]; 0 if unrated.
     #[serde(default, skip_serializing_if = "is_default")]
     pub stars: u8,
 }
 
-/// How far a place may be from the middle of the map, whose designs are within one of it.
-const FARTHEST: f64 = 100.0;
+/// Maximum coordinate of a place (resource limit: automatic layouts lie within the unit circle).
+const MAX_COORDINATE: f64 = 100.0;
 
-/// The most places of a path, and the most that are kept: a hand does not click as often.
-pub const MOST_PLACES: usize = 500;
+/// Maximum number of places of a path, and of saved blends (resource limit: far more than set by
+/// hand).
+pub const MAX_PLACES: usize = 500;
 
-fn is_near(place: DVec2) -> bool {
-    // None for what is no number.
-    place.abs().max_element() <= FARTHEST && place.is_finite()
+/// Returns whether a place has finite coordinates within the allowed range.
+fn is_on_map(place: DVec2) -> bool {
+    place.abs().max_element() <= MAX_COORDINATE && place.is_finite()
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -57,10 +57,10 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 }
 
 impl SavedPlace {
-    /// Of the best ones.
+    /// Highest rating.
     pub const MOST_STARS: u8 = 5;
 
-    /// A place without a word about it.
+    /// Creates an unrated place without name and note.
     #[must_use]
     pub fn new(at: DVec2) -> Self {
         Self {
@@ -72,45 +72,47 @@ impl SavedPlace {
     }
 }
 
-/// What is wrong with a map.
+/// Error in the map settings of a project.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapError {
-    /// There are not as many sites as designs.
-    #[error("the map has {has} sites and there are {designs} designs: give one for each, or none")]
+    /// The number of sites differs from the number of designs.
+    #[error("the map has {has} sites for {designs} designs; give one for each design, or none")]
     Sites {
-        /// How many it has.
+        /// Number of sites.
         has: usize,
-        /// How many there are to be.
+        /// Number of designs.
         designs: usize,
     },
-    /// Two sites are one, or one is nowhere.
+    /// Two sites coincide, or one is not finite.
     #[error("the map: {0}")]
     Site(#[from] SitesError),
-    /// A place of the path is nowhere.
-    #[error("place {} of the path is not on the map, which reaches from -{FARTHEST} to {FARTHEST}", .0 + 1)]
-    Path(usize),
+    /// The place of the path with this index lies outside the map.
+    #[error("place {} of the path lies outside the map; use coordinates from -{MAX_COORDINATE} to {MAX_COORDINATE}", .0 + 1)]
+    PathPlace(usize),
     /// There are too many places.
-    #[error("a map has up to {MOST_PLACES} kept places, and a path as many: take some out")]
-    TooMany,
-    /// A kept place is nowhere, or has too many stars.
     #[error(
-        "kept place {} is not on the map, or has more than {} stars", .0 + 1, SavedPlace::MOST_STARS
+        "a map can have at most {MAX_PLACES} saved places and {MAX_PLACES} places on its path; remove some"
     )]
-    Kept(usize),
+    TooMany,
+    /// The saved place with this index lies outside the map, or has too many stars.
+    #[error(
+        "saved place {} lies outside the map, or has more than {} stars", .0 + 1, SavedPlace::MOST_STARS
+    )]
+    SavedPlace(usize),
 }
 
 impl MapSettings {
-    /// Where the designs are.
+    /// Returns the sites of the designs: the manual ones, or those of the layout.
     #[must_use]
-    pub fn sites(&self, likeness: &DesignDistances) -> Vec<DVec2> {
-        match self.sites.len() == likeness.count() {
+    pub fn sites(&self, distances: &DesignDistances) -> Vec<DVec2> {
+        match self.sites.len() == distances.count() {
             true => self.sites.clone(),
-            false => self.layout.sites(likeness),
+            false => self.layout.sites(distances),
         }
     }
 
-    /// That it is a map of so many designs.
+    /// Checks the settings for the given number of designs.
     pub(super) fn check(&self, designs: usize) -> Result<(), MapError> {
         if !self.sites.is_empty() {
             let has = self.sites.len();
@@ -118,35 +120,39 @@ impl MapSettings {
                 return Err(MapError::Sites { has, designs });
             }
             NaturalNeighbours::new(&self.sites)?;
-            if let Some(far) = self.sites.iter().position(|site| !is_near(*site)) {
+            if let Some(far) = self.sites.iter().position(|site| !is_on_map(*site)) {
                 return Err(SitesError::NotFinite(far).into());
             }
         }
         let places = &self.path.places;
-        if let Some(nowhere) = places.iter().position(|place| !is_near(place.at)) {
-            return Err(MapError::Path(nowhere));
+        if let Some(nowhere) = places.iter().position(|place| !is_on_map(place.at)) {
+            return Err(MapError::PathPlace(nowhere));
         }
-        if places.len().max(self.kept.len()) > MOST_PLACES {
+        if places.len().max(self.kept.len()) > MAX_PLACES {
             return Err(MapError::TooMany);
         }
-        let is_sound = |kept: &SavedPlace| is_near(kept.at) && kept.stars <= SavedPlace::MOST_STARS;
+        let is_sound =
+            |kept: &SavedPlace| is_on_map(kept.at) && kept.stars <= SavedPlace::MOST_STARS;
         match self.kept.iter().position(|kept| !is_sound(kept)) {
-            Some(bad) => Err(MapError::Kept(bad)),
+            Some(bad) => Err(MapError::SavedPlace(bad)),
             None => Ok(()),
         }
     }
 
-    /// Whether a film is the same by both: it is where nobody goes over the map, and names
-    /// and kept places are not in it.
+    /// Returns whether the film is the same with both settings.
+    ///
+    /// Without a path it does not depend on the map at all; with one, names and saved blends do not
+    /// matter.
     #[must_use]
-    pub fn plays_as(&self, other: &Self) -> bool {
-        let way = |map: &Self| -> Vec<_> {
-            // One place is no path yet.
-            let places = map.path.places.iter().filter(|_| !map.path.is_none());
+    pub fn has_same_film(&self, other: &Self) -> bool {
+        let path_places = |map: &Self| -> Vec<_> {
+            // A single place does not form a path.
+            let places = map.path.places.iter().filter(|_| !map.path.is_too_short());
             places.map(|place| (place.at, place.passed)).collect()
         };
-        let (own, its) = (way(self), way(other));
-        own == its && (own.is_empty() || (self.layout, &self.sites) == (other.layout, &other.sites))
+        let (own, others) = (path_places(self), path_places(other));
+        own == others
+            && (own.is_empty() || (self.layout, &self.sites) == (other.layout, &other.sites))
     }
 }
 
@@ -155,6 +161,7 @@ mod tests {
     use super::*;
     use crate::project::Project;
 
+    /// Returns the error for a project with the given map, or an empty string.
     fn refused(map: &str) -> String {
         let text = format!(
             "version = 2\n[[designs]]\npath = \"a.svg\"\n[[designs]]\npath = \"b.svg\"\n{map}"
@@ -166,8 +173,8 @@ mod tests {
     }
 
     #[test]
-    fn a_map_that_is_none_is_named() {
-        for (map, said) in [
+    fn errors_name_the_invalid_part_of_a_map() {
+        for (map, expected) in [
             ("[map]\nsites = [[0.0, 0.0]]", "1 sites"),
             ("[map]\nsites = [[0.0, 0.0], [0.0, 0.0]]", "one place"),
             ("[map]\nsites = [[0.0, 0.0], [nan, 0.0]]", "finite"),
@@ -178,20 +185,20 @@ mod tests {
                 "[map.path]\nplaces = [{ at = [0.0, 0.0], to = 1 }]",
                 "line 7",
             ),
-            ("[[map.kept]]\nat = [0.0, 0.0]\nstars = 6", "kept place 1"),
+            ("[[map.kept]]\nat = [0.0, 0.0]\nstars = 6", "saved place 1"),
             ("[[map.kept]]\nat = [0.0, 0.0]\nstars = -1", "line"),
         ] {
             let error = refused(map);
-            assert!(error.contains(said), "{map}: {error}");
+            assert!(error.contains(expected), "{map}: {error}");
         }
-        let many = "{ at = [0.0, 0.0] },".repeat(MOST_PLACES + 1);
+        let many = "{ at = [0.0, 0.0] },".repeat(MAX_PLACES + 1);
         let error = refused(&format!("[map.path]\nplaces = [{many}]"));
-        assert!(error.contains("up to 500"), "{error}");
+        assert!(error.contains("at most 500"), "{error}");
         assert_eq!(refused("[map.path]\nplaces = [{ at = [0.0, 0.0] }]"), "");
     }
 
     #[test]
-    fn films_that_look_alike_are_known() {
+    fn settings_with_equal_films_are_recognised() {
         let path = |name: &str, places: usize| MapSettings {
             path: MapPath {
                 name: name.to_owned(),
@@ -199,14 +206,14 @@ mod tests {
             },
             ..MapSettings::default()
         };
-        assert!(path("a", 2).plays_as(&path("b", 2)));
-        assert!(path("", 1).plays_as(&MapSettings::default()));
-        assert!(!path("", 2).plays_as(&path("", 3)));
+        assert!(path("a", 2).has_same_film(&path("b", 2)));
+        assert!(path("", 1).has_same_film(&MapSettings::default()));
+        assert!(!path("", 2).has_same_film(&path("", 3)));
         let line = |map: MapSettings| MapSettings {
             layout: MapLayout::Line,
             ..map
         };
-        assert!(!path("", 2).plays_as(&line(path("", 2))));
-        assert!(MapSettings::default().plays_as(&line(MapSettings::default())));
+        assert!(!path("", 2).has_same_film(&line(path("", 2))));
+        assert!(MapSettings::default().has_same_film(&line(MapSettings::default())));
     }
 }

@@ -1,20 +1,20 @@
-//! What a document says of two designs alone.
+//! Settings of one segment of a project: those that belong to two particular designs.
 
 use crate::correspondence::MatchSettings;
 use crate::transition::{CachedMatch, PartTime};
 use serde::{Deserialize, Serialize};
 
-/// What belongs to the way from one design to the next.
+/// Settings of the segment from one design to the next.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SegmentRecord {
-    /// How the outlines of the two are matched, in the coordinates of each.
+    /// Match settings, in the coordinates of the two designs.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
     pub matching: MatchSettings,
-    /// Parts that make their way in their own time.
+    /// Parts with their own timing.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartTime>,
-    /// The film that was found.
+    /// Match and motion that were solved when the project was saved.
     #[serde(skip_serializing_if = "CachedMatch::is_none")]
     pub found: CachedMatch,
 }

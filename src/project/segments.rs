@@ -1,14 +1,13 @@
-//! A project of many designs as projects of two: one for each leg of the way.
+//! Segments of a project: splitting it into projects of two designs, and changing its designs.
 //!
-//! What is said of points of two designs, and what was found for them, belongs to the
-//! leg between them; all else is said once for the whole. A pair has one leg, and its
-//! document has no list of legs: it stays what it was before there were sequences.
+//! Match settings, part timing and cached matches belong to the segment between two consecutive
+//! designs; everything else belongs to the whole project. A project of two designs has one segment,
+//! whose settings are stored at the top level. If the film follows a path over the map, its
+//! segments lie between the stops of the path and share all settings; the settings of pairs of
+//! designs are retained for when the path is removed.
 //!
-//! Where the film goes along a path over the map, its legs are the ways between the stops of
-//! that, and all is said once; what is said of two designs stays with these meanwhile.
-//!
-//! Guaranteed: a leg that is taken out and put back unchanged changes nothing; when
-//! designs change places, what belongs to two that stay neighbours stays with them.
+//! Taking out a segment and putting it back unchanged changes nothing. When designs are reordered,
+//! settings stay with pairs that remain neighbours.
 
 use super::document::{DesignEntry, Project};
 use super::map::MapSettings;
@@ -17,37 +16,37 @@ use crate::geometry::DVec2;
 use crate::space::MapPath;
 use crate::transition::{CachedMatch, TransitionStop};
 
-/// A design with the number that it had before, where it was there before.
+/// A design with its previous index; `None` for a new design.
 pub type MovedDesigns = (DesignEntry, Option<usize>);
 
 impl Project {
-    /// How many transitions there are: one from design to design, or from stop to stop of
-    /// the path over the map.
+    /// Returns the number of segments of the film: between designs, or between the stops of the
+    /// path over the map.
     #[must_use]
-    pub fn leg_count(&self) -> usize {
+    pub fn segment_count(&self) -> usize {
         match self.follows_path() {
-            true => self.map.path.leg_count(),
+            true => self.map.path.segment_count(),
             false => self.pair_count(),
         }
     }
 
-    /// How many ways from one design to the next there are: one less than designs, or as
-    /// many where the last leads back to the first.
+    /// Returns the number of pairs of consecutive designs: one less than the number of designs, or
+    /// equal to it if the last leads back to the first.
     #[must_use]
     pub fn pair_count(&self) -> usize {
-        let back = usize::from(self.closed);
-        (self.designs.len() + back).saturating_sub(1).max(1)
+        let closing_pair = usize::from(self.closed);
+        (self.designs.len() + closing_pair).saturating_sub(1).max(1)
     }
 
-    /// Whether the film goes along a path over the map.
+    /// Returns whether the film follows a path over the map.
     #[must_use]
     pub fn follows_path(&self) -> bool {
-        !self.map.path.is_none()
+        !self.map.path.is_too_short()
     }
 
-    /// Whether the film ends where it begins.
+    /// Returns whether the film ends with the shape with which it starts.
     #[must_use]
-    pub fn leads_back(&self) -> bool {
+    pub fn ends_where_it_starts(&self) -> bool {
         let places = &self.map.path.places;
         match self.follows_path() {
             true => places.first().map(|p| p.at) == places.last().map(|p| p.at),
@@ -55,139 +54,148 @@ impl Project {
         }
     }
 
-    /// Whether there is more than one way from a design to the next.
+    /// Returns whether there is more than one pair of consecutive designs.
     #[must_use]
     pub fn is_sequence(&self) -> bool {
         self.pair_count() > 1
     }
 
-    /// The numbers of the two designs of a leg; of a path, which goes between all, of the
-    /// first and the last.
+    /// Returns the indices of the two designs of a segment.
+    ///
+    /// Segments of a path blend all designs; for them the first and the last are returned.
     #[must_use]
-    pub fn leg_designs(&self, leg: usize) -> [usize; 2] {
+    pub fn segment_designs(&self, segment: usize) -> [usize; 2] {
         match self.follows_path() {
             true => [0, self.designs.len().saturating_sub(1)],
-            false => self.pair_designs(leg),
+            false => self.pair_designs(segment),
         }
     }
 
-    /// The numbers of the two designs of a way from one to the next.
+    /// Returns the indices of the two designs of a pair of consecutive designs.
     #[must_use]
     pub fn pair_designs(&self, pair: usize) -> [usize; 2] {
         [pair, pair + 1].map(|design| design % self.designs.len().max(1))
     }
 
-    /// The project of a leg alone: two designs, and all that is said of them. Its times
-    /// and stops are those of the whole. A leg of a path has all designs.
+    /// Returns one segment as a separate project of two designs with their settings.
+    ///
+    /// Timing and stops are those of the whole project. A segment of a path keeps all designs.
     #[must_use]
-    pub fn leg(&self, leg: usize) -> Self {
+    pub fn segment(&self, segment: usize) -> Self {
         match self.follows_path() {
             true => self.clone(),
-            false => self.pair_alone(leg),
+            false => self.pair_project(segment),
         }
     }
 
-    /// As [`Self::leg`], of a way from one design to the next.
+    /// Like [`Self::segment`], for a pair of consecutive designs, even if the film follows a path.
     #[must_use]
-    pub fn pair_alone(&self, leg: usize) -> Self {
+    pub fn pair_project(&self, pair: usize) -> Self {
         if !self.is_sequence() {
             return self.clone();
         }
-        let mut alone = self.clone();
-        let designs = self.pair_designs(leg);
-        alone.designs = designs.map(|k| self.designs[k].clone()).to_vec();
-        (alone.legs, alone.closed) = (Vec::new(), false);
-        alone.map = MapSettings::default();
-        alone.hold(self.legs.get(leg).cloned().unwrap_or_default());
-        alone
+        let mut project = self.clone();
+        let designs = self.pair_designs(pair);
+        project.designs = designs.map(|k| self.designs[k].clone()).to_vec();
+        (project.legs, project.closed) = (Vec::new(), false);
+        project.map = MapSettings::default();
+        project.set_pair_record(self.legs.get(pair).cloned().unwrap_or_default());
+        project
     }
 
-    /// Takes a leg back as [`Self::leg`] gave it, with what was changed since.
-    pub fn take_leg(&mut self, leg: usize, changed: Self) {
+    /// Takes back a segment that was returned by [`Self::segment`] and then changed.
+    pub fn replace_segment(&mut self, segment: usize, changed: Self) {
         match self.follows_path() {
             true => *self = changed,
-            false => self.take_pair(leg, changed),
+            false => self.replace_pair(segment, changed),
         }
     }
 
-    /// As [`Self::take_leg`], of a way from one design to the next.
-    pub fn take_pair(&mut self, leg: usize, mut changed: Self) {
+    /// Like [`Self::replace_segment`], for a pair returned by [`Self::pair_project`].
+    pub fn replace_pair(&mut self, pair: usize, mut changed: Self) {
         if !self.is_sequence() {
             *self = changed;
             return;
         }
-        let own = changed.let_go();
+        let record = changed.take_pair_record();
         let mut designs = std::mem::take(&mut self.designs);
-        for (k, entry) in self.leg_designs_of(leg, designs.len()).zip(changed.designs) {
+        for (k, entry) in self.cyclic_pair(pair, designs.len()).zip(changed.designs) {
             designs[k] = entry;
         }
         let mut legs = std::mem::take(&mut self.legs);
-        if legs.len() <= leg {
-            legs.resize_with(leg + 1, SegmentRecord::default);
+        if legs.len() <= pair {
+            legs.resize_with(pair + 1, SegmentRecord::default);
         }
-        legs[leg] = own;
+        legs[pair] = record;
         *self = Self {
             designs,
             closed: self.closed,
             map: std::mem::take(&mut self.map),
             ..changed
         };
-        self.put_legs(legs);
+        self.set_segment_records(legs);
     }
 
-    fn leg_designs_of(&self, leg: usize, designs: usize) -> impl Iterator<Item = usize> + use<> {
-        [leg, leg + 1].into_iter().map(move |k| k % designs.max(1))
+    /// Returns the indices of the two designs of a pair among the given number of designs.
+    fn cyclic_pair(&self, pair: usize, designs: usize) -> impl Iterator<Item = usize> + use<> {
+        [pair, pair + 1]
+            .into_iter()
+            .map(move |k| k % designs.max(1))
     }
 
-    /// Other designs, or the same in another order. What is said of two that stay
-    /// neighbours stays, stops go with their designs, and a pass through all goes on
-    /// through all. Nothing happens where fewer than two are left.
-    pub fn rearrange(&mut self, designs: Vec<MovedDesigns>) {
+    /// Replaces or reorders the designs. Does nothing if fewer than two are given.
+    ///
+    /// Pairs that remain neighbours keep their settings, stops move with their designs, and a film
+    /// through all designs still goes through all of them.
+    pub fn set_designs(&mut self, designs: Vec<MovedDesigns>) {
         self.rearranged(designs, self.closed);
     }
 
-    /// The designs with their numbers, as [`Self::rearrange`] takes them.
+    /// Returns the designs with their indices, as [`Self::set_designs`] takes them.
     #[must_use]
-    pub fn in_order(&self) -> Vec<MovedDesigns> {
+    pub fn designs_with_indices(&self) -> Vec<MovedDesigns> {
         let designs = self.designs.iter().cloned().enumerate();
         designs.map(|(k, entry)| (entry, Some(k))).collect()
     }
 
-    /// As [`Self::in_order`], with design `k` before the one that is at `place`, or behind all;
-    /// none where that is where it is.
+    /// Like [`Self::designs_with_indices`], with design `k` moved before the design at `place`, or
+    /// to the end.
+    ///
+    /// Returns `None` if this would not change the order.
     #[must_use]
     pub fn with_moved(&self, k: usize, place: usize) -> Option<Vec<MovedDesigns>> {
         let to = if place > k { place - 1 } else { place };
         if to == k {
             return None;
         }
-        let mut order = self.in_order();
+        let mut order = self.designs_with_indices();
         let design = order.remove(k);
         order.insert(to, design);
         Some(order)
     }
 
-    /// As [`Self::in_order`], with design `k` once more behind itself.
+    /// Like [`Self::designs_with_indices`], with a copy of design `k` after it.
     #[must_use]
-    pub fn with_repeated(&self, k: usize) -> Vec<MovedDesigns> {
-        let mut order = self.in_order();
+    pub fn with_duplicated(&self, k: usize) -> Vec<MovedDesigns> {
+        let mut order = self.designs_with_indices();
         order.insert(k + 1, (order[k].0.clone(), None));
         order
     }
 
-    /// As [`Self::in_order`], without design `k`.
+    /// Like [`Self::designs_with_indices`], without design `k`.
     #[must_use]
     pub fn without(&self, k: usize) -> Vec<MovedDesigns> {
-        let mut order = self.in_order();
+        let mut order = self.designs_with_indices();
         order.remove(k);
         order
     }
 
-    /// Whether the last design leads back to the first.
-    pub fn close(&mut self, closed: bool) {
-        self.rearranged(self.in_order(), closed);
+    /// Sets whether the last design leads back to the first.
+    pub fn set_closed(&mut self, closed: bool) {
+        self.rearranged(self.designs_with_indices(), closed);
     }
 
+    /// Sets the designs and whether the last leads back to the first, and moves settings along.
     fn rearranged(&mut self, designs: Vec<MovedDesigns>, closed: bool) {
         if designs.len() < 2 {
             return;
@@ -195,34 +203,35 @@ impl Project {
         let old = self.clone();
         let (entries, origins): (Vec<_>, Vec<_>) = designs.into_iter().unzip();
         (self.designs, self.closed) = (entries, closed);
-        let from_leg = |leg: usize| {
-            let [a, b] = self.pair_designs(leg).map(|k| origins[k]);
+        let old_pair = |pair: usize| {
+            let [a, b] = self.pair_designs(pair).map(|k| origins[k]);
             (0..old.pair_count()).find(|&k| old.pair_designs(k).map(Some) == [a, b])
         };
-        let sources: Vec<Option<usize>> = (0..self.pair_count()).map(from_leg).collect();
-        let legs = sources.iter();
-        // What is said of no points, as how holes are treated, holds for new legs as well.
-        let new = || SegmentRecord {
-            matching: old.pair_alone(0).options.matching.without_places(),
+        let old_pairs: Vec<Option<usize>> = (0..self.pair_count()).map(old_pair).collect();
+        // New pairs take over the settings without positions, such as the treatment of holes.
+        let new_record = || SegmentRecord {
+            matching: old.pair_project(0).options.matching.without_places(),
             ..SegmentRecord::default()
         };
-        let legs = legs.map(|&leg| leg.map_or_else(new, |leg| old.leg_settings(leg)));
-        let legs = legs.collect();
+        let records = old_pairs
+            .iter()
+            .map(|&pair| pair.map_or_else(new_record, |pair| old.pair_record(pair)));
+        let records = records.collect();
         (self.options.matching, self.options.parts) = Default::default();
         self.found = CachedMatch::default();
-        self.put_legs(legs);
+        self.set_segment_records(records);
         self.map.sites = moved_sites(&old.map.sites, &origins);
         if self.follows_path() {
-            // Its times are not the designs'.
+            // The times of a path do not depend on the order of the designs.
             return;
         }
-        self.stops = moved_stops(&old, &origins, &sources);
-        let (before, now) = (old.leg_count() as f64, self.leg_count() as f64);
+        self.stops = moved_stops(&old, &origins, &old_pairs);
+        let (before, now) = (old.segment_count() as f64, self.segment_count() as f64);
         if (old.timing.from, old.timing.to) == (0.0, before) {
             self.timing.to = now;
             self.timing.duration_secs *= now / before;
         } else {
-            // A pass may end at a design that is gone.
+            // The film must not end at a removed design.
             let timing = &mut self.timing;
             (timing.from, timing.to) = (timing.from.min(now), timing.to.min(now));
             if timing.from == timing.to {
@@ -231,13 +240,13 @@ impl Project {
         }
     }
 
-    /// What is said of a leg.
-    fn leg_settings(&self, leg: usize) -> SegmentRecord {
-        self.pair_alone(leg).let_go()
+    /// Returns the settings of a pair of consecutive designs.
+    fn pair_record(&self, pair: usize) -> SegmentRecord {
+        self.pair_project(pair).take_pair_record()
     }
 
-    /// What a pair says of its leg, taken out of it.
-    pub(super) fn let_go(&mut self) -> SegmentRecord {
+    /// Takes the settings of its only segment out of the top level of a project of two designs.
+    pub(super) fn take_pair_record(&mut self) -> SegmentRecord {
         SegmentRecord {
             matching: std::mem::take(&mut self.options.matching),
             parts: std::mem::take(&mut self.options.parts),
@@ -245,60 +254,63 @@ impl Project {
         }
     }
 
-    /// As a pair, says this of its leg.
-    fn hold(&mut self, leg: SegmentRecord) {
+    /// Sets the settings of its only segment at the top level of a project of two designs.
+    fn set_pair_record(&mut self, record: SegmentRecord) {
         (self.options.matching, self.options.parts, self.found) =
-            (leg.matching, leg.parts, leg.found);
+            (record.matching, record.parts, record.found);
     }
 
-    /// Says this of its legs: of a pair where a pair says it.
-    pub(super) fn put_legs(&mut self, mut legs: Vec<SegmentRecord>) {
+    /// Sets the settings of all pairs; those of a single pair go to the top level.
+    pub(super) fn set_segment_records(&mut self, mut records: Vec<SegmentRecord>) {
         if !self.is_sequence() {
-            let only = legs.into_iter().next();
+            let only = records.into_iter().next();
             self.legs = Vec::new();
-            return self.hold(only.unwrap_or_default());
+            return self.set_pair_record(only.unwrap_or_default());
         }
-        let is_bare = |leg: &SegmentRecord| *leg == SegmentRecord::default() && leg.found.is_none();
-        while legs.last().is_some_and(is_bare) {
-            legs.pop();
+        // Trailing defaults are left out of the file.
+        let is_default =
+            |record: &SegmentRecord| *record == SegmentRecord::default() && record.found.is_none();
+        while records.last().is_some_and(is_default) {
+            records.pop();
         }
-        self.legs = legs;
+        self.legs = records;
     }
 
-    /// Keeps what was found for a leg.
-    pub fn keep_found(&mut self, leg: usize, found: CachedMatch) {
+    /// Stores the solved match of a segment.
+    pub fn cache_match(&mut self, segment: usize, found: CachedMatch) {
         if !self.is_sequence() {
             self.found = found;
             return;
         }
-        if self.legs.len() <= leg {
-            self.legs.resize_with(leg + 1, SegmentRecord::default);
+        if self.legs.len() <= segment {
+            self.legs.resize_with(segment + 1, SegmentRecord::default);
         }
-        self.legs[leg].found = found;
+        self.legs[segment].found = found;
     }
 
-    /// Lets the film go along a path over the map, or from design to design where it is
-    /// none, through all of it, at the pace that it had and with a rest at each stop.
-    pub fn follow(&mut self, path: MapPath) {
-        let before = self.leg_count() as f64;
-        let was_path = self.follows_path();
-        let is_as_long = path.leg_count() == self.map.path.leg_count();
+    /// Makes the film follow a path over the map, or go from design to design if the path is empty.
+    ///
+    /// The film covers the whole path at its previous pace and pauses at each stop.
+    pub fn set_path(&mut self, path: MapPath) {
+        let before = self.segment_count() as f64;
+        let had_path = self.follows_path();
+        let has_same_count = path.segment_count() == self.map.path.segment_count();
         self.map.path = path;
-        if is_as_long {
+        if has_same_count {
             return;
         }
-        let now = self.leg_count() as f64;
-        // A path that goes on, or ends earlier, keeps what is said of its stops.
-        let stays = was_path && self.follows_path();
-        self.stops.retain(|stop| stays && stop.t <= now);
+        let now = self.segment_count() as f64;
+        // A path that was extended or shortened keeps its stops.
+        let keeps_stops = had_path && self.follows_path();
+        self.stops.retain(|stop| keeps_stops && stop.t <= now);
         (self.timing.from, self.timing.to) = (0.0, now);
         self.timing.duration_secs *= now / before;
-        *self = self.clone().resting_at_designs();
+        *self = self.clone().with_pauses_at_designs();
     }
 
-    /// With a rest at each design within, where nothing else was said.
-    pub(super) fn resting_at_designs(mut self) -> Self {
-        for k in 1..self.leg_count() {
+    /// Adds a pause at each inner design that does not have a stop.
+    pub(super) fn with_pauses_at_designs(mut self) -> Self {
+        for k in 1..self.segment_count() {
             let t = k as f64;
             if self.stops.iter().all(|stop| stop.t != t) {
                 self.stops
@@ -310,11 +322,11 @@ impl Project {
     }
 }
 
-/// The sites of designs that have new numbers; none where a design is new, which has none.
+/// Returns the sites in the new order of the designs; empty if a design is new and has no site.
 fn moved_sites(sites: &[DVec2], origins: &[Option<usize>]) -> Vec<DVec2> {
     let moved = origins.iter().map(|origin| sites.get((*origin)?).copied());
     let mut moved: Vec<DVec2> = moved.collect::<Option<_>>().unwrap_or_default();
-    // Of a design that is there twice, both would be in one place.
+    // Two copies of a design must not share a site.
     for k in 1..moved.len() {
         if moved[..k].contains(&moved[k]) {
             moved.clear();
@@ -324,38 +336,42 @@ fn moved_sites(sites: &[DVec2], origins: &[Option<usize>]) -> Vec<DVec2> {
     moved
 }
 
-/// The stops of a project whose designs have new numbers, and its legs as well.
+/// Returns the stops after a change of the designs.
+///
+/// `origins` holds the previous index of each design, `old_pairs` that of each pair. Stops at
+/// designs and within pairs move with them; new inner designs get a pause.
 fn moved_stops(
     old: &Project,
     origins: &[Option<usize>],
-    legs: &[Option<usize>],
+    old_pairs: &[Option<usize>],
 ) -> Vec<TransitionStop> {
-    let end = legs.len() as f64;
+    let end = old_pairs.len() as f64;
     let old_end = old.pair_count() as f64;
     let at = |stop: &TransitionStop, t: f64| TransitionStop { t, ..stop.clone() };
     let within = |stop: &&TransitionStop, k: usize| (k as f64) < stop.t && stop.t < (k + 1) as f64;
     let mut stops: Vec<TransitionStop> = Vec::new();
     stops.extend(old.stops.iter().filter(|stop| stop.t < 0.0).cloned());
-    for t in 0..=legs.len() {
-        // What leads back to the first design ends there.
+    for t in 0..=old_pairs.len() {
+        // A closed film ends at the first design.
         let design = t % origins.len();
-        let kept = origins[design]
+        let old_stop = origins[design]
             .and_then(|origin| old.stops.iter().find(|stop| stop.t == origin as f64));
-        let is_inner = t > 0 && t < legs.len();
-        let says =
+        let is_inner = t > 0 && t < old_pairs.len();
+        // At the ends, a stop without a name or note has no effect.
+        let is_needed =
             |stop: &&TransitionStop| is_inner || !stop.name.is_empty() || !stop.note.is_empty();
-        if let Some(stop) = kept.filter(says) {
+        if let Some(stop) = old_stop.filter(is_needed) {
             stops.push(at(stop, t as f64));
         } else if is_inner {
             stops.push(TransitionStop::at(t as f64).resting(old.timing.hold_secs));
         }
-        if let Some(Some(leg)) = legs.get(t) {
-            let of_leg = old.stops.iter().filter(|stop| within(stop, *leg));
-            stops.extend(of_leg.map(|stop| at(stop, stop.t - *leg as f64 + t as f64)));
+        if let Some(Some(pair)) = old_pairs.get(t) {
+            let of_pair = old.stops.iter().filter(|stop| within(stop, *pair));
+            stops.extend(of_pair.map(|stop| at(stop, stop.t - *pair as f64 + t as f64)));
         }
     }
-    let behind = old.stops.iter().filter(|stop| stop.t > old_end);
-    stops.extend(behind.map(|stop| at(stop, stop.t - old_end + end)));
+    let beyond = old.stops.iter().filter(|stop| stop.t > old_end);
+    stops.extend(beyond.map(|stop| at(stop, stop.t - old_end + end)));
     stops
 }
 
@@ -365,30 +381,34 @@ mod tests {
     use crate::correspondence::PointPair;
     use crate::space::Waypoint;
 
+    /// The paths of the designs.
     fn names(project: &Project) -> Vec<String> {
         let path = |entry: &DesignEntry| entry.path.display().to_string();
         project.designs.iter().map(path).collect()
     }
 
-    fn pinned(project: &mut Project, leg: usize, x: f64) {
-        let mut alone = project.leg(leg);
+    /// Sets a pin with the coordinate `x` in a segment.
+    fn set_pin(project: &mut Project, segment: usize, x: f64) {
+        let mut alone = project.segment(segment);
         let pin = PointPair {
             source: DVec2::new(x, 0.0),
             target: DVec2::new(0.0, x),
         };
         alone.options.matching.pins = vec![pin];
-        project.take_leg(leg, alone);
+        project.replace_segment(segment, alone);
     }
 
-    fn pin(project: &Project, leg: usize) -> Option<f64> {
-        let matching = project.leg(leg).options.matching;
+    /// The coordinate of the pin of a segment.
+    fn pin(project: &Project, segment: usize) -> Option<f64> {
+        let matching = project.segment(segment).options.matching;
         matching.pins.first().map(|pin| pin.source.x)
     }
 
+    /// A project of four designs with pins in the first and the last segment, and two named stops.
     fn four() -> Project {
-        let mut project = Project::of(["a.svg", "b.svg", "c.svg", "d.svg"]);
-        pinned(&mut project, 0, 1.0);
-        pinned(&mut project, 2, 3.0);
+        let mut project = Project::from_paths(["a.svg", "b.svg", "c.svg", "d.svg"]);
+        set_pin(&mut project, 0, 1.0);
+        set_pin(&mut project, 2, 3.0);
         project.stops[0].name = "at b".to_owned();
         project
             .stops
@@ -396,42 +416,43 @@ mod tests {
         project
     }
 
-    fn kept(project: &Project, order: &[usize]) -> Vec<MovedDesigns> {
+    /// The designs of a project with the given indices.
+    fn selected(project: &Project, order: &[usize]) -> Vec<MovedDesigns> {
         let entry = |&k: &usize| (project.designs[k].clone(), Some(k));
         order.iter().map(entry).collect()
     }
 
     #[test]
-    fn a_leg_is_a_pair_and_comes_back_as_it_was() {
+    fn taking_out_a_segment_and_putting_it_back_changes_nothing() {
         let mut project = four();
-        assert_eq!(project.leg_count(), 3);
-        assert_eq!(names(&project.leg(1)), ["b.svg", "c.svg"]);
+        assert_eq!(project.segment_count(), 3);
+        assert_eq!(names(&project.segment(1)), ["b.svg", "c.svg"]);
         assert_eq!(
-            [0, 1, 2].map(|leg| pin(&project, leg)),
+            [0, 1, 2].map(|segment| pin(&project, segment)),
             [Some(1.0), None, Some(3.0)]
         );
         let before = project.clone();
-        for leg in 0..3 {
-            let alone = project.leg(leg);
+        for segment in 0..3 {
+            let alone = project.segment(segment);
             assert!(!alone.is_sequence());
-            project.take_leg(leg, alone);
+            project.replace_segment(segment, alone);
             assert_eq!(project, before);
         }
-        let mut pair = Project::pair("a.svg", "b.svg");
-        let alone = pair.leg(0);
+        let mut pair = Project::from_pair("a.svg", "b.svg");
+        let alone = pair.segment(0);
         assert_eq!(alone, pair);
-        pair.take_leg(0, alone.clone());
+        pair.replace_segment(0, alone.clone());
         assert_eq!(alone, pair);
     }
 
     #[test]
-    fn neighbours_keep_what_is_theirs() {
+    fn pairs_that_stay_neighbours_keep_their_settings() {
         let mut project = four();
-        let order = kept(&project, &[2, 3, 0, 1]);
-        project.rearrange(order);
+        let order = selected(&project, &[2, 3, 0, 1]);
+        project.set_designs(order);
         assert_eq!(names(&project), ["c.svg", "d.svg", "a.svg", "b.svg"]);
         assert_eq!(
-            [0, 1, 2].map(|leg| pin(&project, leg)),
+            [0, 1, 2].map(|segment| pin(&project, segment)),
             [Some(3.0), None, Some(1.0)]
         );
         let stops: Vec<(f64, &str)> = project
@@ -451,17 +472,17 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_of_two_is_a_pair_and_a_third_makes_it_a_sequence() {
+    fn removing_and_adding_designs_switches_between_pair_and_sequence() {
         let mut project = four();
-        let order = kept(&project, &[2, 3]);
-        project.rearrange(order);
+        let order = selected(&project, &[2, 3]);
+        project.set_designs(order);
         assert!(!project.is_sequence() && project.legs.is_empty());
         assert_eq!(project.options.matching.pins.len(), 1);
         assert_eq!((project.timing.from, project.timing.to), (0.0, 1.0));
         assert!((project.timing.duration_secs - 4.0).abs() < 1e-12);
-        let mut order = kept(&project, &[0, 1]);
+        let mut order = selected(&project, &[0, 1]);
         order.push((DesignEntry::new("e.svg"), None));
-        project.rearrange(order);
+        project.set_designs(order);
         assert_eq!(pin(&project, 0), Some(3.0));
         assert!(project.options.matching.pins.is_empty());
         assert_eq!(project.timing.to, 2.0);
@@ -469,26 +490,26 @@ mod tests {
             project.stops.last().map(|stop| (stop.t, stop.hold_secs)),
             Some((1.0, 0.5))
         );
-        let one = kept(&project, &[0]);
+        let one = selected(&project, &[0]);
         let before = project.clone();
-        project.rearrange(one);
+        project.set_designs(one);
         assert_eq!(project, before);
     }
 
     #[test]
-    fn a_closed_way_leads_back() {
+    fn a_closed_project_has_a_segment_back_to_the_first_design() {
         let mut project = four();
-        project.close(true);
-        assert_eq!(project.leg_count(), 4);
-        assert_eq!(names(&project.leg(3)), ["d.svg", "a.svg"]);
+        project.set_closed(true);
+        assert_eq!(project.segment_count(), 4);
+        assert_eq!(names(&project.segment(3)), ["d.svg", "a.svg"]);
         assert_eq!(project.timing.to, 4.0);
         assert_eq!(pin(&project, 2), Some(3.0));
-        project.close(false);
+        project.set_closed(false);
         assert_eq!(project, four());
     }
 
     #[test]
-    fn a_path_has_legs_of_its_own_and_gives_the_designs_theirs_back() {
+    fn removing_a_path_restores_the_segments_of_the_designs() {
         let mut project = four();
         let before = project.clone();
         let stop = |x: f64| Waypoint::stop(DVec2::new(x, 0.5));
@@ -496,41 +517,41 @@ mod tests {
             name: "a walk".to_owned(),
             places: xs.iter().copied().map(stop).collect(),
         };
-        project.follow(path(&[0.0, 0.2, 0.4]));
+        project.set_path(path(&[0.0, 0.2, 0.4]));
         assert!(project.follows_path());
-        assert_eq!((project.leg_count(), project.pair_count()), (2, 3));
+        assert_eq!((project.segment_count(), project.pair_count()), (2, 3));
         assert_eq!(project.timing.to, 2.0);
         assert_eq!(project.stops.len(), 1);
-        let alone = project.leg(1);
-        project.take_leg(1, alone.clone());
+        let alone = project.segment(1);
+        project.replace_segment(1, alone.clone());
         assert_eq!(project, alone);
-        // What is said of two designs is still there.
+        // The settings of pairs are still in the file.
         let again = Project::parse(&project.to_toml().expect("text")).expect("a project");
         project.version = again.version;
         assert_eq!(again, project);
-        project.follow(MapPath::default());
+        project.set_path(MapPath::default());
         assert_eq!(project.legs, before.legs);
         assert_eq!(project.timing, before.timing);
         assert_eq!(project.stops.len(), 2);
     }
 
     #[test]
-    fn sites_go_with_their_designs() {
+    fn sites_move_with_their_designs() {
         let mut project = four();
         project.map.sites = (0..4).map(|k| DVec2::new(f64::from(k), 0.0)).collect();
-        let mut order = project.in_order();
+        let mut order = project.designs_with_indices();
         order.reverse();
-        project.rearrange(order);
+        project.set_designs(order);
         assert_eq!(project.map.sites[0], DVec2::new(3.0, 0.0));
-        let mut order = project.in_order();
+        let mut order = project.designs_with_indices();
         order[1].1 = None;
-        project.rearrange(order);
+        project.set_designs(order);
         assert!(project.map.sites.is_empty());
     }
 
     #[test]
-    fn a_design_goes_where_it_is_put() {
-        let whole = Project::of(["a.svg", "b.svg", "c.svg", "d.svg"]);
+    fn a_design_moves_to_the_given_place() {
+        let whole = Project::from_paths(["a.svg", "b.svg", "c.svg", "d.svg"]);
         let order = |k: usize, place: usize| -> Option<Vec<usize>> {
             let moved = whole.with_moved(k, place)?;
             Some(moved.into_iter().filter_map(|(_, from)| from).collect())
@@ -538,7 +559,7 @@ mod tests {
         assert_eq!(order(0, 4), Some(vec![1, 2, 3, 0]));
         assert_eq!(order(3, 0), Some(vec![3, 0, 1, 2]));
         assert_eq!(order(1, 3), Some(vec![0, 2, 1, 3]));
-        // On either side of itself it stays.
+        // Moving it before or after itself changes nothing.
         assert_eq!(order(2, 2), None);
         assert_eq!(order(2, 3), None);
     }

@@ -1,15 +1,14 @@
-//! Reading a document, and writing it.
+//! Reading and writing of project files as TOML.
 //!
-//! Its keys belong to two structs: the project, and the options that it shares
-//! with a specification. Serde's `flatten` reads through a buffer: unknown keys would pass in
-//! silence and errors would lose their line. So the keys at the top are dealt
-//! out to the struct that has them, and each is read from its own.
+//! The keys at the top level belong to two structs: the project and its transition options. Serde's
+//! `flatten` would accept unknown keys and lose the line numbers of errors. Therefore the keys are
+//! first distributed to the struct that has them, and each struct is read from its own table.
 
 use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;
 use super::segment_settings::SegmentRecord;
 use crate::io::atomic_file;
-use crate::io::atomic_file::refusal;
+use crate::io::atomic_file::write_error_message;
 use crate::io::read;
 use crate::transition::{PartTime, TransitionOptions};
 use serde::de::value::Error as NoValue;
@@ -20,41 +19,42 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 impl Project {
-    /// Reads a document from its text.
+    /// Parses and checks the text of a project file.
     ///
     /// # Errors
-    /// [`ProjectError`] names the line of what is wrong.
+    /// [`ProjectError`] names the invalid line or value.
     pub fn parse(text: &str) -> Result<Self, ProjectError> {
         let mut project = read(text)?;
         project.check()?;
-        project.deal_out()?;
-        // Two that say the same are the same, whatever version they were written in.
+        project.assign_top_level_match()?;
+        // Equal contents compare equal, regardless of the version in which they were written.
         project.version = project.needed_version();
         Ok(project)
     }
 
-    /// What stands at the top belongs to a pair: where there are more designs it is the
-    /// first leg's, unless the document has legs.
-    fn deal_out(&mut self) -> Result<(), ProjectError> {
-        let (has, may_have) = (self.legs.len(), self.pair_count());
-        let of_sequences = if self.is_sequence() { may_have } else { 0 };
-        if has > of_sequences {
-            return Err(ProjectError::TooManyLegs {
-                has,
-                may_have: of_sequences,
-            });
+    /// Moves match settings at the top level to the first segment if there are more than two
+    /// designs.
+    ///
+    /// # Errors
+    /// [`ProjectError`] if there are too many segment settings, or match settings in both places.
+    fn assign_top_level_match(&mut self) -> Result<(), ProjectError> {
+        let (has, pair_count) = (self.legs.len(), self.pair_count());
+        let may_have = if self.is_sequence() { pair_count } else { 0 };
+        if has > may_have {
+            return Err(ProjectError::TooManySegments { has, may_have });
         }
         if self.is_sequence() {
-            let at_top = self.let_go();
+            let at_top = self.take_pair_record();
             match self.legs.as_slice() {
-                [] => self.put_legs(vec![at_top]),
+                [] => self.set_segment_records(vec![at_top]),
                 _ if at_top == SegmentRecord::default() => {}
-                _ => return Err(ProjectError::MatchOfNoLeg),
+                _ => return Err(ProjectError::AmbiguousMatch),
             }
         }
         Ok(())
     }
 
+    /// Checks everything that serde cannot check.
     fn check(&self) -> Result<(), ProjectError> {
         if self.version == 0 {
             return Err(ProjectError::VersionZero);
@@ -65,7 +65,6 @@ impl Project {
         for entry in &self.designs {
             entry.placement.checked()?;
         }
-        // What Serde cannot see: single numbers and pairs of them that go together.
         self.options.field.blend.check()?;
         self.options.colours.check()?;
         self.options.matching.check()?;
@@ -81,7 +80,7 @@ impl Project {
         Ok(())
     }
 
-    /// Reads a document from a file.
+    /// Reads a project file, without its designs.
     ///
     /// # Errors
     /// [`ProjectError`] names the file and, where there is one, the line.
@@ -92,41 +91,40 @@ impl Project {
         Self::parse(&text).map_err(in_file)
     }
 
-    /// The document as text.
+    /// Returns the project as TOML text.
     ///
     /// # Errors
-    /// [`ProjectError::Write`] if a number cannot be written, such as a count
-    /// beyond the range of TOML.
+    /// [`ProjectError::NotSerializable`] if TOML cannot represent a number, such as a count beyond
+    /// its range.
     pub fn to_toml(&self) -> Result<String, ProjectError> {
         let project = Self {
             version: self.needed_version(),
             ..self.clone()
         };
-        toml::to_string_pretty(&project).map_err(|error| ProjectError::Write(error.to_string()))
+        toml::to_string_pretty(&project)
+            .map_err(|error| ProjectError::NotSerializable(error.to_string()))
     }
 
-    /// Writes the document beside its final place and moves it there, so that
-    /// the old one stays whole until the new one is.
+    /// Writes the project atomically: the old file stays intact until the new one is complete.
     ///
     /// # Errors
-    /// [`ProjectError`] names the file; the old document is untouched.
+    /// [`ProjectError`] names the file; the old file is untouched.
     pub fn save_atomically(&self, path: &Path) -> Result<(), ProjectError> {
         let text = self.to_toml()?;
         let written = atomic_file::write(path, text.as_bytes());
-        written.map_err(|error| ProjectError::Unwritable(refusal(&error)).in_file(path))
+        written.map_err(|error| ProjectError::Unwritable(write_error_message(&error)).in_file(path))
     }
 }
 
-/// Reads a document of the version of this program.
+/// Deserialises the text of a project file, without checking values.
 ///
 /// # Errors
-/// [`ProjectError::NewerVersion`], or [`ProjectError::Syntax`] with the line of
-/// what is wrong.
+/// [`ProjectError::NewerVersion`], or [`ProjectError::Syntax`] with the line of the error.
 fn read(text: &str) -> Result<Project, ProjectError> {
     let wrong = |error: toml::de::Error| ProjectError::syntax(text, &error);
     let document = DeTable::parse(text).map_err(wrong)?;
-    // Before all else, for a newer version may well have keys that are unknown
-    // here; that it is newer is what its reader needs to hear.
+    // The version is checked first: a newer file may have unknown keys, and the user needs to know
+    // that it is newer.
     if let Some(version) = document.get_ref().get("version")
         && let Some(number) = version.get_ref().as_integer()
         && let Ok(number) = u64::from_str_radix(number.as_str(), number.radix())
@@ -135,12 +133,12 @@ fn read(text: &str) -> Result<Project, ProjectError> {
         return Err(ProjectError::newer(text, version.span().start, number));
     }
     let span = document.span();
-    // Asked of the structs themselves, so that a new option needs no second list.
+    // The structs provide their keys, so that a new option needs no second list.
     let (own, shared) = (keys_of::<Project>(), keys_of::<TransitionOptions>());
     let (mut project, mut options) = (DeTable::new(), DeTable::new());
     for (key, value) in document.into_inner() {
         let name = key.get_ref().as_ref();
-        // Spans stay with the values, so that errors still have their lines.
+        // Values keep their spans, so that errors still have line numbers.
         let table = if shared.contains(&name) {
             &mut options
         } else if own.contains(&name) {
@@ -156,17 +154,17 @@ fn read(text: &str) -> Result<Project, ProjectError> {
     Ok(project)
 }
 
-/// The keys that a struct is read from.
+/// Returns the keys that a struct deserialises.
 fn keys_of<'de, T: Deserialize<'de>>() -> &'static [&'static str] {
     let mut keys: &[&str] = &[];
-    // Fails always: it has no values to give.
+    // Always fails, because the deserialiser provides no values.
     if T::deserialize(DocumentKeys(&mut keys)).is_ok() {
         keys = &[];
     }
     keys
 }
 
-/// A deserialiser that only listens to what a struct asks for.
+/// Deserialiser that only records the field names requested by a struct.
 struct DocumentKeys<'a>(&'a mut &'static [&'static str]);
 
 impl<'de> Deserializer<'de> for DocumentKeys<'_> {

@@ -1,4 +1,4 @@
-//! Reading, refusing, writing and reading again.
+//! Tests of project files: parsing, errors, writing, round trips, and loading of designs.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
@@ -9,8 +9,10 @@ use crate::warp::{ArapPath, FaceWeights, VertexPath, WarpKind};
 use proptest::prelude::*;
 use std::path::Path;
 
+/// A project with only the required keys.
 const MINIMAL: &str = "version = 1\n[[designs]]\npath = 'a.svg'\n[[designs]]\npath = 'b.svg'\n";
 
+/// Returns the line named by the error for an invalid project.
 fn line_of(text: &str) -> usize {
     match Project::parse(text) {
         Err(ProjectError::Syntax { line, .. } | ProjectError::NewerVersion { line, .. }) => line,
@@ -19,7 +21,7 @@ fn line_of(text: &str) -> usize {
 }
 
 #[test]
-fn an_unknown_key_is_named_with_its_line() {
+fn errors_name_the_line_of_an_unknown_key_or_value() {
     for (text, line) in [
         (MINIMAL.replace("version", "colour = 3\nversion"), 1),
         (format!("{MINIMAL}[arap]\nhomotopi = 'polar'\n"), 7),
@@ -42,7 +44,7 @@ fn an_unknown_key_is_named_with_its_line() {
 }
 
 #[test]
-fn an_unknown_key_is_told_what_there_is() {
+fn the_error_for_an_unknown_key_lists_all_keys() {
     let text = MINIMAL.replace("version", "\"bar\\nwidth\" = 3\nversion");
     let error = Project::parse(&text).unwrap_err().to_string();
     for part in [
@@ -58,13 +60,13 @@ fn an_unknown_key_is_told_what_there_is() {
 }
 
 #[test]
-fn options_stand_beside_the_other_keys() {
+fn options_are_written_at_the_top_level() {
     let mut project = Project::parse(MINIMAL).unwrap();
     let keys = |project: &Project| -> Vec<String> {
         let table: toml::Table = project.to_toml().unwrap().parse().unwrap();
         table.keys().cloned().collect()
     };
-    let always = [
+    let required = [
         "arap",
         "bar-width",
         "designs",
@@ -74,7 +76,7 @@ fn options_stand_beside_the_other_keys() {
         "timing",
         "version",
     ];
-    assert_eq!(keys(&project), always, "defaults are left out");
+    assert_eq!(keys(&project), required, "defaults are left out");
     project.options.travel = crate::warp::FeatureTravel::Whole;
     project.options.matching.stretch = Some(0.5);
     project.options.lattice.fold_free = !project.options.lattice.fold_free;
@@ -86,7 +88,7 @@ fn options_stand_beside_the_other_keys() {
 }
 
 #[test]
-fn a_newer_version_is_said_before_its_unknown_keys() {
+fn a_newer_version_is_reported_before_its_unknown_keys() {
     let text = format!(
         "# from the future\n{}",
         MINIMAL.replace("= 1", "= 3\nhyper = true")
@@ -100,18 +102,18 @@ fn a_newer_version_is_said_before_its_unknown_keys() {
 }
 
 #[test]
-fn many_designs_have_legs_and_two_have_none() {
+fn only_projects_of_three_or_more_designs_have_segment_settings() {
     let three = format!("{MINIMAL}[[designs]]\npath = 'c.svg'\n");
     let project = Project::parse(&three).unwrap();
-    assert_eq!(project.leg_count(), 2);
+    assert_eq!(project.segment_count(), 2);
     assert!(project.to_toml().unwrap().starts_with("version = 2\n"));
-    // What stood at the top when only the first two were seen is theirs.
+    // Match settings at the top level belong to the first segment.
     let matched = Project::parse(&format!("{three}[match]\nkeep-up = true\n")).unwrap();
-    assert!(matched.leg(0).options.matching.keep_up);
-    assert!(!matched.leg(1).options.matching.keep_up);
+    assert!(matched.segment(0).options.matching.keep_up);
+    assert!(!matched.segment(1).options.matching.keep_up);
     let legs = "[[legs]]\n[[legs]]\n[legs.match]\nkeep-up = true\n";
     let second = Project::parse(&format!("{three}{legs}")).unwrap();
-    assert!(second.leg(1).options.matching.keep_up);
+    assert!(second.segment(1).options.matching.keep_up);
     assert_eq!(Project::parse(&second.to_toml().unwrap()).unwrap(), second);
     let pair = Project::parse(MINIMAL).unwrap();
     assert!(pair.to_toml().unwrap().starts_with("version = 1\n"));
@@ -134,7 +136,7 @@ fn many_designs_have_legs_and_two_have_none() {
 }
 
 #[test]
-fn what_gives_no_transition_is_refused() {
+fn invalid_values_are_errors() {
     for (edit, word) in [
         ("version = 0", "no version 0"),
         ("version = 1\n[timing]\nduration-secs = 0", "duration"),
@@ -149,9 +151,9 @@ fn what_gives_no_transition_is_refused() {
             "{error}"
         );
     }
-    let lonely = "version = 1\n[[designs]]\npath = 'a.svg'\n";
+    let one_design = "version = 1\n[[designs]]\npath = 'a.svg'\n";
     assert!(matches!(
-        Project::parse(lonely),
+        Project::parse(one_design),
         Err(ProjectError::TooFewDesigns(1))
     ));
     let zero_scale = format!("{MINIMAL}[designs.placement]\nscale = 0\n");
@@ -162,7 +164,7 @@ fn what_gives_no_transition_is_refused() {
 }
 
 #[test]
-fn a_file_that_is_missing_or_binary_is_named() {
+fn errors_name_a_missing_or_binary_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.morph");
     let error = Project::read(&path).unwrap_err().to_string();
@@ -176,7 +178,7 @@ fn a_file_that_is_missing_or_binary_is_named() {
 }
 
 #[test]
-fn a_failed_save_leaves_the_old_document() {
+fn a_failed_save_leaves_the_old_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.morph");
     let project = Project::parse(MINIMAL).unwrap();
@@ -185,12 +187,12 @@ fn a_failed_save_leaves_the_old_document() {
     let nowhere = folder.path().join("missing").join("x.morph");
     assert!(project.save_atomically(&nowhere).is_err());
     assert_eq!(std::fs::read(&path).unwrap(), before);
-    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
-    assert_eq!(left.len(), 1, "no temporary file stays behind");
+    let entries: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+    assert_eq!(entries.len(), 1, "no temporary file stays behind");
 }
 
 #[test]
-fn every_bundled_project_loads_and_plays() {
+fn every_bundled_project_loads_and_round_trips() {
     let entries = gallery::list().unwrap();
     for entry in &entries {
         assert!(
@@ -202,7 +204,7 @@ fn every_bundled_project_loads_and_plays() {
         let text = loaded.project.to_toml().unwrap();
         assert_eq!(Project::parse(&text).unwrap(), loaded.project);
         match loaded.project.follows_path() {
-            true => drop(loaded.space().unwrap()),
+            true => drop(loaded.space_spec().unwrap()),
             false => drop(loaded.spec().unwrap()),
         }
     }
@@ -211,33 +213,36 @@ fn every_bundled_project_loads_and_plays() {
 }
 
 #[test]
-fn photographs_alone_are_blended_as_pictures() {
+fn only_projects_of_pictures_are_blended_as_pictures() {
     let space = |last: &str| {
         let designs = ["portrait-ada.png", "portrait-max.png", last];
         let designs = designs.map(|path| format!("[[designs]]\npath = '{path}'\n"));
         let project = Project::parse(&format!("version = 2\n{}", designs.concat())).unwrap();
-        LoadedProject::load(project, None).unwrap().space().unwrap()
+        LoadedProject::load(project, None)
+            .unwrap()
+            .space_spec()
+            .unwrap()
     };
     let pictures = Some(crate::content::ContentKind::Colours);
     assert_eq!(space("portrait-noor.png").content, pictures);
-    // Their silhouettes go with it.
+    // With a drawing among them, the pictures are blended as silhouettes.
     assert_eq!(space("shape-heart.svg").content, None);
 }
 
 #[test]
-fn relative_paths_are_relative_to_the_document() {
+fn relative_paths_are_relative_to_the_project_file() {
     let folder = tempfile::tempdir().unwrap();
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     std::fs::create_dir(folder.path().join("sub")).unwrap();
     std::fs::write(folder.path().join("sub/a.obj"), triangle).unwrap();
     std::fs::write(folder.path().join("b.obj"), triangle).unwrap();
-    let mut project = Project::pair("sub/a.obj", "b.obj");
+    let mut project = Project::from_pair("sub/a.obj", "b.obj");
     project.designs[0].name = "first".to_owned();
     let path = folder.path().join("x.morph");
     project.save_atomically(&path).unwrap();
     let loaded = LoadedProject::open(&path).unwrap();
     assert_eq!(loaded.designs[0].name, "first");
-    assert_eq!(loaded.cell().unwrap().warp(), WarpKind::Arap);
+    assert_eq!(loaded.method().unwrap().warp(), WarpKind::Arap);
     assert_eq!(loaded.title(), "a to b");
     std::fs::remove_file(folder.path().join("b.obj")).unwrap();
     let error = LoadedProject::open(&path).unwrap_err().to_string();
@@ -258,7 +263,7 @@ proptest! {
         names in prop::collection::vec("\\PC{0,12}", 4),
         pick in 0usize..4, flag in any::<bool>(), colour in any::<[u8; 3]>(),
     ) {
-        let mut project = Project::pair("a b/ä.png", "..\\c'\"\n.svg");
+        let mut project = Project::from_pair("a b/ä.png", "..\\c'\"\n.svg");
         project.title = names[0].clone();
         project.description = names[1].clone();
         project.fit = [DesignFit::AsDrawn, DesignFit::Centred, DesignFit::SameArea, DesignFit::Centred][pick];
@@ -282,7 +287,7 @@ proptest! {
         project.options.field.blend.epsilon = positive[3];
         project.options.field.blend.threshold = numbers[3];
         project.style.ground = Rgb(colour);
-        // Rests at stops are said from version 2 on.
+        // Pauses at stops need version 2.
         project.version = FORMAT_VERSION;
         project.stops = vec![
             TransitionStop {
@@ -308,16 +313,16 @@ proptest! {
 
 #[test]
 fn text_needs_no_file_in_a_bundled_project() {
-    let project = Project::pair("glyph:D", "glyph:form");
+    let project = Project::from_pair("glyph:D", "glyph:form");
     assert_eq!(project.title, "D to form");
     let loaded = LoadedProject::load(project, None).unwrap();
     assert_eq!(loaded.designs[1].name, "form");
-    let missing = Project::pair("glyph:D", "glyph:S@nowhere.ttf");
+    let missing = Project::from_pair("glyph:D", "glyph:S@nowhere.ttf");
     assert!(LoadedProject::load(missing, None).is_err());
 }
 
 #[test]
-fn the_font_of_a_text_lies_beside_the_project() {
+fn fonts_are_found_relative_to_the_project_file() {
     let folder = tempfile::tempdir().unwrap();
     let font = epaint_default_fonts::UBUNTU_LIGHT;
     std::fs::write(folder.path().join("light.ttf"), font).unwrap();
@@ -326,7 +331,7 @@ fn the_font_of_a_text_lies_beside_the_project() {
         "v 0 0\nv 1 0\nv 0 1\nf 1 2 3",
     )
     .unwrap();
-    let project = Project::pair("glyph:D@light.ttf", "./glyph:D");
+    let project = Project::from_pair("glyph:D@light.ttf", "./glyph:D");
     let loaded = LoadedProject::load(project, Some(folder.path().to_owned())).unwrap();
     let [thin, file] = [0, 1].map(|k| loaded.designs[k].outline(0.0).unwrap().area());
     assert!(thin > 10_000.0 && file == 0.5, "{thin} {file}");

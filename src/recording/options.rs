@@ -8,14 +8,14 @@ pub struct RecordingOptions {
     pub tolerance: f64,
     /// Largest size of the coefficients in bytes (resource limit); also limits the memory for the
     /// interval that is being recorded.
-    pub most_bytes: usize,
+    pub max_bytes: usize,
 }
 
 impl Default for RecordingOptions {
     fn default() -> Self {
         Self {
             tolerance: 1e-9,
-            most_bytes: 512 << 20,
+            max_bytes: 512 << 20,
         }
     }
 }

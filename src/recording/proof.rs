@@ -95,11 +95,11 @@ impl Recording {
     ) -> Result<RecordingProof, Cancelled> {
         let mut proof = RecordingProof::default();
         // If nothing moves in the frame, every frame equals the designs.
-        if !self.0.moving.in_frame {
+        if !self.0.channels.in_frame {
             return Ok(proof);
         }
         let faces = self.0.warp.placer().placement().faces.clone();
-        for interval in &self.0.reels {
+        for interval in &self.0.intervals {
             checkpoint(progress, "proving", interval.from)?;
             let curves = IntervalCurves::of(interval);
             let time = |s: f64| interval.from + s * (interval.to - interval.from);
@@ -110,7 +110,8 @@ impl Recording {
             }
             if proof.meeting.is_none() {
                 let is_visible = |boundary_loop: &&DrawnLoop| {
-                    boundary_loop.drawn[0] < interval.to && boundary_loop.drawn[1] > interval.from
+                    boundary_loop.visible_interval[0] < interval.to
+                        && boundary_loop.visible_interval[1] > interval.from
                 };
                 let visible_loops: Vec<&DrawnLoop> = loops.iter().filter(is_visible).collect();
                 let meetings = meetings::first_meeting(&curves, &visible_loops, at_ends, progress)?;

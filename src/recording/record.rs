@@ -3,7 +3,7 @@
 //! Within an interval the warp is evaluated at one pair of nodes after another, until the new
 //! values agree with the polynomial through the earlier ones. An interval that would need too many
 //! nodes is halved. The warp itself reports the times at which a part starts or stops
-//! ([`Warp::breaks`]); intervals never extend across them.
+//! ([`Warp::break_times`]); intervals never extend across them.
 
 use super::channels::MovingChannels;
 use super::interval::{BLOCK, BlockRow, RecordingInterval, block_count};
@@ -11,7 +11,7 @@ use super::nodes::{MAX_NODES, coefficients_from_values, nodes, weights};
 use super::options::RecordingOptions;
 use crate::geometry::Bounds;
 use crate::warp::{Placer, Warp};
-use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
 /// Number of nodes after which convergence is extrapolated, to stop early in an interval that would
@@ -49,7 +49,7 @@ pub enum RecordingError {
     },
     /// The warp jumps near a time, or its placements are too inexact there.
     #[error("the motion is not smooth near t = {t:.3}; each frame is solved instead")]
-    Unsettled {
+    NotSmooth {
         /// The time.
         t: f64,
     },
@@ -60,12 +60,12 @@ pub enum RecordingError {
 
 /// The result of recording.
 pub(super) struct RecordedIntervals {
-    pub moving: MovingChannels,
-    pub reels: Vec<RecordingInterval>,
+    pub channels: MovingChannels,
+    pub intervals: Vec<RecordingInterval>,
     /// Largest measured error, as a fraction of the diameter.
     pub error: f64,
     /// Number of placements of the warp that were computed.
-    pub solves: usize,
+    pub evaluation_count: usize,
 }
 
 /// Positions of all moving channels at one time, channel after channel, in blocks of vertices.
@@ -81,7 +81,7 @@ pub(super) fn record(
     progress: &dyn Progress,
 ) -> Result<RecordedIntervals, RecordingError> {
     checkpoint(progress, "recording", 0.0)?;
-    let mut breaks = warp.breaks();
+    let mut breaks = warp.break_times();
     breaks.retain(|t| (SAME_TIME..=1.0 - SAME_TIME).contains(t));
     breaks.push(1.0);
     breaks.sort_by(f64::total_cmp);
@@ -94,10 +94,10 @@ pub(super) fn record(
         from = to;
     }
     Ok(RecordedIntervals {
-        moving: recorder.moving,
+        channels: recorder.moving,
         error: recorder.error / recorder.diameter,
-        solves: recorder.solves,
-        reels: recorder.reels,
+        evaluation_count: recorder.solves,
+        intervals: recorder.reels,
     })
 }
 
@@ -218,7 +218,7 @@ impl<'a> WarpRecorder<'a> {
         drop(samples);
         let at_middle = time(0.5);
         if to.0 - from.0 <= SHORTEST_INTERVAL {
-            return Err(RecordingError::Unsettled { t: at_middle });
+            return Err(RecordingError::NotSmooth { t: at_middle });
         }
         self.record_interval(from, (at_middle, middle_positions.clone()))?;
         self.record_interval((at_middle, middle_positions), to)
@@ -235,7 +235,7 @@ impl<'a> WarpRecorder<'a> {
                 .iter()
                 .map(RecordingInterval::bytes)
                 .sum::<usize>();
-        let most = self.options.most_bytes;
+        let most = self.options.max_bytes;
         if bytes > most {
             return Err(RecordingError::TooLarge { bytes, most });
         }
@@ -255,7 +255,7 @@ impl<'a> WarpRecorder<'a> {
         samples: &[PositionBlocks],
         off: f64,
     ) -> Result<(), RecordingError> {
-        still_wanted(self.progress)?;
+        check_cancelled(self.progress)?;
         let coefficients = coefficients(samples);
         let n = samples.len();
         let largest = largest(&coefficients, n);

@@ -44,8 +44,8 @@ impl Recording {
         origin: DVec2,
     ) -> impl Iterator<Item = SinglePrecisionInterval> + use<> {
         let recording = self.clone();
-        let count = if recording.0.moving.in_frame {
-            recording.0.reels.len()
+        let count = if recording.0.channels.in_frame {
+            recording.0.intervals.len()
         } else {
             0
         };
@@ -57,8 +57,8 @@ impl Recording {
     pub(crate) fn weights(&self, t: f64) -> Option<(usize, IntervalWeights)> {
         let is_within = (0.0..=1.0).contains(&t);
         is_within.then(|| {
-            let k = self.0.reel_at(t);
-            (k, weights(&self.0.reels[k], t))
+            let k = self.0.interval_at(t);
+            (k, weights(&self.0.intervals[k], t))
         })
     }
 }
@@ -66,7 +66,7 @@ impl Recording {
 impl RecordingData {
     /// Converts one interval to single precision relative to `origin`.
     fn single(&self, interval: usize, vertices: usize, origin: DVec2) -> SinglePrecisionInterval {
-        let interval = &self.reels[interval];
+        let interval = &self.intervals[interval];
         let coefficients = visible_coefficients(interval, vertices, origin);
         let blocks = block_count(vertices);
         let vertices = blocks * BLOCK;
@@ -161,7 +161,7 @@ mod tests {
             })
         }
 
-        fn breaks(&self) -> Vec<f64> {
+        fn break_times(&self) -> Vec<f64> {
             vec![BREAK]
         }
     }
@@ -201,11 +201,11 @@ mod tests {
             let (recording, vertices) = (recorded_strips(middle), 2 * POINTS);
             let singles: Vec<SinglePrecisionInterval> =
                 recording.singles(vertices, middle).collect();
-            assert!(singles.len() == recording.reel_count() && singles.len() > 1);
+            assert!(singles.len() == recording.interval_count() && singles.len() > 1);
             // Some coefficients are below single precision.
             let known = recording
                 .0
-                .reels
+                .intervals
                 .iter()
                 .map(RecordingInterval::coefficient_count);
             let fewer = singles

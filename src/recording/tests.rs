@@ -82,9 +82,9 @@ fn a_recording_matches_its_warp_within_the_stated_error() {
             );
             assert!(recording.error() <= 1.3e-9, "{}", recording.error());
             assert!(
-                recording.solves() <= solves,
+                recording.evaluation_count() <= solves,
                 "{turn} {homotopy:?}: {}",
-                recording.solves()
+                recording.evaluation_count()
             );
         }
     }
@@ -193,7 +193,7 @@ fn with_an_appearing_part() -> (CompatibleMesh, [Option<TimeWindow>; 2]) {
 fn a_part_that_starts_late_begins_a_new_interval() {
     let (mesh, lives) = with_an_appearing_part();
     let (recording, warp) = recorded(arap(&mesh, Homotopy::Polar, &lives));
-    assert_eq!(recording.reel_count(), 3);
+    assert_eq!(recording.interval_count(), 3);
     assert!(off(&recording, warp.as_ref()) <= recording.error() + 1e-14);
     let clock = PartClock {
         from: 0.25,
@@ -223,7 +223,7 @@ fn a_recording_is_the_same_on_any_number_of_threads() {
 fn too_large_and_cancelled_recordings_are_refused() {
     let warp: Arc<dyn Warp> = Arc::new(arap(&strip(100, 2.0), Homotopy::Polar, &[]));
     let options = RecordingOptions {
-        most_bytes: 10_000,
+        max_bytes: 10_000,
         ..RecordingOptions::default()
     };
     let error = Recording::record(Arc::clone(&warp), &options, &Silent).expect_err("too large");
@@ -262,7 +262,7 @@ fn a_jump_is_reported_and_not_smoothed_over() {
     let error = Recording::record(Arc::new(JumpingWarp), &RecordingOptions::default(), &Silent);
     let error = error.expect_err("a jump");
     assert!(
-        matches!(error, RecordingError::Unsettled { t } if (t - 0.3).abs() < 2e-3),
+        matches!(error, RecordingError::NotSmooth { t } if (t - 0.3).abs() < 2e-3),
         "{error}"
     );
 }
@@ -282,7 +282,7 @@ impl Warp for ReturningWarp {
         })
     }
 
-    fn breaks(&self) -> Vec<f64> {
+    fn break_times(&self) -> Vec<f64> {
         self.0.to_vec()
     }
 }

@@ -1,88 +1,90 @@
-//! What the values of an option are called: once, for files, the command line,
-//! reports and the window.
+//! Names of the values of enumerated options, defined once for files, command line, reports and
+//! window.
 //!
-//! A table stands beside each enum of options, a row for each variant:
+//! Each option enum has a table with one row per variant: key, title, sentence.
 //!
 //! ```text
-//! named! { Course {
-//!     Straight: "straight", "Straight", "On straight lines: what turns shrinks on the way";
+//! named! { VertexPath {
+//!     Straight: "straight", "Straight", "Points move on straight lines";
 //!     Intrinsic: "intrinsic", "Intrinsic", "Edges turn and change their lengths evenly";
 //! } }
 //! ```
 //!
-//! From it come [`Choice`], `ALL`, `Display` (the key) and the way in and out
-//! of files. Guaranteed: a variant without a row does not compile, and files
-//! hold keys and nothing else. Not guaranteed by the compiler: that two rows
-//! have two keys; a test goes over all tables.
+//! The macro implements [`Choice`], `ALL`, `Display` (the key), and serde's traits, which read
+//! and write the key. A variant without a row does not compile. The compiler does not check that
+//! keys are unique; a test checks all tables.
 
 use std::fmt;
 use std::marker::PhantomData;
 
 use serde::de::{Deserializer, Error, Visitor};
 
-/// What one value of an option is called.
+/// Names of one value of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChoiceName {
-    /// In files and on the command line.
+    /// Name in files and on the command line.
     pub key: &'static str,
-    /// For people, in a word or two.
+    /// Label in the window, one to three words.
     pub title: &'static str,
-    /// What it does, in a sentence.
+    /// Sentence that explains the effect, shown in tooltips and `--help`.
     pub sentence: &'static str,
 }
 
-/// An option that is one of a few values.
+/// An option with a fixed list of named values.
 ///
 /// ```
 /// use morphospace::warp::homotopy::Homotopy;
-/// use morphospace::settings::choice::Choice;
+/// use morphospace::settings::Choice;
 /// assert_eq!(Homotopy::LinearAfterPolar.name().key, "linear-after-polar");
 /// assert_eq!(Homotopy::of_key("polar"), Ok(Homotopy::Polar));
 /// assert!(Homotopy::of_key("cubic").is_err());
 /// ```
 pub trait Choice: Copy + PartialEq + 'static {
-    /// All of them, in the order in which they are offered.
+    /// All values in the order in which they are offered.
     const CHOICES: &'static [Self];
 
-    /// What it is called.
+    /// Returns the names of this value.
     fn name(self) -> &'static ChoiceName;
 
-    /// The one of that key.
+    /// Returns the value with the given key.
     ///
     /// # Errors
-    /// [`UnknownKey`], which lists those that there are.
+    /// [`UnknownKey`] lists the keys that exist.
     fn of_key(key: &str) -> Result<Self, UnknownKey> {
         let mut all = Self::CHOICES.iter().copied();
         all.find(|choice| choice.name().key == key)
             .ok_or_else(|| UnknownKey {
                 found: key.to_owned(),
-                known: keys::<Self>().collect(),
+                known: choice_keys::<Self>().collect(),
             })
     }
 }
 
-/// A key that is in no row of an option's table.
+/// A key that does not name any value of an option.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no `{}`; write {}", found.escape_debug(), known.join(", "))]
+#[error("unknown value `{}`; use one of {}", found.escape_debug(), known.join(", "))]
 pub struct UnknownKey {
     found: String,
     known: Vec<&'static str>,
 }
 
-/// The keys of an option, in the order in which they are offered.
-pub fn keys<T: Choice>() -> impl Iterator<Item = &'static str> {
+/// Returns the keys of an option in the order in which they are offered.
+pub fn choice_keys<T: Choice>() -> impl Iterator<Item = &'static str> {
     T::CHOICES.iter().map(|choice| choice.name().key)
 }
 
-/// Reads a key out of a file.
-pub(crate) fn read<'de, T: Choice, D: Deserializer<'de>>(from: D) -> Result<T, D::Error> {
+/// Deserializes a value from its key.
+pub(crate) fn deserialize_choice<'de, T: Choice, D: Deserializer<'de>>(
+    from: D,
+) -> Result<T, D::Error> {
+    /// Visitor that accepts the key of a value.
     struct ChoiceKeyVisitor<T>(PhantomData<T>);
 
     impl<T: Choice> Visitor<'_> for ChoiceKeyVisitor<T> {
         type Value = T;
 
         fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            let keys: Vec<_> = keys::<T>().collect();
+            let keys: Vec<_> = choice_keys::<T>().collect();
             write!(f, "one of {}", keys.join(", "))
         }
 
@@ -91,24 +93,24 @@ pub(crate) fn read<'de, T: Choice, D: Deserializer<'de>>(from: D) -> Result<T, D
         }
     }
 
-    // Asked of the deserializer and not of a string, so that what is wrong has its line.
+    // Parsing inside the visitor lets the deserializer add the line number to an error.
     from.deserialize_str(ChoiceKeyVisitor(PhantomData))
 }
 
-/// Gives the variants of an enum their names; see the head of this file.
+/// Implements [`Choice`] and serde's traits for an enum; see the module documentation.
 macro_rules! named {
     ($kind:ident { $($variant:ident: $key:literal, $title:literal, $sentence:literal;)+ }) => {
         impl $kind {
-            /// All of them, in the order in which they are offered.
+            /// All values in the order in which they are offered.
             pub const ALL: [Self; [$($key),+].len()] = [$(Self::$variant),+];
         }
 
-        impl $crate::settings::choice::Choice for $kind {
+        impl $crate::settings::Choice for $kind {
             const CHOICES: &'static [Self] = &Self::ALL;
 
-            fn name(self) -> &'static $crate::settings::choice::ChoiceName {
+            fn name(self) -> &'static $crate::settings::ChoiceName {
                 match self {
-                    $(Self::$variant => &$crate::settings::choice::ChoiceName {
+                    $(Self::$variant => &$crate::settings::ChoiceName {
                         key: $key,
                         title: $title,
                         sentence: $sentence,
@@ -119,19 +121,19 @@ macro_rules! named {
 
         impl std::fmt::Display for $kind {
             fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.pad($crate::settings::choice::Choice::name(*self).key)
+                f.pad($crate::settings::Choice::name(*self).key)
             }
         }
 
         impl serde::Serialize for $kind {
             fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-                to.serialize_str($crate::settings::choice::Choice::name(*self).key)
+                to.serialize_str($crate::settings::Choice::name(*self).key)
             }
         }
 
         impl<'de> serde::Deserialize<'de> for $kind {
             fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                $crate::settings::choice::read(from)
+                $crate::settings::deserialize_choice(from)
             }
         }
     };

@@ -1,4 +1,4 @@
-//! A space of designs and its moments.
+//! A design space that is ready to be blended, and its frames.
 
 use super::design_distance::DesignDistances;
 use super::error::SpaceNote;
@@ -7,22 +7,24 @@ use crate::compatible::CompatibleFamily;
 use crate::content::{FieldSet, PictureRaster};
 use crate::design::Design;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::{VectorFigure, colour_fraction};
+use crate::transition::{SequenceLayout, VectorFigure, colour_fraction};
 use crate::warp::{ArapBlend, BlendPlacer};
 use image::RgbaImage;
 use std::sync::Arc;
 
-/// Many designs, ready to be blended. Cloning is cheap.
+/// Several designs, prepared for blending with any weights. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::Design;
 /// use morphospace::work::progress::Silent;
-/// use morphospace::space::{Space, SpaceSpec};
+/// use morphospace::space::{DesignSpace, SpaceSpec};
 /// use std::sync::Arc;
 ///
-/// let tent = |h: f64| Design::of_rings("tent", [[[0.0, 0.0], [2.0, 0.0], [1.0, h]]]).map(Arc::new);
+/// let tent = |h: f64| {
+///     Design::from_rings("tent", [[[0.0, 0.0], [2.0, 0.0], [1.0, h]]]).map(Arc::new)
+/// };
 /// let designs = vec![tent(1.0)?, tent(2.0)?, tent(4.0)?];
-/// let space = Space::build(&SpaceSpec::new(designs), &Silent)?;
+/// let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent)?;
 /// let mut frame = space.frame();
 /// frame.seek(&[0.5, 0.25, 0.25]);
 /// assert_eq!(frame.figure().rings.len(), 1);
@@ -31,26 +33,26 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct DesignSpace(Arc<DesignSpaceData>);
 
-/// What a space consists of.
+/// Shared data of a [`DesignSpace`].
 #[derive(Debug)]
 pub(super) struct DesignSpaceData {
     pub designs: Vec<Arc<Design>>,
-    pub seen: BlendContent,
+    pub content: BlendContent,
     pub bounds: Bounds,
     pub bar_width: f64,
-    pub likeness: DesignDistances,
+    pub distances: DesignDistances,
     pub notes: Vec<SpaceNote>,
 }
 
-/// What is seen of a blend.
+/// Content of a space, by its kind.
 #[derive(Debug)]
 pub(super) enum BlendContent {
     /// Rigid parts.
     Solid {
         blend: ArapBlend,
-        /// The walks around what is filled.
+        /// Boundary loops of the filled area, as vertex indices.
         walks: Vec<Vec<u32>>,
-        /// Bars of trusses, by their nodes.
+        /// Bars of trusses, as pairs of vertex indices.
         bars: Vec<[u32; 2]>,
     },
     /// Distance fields.
@@ -66,71 +68,75 @@ impl From<DesignSpaceData> for DesignSpace {
 }
 
 impl DesignSpace {
-    /// The designs, laid into one frame.
+    /// Returns the designs, placed in one frame.
     #[must_use]
     pub fn designs(&self) -> &[Arc<Design>] {
         &self.0.designs
     }
 
-    /// The box that holds every blend with weights in [0, 1], nearly.
+    /// Returns a box that contains nearly every blend with weights in [0, 1].
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.0.bounds
     }
 
-    /// The common mesh of the designs, where they are blended as rigid parts.
+    /// Returns the common mesh of the designs if they are blended as rigid parts.
     #[must_use]
     pub fn family(&self) -> Option<&CompatibleFamily> {
-        match &self.0.seen {
+        match &self.0.content {
             BlendContent::Solid { blend, .. } => Some(blend.family()),
             BlendContent::Field(_) | BlendContent::Colours(_) => None,
         }
     }
 
-    /// How unlike the designs are.
+    /// Returns the dissimilarities of the designs.
     #[must_use]
-    pub fn likeness(&self) -> &DesignDistances {
-        &self.0.likeness
+    pub fn distances(&self) -> &DesignDistances {
+        &self.0.distances
     }
 
-    /// Whether pictures are what is seen of it.
+    /// Returns whether the designs are blended as pictures.
     #[must_use]
     pub fn is_of_pictures(&self) -> bool {
-        matches!(self.0.seen, BlendContent::Colours(_))
+        matches!(self.0.content, BlendContent::Colours(_))
     }
 
-    /// What is seen of it.
-    pub(super) fn seen(&self) -> &BlendContent {
-        &self.0.seen
+    /// Returns the content that is blended.
+    pub(super) fn content(&self) -> &BlendContent {
+        &self.0.content
     }
 
-    /// Width of the bars of trusses, in units of the designs.
+    /// Returns the width of the bars of trusses, in design units.
     pub(super) fn bar_width(&self) -> f64 {
         self.0.bar_width
     }
 
-    /// What was done otherwise than asked.
+    /// Returns the notes on what was done differently from what was requested.
     #[must_use]
     pub fn notes(&self) -> &[SpaceNote] {
         &self.0.notes
     }
 
-    /// Where between the first colour of a style and its second one a blend is: designs
-    /// have colours from the one to the other, in their order.
+    /// Returns the position of a blend's colour between the style's two colours, 0 to 1.
+    ///
+    /// The designs' colours run from the first to the second colour in order.
     #[must_use]
-    pub fn tint(&self, weights: &[f64]) -> f64 {
-        let last = self.0.designs.len().saturating_sub(1);
+    pub fn colour_fraction(&self, weights: &[f64]) -> f64 {
+        let layout = SequenceLayout {
+            segment_count: self.0.designs.len().saturating_sub(1),
+            is_closed: false,
+        };
         let each = weights.iter().enumerate();
-        each.map(|(k, weight)| weight * colour_fraction(k as f64, (last, false)))
+        each.map(|(k, weight)| weight * colour_fraction(k as f64, layout))
             .sum()
     }
 
-    /// A frame at the first design, with memory of its own.
+    /// Creates a frame at the first design. Each frame has its own memory.
     #[must_use]
     pub fn frame(&self) -> SpaceFrame {
         let mut weights = vec![0.0; self.0.designs.len()];
         weights[0] = 1.0;
-        let placer = match &self.0.seen {
+        let placer = match &self.0.content {
             BlendContent::Solid { blend, .. } => Some(blend.placer()),
             BlendContent::Field(_) | BlendContent::Colours(_) => None,
         };
@@ -142,22 +148,23 @@ impl DesignSpace {
     }
 }
 
-/// One blend of a space.
+/// Frame of a space, which can be moved to any blend.
 #[derive(Debug)]
 pub struct SpaceFrame {
     space: DesignSpace,
-    /// Of rigid parts.
+    /// Evaluator of rigid parts; `None` for other content.
     placer: Option<BlendPlacer>,
     weights: Vec<f64>,
 }
 
 impl SpaceFrame {
-    /// Moves to these weights, one for each design, which sum to one: what they lack is
-    /// shared out evenly, and those that are not finite count as 0. Outside [0, 1] they
-    /// extrapolate. Allocates nothing.
+    /// Moves the frame to the given weights, one per design, without allocating.
+    ///
+    /// Weights that are not finite count as 0. If the sum is not one, the difference is distributed
+    /// evenly over all weights. Weights outside [0, 1] extrapolate.
     ///
     /// # Panics
-    /// If there are not as many weights as designs.
+    /// If the number of weights differs from that of the designs.
     pub fn seek(&mut self, weights: &[f64]) {
         assert_eq!(
             weights.len(),
@@ -166,63 +173,68 @@ impl SpaceFrame {
         );
         let finite = |&w: &f64| if w.is_finite() { w } else { 0.0 };
         let sum: f64 = weights.iter().map(finite).sum();
-        let lack = (1.0 - sum) / weights.len() as f64;
+        let correction = (1.0 - sum) / weights.len() as f64;
         for (own, weight) in self.weights.iter_mut().zip(weights) {
-            // What is off by rounding alone must not move a design from its corner.
-            *own = finite(weight) + if lack.abs() < 1e-12 { 0.0 } else { lack };
+            // A rounding error of the sum must not move a design from its corner.
+            *own = finite(weight)
+                + if correction.abs() < 1e-12 {
+                    0.0
+                } else {
+                    correction
+                };
         }
         if let Some(placer) = &mut self.placer {
             placer.place(&self.weights);
         }
     }
 
-    /// The weights.
+    /// Returns the current weights, which sum to one.
     #[must_use]
     pub fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// Whether a weight is outside [0, 1].
+    /// Returns whether a weight is outside [0, 1].
     #[must_use]
     pub fn is_extrapolated(&self) -> bool {
         self.weights.iter().any(|w| !(0.0..=1.0).contains(w))
     }
 
-    /// Where the vertices of the common mesh are; none of fields.
+    /// Returns the vertex positions of the common mesh; `None` without one.
     #[must_use]
     pub fn places(&self) -> Option<&[DVec2]> {
         self.placer.as_ref().map(BlendPlacer::places)
     }
 
-    /// The space that this is a blend of.
+    /// Returns the space to which this frame belongs.
     #[must_use]
     pub fn space(&self) -> &DesignSpace {
         &self.space
     }
 
-    /// The blend as pixels, where pictures are what is seen: sRGB with straight alpha.
+    /// Renders the blend of pictures, in sRGB with straight alpha; `None` for other content.
     #[must_use]
     pub fn picture(&self, raster: &PictureRaster) -> Option<RgbaImage> {
-        match &self.space.0.seen {
+        match &self.space.0.content {
             BlendContent::Colours(pictures) => Some(pictures.render(&self.weights, raster)),
             BlendContent::Solid { .. } | BlendContent::Field(_) => None,
         }
     }
 
-    /// The box around what pictures fill; none of others.
+    /// Returns the bounding box of the blended pictures; `None` for other content.
     #[must_use]
     pub fn window(&self) -> Option<Bounds> {
-        match &self.space.0.seen {
+        match &self.space.0.content {
             BlendContent::Colours(pictures) => Some(pictures.set.window(&self.weights)),
             BlendContent::Solid { .. } | BlendContent::Field(_) => None,
         }
     }
 
-    /// The blend as polygons and bars; of pictures nothing.
+    /// Returns the blend as polygons and bars; empty for pictures.
     #[must_use]
     pub fn figure(&self) -> VectorFigure {
         let bar_width = self.space.0.bar_width;
-        match (&self.space.0.seen, self.places()) {
+        match (&self.space.0.content, self.places()) {
             (BlendContent::Solid { walks, bars, .. }, Some(places)) => VectorFigure {
                 rings: walks
                     .iter()

@@ -1,4 +1,4 @@
-//! From designs to a space: everything that can fail.
+//! Building of a design space, as rigid parts of a common mesh, distance fields or pictures.
 
 use super::blend::{BlendContent, DesignSpace, DesignSpaceData};
 use super::design_distance::DesignDistances;
@@ -18,41 +18,41 @@ use crate::transition::{
 use crate::warp::{ArapBlend, ManyFeatures, WarpKind};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::{
-    Progress, ProgressShares, ProgressSpan, WholeProgress, checkpoint, still_wanted,
+    Progress, ProgressShares, ProgressSpan, WholeProgress, check_cancelled, checkpoint,
 };
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// How many hubs are tried before outlines have no common mesh, after the best matches with
-/// the first, by drafts of their matches. The best ones have their points where their films
-/// need them, close together in places, and one mesh for all may fold then: of a bone, a
-/// bottle, a fish and a key it did with all hubs, and by drafts with none.
+/// Maximum number of hub designs for which a common mesh is tried with draft matches (heuristic).
+///
+/// The full-quality matches with the first hub are tried before. Their points may be so close
+/// together that no common mesh without folds exists, while draft matches still allow one.
 const HUBS: usize = 3;
 
-/// What a space is built from: designs laid into one frame.
+/// Specification of a design space: designs placed in one frame, and options.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SpaceSpec {
-    /// Two designs or more.
+    /// At least two designs.
     pub designs: Vec<Arc<Design>>,
-    /// Solid for rigid parts, or fields, or pictures; none for rigid parts where the
-    /// designs have a common mesh, and else fields.
+    /// Kind of content: solid for rigid parts, distance fields, or pictures. `None` means rigid
+    /// parts if the designs have a common mesh, otherwise distance fields.
     pub content: Option<ContentKind>,
-    /// What pictures are led by: lines, points or a lattice; any other leaves them where
-    /// they lie.
+    /// Warp that aligns pictures: lines, scattered points or a lattice; with any other, pictures
+    /// stay in place.
     pub warp: WarpKind,
-    /// Where what all pictures have is in each of them, in the common frame.
+    /// Features common to all pictures, with their position in each, in the common frame.
     pub features: ManyFeatures,
-    /// How many features only some of them have, which is told.
-    pub lone_features: usize,
-    /// The options of both; pins, links and cuts are of two designs, and left out.
+    /// Number of features that exist in only some of the pictures; reported as a note.
+    pub unmatched_features: usize,
+    /// Options; pins, links and cuts belong to two particular designs and are ignored.
     pub options: TransitionOptions,
-    /// Whether what takes very long is begun all the same; see [`crate::work::budget`].
+    /// Whether jobs beyond the limits of [`crate::work::budget`] may start.
     pub patient: bool,
 }
 
 impl SpaceSpec {
-    /// Designs as they suit best, with default options.
+    /// Creates a specification with default options and automatic content.
     #[must_use]
     pub fn new(designs: Vec<Arc<Design>>) -> Self {
         Self {
@@ -60,17 +60,17 @@ impl SpaceSpec {
             content: None,
             warp: WarpKind::None,
             features: ManyFeatures::default(),
-            lone_features: 0,
+            unmatched_features: 0,
             options: TransitionOptions::default(),
             patient: false,
         }
     }
 
-    /// Two of the designs, the others beside them in the same frame.
+    /// Returns the specification of the transition between two of the designs.
     fn pair(&self, source: usize, target: usize) -> TransitionSpec {
         let [a, b] = [source, target].map(|k| Arc::clone(&self.designs[k]));
         let mut spec = TransitionSpec::new(a, b);
-        spec.cell = TransitionMethod::RIGID_PARTS;
+        spec.method = TransitionMethod::RIGID_PARTS;
         spec.others = self.designs.clone();
         spec.patient = self.patient;
         spec.options = TransitionOptions {
@@ -84,8 +84,8 @@ impl SpaceSpec {
             },
             parts: Vec::new(),
             paint: PaintRule::One,
-            // The match alone is wanted.
-            guard: CollisionAvoidance::Plain,
+            // Only the match is needed.
+            guard: CollisionAvoidance::Off,
             ..self.options.clone()
         };
         spec
@@ -93,10 +93,10 @@ impl SpaceSpec {
 }
 
 impl DesignSpace {
-    /// Matches, triangulates and factors, or measures the fields.
+    /// Matches, triangulates and factors the designs, or computes their distance fields.
     ///
     /// # Errors
-    /// [`SpaceError`] says what does not go together, or that nobody wants the result.
+    /// [`SpaceError`] says why the designs are incompatible, or that the work was cancelled.
     pub fn build(spec: &SpaceSpec, progress: &dyn Progress) -> Result<Self, SpaceError> {
         let count = spec.designs.len();
         if count < 2 {
@@ -109,102 +109,115 @@ impl DesignSpace {
         let first = spec.pair(0, 1);
         let bar_width = bar_width(&first)?;
         let mut notes = Vec::new();
-        if spec.designs.iter().any(|design| !design.coats.is_empty()) {
-            notes.push(SpaceNote::OneColour);
+        if spec
+            .designs
+            .iter()
+            .any(|design| !design.paint_layers.is_empty())
+        {
+            notes.push(SpaceNote::PaintIgnored);
         }
-        let made = BuiltContent::of(spec, bar_width, &ProgressSpan::new(progress, 0.0, 0.3))?;
-        let rest = ProgressSpan::new(progress, 0.3, 1.0);
+        let built = BuiltContent::of(spec, bar_width, &ProgressSpan::new(progress, 0.0, 0.3))?;
+        let content_progress = ProgressSpan::new(progress, 0.3, 1.0);
         let solid = match spec.content {
-            Some(ContentKind::Solid) | None => Some(made.solid(spec, &rest)?),
+            Some(ContentKind::Solid) | None => Some(built.solid(spec, &content_progress)?),
             Some(_) => None,
         };
-        let seen = match solid {
-            Some(Ok(seen)) => seen,
+        let content = match solid {
+            Some(Ok(content)) => content,
             Some(Err(error)) if spec.content.is_some() => {
-                return Err(SpaceError::NoFamily(error));
+                return Err(SpaceError::NoCommonMesh(error));
             }
             other => {
                 if let Some(Err(error)) = other {
                     notes.push(SpaceNote::AsFields(error.to_string()));
                 }
-                fields(spec, &first, bar_width, &rest)?
+                fields(spec, &first, bar_width, &content_progress)?
             }
         };
         let mut inner = DesignSpaceData {
             designs: spec.designs.clone(),
             bounds: field_frame(&first, bar_width),
-            seen,
+            content,
             bar_width,
-            likeness: made.likeness,
+            distances: built.distances,
             notes,
         };
-        if let BlendContent::Solid { blend, .. } = &inner.seen {
-            inner.bounds = swept(inner.bounds, blend, bar_width);
+        if let BlendContent::Solid { blend, .. } = &inner.content {
+            inner.bounds = swept_bounds(inner.bounds, blend, bar_width);
         }
         Ok(inner.into())
     }
 
+    /// Builds a space of pictures.
     fn of_pictures(spec: &SpaceSpec, progress: &dyn Progress) -> Result<Self, SpaceError> {
         let pictures = PictureSpace::of(
             &spec.designs,
-            (spec.warp, &spec.features),
+            spec.warp,
+            &spec.features,
             &spec.options,
             progress,
         )?;
-        let lone = Some(spec.lone_features).filter(|lone| *lone > 0);
+        let unmatched = Some(spec.unmatched_features).filter(|count| *count > 0);
         let inner = DesignSpaceData {
             designs: spec.designs.clone(),
             bounds: pictures.bounds(),
             bar_width: 0.0,
-            likeness: pictures.likeness(),
-            notes: lone.map(SpaceNote::LoneFeatures).into_iter().collect(),
-            seen: BlendContent::Colours(Box::new(pictures)),
+            distances: pictures.distances(),
+            notes: unmatched
+                .map(SpaceNote::UnmatchedFeatures)
+                .into_iter()
+                .collect(),
+            content: BlendContent::Colours(Box::new(pictures)),
         };
         Ok(inner.into())
     }
 }
 
-/// What the designs are, and how unlike each other.
+/// Common form of the designs, and their distances.
 struct BuiltContent {
     form: CommonForms,
-    likeness: DesignDistances,
+    distances: DesignDistances,
 }
 
-/// Designs that share their connectivity, or are matched.
+/// Source of the common mesh.
 enum CommonForms {
-    /// A common mesh, or why there is none, and the bars.
+    /// The designs share their connectivity: the common mesh, or why there is none, and the bars.
     Given(Result<CompatibleFamily, FamilyError>, Vec<[u32; 2]>),
-    /// It is to be made.
+    /// The designs are outlines, which must be matched and triangulated.
     Outlines,
 }
 
 impl BuiltContent {
+    /// Determines the common form and the distances of the designs.
     fn of(spec: &SpaceSpec, bar_width: f64, progress: &dyn Progress) -> Result<Self, SpaceError> {
         if let Some(given) = Self::given(&spec.designs, progress)? {
             return Ok(given);
         }
         checkpoint(progress, "matching", 0.0)?;
-        let outlines = spec.designs.iter();
-        let outlines = outlines.map(|design| outline(design, bar_width, progress));
+        let outlines = spec
+            .designs
+            .iter()
+            .map(|design| outline(design, bar_width, progress));
         let outlines: Vec<Regions> = outlines.collect::<Result<_, _>>()?;
-        // Each as often as there are others, two at a time.
+        // Designs are matched in pairs, so the limit applies to two designs at a time.
         for two in outlines.windows(2) {
             let rings = two.iter().flat_map(Regions::rings);
             let points = rings.map(|ring| ring.points().len()).sum();
-            if let Err(error) = WorkloadKind::Points.allow(points, progress) {
+            if let Err(error) = WorkloadKind::Points.check(points, progress) {
                 return Ok(Self {
                     form: CommonForms::Given(Err(error.into()), Vec::new()),
-                    likeness: DesignDistances::even(outlines.len()),
+                    distances: DesignDistances::uniform(outlines.len()),
                 });
             }
         }
         Ok(Self {
             form: CommonForms::Outlines,
-            likeness: DesignDistances::of_outlines(&outlines, &spec.options.matching, progress)?,
+            distances: DesignDistances::of_outlines(&outlines, &spec.options.matching, progress)?,
         })
     }
 
-    /// Trusses, or meshes, of as many points each; none of others.
+    /// Returns the common form of trusses or of meshes with equal numbers of points; `None` for
+    /// other designs.
     fn given(designs: &[Arc<Design>], progress: &dyn Progress) -> Result<Option<Self>, SpaceError> {
         let trusses: Option<Vec<&Truss>> = designs.iter().map(truss).collect();
         let meshes: Option<Vec<&TriangleMesh>> = designs.iter().map(mesh).collect();
@@ -215,7 +228,7 @@ impl BuiltContent {
         let form = if let Some(trusses) = trusses {
             let bars = trusses[0].bars().to_vec();
             WorkloadKind::Bars
-                .allow(bars.len(), progress)
+                .check(bars.len(), progress)
                 .map_err(BuildError::from)?;
             CommonForms::Given(CompatibleFamily::from_trusses(&trusses, progress), bars)
         } else if let Some(meshes) = meshes {
@@ -223,11 +236,11 @@ impl BuiltContent {
         } else {
             return Ok(None);
         };
-        let likeness = DesignDistances::of_points(&places);
-        Ok(Some(Self { form, likeness }))
+        let distances = DesignDistances::of_corresponding_points(&places);
+        Ok(Some(Self { form, distances }))
     }
 
-    /// As rigid parts; why not, where there is no common mesh.
+    /// Returns the blend of rigid parts; the inner error says why there is no common mesh.
     fn solid(
         &self,
         spec: &SpaceSpec,
@@ -240,8 +253,8 @@ impl BuiltContent {
                 (self.outlines(spec, &matching)?, Vec::new())
             }
         };
-        // A cancel comes back as an error of the mesh.
-        still_wanted(progress)?;
+        // Cancellation may have been returned as an error of the mesh.
+        check_cancelled(progress)?;
         let family = match family {
             Ok(family) => family,
             Err(error) => return Ok(Err(error)),
@@ -249,68 +262,73 @@ impl BuiltContent {
         let blend = ArapBlend::build(&family, &ProgressSpan::new(progress, 0.9, 1.0))?;
         let walks = match bars.is_empty() {
             true => family.boundary_loops(),
-            // Of a truss its bars are drawn, and nothing between them.
+            // Of a truss only the bars are drawn, without a fill.
             false => Vec::new(),
         };
         Ok(Ok(BlendContent::Solid { blend, walks, bars }))
     }
 
-    /// A common mesh of outlines: all are matched with the one that is least unlike them.
+    /// Builds the common mesh of outlines by matching all of them with one hub design.
+    ///
+    /// The first hub is the design with the smallest sum of distances to all others.
     fn outlines(
         &self,
         spec: &SpaceSpec,
         progress: &dyn Progress,
     ) -> Result<Result<CompatibleFamily, FamilyError>, SpaceError> {
-        let hubs = self.likeness.by_nearness();
-        let asked = spec.options.quality;
+        let hubs = self.distances.most_central_first();
+        let requested = spec.options.quality;
         let drafts = hubs
             .iter()
             .take(HUBS)
             .map(|&hub| (hub, BuildQuality::Draft));
-        let best = hubs.first().map(|&hub| (hub, asked));
-        let tries: Vec<_> = best
-            .filter(|_| asked != BuildQuality::Draft)
+        let best = hubs.first().map(|&hub| (hub, requested));
+        let attempts: Vec<_> = best
+            .filter(|_| requested != BuildQuality::Draft)
             .into_iter()
             .chain(drafts)
             .collect();
-        let several = ProgressShares::new(progress, tries.len());
-        let mut first = None;
-        for (tried, &way) in tries.iter().enumerate() {
-            let progress = &several.part(tried);
-            let matches = matches(spec, way, &ProgressSpan::new(progress, 0.0, 0.7))?;
+        let shares = ProgressShares::new(progress, attempts.len());
+        let mut first_error = None;
+        for (attempt, &(hub, quality)) in attempts.iter().enumerate() {
+            let progress = &shares.part(attempt);
+            let matches = matches(spec, hub, quality, &ProgressSpan::new(progress, 0.0, 0.7))?;
             let matches: Vec<Option<&RegionMatch>> = matches.iter().map(Option::as_ref).collect();
             let options = &spec.options.triangulation;
             let meshing = ProgressSpan::new(progress, 0.7, 1.0);
-            let family = CompatibleFamily::from_outlines(way.0, &matches, options, &meshing);
-            still_wanted(progress)?;
+            let family = CompatibleFamily::from_outlines(hub, &matches, options, &meshing);
+            check_cancelled(progress)?;
             match family {
                 Ok(family) => return Ok(Ok(family)),
-                // What one has alone it has whichever is the hub.
-                Err(error @ FamilyError::Parts { .. }) => return Ok(Err(error)),
-                Err(error) => _ = first.get_or_insert(error),
+                // Parts without a counterpart remain unmatched with any hub.
+                Err(error @ FamilyError::PartsDiffer { .. }) => return Ok(Err(error)),
+                Err(error) => _ = first_error.get_or_insert(error),
             }
         }
         let count = spec.designs.len();
-        Ok(Err(first.unwrap_or(FamilyError::TooFew(count))))
+        Ok(Err(first_error.unwrap_or(FamilyError::TooFew(count))))
     }
 }
 
-/// The match of the hub with each other design, as the best film between the two has it.
+/// Matches the hub with each other design by building the transition between them.
+///
+/// The entry of the hub itself is `None`.
 fn matches(
     spec: &SpaceSpec,
-    (hub, quality): (usize, BuildQuality),
+    hub: usize,
+    quality: BuildQuality,
     progress: &dyn Progress,
 ) -> Result<Vec<Option<RegionMatch>>, SpaceError> {
     let count = spec.designs.len();
-    let several = ProgressShares::new(progress, count);
+    let shares = ProgressShares::new(progress, count);
     let matched = |design: usize| {
         if design == hub {
             return Ok(None);
         }
         let mut pair = spec.pair(hub, design);
         pair.options.quality = quality;
-        let made = Transition::build(&pair, &several.part(design))?;
-        Ok(made.matched().cloned())
+        let transition = Transition::build(&pair, &shares.part(design))?;
+        Ok(transition.matched().cloned())
     };
     let all: Vec<Result<_, BuildError>> = (0..count).into_par_iter().map(matched).collect();
     Ok(all.into_iter().collect::<Result<_, _>>()?)
@@ -323,7 +341,7 @@ fn truss(design: &Arc<Design>) -> Option<&Truss> {
     }
 }
 
-/// The points of what has some of its own.
+/// Returns the nodes of a truss or the vertices of a mesh; `None` for outlines.
 fn points(design: &Arc<Design>) -> Option<Vec<DVec2>> {
     match &design.form {
         DesignForm::Truss(truss) => Some(truss.nodes().to_vec()),
@@ -339,7 +357,7 @@ fn mesh(design: &Arc<Design>) -> Option<&TriangleMesh> {
     }
 }
 
-/// As distance fields on one grid.
+/// Computes the distance fields of all designs on one grid.
 fn fields(
     spec: &SpaceSpec,
     frame: &TransitionSpec,
@@ -352,18 +370,18 @@ fn fields(
     let grid = Grid::covering(&bounds, options.cells, options.margin).map_err(BuildError::from)?;
     let cells = grid.cells() * spec.designs.len();
     WorkloadKind::Cells
-        .allow(cells, progress)
+        .check(cells, progress)
         .map_err(BuildError::from)?;
-    let several = ProgressShares::new(progress, spec.designs.len());
+    let shares = ProgressShares::new(progress, spec.designs.len());
     let field = |(k, design): (usize, &Arc<Design>)| {
-        let progress = &several.part(k);
+        let progress = &shares.part(k);
         let outline = outline(design, bar_width, progress)?;
         measured(&outline, grid, options, progress)
             .map_err(|error| BuildError::Unavailable(format!("{}: {error}", design.name)))
     };
     let fields: Vec<Result<_, BuildError>> =
         spec.designs.par_iter().enumerate().map(field).collect();
-    still_wanted(progress)?;
+    check_cancelled(progress)?;
     let fields = fields.into_iter().collect::<Result<_, _>>()?;
     let set = FieldSet::new(fields, options.blend).map_err(BuildError::from)?;
     Ok(BlendContent::Field(
@@ -371,15 +389,16 @@ fn fields(
     ))
 }
 
-/// The box around the designs and what is seen halfway between each two, and between all.
-fn swept(ends: Bounds, blend: &ArapBlend, room: f64) -> Bounds {
+/// Returns the bounding box of the designs, the blends halfway between each two, and the blend of
+/// all with equal weights, each widened by half of `bar_width`.
+fn swept_bounds(ends: Bounds, blend: &ArapBlend, bar_width: f64) -> Bounds {
     let count = blend.family().count();
     let mut placer = blend.placer();
     let mut weights = vec![1.0 / count as f64; count];
     let mut bounds = ends;
     let mut widen = |weights: &[f64]| {
         if let Some(now) = Bounds::of(placer.place(weights).iter().copied()) {
-            bounds = bounds.union(&now.padded(0.5 * room));
+            bounds = bounds.union(&now.padded(0.5 * bar_width));
         }
     };
     widen(&weights);

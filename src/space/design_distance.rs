@@ -1,33 +1,31 @@
-//! How unlike designs are, two at a time.
+//! Dissimilarity of each pair of designs.
 //!
-//! Of outlines it is what their match costs: how unlike the boundaries are as matched,
-//! part by part and weighed by area, and 1 for all that has no partner. Of trusses and
-//! meshes that share their connectivity, how far the nodes are from each other once one
-//! is laid on the other.
+//! For outlines it is the cost of their match, averaged over the parts by area, with cost 1 for
+//! unmatched parts. For trusses and meshes with common connectivity, it is the distance between
+//! corresponding points after the best similarity fit.
 
 use crate::correspondence::{MatchSettings, PieceMatch, RingMatch, match_regions};
 use crate::geometry::{Bounds, DVec2, Regions, SimilarityFit, signed_area};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 
-/// A number for each two designs: 0 for one and itself, and the same both ways.
+/// Symmetric matrix of the dissimilarities of all pairs of designs, with 0 on the diagonal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DesignDistances {
     count: usize,
-    /// Row by row.
+    /// Matrix entries, row by row.
     costs: Vec<f64>,
 }
 
 impl DesignDistances {
-    /// Of so many designs, by what each two cost; those two are in order. What is no
-    /// number counts as 1.
+    /// Fills the matrix from `cost(a, b)` with a < b; costs that are not finite become 1.
     pub(super) fn of(count: usize, cost: impl Fn(usize, usize) -> f64 + Sync) -> Self {
-        let two: Vec<[usize; 2]> = (0..count)
+        let pairs: Vec<[usize; 2]> = (0..count)
             .flat_map(|a| (a + 1..count).map(move |b| [a, b]))
             .collect();
-        let each: Vec<f64> = two.par_iter().map(|&[a, b]| cost(a, b)).collect();
+        let pair_costs: Vec<f64> = pairs.par_iter().map(|&[a, b]| cost(a, b)).collect();
         let mut costs = vec![0.0; count * count];
-        for ([a, b], cost) in two.into_iter().zip(each) {
+        for ([a, b], cost) in pairs.into_iter().zip(pair_costs) {
             let cost = if cost.is_finite() { cost.max(0.0) } else { 1.0 };
             costs[a * count + b] = cost;
             costs[b * count + a] = cost;
@@ -35,55 +33,55 @@ impl DesignDistances {
         Self { count, costs }
     }
 
-    /// Of outlines.
+    /// Matches each pair of outlines and takes the cost of the match.
     pub(super) fn of_outlines(
         outlines: &[Regions],
-        wanted: &MatchSettings,
+        settings: &MatchSettings,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        // Pins are of two designs, and mean nothing here.
-        let wanted = MatchSettings {
-            keep_up: wanted.keep_up,
-            stretch: wanted.stretch,
-            thickness: wanted.thickness,
+        // Pins refer to two particular designs and are left out.
+        let settings = MatchSettings {
+            keep_up: settings.keep_up,
+            stretch: settings.stretch,
+            thickness: settings.thickness,
             ..MatchSettings::default()
         };
         let cost = |a: usize, b: usize| {
-            match_regions(&outlines[a], &outlines[b], &wanted, progress)
+            match_regions(&outlines[a], &outlines[b], &settings, progress)
                 .map_or(f64::NAN, |matched| mean_cost(&matched.pieces))
         };
-        let likeness = Self::of(outlines.len(), cost);
-        still_wanted(progress)?;
-        Ok(likeness)
+        let distances = Self::of(outlines.len(), cost);
+        check_cancelled(progress)?;
+        Ok(distances)
     }
 
-    /// Where nobody knows: all are as unlike each other.
-    pub(super) fn even(count: usize) -> Self {
+    /// Distance 1 between all designs, for use where nothing is known.
+    pub(super) fn uniform(count: usize) -> Self {
         Self::of(count, |_, _| 1.0)
     }
 
-    /// Of points that belong together, number by number.
-    pub(super) fn of_points(places: &[Vec<DVec2>]) -> Self {
-        Self::of(places.len(), |a, b| apart(&places[a], &places[b]))
+    /// Compares lists of points that correspond by index.
+    pub(super) fn of_corresponding_points(places: &[Vec<DVec2>]) -> Self {
+        Self::of(places.len(), |a, b| fitted_distance(&places[a], &places[b]))
     }
 
-    /// How many designs there are.
+    /// Returns the number of designs.
     #[must_use]
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// How unlike two designs are.
+    /// Returns the dissimilarity of two designs, at least 0.
     ///
     /// # Panics
-    /// If there are not so many.
+    /// If an index is out of range.
     #[must_use]
     pub fn between(&self, a: usize, b: usize) -> f64 {
         self.costs[a * self.count + b]
     }
 
-    /// The designs, those first that are less unlike all others.
-    pub(super) fn by_nearness(&self) -> Vec<usize> {
+    /// Returns the design indices, sorted by the sum of their distances to all others.
+    pub(super) fn most_central_first(&self) -> Vec<usize> {
         let sum = |k: usize| (0..self.count).map(|j| self.between(k, j)).sum::<f64>();
         let mut order: Vec<usize> = (0..self.count).collect();
         order.sort_by(|&a, &b| sum(a).total_cmp(&sum(b)));
@@ -91,7 +89,9 @@ impl DesignDistances {
     }
 }
 
-/// What the pieces of a match cost, weighed by their area.
+/// Returns the mean cost of the pieces of a match, weighted by area.
+///
+/// Unmatched pieces cost 1, and so do unmatched holes, in addition.
 fn mean_cost(pieces: &[PieceMatch]) -> f64 {
     let area = |ring: &RingMatch| {
         signed_area(&ring.source)
@@ -102,7 +102,10 @@ fn mean_cost(pieces: &[PieceMatch]) -> f64 {
     for piece in pieces {
         let weight: f64 = piece.rings.first().map_or(0.0, area);
         let holes = piece.rings.iter().skip(1).chain(&piece.lone);
-        let alone: f64 = holes.filter(|ring| ring.whole().is_some()).map(area).sum();
+        let alone: f64 = holes
+            .filter(|ring| ring.transient_side().is_some())
+            .map(area)
+            .sum();
         let cost = if piece.is_in_both() { piece.cost } else { 1.0 };
         sum += weight * cost + alone;
         total += weight;
@@ -110,15 +113,15 @@ fn mean_cost(pieces: &[PieceMatch]) -> f64 {
     sum / total
 }
 
-/// How far points are from each other once the ones are laid on the others by the
-/// similarity that does it best, as a share of the larger diameter.
-fn apart(a: &[DVec2], b: &[DVec2]) -> f64 {
+/// Returns the root mean square distance of corresponding points after the best similarity fit, as
+/// a fraction of the larger diameter.
+fn fitted_distance(a: &[DVec2], b: &[DVec2]) -> f64 {
     let Some(fit) = SimilarityFit::of(a, b) else {
         return f64::NAN;
     };
     let [from, to] = fit.means;
-    let off = a.iter().zip(b);
-    let off = off.map(|(&p, &q)| (fit.factor.rotate(p - from) + to).distance_squared(q));
+    let pairs = a.iter().zip(b);
+    let squares = pairs.map(|(&p, &q)| (fit.factor.rotate(p - from) + to).distance_squared(q));
     let size = Bounds::diameter_of(a).max(Bounds::diameter_of(b));
-    (off.sum::<f64>() / a.len() as f64).sqrt() / size
+    (squares.sum::<f64>() / a.len() as f64).sqrt() / size
 }

@@ -1,4 +1,4 @@
-//! Why there is no space, and what was done otherwise than asked.
+//! Errors of building a design space, and notes on what was done differently from the request.
 
 use crate::compatible::FamilyError;
 use crate::io::sanitize::SanitizedLine;
@@ -6,41 +6,41 @@ use crate::transition::BuildError;
 use crate::warp::ArapError;
 use crate::work::progress::Cancelled;
 
-/// Why designs span no space.
+/// Error while building or using a design space.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpaceError {
-    /// One design, or none.
-    #[error("a space needs two designs or more, and there are {0}")]
+    /// There are fewer than two designs.
+    #[error("a design space needs at least two designs, but there are {0}")]
     TooFew(usize),
     /// The designs have no common mesh.
-    #[error("as rigid parts these designs have no common mesh: {0}; choose fields")]
-    NoFamily(FamilyError),
-    /// There is nothing to go along.
-    #[error("there is no such way: a path needs two stops or more, on a map of these designs")]
+    #[error("these designs have no common mesh for rigid parts: {0}; choose distance fields")]
+    NoCommonMesh(FamilyError),
+    /// The path has fewer than two stops or does not belong to a map of these designs.
+    #[error("there is no such path: it needs at least two stops on a map of these designs")]
     NoPath,
-    /// Two designs do not go together, or a field cannot be made.
+    /// Two designs are incompatible, or a field cannot be computed.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// The blend as rigid parts failed.
+    /// Preparing the blend of rigid parts failed.
     #[error(transparent)]
     Arap(#[from] ArapError),
-    /// Nobody wants the result.
+    /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// What was done otherwise than asked.
+/// Something that was done differently from what was requested.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpaceNote {
-    /// They are blended as fields.
-    #[error("blended as fields: {}", SanitizedLine(.0))]
+    /// The designs have no common mesh, for the given reason, and are blended as distance fields.
+    #[error("blended as distance fields: {}", SanitizedLine(.0))]
     AsFields(String),
-    /// Pins and lines that do not lead on from design to design.
-    #[error("{0} pins and lines are of some of the pictures alone, and lead nothing here")]
-    LoneFeatures(usize),
-    /// Colours of their own are left out.
-    #[error("in the colours of the map: the designs' own are not blended")]
-    OneColour,
+    /// Number of pins and lines that do not continue through all designs.
+    #[error("{0} pins and lines do not exist in all pictures and are ignored on the map")]
+    UnmatchedFeatures(usize),
+    /// The designs' own colours are ignored.
+    #[error("shown in the colours of the map: the designs' own colours are not blended")]
+    PaintIgnored,
 }

@@ -1,46 +1,47 @@
-//! Where the designs are on a map.
+//! Layouts of the designs on a map: polygon, line, or by similarity.
 
 use super::design_distance::DesignDistances;
 use crate::geometry::DVec2;
 use crate::numerics::symmetric_eigen;
-use crate::settings::choice::named;
+use crate::settings::named;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
-/// How the designs are laid out on a map.
+/// Arrangement of the designs on a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MapLayout {
-    /// The corners of a regular polygon, clockwise from above; of four a square's, from
-    /// its upper left one.
+    /// At the corners of a regular polygon, clockwise from the top; four designs form a square,
+    /// starting at the upper left.
     #[default]
     Polygon,
     /// In a row.
     Line,
-    /// What is alike is near each other.
+    /// Similar designs close to each other.
     Likeness,
 }
 
 named! { MapLayout {
-    Polygon: "polygon", "Polygon", "At the corners of a regular polygon";
-    Line: "line", "Line", "In a row, in their order";
-    Likeness: "likeness", "Likeness", "What is alike is near each other";
+    Polygon: "polygon", "Polygon", "Places the designs at the corners of a regular polygon";
+    Line: "line", "Line", "Places the designs in a row, in order";
+    Likeness: "likeness", "Similarity", "Places similar designs close to each other";
 } }
 
-/// Two sites are no nearer to each other than this: the picture of a design and its name
-/// must have room, and two designs that are the same are still two.
-const APART: f64 = 0.42;
+/// Minimum distance between two sites, in radii of the map. It leaves room for thumbnails and
+/// names, and separates identical designs (heuristic).
+const MIN_SITE_DISTANCE: f64 = 0.42;
 
-/// The same of many designs, by the root of their number: more have no room in the circle.
-const CROWDED: f64 = 1.3;
+/// Minimum distance for many designs, multiplied by the square root of their number, because larger
+/// distances do not fit into the circle (heuristic).
+const CROWDED_DISTANCE: f64 = 1.3;
 
 impl MapLayout {
-    /// A site for each design, within one unit of the origin.
+    /// Returns a site for each design, within distance 1 of the origin.
     #[must_use]
-    pub fn sites(self, likeness: &DesignDistances) -> Vec<DVec2> {
+    pub fn sites(self, distances: &DesignDistances) -> Vec<DVec2> {
         match self {
-            Self::Polygon => polygon(likeness.count()),
-            Self::Line => line(likeness.count()),
-            Self::Likeness => scaled(likeness),
+            Self::Polygon => polygon(distances.count()),
+            Self::Line => line(distances.count()),
+            Self::Likeness => scaled(distances),
         }
     }
 }
@@ -64,12 +65,12 @@ fn line(count: usize) -> Vec<DVec2> {
     (0..count).map(place).collect()
 }
 
-/// Classical scaling (Torgerson 1952): the sites whose distances are nearest to the costs,
-/// in as far as the plane has room for them.
-fn scaled(likeness: &DesignDistances) -> Vec<DVec2> {
-    let count = likeness.count();
+/// Returns sites whose distances approximate those of the designs: classical multidimensional
+/// scaling (Torgerson 1952), with a minimum distance between sites.
+fn scaled(distances: &DesignDistances) -> Vec<DVec2> {
+    let count = distances.count();
     let squares: Vec<f64> = (0..count * count)
-        .map(|at| likeness.between(at / count, at % count).powi(2))
+        .map(|at| distances.between(at / count, at % count).powi(2))
         .collect();
     let row = |k: usize| squares[k * count..(k + 1) * count].iter().sum::<f64>() / count as f64;
     let rows: Vec<f64> = (0..count).map(row).collect();
@@ -80,8 +81,8 @@ fn scaled(likeness: &DesignDistances) -> Vec<DVec2> {
     let Some(axes) = symmetric_eigen(count, &centred) else {
         return polygon(count);
     };
-    // The largest first; each axis so that its largest entry is positive, or the map
-    // would turn over by rounding.
+    // Axis 0 has the largest eigenvalue. Each axis is oriented so that its largest entry is
+    // positive; otherwise rounding could flip the map.
     let axis = |k: usize| -> Vec<f64> {
         let (value, vector) = &axes[axes.len() - 1 - k];
         let largest = vector
@@ -94,58 +95,61 @@ fn scaled(likeness: &DesignDistances) -> Vec<DVec2> {
     let along = axis(0);
     let across = if count > 1 { axis(1) } else { vec![0.0; count] };
     let mut sites: Vec<DVec2> = along.into_iter().zip(across).map(DVec2::from).collect();
-    let reach = filled(&mut sites);
+    let reach = fit_to_unit_circle(&mut sites);
     if reach <= f64::EPSILON || !reach.is_finite() {
         return polygon(count);
     }
     push_apart(&mut sites);
-    filled(&mut sites);
+    fit_to_unit_circle(&mut sites);
     sites
 }
 
-/// Lays sites so that they fill the circle about the origin, and tells how large the one about
-/// them was. Their mean is no middle: one that is unlike all others would push those into a
-/// corner.
-fn filled(sites: &mut [DVec2]) -> f64 {
-    /// After so many the middle is off by less than a hundredth of the circle.
+/// Moves and scales the sites so that their enclosing circle becomes the unit circle; returns its
+/// original radius.
+///
+/// The centre is that of the enclosing circle, not the mean, which a single outlier would move so
+/// far that the other sites end up in a corner.
+fn fit_to_unit_circle(sites: &mut [DVec2]) -> f64 {
+    /// Number of iterations (tolerance: the centre is then within a hundredth of the radius).
     const ROUNDS: usize = 100;
     let farthest = |from: DVec2| {
-        let far = |a: &DVec2| a.distance_squared(from);
+        let distance = |a: &DVec2| a.distance_squared(from);
         let sites = sites.iter().copied();
-        sites.max_by(|a, b| far(a).total_cmp(&far(b)))
+        sites.max_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
-    // Always less of the way to what is farthest (Bădoiu and Clarkson 2003).
-    let mut middle = DVec2::ZERO;
+    // Moves towards the farthest site by decreasing fractions (Bădoiu and Clarkson 2003).
+    let mut centre = DVec2::ZERO;
     for round in 1..=ROUNDS {
-        let Some(far) = farthest(middle) else { break };
-        middle += (far - middle) / (round + 1) as f64;
+        let Some(far) = farthest(centre) else { break };
+        centre += (far - centre) / (round + 1) as f64;
     }
-    let reach = farthest(middle).map_or(0.0, |far| far.distance(middle));
-    if reach > 0.0 && reach.is_finite() {
+    let radius = farthest(centre).map_or(0.0, |far| far.distance(centre));
+    if radius > 0.0 && radius.is_finite() {
         sites
             .iter_mut()
-            .for_each(|site| *site = (*site - middle) / reach);
+            .for_each(|site| *site = (*site - centre) / radius);
     }
-    reach
+    radius
 }
 
-/// Moves sites that are too near to each other apart, a little in every round.
+/// Moves sites apart that are too close to each other, a little in every round.
 fn push_apart(sites: &mut [DVec2]) {
-    /// Twelve sites in one place are apart after some twenty.
+    /// Maximum number of rounds (resource limit: twelve coincident sites need about twenty).
     const ROUNDS: usize = 200;
-    let least = APART.min(CROWDED / (sites.len() as f64).sqrt());
+    let min_distance = MIN_SITE_DISTANCE.min(CROWDED_DISTANCE / (sites.len() as f64).sqrt());
     for _ in 0..ROUNDS {
         let mut moved = false;
         for a in 0..sites.len() {
             for b in a + 1..sites.len() {
-                let way = sites[b] - sites[a];
-                let near = way.length();
-                if near >= least {
+                let offset = sites[b] - sites[a];
+                let distance = offset.length();
+                if distance >= min_distance {
                     continue;
                 }
-                // Where both are in one place, each pair goes its own way.
-                let turn = DVec2::from_angle(2.4 * (a * sites.len() + b) as f64);
-                let push = way.normalize_or(turn) * (0.5 * (least - near) + 1e-3 * least);
+                // Coincident sites are pushed in a direction that differs for each pair.
+                let direction = DVec2::from_angle(2.4 * (a * sites.len() + b) as f64);
+                let push = offset.normalize_or(direction)
+                    * (0.5 * (min_distance - distance) + 1e-3 * min_distance);
                 sites[a] -= push;
                 sites[b] += push;
                 moved = true;
@@ -162,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn polygons_begin_above_and_four_are_a_square() {
+    fn polygons_start_at_the_top_and_four_sites_form_a_square() {
         let three = polygon(3);
         assert!(three[0].distance(DVec2::Y) < 1e-12 && three[1].x > 0.0);
         let four = polygon(4);
@@ -171,32 +175,38 @@ mod tests {
     }
 
     #[test]
-    fn what_is_alike_is_near() {
+    fn similar_designs_are_close() {
         let places = |x: f64| {
-            // The fourth corner goes away from the others.
+            // The fourth corner moves away with x.
             [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0 + x)]
                 .map(DVec2::from)
                 .to_vec()
         };
-        let likeness =
-            DesignDistances::of_points(&[places(0.0), places(2.0), places(0.2), places(2.2)]);
+        let likeness = DesignDistances::of_corresponding_points(&[
+            places(0.0),
+            places(2.0),
+            places(0.2),
+            places(2.2),
+        ]);
         let sites = MapLayout::Likeness.sites(&likeness);
-        let far = |a: usize, b: usize| sites[a].distance(sites[b]);
-        assert!(far(0, 2) < far(0, 1) && far(1, 3) < far(1, 2));
-        // The unlike one does not push the others into a corner.
-        let unlike = [
+        let distance = |a: usize, b: usize| sites[a].distance(sites[b]);
+        assert!(distance(0, 2) < distance(0, 1) && distance(1, 3) < distance(1, 2));
+        // An outlier does not push the others into a corner.
+        let with_outlier = [
             places(0.0),
             places(0.1),
             places(0.15),
             places(0.2),
             places(5.0),
         ];
-        let sites = MapLayout::Likeness.sites(&DesignDistances::of_points(&unlike));
-        let [least, most] =
+        let sites =
+            MapLayout::Likeness.sites(&DesignDistances::of_corresponding_points(&with_outlier));
+        let [min, max] =
             [f64::min, f64::max].map(|of| sites.iter().map(|site| site.x).fold(0.0, of));
-        assert!((least + most).abs() < 0.05 && most > 0.9, "{sites:?}");
-        // The same design twice is still two.
-        let same = DesignDistances::of_points(&[places(0.0), places(0.0), places(1.0)]);
+        assert!((min + max).abs() < 0.05 && max > 0.9, "{sites:?}");
+        // Identical designs get different sites.
+        let same =
+            DesignDistances::of_corresponding_points(&[places(0.0), places(0.0), places(1.0)]);
         let sites = MapLayout::Likeness.sites(&same);
         assert!(sites[0].distance(sites[1]) > 0.2);
     }

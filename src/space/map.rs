@@ -1,13 +1,13 @@
-//! A map: each design has a site, and every place is a blend.
+//! A map of blends: each design has a site in the plane, and each place has weights.
 
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::{NaturalNeighbours, SitesError};
 
-/// Sites of designs in the plane, y up, and the blends at all places between them.
+/// Sites of designs in the plane, y up, and the weights at all places between them.
 ///
 /// ```
-/// use morphospace::{geometry::DVec2, space::Map};
-/// let map = Map::new(&[DVec2::ZERO, DVec2::X, DVec2::Y])?;
+/// use morphospace::{geometry::DVec2, space::WeightMap};
+/// let map = WeightMap::new(&[DVec2::ZERO, DVec2::X, DVec2::Y])?;
 /// let mut weights = [0.0; 3];
 /// map.weights(DVec2::new(0.5, 0.0), &mut weights);
 /// assert_eq!(weights, [0.5, 0.5, 0.0]);
@@ -20,44 +20,48 @@ pub struct WeightMap {
 }
 
 impl WeightMap {
+    /// Creates the map of designs with the given sites.
+    ///
     /// # Errors
-    /// [`SitesError`] if there is no site, or two are in one place.
+    /// [`SitesError`] if there is no site or two of them coincide.
     pub fn new(sites: &[DVec2]) -> Result<Self, SitesError> {
         let neighbours = NaturalNeighbours::new(sites)?;
         let bounds = Bounds::of(sites.iter().copied()).ok_or(SitesError::None)?;
         Ok(Self { neighbours, bounds })
     }
 
-    /// Where the designs are.
+    /// Returns the sites of the designs.
     #[must_use]
     pub fn sites(&self) -> &[DVec2] {
         self.neighbours.sites()
     }
 
-    /// The smallest box around the sites.
+    /// Returns the bounding box of the sites.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 
-    /// The weights of the designs at a place, by natural neighbours; beyond the hull of
-    /// the sites those of the nearest place on it.
+    /// Writes the natural-neighbour weights of the designs at a place.
+    ///
+    /// Outside the convex hull of the sites, the weights are those of the nearest point on it.
     ///
     /// # Panics
-    /// If there are not as many weights as sites.
+    /// If the number of weights differs from that of the sites.
     pub fn weights(&self, place: DVec2, weights: &mut [f64]) {
         self.neighbours.shares(place, weights);
     }
 
-    /// Whether a place lies between the sites, or nearer to what does than `reach`.
+    /// Returns whether a place lies within `reach` of the convex hull of the sites.
     #[must_use]
-    pub fn holds(&self, place: DVec2, reach: f64) -> bool {
+    pub fn contains(&self, place: DVec2, reach: f64) -> bool {
         self.neighbours.holds(place, reach)
     }
 
-    /// The places of a grid of so many columns and rows over the map, row by row from
-    /// above. That nearest to a site is the site itself; none where nothing is between the
-    /// designs.
+    /// Returns a grid of places over the map, in rows from the top.
+    ///
+    /// The grid place nearest to each site is moved onto the site. Places outside the convex hull
+    /// of the sites are `None`.
     #[must_use]
     pub fn grid(&self, columns: usize, rows: usize) -> Vec<Option<DVec2>> {
         let size = self.bounds.size();
@@ -65,23 +69,23 @@ impl WeightMap {
         let step = size / steps;
         let place = |at: usize| {
             let (column, row) = (at % columns, at / columns);
-            // One row, or one column, goes through the middle.
-            let share = |k: usize, of: usize| match of {
+            // A single row or column lies in the middle.
+            let fraction = |k: usize, of: usize| match of {
                 1 => 0.5,
                 _ => k as f64 / (of as f64 - 1.0),
             };
-            let share = DVec2::new(share(column, columns), 1.0 - share(row, rows));
-            self.bounds.min + share * size
+            let fraction = DVec2::new(fraction(column, columns), 1.0 - fraction(row, rows));
+            self.bounds.min + fraction * size
         };
-        // A third of a step: a cell half outside shows what is at the rim.
+        // A third of a step outside is allowed, so that cells at the hull are not empty.
         let reach = step.max_element() / 3.0;
         let mut places: Vec<Option<DVec2>> = (0..columns * rows)
             .map(place)
-            .map(|place| self.holds(place, reach).then_some(place))
+            .map(|place| self.contains(place, reach).then_some(place))
             .collect();
         for &site in self.sites() {
-            let far = |at: &usize| place(*at).distance_squared(site);
-            let nearest = (0..places.len()).min_by(|a, b| far(a).total_cmp(&far(b)));
+            let distance = |at: &usize| place(*at).distance_squared(site);
+            let nearest = (0..places.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
             if let Some(at) = nearest {
                 places[at] = Some(site);
             }
@@ -105,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn there_is_nothing_beside_a_triangle_and_a_line_is_one_row() {
+    fn places_outside_a_triangle_are_empty_and_a_line_is_one_row() {
         let map = WeightMap::new(&[DVec2::Y, DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)]);
         let grid = map.expect("sites").grid(9, 9);
         assert_eq!((grid[0], grid[8]), (None, None));

@@ -1,24 +1,25 @@
-//! A path over a map: smooth, through places, some of which are stops.
+//! Paths over a map: smooth curves through waypoints, some of which are stops.
 
 use crate::geometry::{DVec2, nearest_segment_parameter};
 use serde::{Deserialize, Serialize};
 
-/// A place that a path goes through.
+/// A place on a map through which a path leads.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Waypoint {
-    /// Where on the map.
+    /// Position on the map.
     pub at: DVec2,
-    /// It is passed by, and no stop; the first and the last place always are stops.
+    /// Whether the path passes through without a stop. The first and the last place are always
+    /// stops.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub passed: bool,
-    /// What the blend there is called; may be empty.
+    /// Name of the blend at this place; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
 }
 
 impl Waypoint {
-    /// A stop without a name.
+    /// Creates a stop without a name.
     #[must_use]
     pub fn stop(at: DVec2) -> Self {
         Self {
@@ -28,9 +29,9 @@ impl Waypoint {
         }
     }
 
-    /// A place on the way.
+    /// Creates a place that the path passes without a stop.
     #[must_use]
-    pub fn passed(at: DVec2) -> Self {
+    pub fn via(at: DVec2) -> Self {
         Self {
             passed: true,
             ..Self::stop(at)
@@ -38,58 +39,59 @@ impl Waypoint {
     }
 }
 
-/// Places in their order; a path where there are two or more.
+/// Sequence of waypoints. It forms a path only if there are at least two.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MapPath {
-    /// What it is called; may be empty.
+    /// Name of the path; may be empty.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// What it goes through.
+    /// Waypoints in order.
     pub places: Vec<Waypoint>,
 }
 
 impl MapPath {
-    /// Whether there is nothing to go along.
+    /// Returns whether there are fewer than two waypoints, so that there is no path.
     #[must_use]
-    pub fn is_none(&self) -> bool {
+    pub fn is_too_short(&self) -> bool {
         self.places.len() < 2
     }
 
-    /// The stops with their numbers among the places: two or more, or none.
+    /// Returns the stops with their indices in `places`: at least two, or none without a path.
     pub fn stops(&self) -> impl Iterator<Item = (usize, &Waypoint)> {
         let last = self.places.len().saturating_sub(1);
-        let all = self.places.iter().enumerate().filter(move |_| last > 0);
-        all.filter(move |(k, place)| *k == 0 || *k == last || !place.passed)
+        let places = self.places.iter().enumerate().filter(move |_| last > 0);
+        places.filter(move |(k, place)| *k == 0 || *k == last || !place.passed)
     }
 
-    /// How many ways from stop to stop there are.
+    /// Returns the number of segments between consecutive stops.
     #[must_use]
-    pub fn leg_count(&self) -> usize {
+    pub fn segment_count(&self) -> usize {
         self.stops().count().saturating_sub(1)
     }
 }
 
-/// The curve of a path, by its length.
+/// The smooth curve of a path, parametrised by arc length within each segment.
 #[derive(Clone, Debug)]
 pub struct MapCurve {
     spans: Vec<CurveSpan>,
-    /// For each leg the numbers of its first span and of that behind its last.
-    legs: Vec<[usize; 2]>,
+    /// For each segment, the index of its first span and the index after its last.
+    segments: Vec<[usize; 2]>,
 }
 
-/// From one place to the next.
+/// Cubic curve from one waypoint to the next.
 #[derive(Clone, Debug)]
 struct CurveSpan {
     /// Coefficients of 1, u, u² and u³, u in [0, 1].
     cubic: [DVec2; 4],
-    /// The place at u = 1, to the last bit: it may be a design's site.
+    /// Exact position at u = 1, which may be the site of a design.
     end: DVec2,
-    /// The lengths up to evenly spaced u.
+    /// Arc length from the start to each of the evenly spaced u.
     lengths: [f64; STEPS + 1],
 }
 
-/// Pieces of a span whose lengths are added: with more, nothing moves by a pixel.
+/// Number of chords that approximate the length of a span (tolerance: more of them change no
+/// position by a pixel).
 const STEPS: usize = 32;
 
 impl CurveSpan {
@@ -106,6 +108,7 @@ impl CurveSpan {
         span
     }
 
+    /// Returns the position at parameter `u` in [0, 1]; exact at 1.
     fn point(&self, u: f64) -> DVec2 {
         if u == 1.0 {
             return self.end;
@@ -118,67 +121,68 @@ impl CurveSpan {
         self.lengths[STEPS]
     }
 
-    /// Where so much of its length lies behind.
+    /// Returns the position at the given arc length from the start.
     fn at(&self, length: f64) -> DVec2 {
         let k = self.lengths.partition_point(|&to| to < length);
         let k = k.clamp(1, STEPS);
         let [from, to] = [self.lengths[k - 1], self.lengths[k]];
-        let share = if to > from {
+        let fraction = if to > from {
             ((length - from) / (to - from)).clamp(0.0, 1.0)
         } else {
             0.0
         };
-        self.point((k as f64 - 1.0 + share) / STEPS as f64)
+        self.point((k as f64 - 1.0 + fraction) / STEPS as f64)
     }
 }
 
 impl MapCurve {
-    /// The smooth curve through the places of a path: centripetal Catmull-Rom splines,
-    /// which make no loops between places however near to each other these are (Yuksel,
-    /// Schaefer, Keyser, "On the parameterization of Catmull-Rom curves", 2009). A path
-    /// that ends where it begins is smooth there as well. None where there is no path.
+    /// Creates the curve of a path; returns `None` if there are fewer than two waypoints.
+    ///
+    /// The curve is a centripetal Catmull-Rom spline, which makes no loops between waypoints,
+    /// however close they are (Yuksel, Schaefer and Keyser, "On the parameterization of
+    /// Catmull-Rom curves", 2009). A path that ends where it starts is smooth there too.
     #[must_use]
     pub fn new(path: &MapPath) -> Option<Self> {
         let stops: Vec<usize> = path.stops().map(|(k, _)| k).collect();
-        let legs: Vec<[usize; 2]> = stops.windows(2).map(|two| [two[0], two[1]]).collect();
-        if legs.is_empty() {
+        let segments: Vec<[usize; 2]> = stops.windows(2).map(|two| [two[0], two[1]]).collect();
+        if segments.is_empty() {
             return None;
         }
         let places: Vec<DVec2> = path.places.iter().map(|place| place.at).collect();
         let spans = (1..places.len()).map(|k| CurveSpan::new(cubic(&places, k), places[k]));
         Some(Self {
             spans: spans.collect(),
-            legs,
+            segments,
         })
     }
 
-    /// How many ways from stop to stop there are, at least one.
+    /// Returns the number of segments between consecutive stops, at least one.
     #[must_use]
-    pub fn leg_count(&self) -> usize {
-        self.legs.len()
+    pub fn segment_count(&self) -> usize {
+        self.segments.len()
     }
 
-    /// How long a leg is.
+    /// Returns the length of a segment.
     #[must_use]
-    pub fn length(&self, leg: usize) -> f64 {
-        self.of(leg).iter().map(CurveSpan::length).sum()
+    pub fn length(&self, segment: usize) -> f64 {
+        self.spans_of(segment).iter().map(CurveSpan::length).sum()
     }
 
-    /// The place at a share of a leg's length; beyond its ends straight on.
+    /// Returns the position at a fraction of a segment's length; continues straight beyond 0 and 1.
     #[must_use]
-    pub fn place(&self, leg: usize, share: f64) -> DVec2 {
-        let spans = self.of(leg);
+    pub fn place(&self, segment: usize, fraction: f64) -> DVec2 {
+        let spans = self.spans_of(segment);
         let (first, last) = (&spans[0], &spans[spans.len() - 1]);
-        let whole = self.length(leg);
-        if share <= 0.0 {
+        let whole = self.length(segment);
+        if fraction <= 0.0 {
             let onward = first.point(1.0 / STEPS as f64) - first.cubic[0];
-            return first.cubic[0] + onward.normalize_or_zero() * (share * whole);
+            return first.cubic[0] + onward.normalize_or_zero() * (fraction * whole);
         }
-        if share >= 1.0 {
+        if fraction >= 1.0 {
             let onward = last.end - last.point(1.0 - 1.0 / STEPS as f64);
-            return last.end + onward.normalize_or_zero() * ((share - 1.0) * whole);
+            return last.end + onward.normalize_or_zero() * ((fraction - 1.0) * whole);
         }
-        let mut left = share * whole;
+        let mut left = fraction * whole;
         for span in spans {
             if left <= span.length() {
                 return span.at(left);
@@ -188,41 +192,43 @@ impl MapCurve {
         last.end
     }
 
-    /// Where it is at a t that counts the stops, from 0.
+    /// Returns the position at `t`, which is k at the stop with index k.
     #[must_use]
     pub fn at(&self, t: f64) -> DVec2 {
-        let (leg, share) = crate::transition::segment_at(self.legs.len(), t);
-        self.place(leg, share)
+        let (segment, fraction) = crate::transition::segment_at(self.segments.len(), t);
+        self.place(segment, fraction)
     }
 
-    fn of(&self, leg: usize) -> &[CurveSpan] {
-        let [from, to] = self.legs[leg];
+    fn spans_of(&self, segment: usize) -> &[CurveSpan] {
+        let [from, to] = self.segments[segment];
         &self.spans[from..to]
     }
 }
 
-/// A line by hand with fewer places: those that are left out were no farther than `off` from what
-/// is left (Douglas, Peucker 1973). Its ends stay.
+/// Simplifies a polyline (Douglas and Peucker 1973), keeping its ends.
+///
+/// Every removed point lies within `tolerance` of the simplified line.
 #[must_use]
-pub fn thinned(line: &[DVec2], off: f64) -> Vec<DVec2> {
+pub fn simplify_polyline(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     let (Some(&first), Some(&last)) = (line.first(), line.last()) else {
         return Vec::new();
     };
-    let far = |p: &DVec2| p.distance(first.lerp(last, nearest_segment_parameter(*p, first, last)));
-    let within = line.iter().enumerate().take(line.len() - 1).skip(1);
-    let worst = within.max_by(|a, b| far(a.1).total_cmp(&far(b.1)));
-    match worst {
-        Some((k, p)) if far(p) > off => {
-            let mut before = thinned(&line[..=k], off);
-            before.pop();
-            before.extend(thinned(&line[k..], off));
-            before
+    let distance =
+        |p: &DVec2| p.distance(first.lerp(last, nearest_segment_parameter(*p, first, last)));
+    let inner = line.iter().enumerate().take(line.len() - 1).skip(1);
+    let farthest = inner.max_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+    match farthest {
+        Some((k, p)) if distance(p) > tolerance => {
+            let mut simplified = simplify_polyline(&line[..=k], tolerance);
+            simplified.pop();
+            simplified.extend(simplify_polyline(&line[k..], tolerance));
+            simplified
         }
         _ => vec![first, last],
     }
 }
 
-/// The cubic from place k − 1 to place k.
+/// Returns the cubic from place k − 1 to place k, as coefficients of 1, u, u² and u³.
 fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
     let last = places.len() - 1;
     let is_closed = last > 1 && places[0] == places[last];
@@ -237,13 +243,13 @@ fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
         _ if k == last => to,
         _ => places[k + 1],
     };
-    // Knots apart by the root of the distance.
+    // Centripetal parametrisation: knot intervals are square roots of distances.
     let gap = |a: DVec2, b: DVec2| a.distance(b).sqrt();
     let (left, own, right) = (gap(before, from), gap(from, to), gap(to, behind));
     let chord = to - from;
     let tangent = |other: DVec2, gap: f64| match own > 0.0 && gap > 0.0 {
-        // The slopes on both sides, each the more the nearer the other place is, by
-        // the width of this span.
+        // Mean of the slopes on both sides, weighted towards the shorter interval and scaled to
+        // this span.
         true => (chord * gap / own + other * own / gap) * (own / (own + gap)),
         false => chord,
     };
@@ -268,16 +274,16 @@ mod tests {
     }
 
     #[test]
-    fn it_goes_through_its_stops_and_counts_them() {
+    fn the_curve_meets_its_stops_at_whole_t() {
         let path = path(&[
             (0.0, 0.0, true),
             (0.5, 0.4, true),
             (1.0, 0.0, false),
             (0.3, -0.7, true),
         ]);
-        assert_eq!(path.leg_count(), 2);
+        assert_eq!(path.segment_count(), 2);
         let curve = MapCurve::new(&path).expect("a path");
-        assert_eq!(curve.leg_count(), 2);
+        assert_eq!(curve.segment_count(), 2);
         for (t, k) in [(0.0, 0), (1.0, 2), (2.0, 3)] {
             assert_eq!(curve.at(t), path.places[k].at);
         }
@@ -285,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn it_runs_evenly_and_smoothly() {
+    fn the_curve_has_constant_speed_and_smooth_direction() {
         let path = path(&[
             (0.0, 0.0, false),
             (0.1, 0.5, true),
@@ -295,20 +301,20 @@ mod tests {
         let curve = MapCurve::new(&path).expect("a path");
         let places: Vec<DVec2> = (0..=400).map(|k| curve.at(f64::from(k) / 200.0)).collect();
         let steps: Vec<DVec2> = places.windows(2).map(|two| two[1] - two[0]).collect();
-        for leg in [&steps[..200], &steps[200..]] {
-            let mean = leg.iter().map(|step| step.length()).sum::<f64>() / 200.0;
-            let off = |step: &DVec2| (step.length() / mean - 1.0).abs();
-            assert!(leg.iter().map(off).fold(0.0, f64::max) < 0.02);
+        for segment in [&steps[..200], &steps[200..]] {
+            let mean = segment.iter().map(|step| step.length()).sum::<f64>() / 200.0;
+            let deviation = |step: &DVec2| (step.length() / mean - 1.0).abs();
+            assert!(segment.iter().map(deviation).fold(0.0, f64::max) < 0.02);
         }
         let turns = steps.windows(2).map(|two| two[0].angle_to(two[1]).abs());
         assert!(turns.fold(0.0, f64::max) < 0.1);
-        // Straight on beyond the ends.
+        // The curve continues straight beyond its ends.
         let [before, first] = [curve.at(-0.1), curve.at(0.0)];
         assert!((first - before).angle_to(steps[0]).abs() < 0.05);
     }
 
     #[test]
-    fn one_that_comes_back_is_smooth_where_it_began() {
+    fn a_closed_path_is_smooth_at_its_start() {
         let path = path(&[
             (0.0, 0.0, false),
             (1.0, 0.0, false),
@@ -324,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn places_in_one_spot_do_no_harm() {
+    fn coincident_places_give_finite_positions() {
         let path = path(&[(0.2, 0.1, false), (0.2, 0.1, false), (0.4, 0.1, false)]);
         let curve = MapCurve::new(&path).expect("a path");
         for t in [-0.5, 0.0, 0.5, 1.0, 1.5, 2.0] {

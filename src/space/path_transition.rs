@@ -1,9 +1,8 @@
-//! A path over the map as a film: from stop to stop a transition.
+//! Films along a path over a map: one transition per segment between two stops.
 //!
-//! Guaranteed: at each stop its blend, and so at the site of a design the design itself.
-//! Not guaranteed: in between the very blend of the place that the path has come to, but one
-//! by smooth weights that are nearly its; of fields these run in straight pieces, and of
-//! pictures straight from stop to stop.
+//! Each stop shows exactly the blend of its place, so a stop at a design's site shows that design.
+//! Between stops the weights are smooth approximations of the map's; for distance fields they are
+//! piecewise linear, and for pictures linear from stop to stop.
 
 use super::blend::{BlendContent, DesignSpace};
 use super::error::SpaceError;
@@ -17,59 +16,62 @@ use crate::mesh::TriangleMesh;
 use crate::transition::{BlendEnds, BuildError, Sequence, Transition};
 use crate::warp::{AlongBlend, ArapBlend, Warp};
 use crate::work::budget::WorkloadKind;
-use crate::work::progress::{Progress, still_wanted};
+use crate::work::progress::{Progress, check_cancelled};
 use std::sync::Arc;
 
-/// Pieces of a leg in which the weights of fields run straight. On wild curves over a map of
-/// six designs these are off by 0.05 of a weight at worst, and 16 by 0.13; each takes a field.
+/// Number of pieces of a segment in which the weights of distance fields are linear (resource
+/// limit: each piece stores a field; on random curves over a map of six designs the weights
+/// deviate by at most 0.05).
 pub(super) const PIECES: usize = 32;
 
-/// Looks at a leg for the box around all that is seen.
-const LOOKS: u32 = 16;
+/// Number of steps in which a segment is sampled for its bounding box (heuristic).
+const BOUNDS_STEPS: u32 = 16;
 
 impl DesignSpace {
-    /// The film along a path.
+    /// Builds the film along a path, one transition per segment.
     ///
     /// # Errors
-    /// As [`Self::leg`].
-    pub fn film(
+    /// As [`Self::segment`].
+    pub fn path_sequence(
         &self,
         map: &WeightMap,
         path: &MapPath,
         progress: &dyn Progress,
     ) -> Result<Sequence, SpaceError> {
-        let legs = (0..path.leg_count()).map(|leg| self.leg((map, path), leg, progress));
-        let legs = legs.collect::<Result<Vec<_>, _>>()?;
-        Sequence::new(legs).ok_or(SpaceError::NoPath)
+        let build = |index| self.segment(map, path, index, progress);
+        let segments = (0..path.segment_count()).map(build);
+        let segments = segments.collect::<Result<Vec<_>, _>>()?;
+        Sequence::new(segments).ok_or(SpaceError::NoPath)
     }
 
-    /// One way of it, from stop to stop.
+    /// Builds the transition of one segment of a path, from stop to stop.
     ///
     /// # Errors
-    /// [`SpaceError`] if there is no such way, the map has other sites than there are
-    /// designs, or the fields of all ways are too much.
-    pub fn leg(
+    /// [`SpaceError`] if there is no such segment, if the map does not have one site per design,
+    /// or if the distance fields of all segments need too much memory.
+    pub fn segment(
         &self,
-        (map, path): (&WeightMap, &MapPath),
-        leg: usize,
+        map: &WeightMap,
+        path: &MapPath,
+        segment: usize,
         progress: &dyn Progress,
     ) -> Result<Transition, SpaceError> {
         let designs = self.designs().len();
         let curve = MapCurve::new(path).ok_or(SpaceError::NoPath)?;
-        let legs = curve.leg_count();
-        if leg >= legs || map.sites().len() != designs {
+        let segments = curve.segment_count();
+        if segment >= segments || map.sites().len() != designs {
             return Err(SpaceError::NoPath);
         }
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let names: Vec<&str> = path.stops().map(|(_, stop)| stop.name.as_str()).collect();
         let map = map.clone();
         let on_map = move |t: f64, weights: &mut [f64]| {
-            map.weights(curve.place(leg, t), weights);
+            map.weights(curve.place(segment, t), weights);
         };
-        let course = WeightPolynomials::new(designs, &on_map);
+        let polynomials = WeightPolynomials::new(designs, &on_map);
         let weights = move |t: f64, weights: &mut [f64]| match (0.0..=1.0).contains(&t) {
-            true => course.at(t, weights),
-            // Polynomials run far off beyond their ends.
+            true => polynomials.at(t, weights),
+            // Polynomials diverge quickly outside their interval.
             false => on_map(t, weights),
         };
         let at = |t: f64| {
@@ -77,69 +79,75 @@ impl DesignSpace {
             weights(t, &mut own);
             own
         };
-        let end = |k: usize| Arc::new(self.design(&at(k as f64), names[leg + k]));
+        let end = |k: usize| Arc::new(self.design(&at(k as f64), names[segment + k]));
         let mut ends = BlendEnds {
             designs: [end(0), end(1)],
             bounds: self.bounds(),
             bar_width: self.bar_width(),
         };
-        Ok(match self.seen() {
+        Ok(match self.content() {
             BlendContent::Solid { blend, walks, bars } => {
                 let warp = AlongBlend::new(blend.clone(), weights);
-                ends.bounds = swept(&warp, if bars.is_empty() { 0.0 } else { ends.bar_width });
-                Transition::along_blend(ends, warp, self.solid(walks, bars))
+                ends.bounds =
+                    swept_bounds(&warp, if bars.is_empty() { 0.0 } else { ends.bar_width });
+                Transition::along_blend(ends, warp, self.solid_content(walks, bars))
             }
             BlendContent::Field(set) => {
-                // 18 ways of 512² cells are 0.6 GB.
-                let allowed = WorkloadKind::Cells.allow(2 * legs * set.grid().cells(), progress);
+                // 18 segments of 512² cells take 0.6 GB.
+                let cells = 2 * segments * set.grid().cells();
+                let allowed = WorkloadKind::Cells.check(cells, progress);
                 allowed.map_err(BuildError::from)?;
-                Transition::through_fields(ends, in_turn(set, at))
+                Transition::through_fields(ends, fields_along(set, at))
             }
             BlendContent::Colours(pictures) => {
                 let weights = [at(0.0), at(1.0)];
                 let [from, to] = &weights;
-                pictures.film(ends.designs, [from, to], progress)?
+                pictures.transition_between(ends.designs, [from, to], progress)?
             }
         })
     }
 
-    /// A blend as a design of its own, under this name or one that says what it is made
-    /// of. With all weight on one design it is that design.
+    /// Returns a blend as a separate design with the given name, or with [`Self::blend_label`] if
+    /// the name is empty.
+    ///
+    /// With weight 1 on one design, returns a copy of that design.
     #[must_use]
     pub fn design(&self, weights: &[f64], name: &str) -> Design {
-        let told = if name.is_empty() {
-            self.told(weights)
+        let label = if name.is_empty() {
+            self.blend_label(weights)
         } else {
             name.to_owned()
         };
         let nearest = (0..weights.len()).max_by(|&a, &b| weights[a].total_cmp(&weights[b]));
         let nearest = &self.designs()[nearest.unwrap_or_default()];
-        let own = || Design {
-            name: told.clone(),
+        let copy_of_nearest = || Design {
+            name: label.clone(),
             ..Design::clone(nearest)
         };
         if weights.contains(&1.0) {
-            return own();
+            return copy_of_nearest();
         }
-        if let BlendContent::Colours(pictures) = self.seen() {
+        if let BlendContent::Colours(pictures) = self.content() {
             let blend = pictures.picture(weights);
-            return super::picture_space::design(told.clone(), blend).unwrap_or_else(own);
+            let design = super::picture_space::picture_design(label.clone(), blend);
+            return design.unwrap_or_else(copy_of_nearest);
         }
         let mut frame = self.frame();
         frame.seek(weights);
-        let form = match (self.seen(), frame.places()) {
-            (BlendContent::Solid { blend, bars, .. }, Some(places)) => form(blend, bars, places),
+        let form = match (self.content(), frame.places()) {
+            (BlendContent::Solid { blend, bars, .. }, Some(places)) => form_at(blend, bars, places),
             _ => None,
         };
         match form {
-            Some(form) => Design::new(told.clone(), form),
-            // Nothing may be left of a field, or be too large.
-            None => Design::of_rings(told.clone(), frame.figure().rings).unwrap_or_else(|_| own()),
+            Some(form) => Design::new(label.clone(), form),
+            // The contour of a field may be empty or too large.
+            None => Design::from_rings(label.clone(), frame.figure().rings)
+                .unwrap_or_else(|_| copy_of_nearest()),
         }
     }
 
-    /// What is drawn over the vertices of the common mesh.
-    pub(super) fn solid(&self, walks: &[Vec<u32>], bars: &[[u32; 2]]) -> SolidContent {
+    /// Returns the content drawn on the common mesh: filled boundary loops and bars.
+    pub(super) fn solid_content(&self, walks: &[Vec<u32>], bars: &[[u32; 2]]) -> SolidContent {
         SolidContent {
             loops: walks.to_vec(),
             bars: bars.to_vec(),
@@ -148,28 +156,28 @@ impl DesignSpace {
         }
     }
 
-    /// What a blend is made of, in a few words: the largest two shares.
+    /// Describes a blend by its two largest weights: "cat 60 %, dog 40 %".
     #[must_use]
-    pub fn told(&self, weights: &[f64]) -> String {
+    pub fn blend_label(&self, weights: &[f64]) -> String {
         let designs = self.designs().iter().zip(weights);
         let mut shares: Vec<(&str, f64)> = designs
             .map(|(design, &weight)| (design.name.as_str(), 100.0 * weight))
             .filter(|(_, percent)| percent.abs() >= 0.5)
             .collect();
-        // Of equal ones the first stays first.
+        // The sort is stable: of equal weights the first design comes first.
         shares.sort_by(|a, b| b.1.total_cmp(&a.1));
         match shares.as_slice() {
             [] => String::new(),
             [(only, _)] => (*only).to_owned(),
-            [(first, most), (second, less), ..] => {
-                format!("{first} {most:.0} %, {second} {less:.0} %")
+            [(first, percent), (second, second_percent), ..] => {
+                format!("{first} {percent:.0} %, {second} {second_percent:.0} %")
             }
         }
     }
 }
 
-/// Vertices at these places as a form; none where they make no mesh or truss.
-fn form(blend: &ArapBlend, bars: &[[u32; 2]], places: &[DVec2]) -> Option<DesignForm> {
+/// Returns a mesh or truss with vertices at the given places; `None` if it would be invalid.
+fn form_at(blend: &ArapBlend, bars: &[[u32; 2]], places: &[DVec2]) -> Option<DesignForm> {
     if bars.is_empty() {
         let faces = blend.family().faces().to_vec();
         return Some(TriangleMesh::new(places.to_vec(), faces).ok()?.into());
@@ -177,25 +185,25 @@ fn form(blend: &ArapBlend, bars: &[[u32; 2]], places: &[DVec2]) -> Option<Design
     Some(Truss::new(places.to_vec(), bars.to_vec()).ok()?.into())
 }
 
-/// The box around all that is seen on the way.
-fn swept(warp: &AlongBlend, room: f64) -> Bounds {
+/// Returns the bounding box of a segment, widened by half of `bar_width`.
+fn swept_bounds(warp: &AlongBlend, bar_width: f64) -> Bounds {
     let mut placer = warp.placer();
-    let boxes = (0..=LOOKS).filter_map(|k| {
-        placer.place(f64::from(k) / f64::from(LOOKS));
+    let boxes = (0..=BOUNDS_STEPS).filter_map(|k| {
+        placer.place(f64::from(k) / f64::from(BOUNDS_STEPS));
         Bounds::of(placer.placement().in_frame.iter().copied())
     });
     let all = boxes.reduce(|a, b| a.union(&b));
     let all = all.unwrap_or_else(|| unreachable!("a family has vertices"));
-    all.padded(0.5 * room)
+    all.padded(0.5 * bar_width)
 }
 
-/// The fields at evenly spaced t, each pair of neighbours in turn.
-fn in_turn(set: &FieldSet, at: impl Fn(f64) -> Vec<f64>) -> FieldContent {
+/// Blends the fields at evenly spaced t and returns them as consecutive pairs.
+fn fields_along(set: &FieldSet, at: impl Fn(f64) -> Vec<f64>) -> FieldContent {
     let node = |k: usize| Arc::new(set.blended(&at(k as f64 / PIECES as f64)));
     let nodes: Vec<_> = (0..=PIECES).map(node).collect();
     let pair =
         |two: &[Arc<_>]| FieldPair::new(Arc::clone(&two[0]), Arc::clone(&two[1]), set.blend());
     let pairs = nodes.windows(2).map(pair).collect::<Result<Vec<_>, _>>();
-    let fields = pairs.ok().and_then(FieldContent::in_turn);
+    let fields = pairs.ok().and_then(FieldContent::sequence);
     fields.unwrap_or_else(|| unreachable!("all are on one grid, and the blend was checked"))
 }

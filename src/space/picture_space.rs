@@ -1,5 +1,4 @@
-//! Pictures of many designs: from a specification to what is seen of them, and a blend of
-//! them as a picture of its own.
+//! Blends of the pictures of many designs: warped by common features and mixed by weight.
 
 use super::design_distance::DesignDistances;
 use super::error::SpaceError;
@@ -16,32 +15,36 @@ use crate::work::progress::{Progress, checkpoint};
 use image::RgbaImage;
 use std::sync::Arc;
 
-/// Squares along the longer side of the frame, in which a warp is taken as linear: half of
-/// what a film has, as each of many designs is looked up in each frame.
+/// Number of grid squares along the longer side of the frame, in each of which the warp is linear
+/// (resource limit: half as many as for two designs, because each frame warps all designs).
 const GRID: u32 = 80;
 
-/// Pixels along each side of the pictures that are compared.
+/// Side length of the reduced pictures that are compared, in pixels (heuristic).
 const COMPARED_PX: u32 = 32;
 
-/// The most pixels of a blend that becomes a design: those of a large screen.
-const MOST_PX: f64 = 4e6;
+/// Maximum number of pixels of a blend that becomes a design (resource limit: those of a large
+/// screen).
+const MAX_DESIGN_PX: f64 = 4e6;
 
-/// Pictures and what takes them along.
+/// Pictures of all designs and the warp that aligns their features.
 #[derive(Debug)]
 pub(super) struct PictureSpace {
+    /// Pictures, and how their colours are mixed.
     pub set: PictureSet,
+    /// Warp of the plane for any weights.
     pub blend: PlaneBlend,
-    /// From stop to stop they go as these have it.
+    /// Warp, features and options for the transitions along a path.
     kind: WarpKind,
     features: ManyFeatures,
     options: TransitionOptions,
 }
 
 impl PictureSpace {
-    /// Those of designs, led as it is said by what all of them have.
+    /// Prepares the pictures of the designs, warped as `kind` says by the features common to all.
     pub fn of(
         designs: &[Arc<Design>],
-        (kind, features): (WarpKind, &ManyFeatures),
+        kind: WarpKind,
+        features: &ManyFeatures,
         options: &TransitionOptions,
         progress: &dyn Progress,
     ) -> Result<Self, SpaceError> {
@@ -53,19 +56,19 @@ impl PictureSpace {
         let pictures: Vec<Picture> = designs.iter().map(picture).collect::<Result<_, _>>()?;
         let pixels = |p: &Picture| p.pixels().width() as usize * p.pixels().height() as usize;
         WorkloadKind::Pixels
-            .allow(pictures.iter().map(pixels).sum(), progress)
+            .check(pictures.iter().map(pixels).sum(), progress)
             .map_err(BuildError::from)?;
         let borrowed: Vec<&Picture> = pictures.iter().collect();
         let set = PictureSet::new(&borrowed, options.colours).map_err(BuildError::from)?;
         let set = set.unwrap_or_else(|| unreachable!("there are designs"));
         let bounds = bounds(&set);
-        // The mesh reaches beyond what is shown, so that its edge is never seen.
+        // The mesh extends beyond the visible area, so that its edge is never seen.
         let frame = bounds.padded(0.02 * bounds.diameter());
         let (features, warp) = match kind {
             WarpKind::Lines => (features.clone(), ManyWarp::Lines(options.lines)),
             WarpKind::Scattered => (features.clone(), ManyWarp::Scattered(options.scattered)),
             WarpKind::Lattice => (features.clone(), ManyWarp::Lattice(options.lattice)),
-            // Nothing is led anywhere.
+            // The pictures stay in place.
             _ => (
                 ManyFeatures::default(),
                 ManyWarp::Scattered(options.scattered),
@@ -86,23 +89,23 @@ impl PictureSpace {
         })
     }
 
-    /// The box around all pictures.
+    /// Returns the bounding box of all pictures.
     pub fn bounds(&self) -> Bounds {
         bounds(&self.set)
     }
 
-    /// How unlike they are: the root mean square difference of their colours, seen small and
-    /// where they lie.
-    pub fn likeness(&self) -> DesignDistances {
+    /// Returns the dissimilarity of the pictures: the root mean square difference of their colours,
+    /// from 0 to 1, at low resolution and without aligning them.
+    pub fn distances(&self) -> DesignDistances {
         let count = self.set.layers().len();
         let bounds = self.bounds();
         let pixel = bounds.size().max_element() / f64::from(COMPARED_PX);
         let raster = PictureRaster {
             size: [COMPARED_PX; 2],
             corner: DVec2::new(bounds.min.x, bounds.max.y),
-            pixel,
+            pixel_size: pixel,
         };
-        let seen: Vec<Vec<u8>> = (0..count)
+        let reduced: Vec<Vec<u8>> = (0..count)
             .map(|k| {
                 let mut weights = vec![0.0; count];
                 weights[k] = 1.0;
@@ -110,19 +113,19 @@ impl PictureSpace {
             })
             .collect();
         DesignDistances::of(count, |a, b| {
-            let off = seen[a].iter().zip(&seen[b]);
-            let sum: f64 = off.map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
-            (sum / seen[a].len() as f64).sqrt() / 255.0
+            let pairs = reduced[a].iter().zip(&reduced[b]);
+            let sum: f64 = pairs.map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
+            (sum / reduced[a].len() as f64).sqrt() / 255.0
         })
     }
 
-    /// A blend as pixels.
+    /// Renders a blend, in sRGB with straight alpha.
     pub fn render(&self, weights: &[f64], raster: &PictureRaster) -> RgbaImage {
         self.set
             .render(&self.blend.places(weights), weights, raster)
     }
 
-    /// A blend as a picture of its own, as fine as the finest.
+    /// Returns a blend as a separate picture, in the resolution of the finest picture.
     pub fn picture(&self, weights: &[f64]) -> Picture {
         let window = self.set.window(weights);
         let finest = self
@@ -131,13 +134,13 @@ impl PictureSpace {
             .iter()
             .map(|layer| layer.picture().place().scale);
         let size = window.size();
-        let coarsest = (size.x * size.y / MOST_PX).sqrt();
-        let pixel = finest.fold(f64::INFINITY, f64::min).max(coarsest);
+        let min_pixel = (size.x * size.y / MAX_DESIGN_PX).sqrt();
+        let pixel = finest.fold(f64::INFINITY, f64::min).max(min_pixel);
         let [width, height] = (size / pixel).ceil().to_array();
         let raster = PictureRaster {
             size: [width, height].map(|side| (side as u32).max(1)),
             corner: DVec2::new(window.min.x, window.max.y),
-            pixel,
+            pixel_size: pixel,
         };
         let place = Similarity {
             offset: DVec2::new(window.min.x, window.max.y - height.max(1.0) * pixel),
@@ -147,8 +150,8 @@ impl PictureSpace {
         Picture::new(self.render(weights, &raster)).transformed(&place)
     }
 
-    /// The film from one blend to another: of two pictures, straight.
-    pub fn film(
+    /// Builds the transition between two blends, as one between two pictures.
+    pub fn transition_between(
         &self,
         ends: [Arc<Design>; 2],
         weights: [&[f64]; 2],
@@ -158,17 +161,22 @@ impl PictureSpace {
             WarpKind::Lines => self.options.lines.between,
             _ => LineInterpolation::Ends,
         };
-        let [(points, lines), (points_there, lines_there)] =
+        let [(source_points, source_lines), (target_points, target_lines)] =
             weights.map(|weights| self.features.blended(weights, between));
-        let pins = points.into_iter().zip(points_there);
+        let pins = source_points.into_iter().zip(target_points);
         let pins = pins.map(|(source, target)| PointPair { source, target });
-        let lines = lines.into_iter().zip(lines_there);
+        let lines = source_lines.into_iter().zip(target_lines);
         let lines = lines.map(|(source, target)| LinePair { source, target });
         let [source, target] = ends;
         let mut spec = TransitionSpec::new(source, target);
-        let is_led = !self.features.is_empty();
-        let kind = if is_led { self.kind } else { WarpKind::None };
-        spec.cell = TransitionMethod::new(kind, ContentKind::Colours).map_err(BuildError::from)?;
+        let has_features = !self.features.is_empty();
+        let kind = if has_features {
+            self.kind
+        } else {
+            WarpKind::None
+        };
+        spec.method =
+            TransitionMethod::new(kind, ContentKind::Colours).map_err(BuildError::from)?;
         spec.options = TransitionOptions {
             matching: MatchSettings {
                 pins: pins.collect(),
@@ -181,17 +189,17 @@ impl PictureSpace {
     }
 }
 
-/// The box around all pictures.
+/// Returns the bounding box of all pictures of a set.
 fn bounds(set: &PictureSet) -> Bounds {
     let boxes = set.layers().iter().map(|layer| layer.bounds());
     let all = boxes.reduce(|a, b| a.union(&b));
     all.unwrap_or_else(|| unreachable!("a set has a picture"))
 }
 
-/// A blend of pictures as a design: with the rectangle as its form.
-pub(super) fn design(name: String, picture: Picture) -> Option<Design> {
+/// Returns a design with this picture, and its rectangle as the outline.
+pub(super) fn picture_design(name: String, picture: Picture) -> Option<Design> {
     let corners = picture.bounds().corners();
-    let mut design = Design::of_rings(name, [corners]).ok()?;
+    let mut design = Design::from_rings(name, [corners]).ok()?;
     design.picture = Some(picture);
     Some(design)
 }

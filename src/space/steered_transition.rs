@@ -1,27 +1,29 @@
-//! A space as a transition that shows whichever blend it is told: for a stage, whose
-//! entities are transitions.
+//! A design space as a transition whose weights are set from outside, for a stage whose entities
+//! are transitions.
 
 use super::blend::{BlendContent, DesignSpace};
 use crate::transition::{BlendEnds, Transition};
 use crate::warp::AlongBlend;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Rigid parts of many designs whose weights are set from outside. Cloning is cheap, and
-/// clones are told together.
+/// Transition of rigid parts that shows the blend with the weights set last.
 ///
-/// Guaranteed: a frame that is sought after the weights were set shows that blend, to the
-/// last bit; t is where its colour is between the first design and the last.
+/// Cloning is cheap, and clones share their weights. A frame that is sought after setting the
+/// weights shows exactly that blend; t determines its colour between those of the first and the
+/// last design.
 ///
 /// ```
 /// use morphospace::Design;
 /// use morphospace::work::progress::Silent;
-/// use morphospace::space::{Space, SpaceSpec, Steered};
+/// use morphospace::space::{DesignSpace, SpaceSpec, SteeredTransition};
 /// use std::sync::Arc;
 ///
-/// let tent = |h: f64| Design::of_rings("tent", [[[0.0, 0.0], [2.0, 0.0], [1.0, h]]]).map(Arc::new);
+/// let tent = |h: f64| {
+///     Design::from_rings("tent", [[[0.0, 0.0], [2.0, 0.0], [1.0, h]]]).map(Arc::new)
+/// };
 /// let designs = vec![tent(1.0)?, tent(2.0)?, tent(4.0)?];
-/// let space = Space::build(&SpaceSpec::new(designs), &Silent)?;
-/// let steered = Steered::new(&space).expect("rigid parts");
+/// let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent)?;
+/// let steered = SteeredTransition::new(&space).expect("rigid parts");
 /// let mut frame = steered.transition().frame(0.0);
 /// let t = steered.set(&[0.0, 0.0, 1.0]).expect("a weight for each");
 /// frame.seek(t);
@@ -37,20 +39,20 @@ pub struct SteeredTransition {
 }
 
 impl SteeredTransition {
-    /// At the first design; none of fields.
+    /// Starts at the first design; returns `None` unless the space is blended as rigid parts.
     #[must_use]
     pub fn new(space: &DesignSpace) -> Option<Self> {
-        let BlendContent::Solid { blend, walks, bars } = space.seen() else {
+        let BlendContent::Solid { blend, walks, bars } = space.content() else {
             return None;
         };
         let designs = space.designs();
         let mut first = vec![0.0; designs.len()];
         first[0] = 1.0;
         let weights = Arc::new(Mutex::new(first));
-        let told = Arc::clone(&weights);
+        let shared = Arc::clone(&weights);
         let warp = AlongBlend::new(blend.clone(), move |_, own: &mut [f64]| {
-            let told = told.lock().unwrap_or_else(PoisonError::into_inner);
-            own.copy_from_slice(&told);
+            let current = shared.lock().unwrap_or_else(PoisonError::into_inner);
+            own.copy_from_slice(&current);
         });
         let ends = BlendEnds {
             designs: [&designs[0], &designs[designs.len() - 1]].map(Arc::clone),
@@ -59,28 +61,29 @@ impl SteeredTransition {
         };
         Some(Self {
             space: space.clone(),
-            transition: Transition::along_blend(ends, warp, space.solid(walks, bars)),
+            transition: Transition::along_blend(ends, warp, space.solid_content(walks, bars)),
             weights,
         })
     }
 
-    /// The transition. A film of it would be that of one blend: it is not to be recorded.
+    /// Returns the transition. Do not record it: the recording would show a single blend.
     #[must_use]
     pub fn transition(&self) -> &Transition {
         &self.transition
     }
 
-    /// Says which blend is shown, and returns the t at which frames are to be sought; none
-    /// where there is no weight for each design, or one is not finite: then the last one is
-    /// shown. They are to sum to one.
+    /// Sets the weights, which must sum to one, and returns the t to which frames must be sought.
+    ///
+    /// Returns `None`, and keeps the previous weights, if their number differs from that of the
+    /// designs or one of them is not finite.
     #[must_use = "frames show it when they are sought again"]
     pub fn set(&self, weights: &[f64]) -> Option<f64> {
         let count = self.space.designs().len();
         if weights.len() != count || !weights.iter().all(|weight| weight.is_finite()) {
             return None;
         }
-        let mut told = self.weights.lock().unwrap_or_else(PoisonError::into_inner);
-        told.copy_from_slice(weights);
-        Some(self.space.tint(weights))
+        let mut current = self.weights.lock().unwrap_or_else(PoisonError::into_inner);
+        current.copy_from_slice(weights);
+        Some(self.space.colour_fraction(weights))
     }
 }

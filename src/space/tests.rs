@@ -1,3 +1,5 @@
+//! Tests of design spaces: corners, order of designs, content, paths, and errors.
+
 use super::*;
 use crate::content::ContentKind;
 use crate::design::{Design, DesignForm, Truss};
@@ -9,7 +11,7 @@ use std::sync::Arc;
 
 mod pictures;
 
-/// A star of so many points, as deep as that.
+/// A star with the given number of points and depth of the notches.
 fn star(name: &str, points: u32, depth: f64) -> Arc<Design> {
     let corner = |k: u32| {
         let angle = std::f64::consts::PI * f64::from(k) / f64::from(points);
@@ -21,7 +23,7 @@ fn star(name: &str, points: u32, depth: f64) -> Arc<Design> {
         (DVec2::from_angle(angle) * size).to_array()
     };
     let ring: Vec<[f64; 2]> = (0..2 * points).map(corner).collect();
-    Arc::new(Design::of_rings(name, [ring]).expect("a star"))
+    Arc::new(Design::from_rings(name, [ring]).expect("a star"))
 }
 
 fn ring(size: f64) -> [[f64; 2]; 4] {
@@ -59,27 +61,27 @@ fn corner(count: usize, at: usize) -> Vec<f64> {
 }
 
 #[test]
-fn each_design_is_at_its_corner() {
+fn weight_one_reproduces_the_design() {
     let designs = vec![star("a", 5, 1.5), star("b", 6, 0.8), star("c", 4, 2.0)];
     let space = space(designs);
     assert!(space.family().is_some() && space.notes().is_empty());
     let mut frame = space.frame();
     for (k, design) in space.designs().iter().enumerate() {
         frame.seek(&corner(3, k));
-        let seen = frame.figure().rings.concat();
+        let points = frame.figure().rings.concat();
         let drawn = design.outline(0.0).expect("an outline");
         for point in drawn.rings().flat_map(|ring| ring.points()) {
-            assert!(seen.contains(point), "{} has lost {point}", design.name);
+            assert!(points.contains(point), "{} has lost {point}", design.name);
         }
-        let bounds = Bounds::of(seen).expect("points");
+        let bounds = Bounds::of(points).expect("points");
         assert_eq!(bounds, drawn.bounds());
     }
 }
 
 #[test]
-fn the_order_of_the_designs_means_little_between_them() {
+fn the_order_of_the_designs_hardly_affects_blends() {
     let [a, b, c] = [star("a", 5, 1.5), star("b", 6, 0.8), star("c", 4, 2.0)];
-    let seen = |designs: Vec<Arc<Design>>, weights: [f64; 3]| {
+    let blend_points = |designs: Vec<Arc<Design>>, weights: [f64; 3]| {
         let space = space(designs);
         let mut frame = space.frame();
         frame.seek(&weights);
@@ -87,12 +89,12 @@ fn the_order_of_the_designs_means_little_between_them() {
         points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         points
     };
-    let first = seen(vec![a.clone(), b.clone(), c.clone()], [0.5, 0.3, 0.2]);
-    let again = seen(vec![c, a, b], [0.2, 0.5, 0.3]);
-    assert_eq!(first.len(), again.len());
-    // The mesh is another one: it begins with another design.
+    let first = blend_points(vec![a.clone(), b.clone(), c.clone()], [0.5, 0.3, 0.2]);
+    let reordered = blend_points(vec![c, a, b], [0.2, 0.5, 0.3]);
+    assert_eq!(first.len(), reordered.len());
+    // Only similar, because the mesh starts from a different design.
     let bounds = |points: &[DVec2]| Bounds::of(points.iter().copied()).expect("points");
-    let (p, q) = (bounds(&first), bounds(&again));
+    let (p, q) = (bounds(&first), bounds(&reordered));
     assert!(p.min.distance(q.min) < 0.1 && p.max.distance(q.max) < 0.1);
 }
 
@@ -118,7 +120,7 @@ fn trusses_are_blended_bar_by_bar() {
 }
 
 #[test]
-fn what_has_no_common_mesh_is_blended_as_fields() {
+fn designs_without_a_common_mesh_are_blended_as_fields() {
     let designs = || {
         vec![
             frame("thin", 2.5),
@@ -129,40 +131,43 @@ fn what_has_no_common_mesh_is_blended_as_fields() {
     let mixed = space(designs());
     assert!(mixed.family().is_none());
     assert_eq!(mixed.notes().len(), 1);
-    let told = mixed.notes()[0].to_string();
-    assert!(told.starts_with("blended as fields: design "), "{told}");
+    let note = mixed.notes()[0].to_string();
+    assert!(
+        note.starts_with("blended as distance fields: design "),
+        "{note}"
+    );
     let spec = SpaceSpec {
         content: Some(ContentKind::Solid),
         ..SpaceSpec::new(designs())
     };
     let error = DesignSpace::build(&spec, &Silent).expect_err("no common mesh");
-    assert!(matches!(error, SpaceError::NoFamily(_)), "{error}");
-    // The frames alone have one.
-    let alone = space(vec![frame("thin", 2.5), frame("thick", 1.0)]);
-    assert!(alone.family().is_some());
+    assert!(matches!(error, SpaceError::NoCommonMesh(_)), "{error}");
+    // The two frames by themselves have a common mesh.
+    let frames = space(vec![frame("thin", 2.5), frame("thick", 1.0)]);
+    assert!(frames.family().is_some());
 }
 
 #[test]
-fn what_is_too_much_to_match_is_blended_as_fields() {
+fn outlines_with_too_many_points_are_blended_as_fields() {
     let corner = |k: u32| {
         let angle = f64::from(k) / 13_000.0 * std::f64::consts::TAU;
         (DVec2::from_angle(angle) * 3.0).to_array()
     };
     let ring: Vec<[f64; 2]> = (0..13_000).map(corner).collect();
-    let disc = Arc::new(Design::of_rings("disc", [ring]).expect("a disc"));
+    let disc = Arc::new(Design::from_rings("disc", [ring]).expect("a disc"));
     let mut spec = SpaceSpec::new(vec![star("star", 5, 1.5), disc]);
     spec.options.field.cells = 32;
     let space = DesignSpace::build(&spec, &Silent).expect("fields");
     assert!(space.family().is_none());
-    let told = space.notes()[0].to_string();
-    assert!(told.contains("points of outlines take longer"), "{told}");
+    let note = space.notes()[0].to_string();
+    assert!(note.contains("outline points may take more"), "{note}");
     spec.content = Some(ContentKind::Solid);
     let error = DesignSpace::build(&spec, &Silent).expect_err("too much");
-    assert!(matches!(error, SpaceError::NoFamily(_)), "{error}");
+    assert!(matches!(error, SpaceError::NoCommonMesh(_)), "{error}");
 }
 
 #[test]
-fn fields_of_two_are_the_pair() {
+fn a_space_of_two_fields_equals_their_transition() {
     let [a, b] = [star("a", 5, 1.5), frame("b", 1.0)];
     let spec = SpaceSpec {
         content: Some(ContentKind::Field),
@@ -170,7 +175,7 @@ fn fields_of_two_are_the_pair() {
     };
     let space = DesignSpace::build(&spec, &Silent).expect("a space");
     let mut pair = TransitionSpec::new(a, b);
-    pair.cell = TransitionMethod::FIELD_BLEND;
+    pair.method = TransitionMethod::FIELD_BLEND;
     let pair = Transition::build(&pair, &Silent).expect("a pair");
     let mut frame = space.frame();
     for t in [0.0, 0.3, 1.0, 1.2] {
@@ -180,18 +185,18 @@ fn fields_of_two_are_the_pair() {
 }
 
 #[test]
-fn weights_that_do_not_sum_to_one_are_made_to() {
+fn weights_are_corrected_to_sum_to_one() {
     let space = space(vec![star("a", 5, 1.5), star("b", 6, 0.8)]);
     let mut frame = space.frame();
     frame.seek(&[f64::NAN, 0.5]);
     assert_eq!(frame.weights(), [0.25, 0.75]);
     frame.seek(&[2.0, -1.0]);
     assert!(frame.is_extrapolated());
-    assert_eq!(space.tint(&[0.25, 0.75]), 0.75);
+    assert_eq!(space.colour_fraction(&[0.25, 0.75]), 0.75);
 }
 
 #[test]
-fn too_few_designs_and_a_cancel_are_told() {
+fn too_few_designs_and_cancellation_are_errors() {
     let build = |designs: Vec<Arc<Design>>, progress: &dyn Progress| {
         DesignSpace::build(&SpaceSpec::new(designs), progress)
     };
@@ -217,7 +222,7 @@ fn too_few_designs_and_a_cancel_are_told() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
-    fn stars_are_a_space_of_one_ring_each(
+    fn every_blend_of_stars_has_one_ring(
         shapes in prop::collection::vec((3u32..8, 0.2..2.0_f64), 3..6),
         weights in prop::collection::vec(0.0..1.0_f64, 6),
     ) {
@@ -243,17 +248,17 @@ fn walk(places: &[DVec2]) -> MapPath {
 }
 
 #[test]
-fn a_path_is_a_film_of_the_blends_that_it_comes_by() {
-    // What folds nowhere: faces that are turned back are where they are without a slope.
+fn a_path_shows_the_blends_along_it() {
+    // Designs whose blends do not fold, because the correction of folds is not smooth in t.
     let space = space(vec![
         star("a", 5, 1.5),
         star("b", 6, 0.8),
         star("c", 4, 1.0),
     ]);
-    let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
+    let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances())).expect("a map");
     let sites = map.sites();
     let path = walk(&[sites[0], DVec2::new(0.1, 0.2), sites[2]]);
-    let film = space.film(&map, &path, &Silent).expect("a film");
+    let film = space.path_sequence(&map, &path, &Silent).expect("a film");
     assert_eq!(film.end(), 2.0);
     let curve = MapCurve::new(&path).expect("a curve");
     let (mut blend, mut weights) = (space.frame(), vec![0.0; 3]);
@@ -262,43 +267,43 @@ fn a_path_is_a_film_of_the_blends_that_it_comes_by() {
         frame.seek(t);
         map.weights(curve.at(t), &mut weights);
         blend.seek(&weights);
-        let [seen, there] = [frame.now().figure(), blend.figure()].map(|f| f.rings.concat());
-        let gaps = seen.iter().zip(&there).map(|(p, q)| p.distance(*q));
-        let most = gaps.fold(0.0, f64::max);
-        // Exactly at stops, and nearly in between.
-        let allowed = if t.fract() == 0.0 { 0.0 } else { 0.02 };
-        assert!(most <= allowed, "{t}: {most}");
+        let [on_path, on_map] = [frame.frame().figure(), blend.figure()].map(|f| f.rings.concat());
+        let gaps = on_path.iter().zip(&on_map).map(|(p, q)| p.distance(*q));
+        let max_gap = gaps.fold(0.0, f64::max);
+        // Exact at stops, approximate in between.
+        let tolerance = if t.fract() == 0.0 { 0.0 } else { 0.02 };
+        assert!(max_gap <= tolerance, "{t}: {max_gap}");
     }
-    let [first, last] = [&film.legs()[0], &film.legs()[1]];
+    let [first, last] = [&film.segments()[0], &film.segments()[1]];
     assert_eq!(first.designs()[0].name, "a");
     assert_eq!(last.designs()[1].name, "c");
-    // The stop between says what it is made of.
+    // The stop in between is named after its largest weights.
     assert!(
         first.designs()[1].name.contains('%'),
         "{}",
         first.designs()[1].name
     );
     assert!(first.compatible().is_some() && first.arap().is_none());
-    // It is smooth, and so it can be played from memory.
+    // The motion is smooth, so it can be recorded.
     let recorded = first.record(&crate::recording::RecordingOptions::default(), &Silent);
     assert!(recorded.is_ok(), "{recorded:?}");
 }
 
 #[test]
-fn a_path_through_fields_is_what_the_map_shows() {
+fn a_path_through_fields_follows_the_map() {
     let spec = SpaceSpec {
         content: Some(ContentKind::Field),
         ..SpaceSpec::new(vec![star("a", 5, 1.5), frame("b", 1.0), star("c", 4, 2.0)])
     };
     let space = DesignSpace::build(&spec, &Silent).expect("a space");
-    let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
+    let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances())).expect("a map");
     let sites = map.sites();
-    let film = space.film(&map, &walk(&[sites[1], sites[2], DVec2::ZERO]), &Silent);
+    let film = space.path_sequence(&map, &walk(&[sites[1], sites[2], DVec2::ZERO]), &Silent);
     let film = film.expect("a film");
     let (mut blend, mut frame) = (space.frame(), film.frame(0.0));
     frame.seek(0.0);
     blend.seek(&corner(3, 1));
-    assert_eq!(frame.now().figure().rings, blend.figure().rings);
+    assert_eq!(frame.frame().figure().rings, blend.figure().rings);
     let area = |rings: &[Vec<DVec2>]| {
         let each = rings.iter().map(|ring| crate::geometry::signed_area(ring));
         each.sum::<f64>()
@@ -310,31 +315,34 @@ fn a_path_through_fields_is_what_the_map_shows() {
             true => sites[1].lerp(sites[2], share),
             false => sites[2].lerp(DVec2::ZERO, share),
         };
-        // The curve bends near its stops: what is near is alike.
+        // The curve bends near its stops, so areas are compared with a tolerance.
         let mut weights = vec![0.0; 3];
         map.weights(place, &mut weights);
         blend.seek(&weights);
-        let [seen, near] = [frame.now().figure(), blend.figure()].map(|f| area(&f.rings));
-        assert!((seen / near - 1.0).abs() < 0.15, "{t}: {seen} {near}");
+        let [on_path, nearby] = [frame.frame().figure(), blend.figure()].map(|f| area(&f.rings));
+        assert!(
+            (on_path / nearby - 1.0).abs() < 0.15,
+            "{t}: {on_path} {nearby}"
+        );
     }
 }
 
 #[test]
-fn trusses_go_along_a_path_with_their_bars() {
+fn a_path_through_trusses_keeps_their_bars() {
     let space = space(vec![truss("a", 1.0), truss("b", 2.0), truss("c", 3.0)]);
-    let map = WeightMap::new(&MapLayout::Line.sites(space.likeness())).expect("a map");
-    let film = space.film(&map, &walk(&[DVec2::NEG_X, DVec2::new(0.5, 0.0)]), &Silent);
+    let map = WeightMap::new(&MapLayout::Line.sites(space.distances())).expect("a map");
+    let film = space.path_sequence(&map, &walk(&[DVec2::NEG_X, DVec2::new(0.5, 0.0)]), &Silent);
     let film = film.expect("a film");
     let frame = film.frame(1.0);
-    assert_eq!(frame.now().figure().bars.len(), 7);
-    let DesignForm::Truss(end) = &film.legs()[0].designs()[1].form else {
+    assert_eq!(frame.frame().figure().bars.len(), 7);
+    let DesignForm::Truss(end) = &film.segments()[0].designs()[1].form else {
         panic!("no truss");
     };
     assert_eq!(end.bars().len(), 7);
-    // Other sites than designs, or no path, is no film.
-    let none = space.film(&map, &MapPath::default(), &Silent);
+    // An empty path, or a map with another number of sites, gives no film.
+    let none = space.path_sequence(&map, &MapPath::default(), &Silent);
     assert!(matches!(none, Err(SpaceError::NoPath)));
     let other = WeightMap::new(&[DVec2::ZERO, DVec2::X]).expect("a map");
-    let none = space.film(&other, &walk(&[DVec2::ZERO, DVec2::X]), &Silent);
+    let none = space.path_sequence(&other, &walk(&[DVec2::ZERO, DVec2::X]), &Silent);
     assert!(matches!(none, Err(SpaceError::NoPath)));
 }

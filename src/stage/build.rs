@@ -30,7 +30,7 @@ use super::part_assembly::WithoutParts;
 #[derive(Component)]
 pub(super) struct TransitionBuild {
     task: Task<Result<BuildOutcome, BuildError>>,
-    request: Arc<BuildRequest>,
+    request: Arc<BuildCancelFlag>,
 }
 
 impl TransitionBuild {
@@ -38,7 +38,7 @@ impl TransitionBuild {
     pub(super) fn start(
         work: impl FnOnce(&dyn Progress) -> Result<BuildOutcome, BuildError> + Send + 'static,
     ) -> Self {
-        let request = Arc::new(BuildRequest(AtomicBool::new(true)));
+        let request = Arc::new(BuildCancelFlag(AtomicBool::new(true)));
         // Shared with the task, which may outlive the entity.
         let progress = Arc::clone(&request);
         let task = AsyncComputeTaskPool::get().spawn(async move { work(&*progress) });
@@ -62,9 +62,9 @@ impl Drop for TransitionBuild {
 }
 
 /// Flag shared with a running build; false once the result is no longer needed.
-struct BuildRequest(AtomicBool);
+struct BuildCancelFlag(AtomicBool);
 
-impl Progress for BuildRequest {
+impl Progress for BuildCancelFlag {
     fn report(&self, _stage: &'static str, _fraction: f64) {}
 
     fn is_cancelled(&self) -> bool {

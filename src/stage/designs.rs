@@ -18,7 +18,7 @@ use crate::work::progress::Progress;
 
 use super::build::{BuildOutcome, TransitionBuild};
 use super::components::{Blend, BuildFailed, StageStyle};
-use super::mesh_family::{BlendWeights, steered};
+use super::mesh_family::{BlendWeights, build_steered};
 
 /// A design loaded from a file by `AssetServer::load`, in any format that
 /// [`import`](crate::design::import) knows. The asset settings are [`ImportOptions`].
@@ -139,6 +139,6 @@ fn build(designs: Vec<Arc<Design>>, progress: &dyn Progress) -> Result<BuildOutc
             let spec = TransitionSpec::new(source, target);
             Transition::build(&spec, progress).map(BuildOutcome::Pair)
         }
-        Err(designs) => steered(designs, progress).map(BuildOutcome::Family),
+        Err(designs) => build_steered(designs, progress).map(BuildOutcome::Family),
     }
 }

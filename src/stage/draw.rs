@@ -16,9 +16,9 @@ use super::field_material::{FieldKind, FieldLook, FieldMaterial};
 use super::frame_times::FrameTimes;
 use super::ink_material::linear;
 use super::paint::{StagePaint, StagePaints};
-use super::parts::{MissingParts, PartKind, StagePart};
-use super::picture_material::ColourLook;
-use super::recorded_material::{PlayedMaterial, RecordedSum};
+use super::parts::{DeferredMesh, PartKind, StagePart};
+use super::picture_material::PictureLook;
+use super::recorded_material::{RecordedMaterial, RecordedSum};
 use super::uploaded_recording::UploadState;
 use super::warp_grid::GridLook;
 
@@ -58,7 +58,7 @@ pub(super) fn draw_morphs(
             if !is_shown {
                 continue;
             }
-            if let Some(MissingParts(make)) = part.deferred_mesh.take() {
+            if let Some(DeferredMesh(make)) = part.deferred_mesh.take() {
                 // Cannot fail: the handle was reserved for this part and lives as long.
                 paints.meshes.insert(mesh, make(frame)).ok();
             }
@@ -124,7 +124,7 @@ fn paint(
             set_if_changed(&mut paints.fields, field, |field| &mut field.kind, kind);
         }
         (StagePaint::Picture(picture), Content::Colours(pair)) => {
-            let look = ColourLook::new(pair, t, origin);
+            let look = PictureLook::new(pair, t, origin);
             set_if_changed(&mut paints.colours, picture, |part| &mut part.look, look);
         }
         // Cannot happen: an entity has parts of one transition only.
@@ -134,8 +134,8 @@ fn paint(
 
 /// Binds the buffer of another recorded interval, if it is not bound already.
 fn bind_interval(
-    materials: &mut Assets<PlayedMaterial>,
-    handle: &Handle<PlayedMaterial>,
+    materials: &mut Assets<RecordedMaterial>,
+    handle: &Handle<RecordedMaterial>,
     reel: &Buffer,
 ) {
     if let Some(mut material) = materials.get_mut(handle)

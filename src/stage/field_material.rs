@@ -21,7 +21,7 @@ use crate::content::{BlendSpace, FieldContent, FieldPair};
 use crate::field::DistanceField;
 
 use super::components::StageStyle;
-use super::ink_material::{contrasting, embedded, linear};
+use super::ink_material::{contrasting_colour, embedded, linear};
 
 /// Colour of positive blended distances: orange. With violet it is distinguishable under all common
 /// kinds of colour vision, on dark and light backgrounds.
@@ -184,7 +184,7 @@ impl FieldLook {
             fill: linear(style.fill_at(t)).to_vec4(),
             inside: LinearRgba::from(INSIDE).to_vec4(),
             outside: LinearRgba::from(OUTSIDE).to_vec4(),
-            line: contrasting(style.ground).to_vec4(),
+            line: contrasting_colour(style.ground).to_vec4(),
             t: within as f32,
             epsilon: blend.epsilon as f32,
             level: blend.level() as f32,

@@ -8,15 +8,15 @@ use std::time::Duration;
 use bevy::prelude::*;
 
 /// Number of frames that a median covers (heuristic).
-pub const REMEMBERED: usize = 120;
+pub const HISTORY_LEN: usize = 120;
 
-/// The last [`REMEMBERED`] durations of one stage of the frame.
+/// The last [`HISTORY_LEN`] durations of one stage of the frame.
 ///
 /// ```
 /// use std::time::Duration;
-/// use morphospace::stage::StageTimes;
+/// use morphospace::stage::DurationHistory;
 ///
-/// let mut durations = StageTimes::default();
+/// let mut durations = DurationHistory::default();
 /// assert_eq!(durations.median(), None);
 /// for ms in [9, 1, 2] {
 ///     durations.record(Duration::from_millis(ms));
@@ -25,24 +25,24 @@ pub const REMEMBERED: usize = 120;
 /// ```
 #[derive(Clone, Debug, Reflect)]
 #[reflect(Clone, Debug, Default)]
-pub struct StageTimes {
-    ring: [Duration; REMEMBERED],
+pub struct DurationHistory {
+    ring: [Duration; HISTORY_LEN],
     recorded: usize,
 }
 
-impl Default for StageTimes {
+impl Default for DurationHistory {
     fn default() -> Self {
         Self {
-            ring: [Duration::ZERO; REMEMBERED],
+            ring: [Duration::ZERO; HISTORY_LEN],
             recorded: 0,
         }
     }
 }
 
-impl StageTimes {
+impl DurationHistory {
     /// Records a duration, replacing the oldest.
     pub fn record(&mut self, duration: Duration) {
-        self.ring[self.recorded % REMEMBERED] = duration;
+        self.ring[self.recorded % HISTORY_LEN] = duration;
         self.recorded += 1;
     }
 
@@ -51,7 +51,7 @@ impl StageTimes {
     pub fn median(&self) -> Option<Duration> {
         // A copy of 2 kB on the stack, to avoid an allocation.
         let mut sorted = self.ring;
-        let recorded = &mut sorted[..self.recorded.min(REMEMBERED)];
+        let recorded = &mut sorted[..self.recorded.min(HISTORY_LEN)];
         recorded.sort_unstable();
         recorded.get(recorded.len().checked_sub(1)? / 2).copied()
     }
@@ -62,9 +62,9 @@ impl StageTimes {
 #[reflect(Resource, Clone, Debug, Default)]
 pub struct FrameTimes {
     /// Placing all vertices: right-hand sides, back substitution and placement.
-    pub solve: StageTimes,
+    pub solve: DurationHistory,
     /// Writing render meshes and uniforms.
-    pub draw: StageTimes,
+    pub draw: DurationHistory,
     /// Whether the graphics card evaluated the last drawn frame from a recording, without solving
     /// or writing vertices.
     pub is_gpu_played: bool,
@@ -76,11 +76,11 @@ mod tests {
 
     #[test]
     fn the_median_forgets_old_durations() {
-        let mut durations = StageTimes::default();
-        for _ in 0..REMEMBERED {
+        let mut durations = DurationHistory::default();
+        for _ in 0..HISTORY_LEN {
             durations.record(Duration::from_secs(9));
         }
-        for _ in 0..REMEMBERED {
+        for _ in 0..HISTORY_LEN {
             durations.record(Duration::from_millis(3));
         }
         assert_eq!(durations.median(), Some(Duration::from_millis(3)));
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn the_median_of_an_even_count_is_the_lower_one() {
-        let mut durations = StageTimes::default();
+        let mut durations = DurationHistory::default();
         for ms in [4, 1, 3, 2] {
             durations.record(Duration::from_millis(ms));
         }

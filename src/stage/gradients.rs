@@ -14,11 +14,11 @@ const CAPACITY: usize = 512;
 
 /// Uniform with all gradients of a frame.
 #[derive(Clone, Debug, PartialEq, ShaderType)]
-pub(super) struct GradientTextures {
+pub(super) struct GradientUniform {
     numbers: [Vec4; CAPACITY],
 }
 
-impl Default for GradientTextures {
+impl Default for GradientUniform {
     fn default() -> Self {
         Self {
             numbers: [Vec4::ZERO; CAPACITY],
@@ -29,7 +29,7 @@ impl Default for GradientTextures {
 /// Builder of the uniform table.
 #[derive(Default)]
 pub(super) struct GradientTable {
-    pub(super) gradients: GradientTextures,
+    pub(super) gradients: GradientUniform,
     /// Index of the first vector of each gradient.
     firsts: Vec<usize>,
     /// Number of vectors in use.
@@ -38,7 +38,7 @@ pub(super) struct GradientTable {
 
 /// Reference to a gradient in the table.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ShadedFaces {
+pub(super) struct GradientSlot {
     /// Index of the first vector of the gradient.
     first: usize,
     /// Map from the plane to the gradient's own space.
@@ -48,7 +48,7 @@ pub(super) struct ShadedFaces {
 impl GradientTable {
     /// Adds a gradient. Returns `None` if there is no room, it has no stops, or its frame is
     /// degenerate.
-    pub(super) fn insert(&mut self, gradient: &Gradient) -> Option<ShadedFaces> {
+    pub(super) fn insert(&mut self, gradient: &Gradient) -> Option<GradientSlot> {
         let into = gradient.frame.inverse();
         if !into.is_finite() || gradient.stops.is_empty() {
             return None;
@@ -69,7 +69,7 @@ impl GradientTable {
             [encoded(stop.paint), at]
         });
         let numbers: Vec<Vec4> = [head, focus].into_iter().chain(stops).collect();
-        Some(ShadedFaces {
+        Some(GradientSlot {
             first: self.put_numbers(&numbers)?,
             into,
         })
@@ -94,7 +94,7 @@ impl GradientTable {
     }
 }
 
-impl ShadedFaces {
+impl GradientSlot {
     /// Vertex colour that refers to the gradient. The negative opacity distinguishes it from a
     /// colour.
     pub(super) fn vertex_colour(&self) -> [f32; 4] {

@@ -17,7 +17,7 @@ use bevy::sprite_render::{AlphaMode2d, Material2d, Material2dKey};
 use crate::colour::Rgb;
 use crate::geometry::Bounds;
 
-use super::gradients::GradientTextures;
+use super::gradients::GradientUniform;
 
 /// Kind of shape that the vertices describe. Each kind is a shader variant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -42,7 +42,7 @@ pub(super) struct InkMaterial {
     pub(super) colour: LinearRgba,
     /// Gradients of paint layers.
     #[uniform(1)]
-    pub(super) gradients: GradientTextures,
+    pub(super) gradients: GradientUniform,
     pub(super) kind: InkKind,
 }
 
@@ -95,7 +95,7 @@ pub(super) fn embedded(name: &'static str) -> bevy::asset::AssetPath<'static> {
 }
 
 /// Packs a rectangle for shaders: minimum x and y, maximum x and y, relative to an origin.
-pub(super) fn relative(window: Bounds, origin: glam::DVec2) -> Vec4 {
+pub(super) fn relative_rectangle(window: Bounds, origin: glam::DVec2) -> Vec4 {
     let [low, high] = [window.min, window.max].map(|p| (p - origin).as_vec2());
     Vec4::new(low.x, low.y, high.x, high.y)
 }
@@ -107,7 +107,7 @@ pub(super) fn linear(colour: Rgb) -> LinearRgba {
 }
 
 /// Returns a readable colour on a background: near black on light ones, near white on dark ones.
-pub(super) fn contrasting(ground: Rgb) -> LinearRgba {
+pub(super) fn contrasting_colour(ground: Rgb) -> LinearRgba {
     // Close to 0.18, the luminance on which black and white have equal contrast (WCAG 2: √(1.05 ·
     // 0.05) − 0.05).
     if linear(ground).luminance() > 0.2 {

@@ -13,7 +13,7 @@ const CIRCLE_SEGMENTS: f64 = 48.0;
 
 /// Appends the triangles of a stroke along closed rings. Positions are relative to `origin`;
 /// overlapping triangles are not merged.
-pub(super) fn push(
+pub(super) fn push_stroke(
     rings: &[Vec<DVec2>],
     line: &StrokeStyle,
     origin: DVec2,
@@ -112,7 +112,7 @@ mod tests {
             join,
         };
         let (mut positions, mut indices) = (Vec::new(), Vec::new());
-        push(&[ring], &line, DVec2::ZERO, &mut positions, &mut indices);
+        push_stroke(&[ring], &line, DVec2::ZERO, &mut positions, &mut indices);
         let at = |v: u32| {
             DVec2::new(
                 positions[v as usize][0].into(),

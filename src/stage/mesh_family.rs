@@ -74,11 +74,11 @@ pub(super) fn build(
     }
     let designs = meshes.into_iter().enumerate();
     let designs = designs.map(|(k, mesh)| Arc::new(Design::new(format!("mesh {}", k + 1), mesh)));
-    steered(designs.collect(), progress)
+    build_steered(designs.collect(), progress)
 }
 
 /// Builds the blend of designs as rigid parts.
-pub(super) fn steered(
+pub(super) fn build_steered(
     designs: Vec<Arc<Design>>,
     progress: &dyn Progress,
 ) -> Result<SteeredTransition, BuildError> {

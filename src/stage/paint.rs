@@ -5,17 +5,17 @@ use bevy::prelude::*;
 
 use super::field_material::FieldMaterial;
 use super::ink_material::InkMaterial;
-use super::picture_material::ColourMaterial;
-use super::recorded_material::PlayedMaterial;
+use super::picture_material::PictureMaterial;
+use super::recorded_material::RecordedMaterial;
 use super::warp_grid::GridMaterial;
 
 /// Material of a render part.
 #[derive(Clone, Debug)]
 pub(super) enum StagePaint {
     Ink(Handle<InkMaterial>),
-    Played(Handle<PlayedMaterial>),
+    Played(Handle<RecordedMaterial>),
     Field(Handle<FieldMaterial>),
-    Picture(Handle<ColourMaterial>),
+    Picture(Handle<PictureMaterial>),
     Grid(Handle<GridMaterial>),
 }
 
@@ -25,8 +25,8 @@ pub(super) struct StagePaints<'w> {
     pub(super) meshes: ResMut<'w, Assets<Mesh>>,
     pub(super) images: ResMut<'w, Assets<Image>>,
     pub(super) inks: ResMut<'w, Assets<InkMaterial>>,
-    pub(super) played: ResMut<'w, Assets<PlayedMaterial>>,
+    pub(super) played: ResMut<'w, Assets<RecordedMaterial>>,
     pub(super) fields: ResMut<'w, Assets<FieldMaterial>>,
-    pub(super) colours: ResMut<'w, Assets<ColourMaterial>>,
+    pub(super) colours: ResMut<'w, Assets<PictureMaterial>>,
     pub(super) grids: ResMut<'w, Assets<GridMaterial>>,
 }

@@ -8,9 +8,9 @@ use crate::colour::{Paint, StrokeStyle};
 use crate::content::{InkedLayer, PaintLayerStack, SolidContent};
 use crate::transition::{Frame, TransitionStyle};
 
-use super::gradients::{GradientTable, GradientTextures, ShadedFaces};
+use super::gradients::{GradientSlot, GradientTable, GradientUniform};
 use super::line_mesh;
-use super::ring_fill::filled;
+use super::ring_fill::triangulate;
 use super::vertices::write_points;
 
 /// State of the render mesh of a solid or of fields in paint layers.
@@ -20,7 +20,7 @@ pub(super) struct LayerMesh {
     /// each frame, because faces cannot represent transient parts and holes.
     faces: Option<LayerFaces>,
     /// Gradients of the last written frame.
-    gradients: Box<GradientTextures>,
+    gradients: Box<GradientUniform>,
     is_of_fields: bool,
 }
 
@@ -39,7 +39,7 @@ enum LayerInkSlot {
     /// Colour in linear light with straight alpha.
     Flat([f32; 4]),
     /// Gradient of the table.
-    Shaded(ShadedFaces),
+    Shaded(GradientSlot),
 }
 
 impl LayerMesh {
@@ -82,7 +82,7 @@ impl LayerMesh {
     }
 
     /// Gradients of the last written frame.
-    pub(super) fn gradients(&self) -> &GradientTextures {
+    pub(super) fn gradients(&self) -> &GradientUniform {
         &self.gradients
     }
 
@@ -105,7 +105,7 @@ impl LayerMesh {
             shaded.map_or_else(flat, LayerInkSlot::Shaded)
         };
         let inks: Vec<LayerInkSlot> = groups.iter().map(&mut ink).collect();
-        let mut layers = LayerMeshes::of(origin);
+        let mut layers = LayerMeshBuilder::of(origin);
         if let Some(faces) = &self.faces {
             let places = &placement.in_frame;
             layers.positions.resize(places.len(), [0.0; 3]);
@@ -165,7 +165,7 @@ impl LayerFaces {
 }
 
 /// A mesh under construction, triangles in drawing order.
-struct LayerMeshes {
+struct LayerMeshBuilder {
     /// Point that positions are relative to.
     origin: DVec2,
     positions: Vec<[f32; 3]>,
@@ -175,7 +175,7 @@ struct LayerMeshes {
     indices: Vec<u32>,
 }
 
-impl LayerMeshes {
+impl LayerMeshBuilder {
     fn of(origin: DVec2) -> Self {
         Self {
             origin,
@@ -201,7 +201,7 @@ impl LayerMeshes {
     /// Adds the triangulated area of rings.
     fn fill(&mut self, rings: &[Vec<DVec2>], ink: LayerInkSlot) {
         let first = self.positions.len() as u32;
-        let (points, corners) = filled(rings, self.origin);
+        let (points, corners) = triangulate(rings, self.origin);
         for &[x, y, _] in &points {
             self.ink(ink, self.origin + DVec2::new(x.into(), y.into()));
         }
@@ -212,7 +212,7 @@ impl LayerMeshes {
 
     /// Adds a stroke along rings.
     fn draw(&mut self, rings: &[Vec<DVec2>], line: &StrokeStyle) {
-        line_mesh::push(
+        line_mesh::push_stroke(
             rings,
             line,
             self.origin,

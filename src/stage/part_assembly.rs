@@ -15,14 +15,14 @@ use crate::transition::{Frame, VectorFigure};
 
 use super::components::Morph;
 use super::field_material::FieldMaterial;
-use super::gradients::GradientTextures;
+use super::gradients::GradientUniform;
 use super::ink_material::InkMaterial;
 use super::paint::{StagePaint, StagePaints};
 use super::paint_layers::LayerMesh;
-use super::parts::{MissingParts, PartKind, StagePart};
-use super::picture_material::ColourMaterial;
-use super::recorded_material::{PlayedMaterial, RecordedSum, VERTEX};
-use super::recording_upload::CardRecording;
+use super::parts::{DeferredMesh, PartKind, StagePart};
+use super::picture_material::PictureMaterial;
+use super::recorded_material::{RecordedMaterial, RecordedSum, VERTEX_INDEX};
+use super::recording_upload::RecordingGpu;
 use super::ring_fill;
 use super::uploaded_recording::UploadState;
 use super::vertices::{BarShapes, OutlineSegments, corner_coordinates, quad_indices};
@@ -53,7 +53,7 @@ fn quads(coordinates: Vec<[f32; 2]>) -> Mesh {
 
 /// A placeholder for rings, whose number of vertices is known only after they are triangulated.
 fn nothing() -> Mesh {
-    let (positions, indices) = ring_fill::nothing();
+    let (positions, indices) = ring_fill::degenerate_triangle();
     mesh(positions).with_inserted_indices(Indices::U32(indices))
 }
 
@@ -93,13 +93,13 @@ fn lines(figure: &VectorFigure, origin: DVec2) -> Mesh {
 /// Faces whose vertices carry their index in the placement.
 fn numbered_faces(frame: &Frame) -> Mesh {
     let numbers: Vec<u32> = (0..frame.placement().in_frame.len() as u32).collect();
-    faces(frame).with_inserted_attribute(VERTEX, numbers)
+    faces(frame).with_inserted_attribute(VERTEX_INDEX, numbers)
 }
 
 /// Unshared corners that carry their index in the placement.
 fn numbered_corners(frame: &Frame) -> Mesh {
     let numbers = frame.placement().faces.as_flattened().to_vec();
-    corners(frame).with_inserted_attribute(VERTEX, numbers)
+    corners(frame).with_inserted_attribute(VERTEX_INDEX, numbers)
 }
 
 /// Resources needed to spawn render parts.
@@ -108,7 +108,7 @@ pub(super) struct PartAssets<'w, 's> {
     commands: Commands<'w, 's>,
     paints: StagePaints<'w>,
     parts: Query<'w, 's, (), With<StagePart>>,
-    card: Option<Res<'w, CardRecording>>,
+    card: Option<Res<'w, RecordingGpu>>,
 }
 
 impl PartAssets<'_, '_> {
@@ -146,7 +146,7 @@ impl PartAssets<'_, '_> {
             }
             Content::Colours(pair) => {
                 let paints = &mut factory.assets.paints;
-                let material = ColourMaterial::new(pair, &mut paints.images);
+                let material = PictureMaterial::new(pair, &mut paints.images);
                 let material = paints.colours.add(material);
                 factory.add(PartKind::Picture, carried, material, StagePaint::Picture);
             }
@@ -186,7 +186,7 @@ impl PartFactory<'_, '_, '_> {
             kind,
             paint: paint(material.clone()),
             origin: self.origin,
-            deferred_mesh: Some(MissingParts(Box::new(mesh))),
+            deferred_mesh: Some(DeferredMesh(Box::new(mesh))),
             is_stale: true,
         };
         let mesh = Mesh2d(handle);
@@ -205,7 +205,7 @@ impl PartFactory<'_, '_, '_> {
         let Some(card) = &self.assets.card else {
             return self.add_inked(kind, plain);
         };
-        let material = self.assets.paints.played.add(PlayedMaterial {
+        let material = self.assets.paints.played.add(RecordedMaterial {
             colour: LinearRgba::NONE,
             sum: RecordedSum::default(),
             reel: card.placeholder().clone(),
@@ -222,7 +222,7 @@ impl PartFactory<'_, '_, '_> {
     ) {
         let material = self.assets.paints.inks.add(InkMaterial {
             colour: LinearRgba::NONE,
-            gradients: GradientTextures::default(),
+            gradients: GradientUniform::default(),
             kind: kind.ink_kind(),
         });
         self.add(kind, mesh, material, StagePaint::Ink);
@@ -270,7 +270,7 @@ impl PartFactory<'_, '_, '_> {
 }
 
 /// Spawns the render parts of new transitions. Drawing sets their look.
-pub(super) fn dress(
+pub(super) fn spawn_parts(
     new_morphs: Query<(Entity, &Morph, Option<&Children>), With<WithoutParts>>,
     mut assets: PartAssets,
 ) {
@@ -284,7 +284,7 @@ pub(super) fn dress(
 }
 
 /// Observer that despawns the render parts of a removed morph.
-pub(super) fn undress(
+pub(super) fn despawn_parts(
     removed: On<Remove, Morph>,
     children: Query<&Children>,
     mut assets: PartAssets,

@@ -30,15 +30,15 @@ pub(super) struct StagePart {
     /// Point of the plane that the vertices are relative to.
     pub(super) origin: DVec2,
     /// Constructor of its mesh; taken when the part is shown for the first time.
-    pub(super) deferred_mesh: Option<MissingParts>,
+    pub(super) deferred_mesh: Option<DeferredMesh>,
     /// Whether the vertices are older than the frame: the frame moved since they were written.
     pub(super) is_stale: bool,
 }
 
 /// Deferred constructor of a mesh.
-pub(super) struct MissingParts(pub(super) Box<dyn FnOnce(&Frame) -> Mesh + Send + Sync>);
+pub(super) struct DeferredMesh(pub(super) Box<dyn FnOnce(&Frame) -> Mesh + Send + Sync>);
 
-impl fmt::Debug for MissingParts {
+impl fmt::Debug for DeferredMesh {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Unmade")
     }

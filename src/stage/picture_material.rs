@@ -14,13 +14,13 @@ use glam::DVec2;
 
 use crate::content::{PictureLayer, PicturePair};
 
-use super::ink_material::{embedded, relative};
+use super::ink_material::{embedded, relative_rectangle};
 
 /// Two pictures and how they are mixed.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
-pub(super) struct ColourMaterial {
+pub(super) struct PictureMaterial {
     #[uniform(0)]
-    pub(super) look: ColourLook,
+    pub(super) look: PictureLook,
     #[texture(1)]
     #[sampler(2)]
     source: Handle<Image>,
@@ -29,16 +29,16 @@ pub(super) struct ColourMaterial {
     target: Handle<Image>,
 }
 
-/// Uniform of [`ColourMaterial`]; the same fields as in `colours.wgsl`.
+/// Uniform of [`PictureMaterial`]; the same fields as in `colours.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
-pub(super) struct ColourLook {
+pub(super) struct PictureLook {
     /// Visible rectangle relative to the part's origin: minimum x and y, maximum x and y.
     window: Vec4,
     /// Fraction of the target in the mix.
     share: f32,
 }
 
-impl Material2d for ColourMaterial {
+impl Material2d for PictureMaterial {
     fn fragment_shader() -> ShaderRef {
         ShaderRef::Path(embedded("colours.wgsl"))
     }
@@ -48,21 +48,21 @@ impl Material2d for ColourMaterial {
     }
 }
 
-impl ColourMaterial {
+impl PictureMaterial {
     pub(super) fn new(pair: &PicturePair, images: &mut Assets<Image>) -> Self {
         let [source, target] = pair.layers();
         Self {
-            look: ColourLook::default(), // set when it is drawn
+            look: PictureLook::default(), // set when it is drawn
             source: images.add(texture(source)),
             target: images.add(texture(target)),
         }
     }
 }
 
-impl ColourLook {
+impl PictureLook {
     pub(super) fn new(pair: &PicturePair, t: f64, origin: DVec2) -> Self {
         Self {
-            window: relative(pair.window(t), origin),
+            window: relative_rectangle(pair.window(t), origin),
             share: pair.mix().target_fraction(t) as f32,
         }
     }

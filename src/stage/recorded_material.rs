@@ -20,7 +20,7 @@ use super::ink_material::{InkKind, embedded};
 
 /// Vertex attribute: index of the vertex in the placement. Meshes share buffers, so the shader's
 /// built-in vertex index is not the index in the mesh.
-pub(super) const VERTEX: MeshVertexAttribute = MeshVertexAttribute::new(
+pub(super) const VERTEX_INDEX: MeshVertexAttribute = MeshVertexAttribute::new(
     "Vertex_Of_Placement",
     0x6d6f_7270_6801,
     VertexFormat::Uint32,
@@ -32,7 +32,7 @@ const WEIGHT_VECTORS: usize = MOST_COEFFICIENTS.div_ceil(4);
 /// One opaque colour for faces or their edges.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(InkKind)]
-pub(super) struct PlayedMaterial {
+pub(super) struct RecordedMaterial {
     #[uniform(0)]
     pub(super) colour: LinearRgba,
     #[uniform(3)]
@@ -71,13 +71,13 @@ impl RecordedSum {
     }
 }
 
-impl From<&PlayedMaterial> for InkKind {
-    fn from(material: &PlayedMaterial) -> Self {
+impl From<&RecordedMaterial> for InkKind {
+    fn from(material: &RecordedMaterial) -> Self {
         material.kind
     }
 }
 
-impl Material2d for PlayedMaterial {
+impl Material2d for RecordedMaterial {
     fn vertex_shader() -> ShaderRef {
         ShaderRef::Path(embedded("played.wgsl"))
     }
@@ -97,7 +97,7 @@ impl Material2d for PlayedMaterial {
     ) -> Result<(), SpecializedMeshPipelineError> {
         let mut attributes = vec![
             Mesh::ATTRIBUTE_POSITION.at_shader_location(0),
-            VERTEX.at_shader_location(1),
+            VERTEX_INDEX.at_shader_location(1),
         ];
         if key.bind_group_data == InkKind::Wire {
             attributes.push(Mesh::ATTRIBUTE_UV_0.at_shader_location(2));

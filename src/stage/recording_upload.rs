@@ -27,7 +27,7 @@ const BEVY_STORAGE_BUFFERS: u32 = 3;
 /// The graphics card, if its vertex shaders can read storage buffers. The resource is missing
 /// otherwise.
 #[derive(Resource, Clone)]
-pub(super) struct CardRecording {
+pub(super) struct RecordingGpu {
     device: RenderDevice,
     /// Buffer bound while there is no recording.
     nothing: Buffer,
@@ -35,14 +35,14 @@ pub(super) struct CardRecording {
     max_bytes: u64,
 }
 
-impl CardRecording {
+impl RecordingGpu {
     pub(super) fn placeholder(&self) -> &Buffer {
         &self.nothing
     }
 }
 
-/// Inserts [`CardRecording`] if the graphics card supports it.
-pub(super) fn find_card(
+/// Inserts [`RecordingGpu`] if the graphics card supports it.
+pub(super) fn detect_gpu(
     mut commands: Commands,
     device: Option<Res<RenderDevice>>,
     adapter: Option<Res<RenderAdapter>>,
@@ -55,7 +55,7 @@ pub(super) fn find_card(
     if flags.contains(DownlevelFlags::VERTEX_STORAGE)
         && limits.max_storage_buffers_per_shader_stage > BEVY_STORAGE_BUFFERS
     {
-        commands.insert_resource(CardRecording {
+        commands.insert_resource(RecordingGpu {
             nothing: buffer(&device, &[[0.0; 2]]),
             max_bytes: limits
                 .max_storage_buffer_binding_size
@@ -75,9 +75,9 @@ fn buffer(device: &RenderDevice, numbers: &[[f32; 2]]) -> Buffer {
 }
 
 /// Starts uploading transitions that have been recorded since the last frame.
-pub(super) fn send_films(
+pub(super) fn start_uploads(
     mut commands: Commands,
-    card: Option<Res<CardRecording>>,
+    card: Option<Res<RecordingGpu>>,
     morphs: Query<(Entity, &Morph, &Children), Without<UploadState>>,
     parts: Query<&StagePart>,
 ) {
@@ -101,7 +101,7 @@ pub(super) fn send_films(
 }
 
 /// Takes in finished uploads.
-pub(super) fn take_films(mut films: Query<&mut UploadState>) {
+pub(super) fn finish_uploads(mut films: Query<&mut UploadState>) {
     for mut sent in &mut films {
         if let UploadState::Uploading(task) = sent.bypass_change_detection()
             && let Some(uploaded) = check_ready(task)
@@ -111,7 +111,7 @@ pub(super) fn take_films(mut films: Query<&mut UploadState>) {
     }
 }
 
-impl CardRecording {
+impl RecordingGpu {
     /// Uploads a recording; `None` if the card has no room. Positions are relative to `origin`.
     async fn upload(
         self,

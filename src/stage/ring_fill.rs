@@ -21,7 +21,7 @@ const MAX_COORDINATE: f64 = 1e30;
 type RingFill = (Vec<[f32; 3]>, Vec<u32>);
 
 /// A triangle without area, which shows nothing. The GPU does not accept an empty mesh.
-pub(super) fn nothing() -> RingFill {
+pub(super) fn degenerate_triangle() -> RingFill {
     (vec![[0.0; 3]; 3], vec![0, 1, 2])
 }
 
@@ -31,7 +31,7 @@ pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
         return;
     };
     let rings = solid.rings_at(&frame.placement().in_frame, frame.t());
-    let (positions, indices) = filled(&rings, origin);
+    let (positions, indices) = triangulate(&rings, origin);
     // Replaces all attributes, because the triangles change from frame to frame.
     mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, positions);
     mesh.insert_indices(Indices::U32(indices));
@@ -39,7 +39,7 @@ pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
 
 /// Triangulates rings relative to `origin`. The result shows nothing if the rings have no area, or
 /// a coordinate is not finite or exceeds [`MAX_COORDINATE`], as can happen far outside [0, 1].
-pub(super) fn filled(rings: &[Vec<DVec2>], origin: DVec2) -> RingFill {
+pub(super) fn triangulate(rings: &[Vec<DVec2>], origin: DVec2) -> RingFill {
     let to_contour = |ring: &Vec<DVec2>| -> Vec<[f64; 2]> {
         ring.iter().map(|&p| (p - origin).to_array()).collect()
     };
@@ -47,11 +47,11 @@ pub(super) fn filled(rings: &[Vec<DVec2>], origin: DVec2) -> RingFill {
     // Written so that NaN fails the test.
     let mut coordinates = contours.iter().flatten().flatten();
     if !coordinates.all(|x| x.abs() < MAX_COORDINATE) {
-        return nothing();
+        return degenerate_triangle();
     }
     let triangulation = contours.triangulate_as::<i64>().to_triangulation::<u32>();
     if triangulation.indices.is_empty() {
-        return nothing();
+        return degenerate_triangle();
     }
     let vertex = |[x, y]: [f64; 2]| [x as f32, y as f32, 0.0];
     (
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     fn area(rings: &[Vec<DVec2>]) -> f32 {
-        let (positions, indices) = filled(rings, DVec2::splat(1e6));
+        let (positions, indices) = triangulate(rings, DVec2::splat(1e6));
         let at = |v: u32| Vec3::from(positions[v as usize]).truncate();
         let faces = indices.as_chunks::<3>().0.iter();
         let twice = faces.map(|&[a, b, c]| (at(b) - at(a)).perp_dot(at(c) - at(a)));

@@ -12,12 +12,12 @@ use bevy::prelude::*;
 use bevy::sprite_render::Material2d;
 
 use super::field_material::FieldMaterial;
-use super::gradients::GradientTextures;
+use super::gradients::GradientUniform;
 use super::ink_material::{InkKind, InkMaterial};
 use super::paint::StagePaints;
 use super::pipelines::PipelinesReady;
-use super::recorded_material::{PlayedMaterial, RecordedSum, VERTEX};
-use super::recording_upload::CardRecording;
+use super::recorded_material::{RecordedMaterial, RecordedSum, VERTEX_INDEX};
+use super::recording_upload::RecordingGpu;
 use super::ring_fill;
 use super::warp_grid::GridMaterial;
 
@@ -26,7 +26,7 @@ type WarmUpVertexLayout = (InkKind, fn(Mesh) -> Mesh);
 
 /// A triangle without area.
 fn nothing() -> Mesh {
-    let (positions, indices) = ring_fill::nothing();
+    let (positions, indices) = ring_fill::degenerate_triangle();
     Mesh::new(PrimitiveTopology::TriangleList, default())
         .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
         .with_inserted_indices(Indices::U32(indices))
@@ -49,15 +49,15 @@ fn with_offsets(mesh: Mesh) -> Mesh {
 
 /// Adds indices of vertices in the placement.
 fn with_numbers(mesh: Mesh) -> Mesh {
-    mesh.with_inserted_attribute(VERTEX, vec![0_u32; 3])
+    mesh.with_inserted_attribute(VERTEX_INDEX, vec![0_u32; 3])
 }
 
 /// Spawns an invisible triangle for every pipeline. They stay: they cost nothing to draw, and
 /// another camera needs pipelines of its own.
-pub(super) fn warm(
+pub(super) fn warm_up_pipelines(
     mut commands: Commands,
     mut paints: StagePaints,
-    card: Option<Res<CardRecording>>,
+    card: Option<Res<RecordingGpu>>,
     ready: Option<Res<PipelinesReady>>,
 ) {
     if ready.is_none() {
@@ -76,7 +76,7 @@ pub(super) fn warm(
     for (kind, layout) in inks {
         let ink = paints.inks.add(InkMaterial {
             colour: LinearRgba::NONE,
-            gradients: GradientTextures::default(),
+            gradients: GradientUniform::default(),
             kind,
         });
         commands.spawn(drawn_mesh(paints.meshes.add(layout(nothing())), ink));
@@ -86,7 +86,7 @@ pub(super) fn warm(
         (InkKind::Wire, |mesh| with_numbers(with_coordinates(mesh))),
     ];
     for (card, (kind, layout)) in card.iter().flat_map(|card| played.map(|kind| (card, kind))) {
-        let film = paints.played.add(PlayedMaterial {
+        let film = paints.played.add(RecordedMaterial {
             colour: LinearRgba::NONE,
             sum: RecordedSum::default(),
             reel: card.placeholder().clone(),

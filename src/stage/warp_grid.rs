@@ -14,7 +14,7 @@ use crate::content::Content;
 use crate::transition::Frame;
 
 use super::components::StageStyle;
-use super::ink_material::{contrasting, embedded, relative};
+use super::ink_material::{contrasting_colour, embedded, relative_rectangle};
 
 /// Number of squares along the longer side of the designs (heuristic).
 const SQUARES: f64 = 20.0;
@@ -51,7 +51,7 @@ impl Material2d for GridMaterial {
 impl GridLook {
     pub(super) fn new(frame: &Frame, origin: DVec2, StageStyle { style, .. }: &StageStyle) -> Self {
         let bounds = frame.transition().bounds();
-        let ink = contrasting(style.ground).with_alpha(0.7);
+        let ink = contrasting_colour(style.ground).with_alpha(0.7);
         let (colour, halo, window) = match frame.transition().content() {
             Content::Colours(pair) => {
                 let window = pair.window(frame.t());
@@ -68,7 +68,7 @@ impl GridLook {
         Self {
             colour,
             halo,
-            window: relative(window, origin),
+            window: relative_rectangle(window, origin),
             spacing: (bounds.size().max_element() / SQUARES) as f32,
         }
     }

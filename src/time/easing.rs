@@ -40,7 +40,7 @@ impl NamedEasing {
 
     /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
     #[must_use]
-    pub fn backwards(self) -> Self {
+    pub fn reversed(self) -> Self {
         match self {
             Self::Linear | Self::Smooth => self,
             Self::EaseIn => Self::EaseOut,

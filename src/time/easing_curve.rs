@@ -41,7 +41,7 @@ impl EasingBezier {
 
     /// Returns the Bézier easing identical to a named easing.
     #[must_use]
-    pub fn like(easing: NamedEasing) -> Self {
+    pub fn from_named(easing: NamedEasing) -> Self {
         // All named easings are polynomials in x of degree at most three. With the handles at x =
         // 1/3 and x = 2/3 the Bézier parameter equals x, so the match is exact.
         let third = 1.0 / 3.0;
@@ -55,7 +55,7 @@ impl EasingBezier {
 
     /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
     #[must_use]
-    pub fn backwards(self) -> Self {
+    pub fn reversed(self) -> Self {
         let [x1, y1, x2, y2] = self.0.map(|h| 1.0 - h);
         Self([x2, y2, x1, y1])
     }
@@ -118,7 +118,7 @@ pub enum EasingFunction {
     /// A named easing.
     Named(NamedEasing),
     /// A Bézier curve with its own handles.
-    Drawn(EasingBezier),
+    Bezier(EasingBezier),
 }
 
 impl Default for EasingFunction {
@@ -139,7 +139,7 @@ impl EasingFunction {
     pub fn apply(self, x: f64) -> f64 {
         match self {
             Self::Named(easing) => easing.apply(x),
-            Self::Drawn(curve) => curve.apply(x),
+            Self::Bezier(curve) => curve.apply(x),
         }
     }
 
@@ -148,16 +148,16 @@ impl EasingFunction {
     pub fn inverse(self, y: f64) -> f64 {
         match self {
             Self::Named(easing) => easing.inverse(y),
-            Self::Drawn(curve) => curve.inverse(y),
+            Self::Bezier(curve) => curve.inverse(y),
         }
     }
 
     /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
     #[must_use]
-    pub fn backwards(self) -> Self {
+    pub fn reversed(self) -> Self {
         match self {
-            Self::Named(easing) => easing.backwards().into(),
-            Self::Drawn(curve) => Self::Drawn(curve.backwards()),
+            Self::Named(easing) => easing.reversed().into(),
+            Self::Bezier(curve) => Self::Bezier(curve.reversed()),
         }
     }
 
@@ -165,8 +165,8 @@ impl EasingFunction {
     #[must_use]
     pub fn curve(self) -> EasingBezier {
         match self {
-            Self::Named(easing) => EasingBezier::like(easing),
-            Self::Drawn(curve) => curve,
+            Self::Named(easing) => EasingBezier::from_named(easing),
+            Self::Bezier(curve) => curve,
         }
     }
 }
@@ -175,7 +175,7 @@ impl fmt::Display for EasingFunction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Named(easing) => easing.fmt(f),
-            Self::Drawn(EasingBezier([a, b, c, d])) => write!(f, "{a},{b},{c},{d}"),
+            Self::Bezier(EasingBezier([a, b, c, d])) => write!(f, "{a},{b},{c},{d}"),
         }
     }
 }
@@ -192,7 +192,7 @@ impl FromStr for EasingFunction {
         let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
         let handles = numbers.ok().and_then(|all| all.try_into().ok());
         let curve = handles.ok_or(EasingBezierError).and_then(EasingBezier::new);
-        curve.map(Self::Drawn).map_err(|error| error.to_string())
+        curve.map(Self::Bezier).map_err(|error| error.to_string())
     }
 }
 
@@ -200,7 +200,7 @@ impl Serialize for EasingFunction {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Named(easing) => easing.serialize(to),
-            Self::Drawn(curve) => curve.0.serialize(to),
+            Self::Bezier(curve) => curve.0.serialize(to),
         }
     }
 }
@@ -231,7 +231,7 @@ impl<'de> Deserialize<'de> for EasingFunction {
                     .try_into()
                     .map_err(|_| A::Error::custom(EasingBezierError))?;
                 EasingBezier::new(handles)
-                    .map(EasingFunction::Drawn)
+                    .map(EasingFunction::Bezier)
                     .map_err(A::Error::custom)
             }
         }
@@ -251,7 +251,7 @@ mod tests {
             let curve = EasingFunction::from(easing).curve();
             for k in 0..=20 {
                 let x = f64::from(k) / 20.0;
-                let (drawn, named) = (EasingFunction::Drawn(curve).apply(x), easing.apply(x));
+                let (drawn, named) = (EasingFunction::Bezier(curve).apply(x), easing.apply(x));
                 assert!((drawn - named).abs() < 1e-12, "{easing:?} at {x}");
             }
         }
@@ -261,9 +261,9 @@ mod tests {
     fn backwards_mirrors_the_curve_about_its_centre() {
         let drawn = EasingBezier::new([0.9, 0.0, 1.0, 0.2]).expect("a curve");
         let named = NamedEasing::ALL.map(EasingFunction::from).into_iter();
-        for ease in named.chain([EasingFunction::Drawn(drawn)]) {
+        for ease in named.chain([EasingFunction::Bezier(drawn)]) {
             for x in [0.0, 0.2, 0.5, 0.9, 1.0] {
-                let gap = ease.backwards().apply(x) - (1.0 - ease.apply(1.0 - x));
+                let gap = ease.reversed().apply(x) - (1.0 - ease.apply(1.0 - x));
                 assert!(gap.abs() < 1e-12, "{ease} at {x}");
             }
         }
@@ -281,7 +281,7 @@ mod tests {
         fn a_curve_never_falls_and_its_inverse_inverts_it(
             handles in prop::array::uniform4(0.0f64..=1.0), x in 0.0f64..=1.0, more in 0.0f64..0.5,
         ) {
-            let ease = EasingFunction::Drawn(EasingBezier::new(handles).expect("a curve"));
+            let ease = EasingFunction::Bezier(EasingBezier::new(handles).expect("a curve"));
             let y = ease.apply(x);
             prop_assert!((0.0..=1.0).contains(&y));
             prop_assert!(ease.apply((x + more).min(1.0)) >= y - 1e-9);

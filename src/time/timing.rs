@@ -350,7 +350,7 @@ mod tests {
     fn a_stop_sets_the_easing_of_the_segment_above_it() {
         let mut stops = stops(&[0.5]);
         let curve = EasingBezier::new([0.9, 0.0, 1.0, 0.2]).expect("a curve");
-        stops[0].easing = Some(EasingFunction::Drawn(curve));
+        stops[0].easing = Some(EasingFunction::Bezier(curve));
         let timing = Timing {
             duration_secs: 1.0,
             hold_secs: 0.0,

@@ -73,7 +73,7 @@ pub(super) struct BuiltWarp {
     /// The match of the outlines, if outlines were matched.
     pub matched: Option<RegionMatch>,
     /// The solved motion of the match, for documents to cache.
-    pub kept: Option<Arc<KeyedSolution>>,
+    pub solution: Option<Arc<KeyedSolution>>,
     /// Automatic pins of a plane warp, if the user has set none.
     pub automatic: Vec<PointPair>,
     /// Deviations from the request.
@@ -85,7 +85,7 @@ impl From<AnyWarp> for BuiltWarp {
         Self {
             warp,
             matched: None,
-            kept: None,
+            solution: None,
             automatic: Vec::new(),
             notes: Vec::new(),
         }

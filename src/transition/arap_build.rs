@@ -31,7 +31,7 @@ pub(super) fn check_size(
     progress: &dyn Progress,
 ) -> Result<(), BuildError> {
     let face_factor = 4_usize.saturating_pow(options.subdivisions);
-    Ok(WorkloadKind::Faces.allow(mesh.faces().len().saturating_mul(face_factor), progress)?)
+    Ok(WorkloadKind::Faces.check(mesh.faces().len().saturating_mul(face_factor), progress)?)
 }
 
 /// Returns the options with which a match is searched and solved: without subdivision, since the

@@ -34,7 +34,7 @@ impl Transition {
 
     /// Creates a transition of distance fields, mixed in place, from one blend to another.
     pub(crate) fn through_fields(ends: BlendEnds, fields: FieldContent) -> Self {
-        let still = IdentityWarp::new(fields.first().grid().bounds());
+        let still = IdentityWarp::new(fields.first_pair().grid().bounds());
         let cell = TransitionMethod::new(WarpKind::None, ContentKind::Field)
             .unwrap_or_else(|_| unreachable!("it is in the table"));
         Self::blended(ends, cell, AnyWarp::Still(still), Content::Field(fields))
@@ -48,13 +48,13 @@ impl Transition {
             bar_width,
         } = ends;
         Self::from(TransitionData {
-            cell,
+            method: cell,
             designs,
-            moved: warp.into(),
+            built_warp: warp.into(),
             content,
             bounds,
             bar_width,
-            film: RecordingSlot::default(),
+            recording: RecordingSlot::default(),
         })
     }
 }

@@ -44,7 +44,7 @@ pub(super) fn paths(
         let pieces = parts.iter().enumerate();
         let placer = paths.placer();
         let walks = PieceBoundaryLoops {
-            walks: paths.loops(),
+            loops: paths.loops(),
             pieces: pieces
                 .flat_map(|(k, rings)| repeat_n(k, rings.len()))
                 .collect(),
@@ -54,7 +54,7 @@ pub(super) fn paths(
     });
     let solid = SolidContent {
         loops: paths.loops(),
-        coating,
+        paint_layers: coating,
         ..SolidContent::default()
     };
     let moved = BuiltWarp {

@@ -16,7 +16,7 @@ use crate::geometry::Bounds;
 use crate::warp::{Arap, Placement, Warp, WarpKind};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::{
-    Cancelled, Progress, ProgressSpan, Silent, WholeProgress, checkpoint, still_wanted,
+    Cancelled, Progress, ProgressSpan, Silent, WholeProgress, check_cancelled, checkpoint,
 };
 use std::sync::Arc;
 
@@ -56,7 +56,7 @@ fn build_named(
     build_data(spec, progress).map_err(|error| match progress.is_cancelled() {
         // A cancellation does not concern a particular design.
         true => error,
-        false => error.between(&spec.source, &spec.target),
+        false => error.with_names(&spec.source, &spec.target),
     })
 }
 
@@ -66,15 +66,15 @@ fn build_data(
     progress: &dyn Progress,
 ) -> Result<TransitionData, BuildError> {
     // First, because it is cheap; the window disables buttons by the same check.
-    TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
+    TransitionSpec::available(spec.method, &spec.source, &spec.target)?;
     let progress = &WholeProgress::new(progress).patient(spec.patient);
-    if spec.cell.warp() == WarpKind::Arap {
+    if spec.method.warp() == WarpKind::Arap {
         // Each subdivision quadruples the faces; ten of them are too many even for one face.
         let children = 4_usize.saturating_pow(spec.options.arap.subdivisions);
-        WorkloadKind::Faces.allow(children, progress)?;
+        WorkloadKind::Faces.check(children, progress)?;
     }
     let bar_width = bar_width(spec)?;
-    let (mut moved, content, bounds) = match spec.cell.content() {
+    let (mut moved, content, bounds) = match spec.method.content() {
         ContentKind::Solid => solids(spec, bar_width, progress)?,
         ContentKind::Field => fields(spec, bar_width, progress)?,
         ContentKind::Colours => colours(spec, progress)?,
@@ -84,19 +84,19 @@ fn build_data(
     let ridge = moved.warp.arap().and_then(Arap::ridge);
     moved
         .notes
-        .extend(ridge.map(|ridge| TransitionNote::Stiffened { share: ridge.share }));
-    let parts = moved.warp.arap().map_or(0, Arap::unflattened);
+        .extend(ridge.map(|ridge| TransitionNote::DiagonalAdded { share: ridge.share }));
+    let parts = moved.warp.arap().map_or(0, Arap::unflattened_count);
     moved
         .notes
         .extend((parts > 0).then_some(TransitionNote::Unflattened { parts }));
     let data = TransitionData {
-        cell: spec.cell,
+        method: spec.method,
         designs: [spec.source.clone(), spec.target.clone()],
-        moved,
+        built_warp: moved,
         content,
         bounds,
         bar_width,
-        film: RecordingSlot::default(),
+        recording: RecordingSlot::default(),
     };
     Ok(data.coated(&spec.options.coats).timed(&spec.options.parts))
 }
@@ -107,7 +107,7 @@ fn solids(
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<BuiltParts, BuildError> {
-    let (moved, solid) = match spec.cell.warp() {
+    let (moved, solid) = match spec.method.warp() {
         WarpKind::Paths => boundary_paths::paths(spec, bar_width, progress)?,
         _ => solids::rigid_parts(spec, bar_width, progress)?,
     };
@@ -141,7 +141,7 @@ fn fields(
     checkpoint(progress, "measuring distances", 0.0)?;
     let frame = field_frame(spec, bar_width);
     let grid = Grid::covering(&frame, spec.options.field.cells, spec.options.field.margin)?;
-    WorkloadKind::Cells.allow(grid.cells(), progress)?;
+    WorkloadKind::Cells.check(grid.cells(), progress)?;
     let span = |from, to| ProgressSpan::new(progress, from, to);
     let whole = super::distance_fields::whole_fields(spec, grid, bar_width, &span(0.0, 0.4))?;
     // The margin of the grid is included, because carried fields are evaluated there too.
@@ -155,9 +155,9 @@ fn fields(
         &span(0.4, 0.7),
     )?;
     moved.notes.extend(note);
-    let is_carried = spec.cell.warp() != WarpKind::None;
+    let is_carried = spec.method.warp() != WarpKind::None;
     let fields = FieldContent::new(whole, painted, is_carried);
-    if spec.options.field.is_switched() {
+    if spec.options.field.needs_binary_boundary() {
         // Notes are in the order of the work, and the fields were computed before the warp.
         moved.notes.insert(0, TransitionNote::BinaryBoundary);
     }
@@ -201,7 +201,7 @@ fn swept(
     let mut placer = warp.placer();
     let mut bounds = ends;
     for i in 1..SAMPLES {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let t = f64::from(i) / f64::from(SAMPLES);
         placer.place(t);
         if let Some(frame_box) = visible_box(placer.placement(), t) {

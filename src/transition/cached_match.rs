@@ -102,7 +102,7 @@ pub(in crate::transition) fn cache_key(
     // Nothing is added for drawings in one colour, so that results cached before colours existed
     // stay valid.
     for look in drawings.looks.0.iter().flatten() {
-        hasher.write_usize(look.coat);
+        hasher.write_usize(look.paint_layer);
         let paint = look
             .paint
             .map(|paint| (paint.colour.0, paint.opacity.to_bits()));

@@ -40,7 +40,7 @@ use super::transients::layers::PieceLayers;
 use crate::geometry::{DVec2, count_crossings, orient2d};
 use crate::recording::proof::DrawnLoop;
 use crate::warp::{Arap, Guard, Warp};
-use crate::work::progress::{Progress, still_wanted};
+use crate::work::progress::{Progress, check_cancelled};
 use defects::{FirstDefect, trouble};
 use drawn_pieces::DrawnPieces;
 use outlines::GuardedOutlines;
@@ -176,7 +176,7 @@ impl GuardDirection {
             return Ok(None);
         };
         let lives = |film: &Arap| -> f64 {
-            let each = film.lives().iter().flatten();
+            let each = film.time_windows().iter().flatten();
             each.map(|life| life.to - life.from).sum()
         };
         let pushed = film.guard().map_or(0.0, Guard::total);
@@ -193,7 +193,7 @@ impl GuardDirection {
         let meeting = film.trouble?.meeting?;
         let parts = film.film.mesh().components();
         let both = [meeting.vertex, meeting.edge[0]].map(|v| parts[v as usize] as usize);
-        let lives = film.film.lives();
+        let lives = film.film.time_windows();
         let is_born = |&piece: &usize| lives.get(piece).is_some_and(Option::is_some);
         let is_born = both.iter().any(is_born);
         is_born.then_some(meeting.t)
@@ -214,9 +214,9 @@ impl GuardDirection {
             let lives = match window_shifts::shifted(&tried.film, &trouble) {
                 WindowShift::To(lives) => lives,
                 WindowShift::TooShort => return Ok(plain.clone()),
-                WindowShift::OfOthers => break,
+                WindowShift::NotTransient => break,
             };
-            let film = tried.film.with_lives(lives, progress)?;
+            let film = tried.film.with_time_windows(lives, progress)?;
             let Some(next) = self.tried(film, progress)? else {
                 break;
             };
@@ -240,13 +240,13 @@ impl GuardDirection {
         };
         let mut times = times();
         for _ in 0..PUSHES {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             divide(&mut times, trouble.t);
             let moved = stepper::through(&start.film, &outlines, &times, progress)?;
             let Some(guard) = moved.and_then(guard) else {
                 break;
             };
-            let Some(tried) = self.tried(start.film.guarded(Some(guard)), progress)? else {
+            let Some(tried) = self.tried(start.film.with_guard(Some(guard)), progress)? else {
                 break;
             };
             let next = tried.trouble;
@@ -303,10 +303,11 @@ fn seen(film: &Arap, drawn: &[DrawnLoop]) -> usize {
             let [a, b, c] = face.map(|v| places[v as usize]);
             orient2d(a, b, c) <= 0.0
         };
-        let levels = drawn.iter().map(|walk| walk.level).max().unwrap_or(0);
+        let levels = drawn.iter().map(|walk| walk.layer).max().unwrap_or(0);
         let crossings = (0..=levels).map(|level| {
-            let is_there =
-                |walk: &&DrawnLoop| walk.level == level && walk.drawn[0] < t && t < walk.drawn[1];
+            let is_there = |walk: &&DrawnLoop| {
+                walk.layer == level && walk.visible_interval[0] < t && t < walk.visible_interval[1]
+            };
             let ring =
                 |walk: &DrawnLoop| walk.vertices.iter().map(|&v| places[v as usize]).collect();
             let rings: Vec<Vec<DVec2>> = drawn.iter().filter(is_there).map(ring).collect();

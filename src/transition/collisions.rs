@@ -11,7 +11,7 @@ use super::transients::layers::PieceLayers;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{Side, crossings, signed_area};
 use crate::warp::{Arap, Warp};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::BTreeSet;
 
 /// Number of even time steps at which collisions are detected (resource limit).
@@ -24,7 +24,8 @@ const STEPS: u32 = 32;
 pub(super) fn pieces_to_release(
     matched: &RegionMatch,
     motion: &Arap,
-    (holes, layers): (&[PieceHole], &PieceLayers),
+    holes: &[PieceHole],
+    layers: &PieceLayers,
     progress: &dyn Progress,
 ) -> Result<Vec<usize>, Cancelled> {
     let mut conflicts = conflicts(motion, holes, progress)?;
@@ -46,13 +47,13 @@ fn conflicts(
     let mut placer = motion.placer();
     let mut pairs = BTreeSet::new();
     for step in 1..STEPS {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let t = f64::from(step) / f64::from(STEPS);
         placer.place(t);
         let positions = &placer.placement().in_frame;
         let (mut rings, mut pieces) = (loops.rings(positions), loops.pieces().to_vec());
         for (piece, hole) in holes {
-            if let Some(ring) = hole.at(positions, t) {
+            if let Some(ring) = hole.ring_at(positions, t) {
                 rings.push(ring);
                 pieces.push(*piece);
             }

@@ -32,10 +32,11 @@ named! { DesignFit {
 /// If the placement is not a similarity, or leads out of the coordinate range.
 pub fn place_in_frame(
     design: &Arc<Design>,
-    (first, fit): (&Design, DesignFit),
+    first: &Design,
+    fit: DesignFit,
     place: Similarity,
 ) -> Result<Arc<Design>, SimilarityError> {
-    let by = frame_similarity(design, (first, fit), place)?;
+    let by = frame_similarity(design, first, fit, place)?;
     by.check_on(&extent(design))?;
     Ok(transformed(design, by))
 }
@@ -47,7 +48,8 @@ pub fn place_in_frame(
 /// If the placement is not a similarity.
 pub fn frame_similarity(
     design: &Design,
-    (first, fit): (&Design, DesignFit),
+    first: &Design,
+    fit: DesignFit,
     place: Similarity,
 ) -> Result<Similarity, SimilarityError> {
     // Use the box of the form: the margins of pictures are meaningless.

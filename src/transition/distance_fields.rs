@@ -14,7 +14,7 @@ use crate::field::{DistanceField, FieldError, Grid};
 use crate::geometry::{Regions, Side};
 use crate::warp::Placement;
 use crate::work::budget::WorkloadKind;
-use crate::work::progress::{Progress, ProgressSpan, checkpoint, still_wanted};
+use crate::work::progress::{Progress, ProgressSpan, check_cancelled, checkpoint};
 
 /// Computes the distance fields of the whole designs.
 ///
@@ -36,7 +36,7 @@ pub(super) fn whole_fields(
     checkpoint(progress, "measuring distances", 0.5)?;
     let second = ProgressSpan::new(progress, 0.5, 1.0);
     let target = measured(Side::Target, &spec.target, &second)?;
-    still_wanted(progress)?;
+    check_cancelled(progress)?;
     Ok(FieldPair::new(source, target, spec.options.field.blend)?)
 }
 
@@ -58,14 +58,14 @@ pub(super) fn painted_fields(
     progress: &dyn Progress,
 ) -> Result<PaintedFieldsResult, BuildError> {
     let designs = [&spec.source, &spec.target];
-    let is_painted = designs.iter().any(|design| !design.coats.is_empty());
+    let is_painted = designs.iter().any(|design| !design.paint_layers.is_empty());
     if spec.options.paint == PaintRule::One || !is_painted {
         return Ok((None, None));
     }
     checkpoint(progress, "measuring distances", 0.0)?;
     let drawings = match spec.drawings(bar_width, progress) {
         Ok(drawings) => drawings,
-        Err(BuildError::TooMuch(_)) => return Ok((None, Some(TransitionNote::OneColour))),
+        Err(BuildError::TooMuch(_)) => return Ok((None, Some(TransitionNote::PaintIgnored))),
         Err(error) => return Err(error),
     };
     let outlines = drawings.outlines.each_ref();
@@ -73,12 +73,12 @@ pub(super) fn painted_fields(
     let pairs = paired_parts(outlines, &drawings.looks, &spec.options.matching)
         .or_else(|_| paired_parts(outlines, &drawings.looks, &MatchSettings::default()))?;
     let layers = PieceLayers::of_parts(pairs.iter().copied(), &drawings.looks);
-    let count = layers.coats.len();
+    let count = layers.layers.len();
     if WorkloadKind::Cells
-        .allow(count * grid.cells(), progress)
+        .check(count * grid.cells(), progress)
         .is_err()
     {
-        return Ok((None, Some(TransitionNote::OneColour)));
+        return Ok((None, Some(TransitionNote::PaintIgnored)));
     }
     let fields = (0..count).map(|level| {
         checkpoint(progress, "measuring distances", level as f64 / count as f64)?;
@@ -95,12 +95,12 @@ pub(super) fn painted_fields(
     let all_vertices: Vec<u32> = (0..frame.in_frame.len() as u32).collect();
     let places: [&[_]; 2] = [&frame.in_source, &frame.in_target];
     let coating = PaintLayerStack {
-        coats: coats(&drawings, &layers, |_| all_vertices.clone(), places),
-        of_walks: Vec::new(),
+        layers: coats(&drawings, &layers, |_| all_vertices.clone(), places),
+        of_loops: Vec::new(),
         of_holes: Vec::new(),
-        lone_walks: Vec::new(),
+        unmatched_loops: Vec::new(),
         fades: false,
-        reordered_at: PaintLayerOptions::default().reorder_at,
+        reorder_t: PaintLayerOptions::default().reorder_at,
     };
     let painted = PaintedFields::new(coating, fields, grid, spec.options.field.blend)?;
     Ok((Some(painted), None))
@@ -111,7 +111,7 @@ fn parts_of(drawings: &DrawingPair, pieces: &[[Option<usize>; 2]], side: Side) -
     let mut parts: Vec<usize> = pieces.iter().filter_map(|piece| piece[side]).collect();
     parts.sort_unstable();
     parts.dedup();
-    drawings.outlines[side].only(&parts)
+    drawings.outlines[side].subset(&parts)
 }
 
 /// Computes the distance field of a paint layer; `None` if all of it is thinner than the grid

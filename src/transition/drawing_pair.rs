@@ -62,7 +62,7 @@ fn looks_of(coats: &[PaintLayer]) -> Vec<PartLook> {
     let coats = coats.iter().enumerate();
     let looks = coats.flat_map(|(k, coat)| {
         let look = PartLook {
-            coat: k,
+            paint_layer: k,
             height: k as f64 / top_index,
             paint: coat.paint,
             is_lined: coat.line.is_some(),

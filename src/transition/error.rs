@@ -2,7 +2,7 @@
 
 use super::method::UnsupportedMethod;
 use crate::compatible::{CompatibleError, FramePinsError, OutlineMeshError};
-use crate::content::{ColourMixError, FieldPairError};
+use crate::content::{ColourMixError, FieldBlendError};
 use crate::correspondence::RegionMatchError;
 use crate::design::Design;
 use crate::field::{FieldError, GridError};
@@ -60,7 +60,7 @@ pub enum BuildError {
     },
     /// ε or the threshold is out of range.
     #[error(transparent)]
-    Blend(#[from] FieldPairError),
+    Blend(#[from] FieldBlendError),
     /// The interval in which colours change is empty.
     #[error(transparent)]
     Colours(#[from] ColourMixError),
@@ -92,7 +92,7 @@ pub enum BuildError {
 
 impl BuildError {
     /// Adds the names of the designs.
-    pub(super) fn between(self, source: &Design, target: &Design) -> Self {
+    pub(super) fn with_names(self, source: &Design, target: &Design) -> Self {
         Self::Between {
             source_name: source.name.clone(),
             target_name: target.name.clone(),

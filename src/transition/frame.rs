@@ -27,7 +27,7 @@ pub struct VectorFigure {
     pub rings: Vec<Vec<DVec2>>,
     /// Paint layers, the lowest first; they contain all rings. Empty if the figure has no colours
     /// of its own.
-    pub coats: Vec<FigureLayer>,
+    pub layers: Vec<FigureLayer>,
     /// Bars, from one end to the other.
     pub bars: Vec<[DVec2; 2]>,
     /// Paints of each bar in source and target; or empty.
@@ -50,7 +50,7 @@ pub struct FigureLayer {
     ///
     /// [`TransitionStyle::gradient_at`]: super::TransitionStyle::gradient_at
     pub gradients: [Option<Gradient>; 2],
-    /// Stroke along the rings in source and target; see [`StrokeStyle::between`].
+    /// Stroke along the rings in source and target; see [`StrokeStyle::interpolated`].
     pub lines: [Option<StrokeStyle>; 2],
     /// t at which paints, gradients and lines are mixed: that of the frame, unless parts have
     /// timings of their own.
@@ -72,12 +72,12 @@ impl Transition {
 
     /// Returns a placer that evaluates the recording if there is one, otherwise the warp.
     fn playing_placer(&self) -> Placer {
-        let recording = Arc::clone(self.slot());
+        let recording = Arc::clone(self.recording_slot());
         let play = move |t: f64, placement: &mut Placement| match recording.get() {
             Some(Ok(recording)) => recording.place(t, placement),
             _ => false,
         };
-        self.warp().placer().after(play)
+        self.warp().placer().with_override(play)
     }
 
     /// Returns source and target as given, to be drawn behind the frames.
@@ -91,13 +91,13 @@ impl Transition {
 impl Frame {
     /// Moves to `t` without allocating. A `t` that is not finite counts as 0.
     pub fn seek(&mut self, t: f64) {
-        self.turn(t);
+        self.set_time(t);
         self.places.placement(|| self.transition.playing_placer());
     }
 
     /// Moves to `t`; vertices are only placed when their positions are read.
-    pub(crate) fn turn(&mut self, t: f64) {
-        self.places.turn(if t.is_finite() { t } else { 0.0 });
+    pub(crate) fn set_time(&mut self, t: f64) {
+        self.places.set_time(if t.is_finite() { t } else { 0.0 });
     }
 
     /// Returns the blend parameter t.
@@ -145,15 +145,15 @@ impl Frame {
     /// Adds the rings of this frame, paint layer by paint layer.
     fn coated(&self, mut figure: VectorFigure) -> VectorFigure {
         let content = self.transition.content();
-        for inked in content.coated_at(self.placement(), self.t()) {
+        for inked in content.layers_at(self.placement(), self.t()) {
             let first = figure.rings.len();
             figure.rings.extend(inked.rings);
-            if content.coating().is_some() {
-                figure.coats.push(FigureLayer {
+            if content.paint_layers().is_some() {
+                figure.layers.push(FigureLayer {
                     rings: first..figure.rings.len(),
                     paints: inked.paints,
                     gradients: inked.gradients,
-                    lines: inked.lines,
+                    lines: inked.strokes,
                     t: inked.t,
                 });
             }
@@ -176,18 +176,18 @@ impl VectorFigure {
     /// `t`.
     #[must_use]
     pub fn of(design: &Design, t: f64) -> Self {
-        if design.coats.is_empty() {
+        if design.paint_layers.is_empty() {
             return design_figure(
                 design,
                 TransitionOptions::default().bar_width * design.extent.diameter(),
             );
         }
         let mut figure = Self::default();
-        for coat in &design.coats {
+        for coat in &design.paint_layers {
             let from = figure.rings.len();
             let rings = coat.regions.rings().map(|ring| ring.points().to_vec());
             figure.rings.extend(rings);
-            figure.coats.push(FigureLayer {
+            figure.layers.push(FigureLayer {
                 rings: from..figure.rings.len(),
                 paints: [coat.paint; 2],
                 gradients: [coat.gradient.clone(), coat.gradient.clone()],

@@ -35,7 +35,7 @@ impl LazyPlacement {
     }
 
     /// Sets t, which invalidates the placement.
-    pub(super) fn turn(&mut self, t: f64) {
+    pub(super) fn set_time(&mut self, t: f64) {
         self.t = t;
         if let Some(placer) = self.placed.take() {
             let waiting = self.waiting.get_mut();
@@ -87,7 +87,7 @@ mod tests {
         let (mut lazy, count) = counted();
         assert_eq!([x(&lazy), x(&lazy)], [0.25; 2]);
         for t in [0.5, 0.75, 1.0] {
-            lazy.turn(t);
+            lazy.set_time(t);
             assert_eq!(lazy.t(), t);
         }
         assert_eq!(count.load(Ordering::Relaxed), 1);
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn concurrent_readers_see_the_same_placement() {
         let (mut lazy, count) = counted();
-        lazy.turn(0.5);
+        lazy.set_time(0.5);
         std::thread::scope(|scope| {
             for _ in 0..4 {
                 scope.spawn(|| assert_eq!(x(&lazy), 0.5));

@@ -41,11 +41,11 @@ impl TransitionMethod {
     ///
     /// ```
     /// use morphospace::transition::TransitionMethod;
-    /// assert_eq!(TransitionMethod::RIGID_PARTS.plain(), TransitionMethod::FIELD_BLEND);
-    /// assert_eq!(TransitionMethod::CROSS_DISSOLVE.plain(), TransitionMethod::CROSS_DISSOLVE);
+    /// assert_eq!(TransitionMethod::RIGID_PARTS.fallback(), TransitionMethod::FIELD_BLEND);
+    /// assert_eq!(TransitionMethod::CROSS_DISSOLVE.fallback(), TransitionMethod::CROSS_DISSOLVE);
     /// ```
     #[must_use]
-    pub const fn plain(self) -> Self {
+    pub const fn fallback(self) -> Self {
         match self.content {
             ContentKind::Solid | ContentKind::Field => Self::FIELD_BLEND,
             ContentKind::Colours => Self::CROSS_DISSOLVE,
@@ -82,7 +82,7 @@ impl TransitionMethod {
 
     /// Returns the labels of the method.
     #[must_use]
-    pub const fn words(self) -> CellLabels {
+    pub const fn labels(self) -> CellLabels {
         match labels_of(self.warp, self.content) {
             Ok(words) => words,
             Err(_) => unreachable!(), // no constructor makes such a cell
@@ -99,7 +99,7 @@ impl TransitionMethod {
     /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
-        self.words().name
+        self.labels().name
     }
 
     /// Returns the warp: the row of the table.
@@ -117,7 +117,7 @@ impl TransitionMethod {
 
 /// Returns the labels of a combination, or why it does not exist.
 const fn labels_of(warp: WarpKind, content: ContentKind) -> CellSupport {
-    let words = warp.words();
+    let words = warp.labels();
     match content {
         ContentKind::Solid => words.solid,
         ContentKind::Field => words.field,

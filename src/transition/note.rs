@@ -23,9 +23,9 @@ pub enum TransitionNote {
     },
     /// The outlines could not become edges of the mesh of the frame; pins along them move it
     /// instead.
-    NotByOutlines(FrameOutlinesError),
+    PinsInsteadOfOutlines(FrameOutlinesError),
     /// The outlines on which the pins lie could not be matched; the pins alone move the frame.
-    NotMatched(RegionMatchError),
+    PinsUnmatched(RegionMatchError),
     /// The designs would match far better if one of them were mirrored.
     Mirrored {
         /// Mean distortion as drawn; see [`CompatibleMesh::distortion`].
@@ -37,11 +37,11 @@ pub enum TransitionNote {
     /// grid cells.
     BinaryBoundary,
     /// The drawings have more paints or parts than distance fields can be computed for.
-    OneColour,
+    PaintIgnored,
     /// Part timings were requested, which only rigid parts have.
-    OneTime,
+    PartTimesIgnored,
     /// The equations of rigid parts could only be solved after adding a little to their diagonal.
-    Stiffened {
+    DiagonalAdded {
         /// The amount added, as a fraction of the diagonal.
         share: f64,
     },
@@ -67,11 +67,11 @@ impl fmt::Display for TransitionNote {
                 f,
                 "only {left} of the {of} automatic pins are used: with more, the plane would fold"
             ),
-            Self::NotByOutlines(error) => write!(
+            Self::PinsInsteadOfOutlines(error) => write!(
                 f,
                 "the plane follows pins along the outlines instead of the outlines themselves: {error}"
             ),
-            Self::NotMatched(error) => write!(
+            Self::PinsUnmatched(error) => write!(
                 f,
                 "the plane follows the pins alone, not the outlines on which they lie: {error}"
             ),
@@ -83,11 +83,11 @@ impl fmt::Display for TransitionNote {
                 f,
                 "the boundary runs between cells: only the Euclidean metric can place it exactly"
             ),
-            Self::OneColour => write!(
+            Self::PaintIgnored => write!(
                 f,
                 "the drawings are shown in one colour: they have too many colours or parts for distance fields; use fewer cells, or rigid parts"
             ),
-            Self::OneTime => write!(
+            Self::PartTimesIgnored => write!(
                 f,
                 "all parts move at the same time: only rigid parts can have part timings"
             ),
@@ -95,7 +95,7 @@ impl fmt::Display for TransitionNote {
                 f,
                 "{parts} of the parts are sheared more in between than at the ends: their triangles change too differently; choose polar interpolation, or another match"
             ),
-            Self::Stiffened { share } => write!(
+            Self::DiagonalAdded { share } => write!(
                 f,
                 "faces differ very much in size: {share:.0e} of the diagonal was added to the equations to solve them"
             ),
@@ -122,10 +122,10 @@ mod tests {
                 "12 of the 24 automatic pins",
             ),
             (
-                TransitionNote::NotByOutlines(FrameOutlinesError::Nesting),
+                TransitionNote::PinsInsteadOfOutlines(FrameOutlinesError::Nesting),
                 "nested differently in the two designs",
             ),
-            (TransitionNote::NotMatched(cut), "cut 2 leaves its part"),
+            (TransitionNote::PinsUnmatched(cut), "cut 2 leaves its part"),
             (
                 TransitionNote::Match(MatchNote::PinLeftOut(0)),
                 "pin 1 is ignored",
@@ -139,7 +139,7 @@ mod tests {
                 "1.1 instead of 8.0",
             ),
             (
-                TransitionNote::Stiffened { share: 1e-11 },
+                TransitionNote::DiagonalAdded { share: 1e-11 },
                 "1e-11 of the diagonal",
             ),
             (TransitionNote::Unflattened { parts: 2 }, "2 of the parts"),

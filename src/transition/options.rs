@@ -125,14 +125,14 @@ pub enum CollisionAvoidance {
     /// Vertices are moved aside by as little as needed. Only for [`BuildQuality::Best`]: a draft
     /// must be ready at once.
     #[default]
-    Guarded,
+    On,
     /// Collisions and folds are accepted.
-    Plain,
+    Off,
 }
 
 named! { CollisionAvoidance {
-    Guarded: "guarded", "On", "Moves shapes slightly aside where they would fold or cross";
-    Plain: "plain", "Off", "Moves as rigidly as possible, even where shapes collide";
+    On: "guarded", "On", "Moves shapes slightly aside where they would fold or cross";
+    Off: "plain", "Off", "Moves as rigidly as possible, even where shapes collide";
 } }
 
 /// How drawings are coloured.
@@ -205,7 +205,7 @@ impl FieldOptions {
     }
 
     /// Returns whether an exact boundary was requested but the metric does not allow it.
-    pub(super) fn is_switched(&self) -> bool {
+    pub(super) fn needs_binary_boundary(&self) -> bool {
         self.boundary == FieldBoundary::Exact && !self.is_exact()
     }
 }

@@ -4,7 +4,7 @@ use super::any_warp::AnyWarp;
 use super::note::TransitionNote;
 use super::part_time::PartTime;
 use super::transition::{RecordingSlot, TransitionData};
-use crate::content::{BarClocks, Content, PaintLayerStack, PlacedPaintLayer, SolidContent};
+use crate::content::{Content, PaintLayerStack, PlacedPaintLayer, SolidClocks, SolidContent};
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, twice_signed_area};
 use crate::warp::{Arap, PartClock, StaggeredArap};
@@ -13,15 +13,15 @@ use std::collections::BTreeMap;
 impl TransitionData {
     /// Replaces the part timings. Other methods than rigid parts get a note instead.
     pub(super) fn timed(mut self, times: &[PartTime]) -> Self {
-        self.moved
+        self.built_warp
             .notes
-            .retain(|note| *note != TransitionNote::OneTime);
-        let arap = match (&self.content, &self.moved.warp) {
+            .retain(|note| *note != TransitionNote::PartTimesIgnored);
+        let arap = match (&self.content, &self.built_warp.warp) {
             (Content::Solid(_), AnyWarp::Rigid(arap)) => arap.clone(),
             (Content::Solid(_), AnyWarp::Staggered(warp)) => warp.arap().clone(),
             _ => {
                 if !times.is_empty() {
-                    self.moved.notes.push(TransitionNote::OneTime);
+                    self.built_warp.notes.push(TransitionNote::PartTimesIgnored);
                 }
                 return self;
             }
@@ -30,19 +30,19 @@ impl TransitionData {
             return self;
         };
         // An existing recording has other timings, unless there are none before and after.
-        if !times.is_empty() || matches!(self.moved.warp, AnyWarp::Staggered(_)) {
-            self.film = RecordingSlot::default();
+        if !times.is_empty() || matches!(self.built_warp.warp, AnyWarp::Staggered(_)) {
+            self.recording = RecordingSlot::default();
         }
         if times.is_empty() {
             solid.take_clocks();
-            self.moved.warp = AnyWarp::Rigid(arap);
+            self.built_warp.warp = AnyWarp::Rigid(arap);
             return self;
         }
         let clocks: Vec<PartClock> = times.iter().map(PartTime::clock).collect();
-        let of_parts = of_parts(&arap, self.moved.matched.as_ref(), times);
+        let of_parts = of_parts(&arap, self.built_warp.matched.as_ref(), times);
         let (clocks, of_parts) = in_use(&clocks, &of_parts);
         solid.put_clocks(&arap, &clocks, &of_parts);
-        self.moved.warp = AnyWarp::Staggered(StaggeredArap::new(arap, &clocks, &of_parts));
+        self.built_warp.warp = AnyWarp::Staggered(StaggeredArap::new(arap, &clocks, &of_parts));
         self
     }
 }
@@ -127,9 +127,12 @@ fn part_at(
 impl SolidContent {
     /// Removes all clocks.
     fn take_clocks(&mut self) {
-        self.clocks = None;
+        self.part_clocks = None;
         // A coating without paint exists only for the clocks.
-        self.coating = self.coating.take().filter(|coating| !is_plain(coating));
+        self.paint_layers = self
+            .paint_layers
+            .take()
+            .filter(|coating| !is_plain(coating));
     }
 
     /// Assigns a clock to each loop, hole and vertex. Parts in one colour also become paint layers,
@@ -141,24 +144,27 @@ impl SolidContent {
             let first = boundary_loop.first();
             first.map_or(clocks.len(), |&v| clock_of(v))
         };
-        self.clocks = Some(BarClocks {
-            of_walks: self.loops.iter().map(clock_of_loop).collect(),
+        self.part_clocks = Some(SolidClocks {
+            of_loops: self.loops.iter().map(clock_of_loop).collect(),
             of_holes: self
                 .holes
                 .iter()
-                .map(|hole| clock_of(hole.face(0)[0]))
+                .map(|hole| clock_of(hole.host_face(0)[0]))
                 .collect(),
             of_vertices: (0..of_vertices.len() as u32).map(clock_of).collect(),
             clocks: clocks.iter().copied().chain([PartClock::WHOLE]).collect(),
         });
-        if self.coating.is_none() && !self.loops.is_empty() {
-            self.coating = Some(PaintLayerStack::plain(self.loops.len(), self.holes.len()));
+        if self.paint_layers.is_none() && !self.loops.is_empty() {
+            self.paint_layers = Some(PaintLayerStack::single_layer(
+                self.loops.len(),
+                self.holes.len(),
+            ));
         }
     }
 }
 
 /// Returns whether a coating has no paint.
 fn is_plain(coating: &PaintLayerStack) -> bool {
-    let is_plain = |coat: &PlacedPaintLayer| coat.paints == [None; 2] && coat.lines == [None; 2];
-    coating.coats.iter().all(is_plain)
+    let is_plain = |coat: &PlacedPaintLayer| coat.paints == [None; 2] && coat.strokes == [None; 2];
+    coating.layers.iter().all(is_plain)
 }

@@ -13,8 +13,8 @@ use crate::geometry::{DVec2, Side};
 impl TransitionData {
     /// Applies options for paint layers.
     pub(super) fn coated(mut self, options: &PaintLayerOptions) -> Self {
-        if let Some(coating) = self.content.coating_mut() {
-            coating.reordered_at = options.reorder_at;
+        if let Some(coating) = self.content.paint_layers_mut() {
+            coating.reorder_t = options.reorder_at;
             coating.fades = options.fade;
         }
         self
@@ -24,7 +24,7 @@ impl TransitionData {
 /// The boundary loops of a transition.
 pub(super) struct PieceBoundaryLoops<'a> {
     /// Vertex indices of each loop.
-    pub walks: Vec<Vec<u32>>,
+    pub loops: Vec<Vec<u32>>,
     /// Index of the piece to which each loop belongs.
     pub pieces: Vec<usize>,
     /// Positions of the vertices in source and target.
@@ -39,7 +39,7 @@ impl<'a> PieceBoundaryLoops<'a> {
         let piece = |walk: &Vec<u32>| walk.first().map_or(0, |&v| parts[v as usize] as usize);
         Self {
             pieces: walks.iter().map(piece).collect(),
-            walks,
+            loops: walks,
             places: [mesh.source(), mesh.target()],
         }
     }
@@ -59,25 +59,25 @@ pub(super) fn coating(
     let pieces = loops.pieces.iter();
     let of_walks: Vec<usize> = pieces.map(|&piece| layers.of_piece(piece)).collect();
     let loop_vertices = |layer: usize| {
-        let all = loops.walks.iter().zip(&of_walks);
+        let all = loops.loops.iter().zip(&of_walks);
         let in_layer = all.filter(|&(_, layer_of_loop)| *layer_of_loop == layer);
         let vertices = in_layer.flat_map(|(boundary_loop, _)| boundary_loop.iter().copied());
         vertices.collect()
     };
     Some(PaintLayerStack {
-        coats: coats(drawings, &layers, loop_vertices, loops.places),
+        layers: coats(drawings, &layers, loop_vertices, loops.places),
         of_holes: holes
             .iter()
             .map(|(piece, _)| layers.of_piece(*piece))
             .collect(),
-        lone_walks: loops
+        unmatched_loops: loops
             .pieces
             .iter()
             .map(|&piece| alone(matched.pieces.get(piece)?))
             .collect(),
-        of_walks,
+        of_loops: of_walks,
         fades: false,
-        reordered_at: PaintLayerOptions::default().reorder_at,
+        reorder_t: PaintLayerOptions::default().reorder_at,
     })
 }
 
@@ -98,25 +98,25 @@ pub(super) fn coats(
     vertices_along: impl Fn(usize) -> Vec<u32>,
     places: [&[DVec2]; 2],
 ) -> Vec<PlacedPaintLayer> {
-    let heights = Side::BOTH.map(|side| heights(&levels.coats, side));
+    let heights = Side::BOTH.map(|side| heights(&levels.layers, side));
     let coat = |level: usize| {
-        let ink = |side: Side| Some(&drawings.inks[side][levels.coats[level][side]?]);
+        let ink = |side: Side| Some(&drawings.inks[side][levels.layers[level][side]?]);
         let inks = Side::BOTH.map(ink);
         // An unmatched layer keeps its paint, while its stroke grows with it.
         let paint = |side: Side| inks[side].or(inks[side.other()])?.paint;
         PlacedPaintLayer {
             paints: Side::BOTH.map(paint),
             shading: shading(inks, vertices_along(level), places),
-            lines: inks.map(|ink| ink?.line),
-            heights: [heights[0][level], heights[1][level]],
-            alone: match levels.coats[level] {
+            strokes: inks.map(|ink| ink?.line),
+            z_indices: [heights[0][level], heights[1][level]],
+            only_in: match levels.layers[level] {
                 [Some(_), None] => Some(Side::Source),
                 [None, Some(_)] => Some(Side::Target),
                 _ => None,
             },
         }
     };
-    (0..levels.coats.len()).map(coat).collect()
+    (0..levels.layers.len()).map(coat).collect()
 }
 
 /// Returns the gradients of a layer with these vertices; an unmatched layer keeps its own.
@@ -130,7 +130,7 @@ fn shading(
         let places = vertices.iter().map(|&v| places[side][v as usize]);
         Some(AnchoredGradient {
             gradient,
-            places: places.collect(),
+            vertex_positions: places.collect(),
         })
     };
     let ends = Side::BOTH.map(|side| {

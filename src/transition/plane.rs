@@ -15,7 +15,7 @@ use crate::warp::{
     CommonRigidMotion, FeatureTravel, GridWarp, IdentityWarp, Lattice, LineWarp, PlaneGrid,
     PlaneWarp, RigidElasticPlaneWarp, RigidElasticWarp, ScatteredWarp, Warp, WarpKind,
 };
-use crate::work::progress::{Progress, ProgressSpan, beside, checkpoint};
+use crate::work::progress::{Progress, ProgressSpan, checkpoint, run_cancellable};
 use std::sync::Arc;
 
 /// Number of grid cells along the longer side of the frame; the warp is linear within a cell
@@ -44,7 +44,7 @@ pub(super) fn warp(
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<BuiltWarp, BuildError> {
-    let kind = spec.cell.warp();
+    let kind = spec.method.warp();
     if kind == WarpKind::None {
         return Ok(AnyWarp::Still(IdentityWarp::new(*frame)).into());
     }
@@ -58,7 +58,7 @@ pub(super) fn warp(
     // is awaited.
     let (spec, frame, features) = (spec.clone(), *frame, Arc::new(features));
     let features_for_warp = Arc::clone(&features);
-    let warp = beside(progress, move || {
+    let warp = run_cancellable(progress, move || {
         build_grid_warp(&spec, &frame, &features_for_warp)
     })?;
     Ok(BuiltWarp {
@@ -76,7 +76,7 @@ fn build_grid_warp(
 ) -> Result<Arc<dyn Warp>, BuildError> {
     let options = &spec.options;
     let work = features.points.len() + 4 * features.lines.len();
-    match spec.cell.warp() {
+    match spec.method.warp() {
         WarpKind::Lines => on_grid(spec, frame, features, work, |frame, points, lines| {
             Ok(LineWarp::new(frame, lines, points, &options.lines)?)
         }),
@@ -92,7 +92,7 @@ fn build_grid_warp(
         // The table has no such method for planes; a new one must be added here.
         WarpKind::None | WarpKind::Paths | WarpKind::Arap => Err(BuildError::Unavailable(format!(
             "{} cannot be built; choose another method",
-            spec.cell.name()
+            spec.method.name()
         ))),
     }
 }
@@ -107,17 +107,17 @@ fn on_grid<W: PlaneWarp>(
     new: impl FnOnce(&Bounds, &[PointPair], &[LinePair]) -> Result<W, BuildError>,
 ) -> Result<Arc<dyn Warp>, BuildError> {
     let travels_as_whole = match spec.options.travel {
-        FeatureTravel::Auto => spec.cell.content() == ContentKind::Field,
+        FeatureTravel::Auto => spec.method.content() == ContentKind::Field,
         FeatureTravel::Whole => true,
         FeatureTravel::Straight => false,
     };
-    let rigid = CommonRigidMotion::of(points, lines).filter(|_| travels_as_whole);
+    let rigid = CommonRigidMotion::fit(points, lines).filter(|_| travels_as_whole);
     Ok(match rigid {
         Some(rigid) => {
             let warp = RigidElasticPlaneWarp::new(rigid, frame, points, lines, new)?;
             // Rotating fields leave the frame on their way; pictures are cropped to it.
-            let visible_area = match spec.cell.content() {
-                ContentKind::Field => rigid.swept(frame),
+            let visible_area = match spec.method.content() {
+                ContentKind::Field => rigid.swept_bounds(frame),
                 ContentKind::Colours | ContentKind::Solid => *frame,
             };
             Arc::new(GridWarp::new(warp, grid(&visible_area, work)))
@@ -156,7 +156,7 @@ fn rigid(
     if let Some(matched) = &features.matched {
         match about_outlines(spec, frame, &features, matched, progress)? {
             Ok(outline_warp) => warp = Some(outline_warp),
-            Err(error) => notes.push(TransitionNote::NotByOutlines(error)),
+            Err(error) => notes.push(TransitionNote::PinsInsteadOfOutlines(error)),
         }
     }
     let warp = match warp {
@@ -222,7 +222,7 @@ fn about_outlines(
     let options = &spec.options;
     let rigid = match options.travel {
         FeatureTravel::Auto | FeatureTravel::Whole => {
-            CommonRigidMotion::of(&features.points, &features.lines)
+            CommonRigidMotion::fit(&features.points, &features.lines)
         }
         FeatureTravel::Straight => None,
     };

@@ -54,21 +54,21 @@ impl PlaneFeatures {
             ..Self::default()
         };
         // The outline of a picture is invisible.
-        if spec.cell.content() != ContentKind::Field {
+        if spec.method.content() != ContentKind::Field {
             return Ok(given);
         }
         // A map of the plane cannot cut a ring open or split a part.
         let matching = MatchSettings {
             holes: HoleRule::Close,
-            parts: PartRule::Alone,
+            parts: PartRule::Transient,
             ..requested.clone()
         };
         let outlines = spec.outlines(bar_width, progress)?;
         if given.points.is_empty() && given.lines.is_empty() {
-            return Self::automatic_features(spec.cell.warp(), &outlines, &matching, progress);
+            return Self::automatic_features(spec.method.warp(), &outlines, &matching, progress);
         }
         // Pins that the user has moved along the outlines still match them.
-        if spec.cell.warp() == WarpKind::Arap && given.are_on(&outlines) {
+        if spec.method.warp() == WarpKind::Arap && given.are_on(&outlines) {
             return given.with_match(&outlines, &matching, progress);
         }
         Ok(given)
@@ -119,7 +119,7 @@ impl PlaneFeatures {
                 self.notes.extend(TransitionNote::of_match(&matched));
                 self.matched = Some(matched);
             }
-            Err(error) => self.notes.push(TransitionNote::NotMatched(error)),
+            Err(error) => self.notes.push(TransitionNote::PinsUnmatched(error)),
         }
         Ok(self)
     }

@@ -57,28 +57,33 @@ impl Transition {
             proof: recorded.prove(&drawn_loops(solid), &checking)?,
             faces: self.compatible().map_or(0, |mesh| mesh.faces().len()),
             film_error: recorded.error(),
-            left_out: solid.holes.len() + solid.swells.len(),
-            moved_aside: self.arap().and_then(Arap::moved_aside),
+            left_out: solid.holes.len() + solid.swelling_shapes.len(),
+            moved_aside: self.arap().and_then(Arap::max_guard_displacement),
         }))
     }
 }
 
 /// Returns the boundary loops that are drawn exactly where their vertices are.
 fn drawn_loops(solid: &SolidContent) -> Vec<DrawnLoop> {
-    let swells = |k: usize| solid.swells.iter().any(|swell| swell.walks().contains(&k));
-    let level = |k: usize| match &solid.coating {
-        Some(coating) => coating.of_walks[k],
+    let swells = |k: usize| {
+        solid
+            .swelling_shapes
+            .iter()
+            .any(|swell| swell.loop_indices().contains(&k))
+    };
+    let level = |k: usize| match &solid.paint_layers {
+        Some(coating) => coating.of_loops[k],
         None => 0,
     };
     let visible_interval = |k: usize| {
         let seed_shape = solid
-            .specks
+            .seed_shapes
             .iter()
-            .find(|seed_shape| seed_shape.walks.contains(&k));
-        let clock = solid.clocks.as_ref();
-        let clock = clock.map_or(PartClock::WHOLE, |clocks| clocks.clocks[clocks.of_walks[k]]);
+            .find(|seed_shape| seed_shape.loop_indices.contains(&k));
+        let clock = solid.part_clocks.as_ref();
+        let clock = clock.map_or(PartClock::WHOLE, |clocks| clocks.clocks[clocks.of_loops[k]]);
         seed_shape.map_or([0.0, 1.0], |seed_shape| {
-            seed_shape.life.there(|t| clock.when(t))
+            seed_shape.window.visible_interval(|t| clock.film_time(t))
         })
     };
     let loops = solid.loops.iter().enumerate();
@@ -86,8 +91,8 @@ fn drawn_loops(solid: &SolidContent) -> Vec<DrawnLoop> {
         .filter(|(k, _)| !swells(*k))
         .map(|(k, boundary_loop)| DrawnLoop {
             vertices: boundary_loop.clone(),
-            level: level(k),
-            drawn: visible_interval(k),
+            layer: level(k),
+            visible_interval: visible_interval(k),
         })
         .collect()
 }
@@ -102,13 +107,13 @@ impl TransitionProof {
 
     /// Returns whether the check covers everything.
     #[must_use]
-    pub fn is_whole(&self) -> bool {
+    pub fn is_complete(&self) -> bool {
         self.left_out == 0 && self.proof.touching == 0
     }
 
     /// Returns the first t at which the check fails.
     #[must_use]
-    pub fn first_t(&self) -> Option<f64> {
+    pub fn first_failure_time(&self) -> Option<f64> {
         let fold = self.proof.fold.map(|fold| fold.t);
         let meeting = self.proof.meeting.map(|meeting| meeting.t);
         fold.into_iter().chain(meeting).min_by(f64::total_cmp)

@@ -17,7 +17,7 @@ impl Transition {
     /// use morphospace::work::progress::Silent;
     /// use morphospace::{Design, Transition};
     /// let [a, b] = [[[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]], [[0.0, 0.0], [5.0, 1.0], [1.0, 3.0]]];
-    /// let transition = Transition::between(Design::of_rings("a", [a])?, Design::of_rings("b", [b])?)?;
+    /// let transition = Transition::between(Design::from_rings("a", [a])?, Design::from_rings("b", [b])?)?;
     /// let mut frame = transition.frame(0.5);
     /// let solved = frame.placement().in_frame.clone();
     /// transition.record(&RecordingOptions::default(), &Silent)?;
@@ -31,7 +31,7 @@ impl Transition {
         options: &RecordingOptions,
         progress: &dyn Progress,
     ) -> Result<Recording, RecordingError> {
-        if let Some(existing) = self.film() {
+        if let Some(existing) = self.recording() {
             return existing.clone();
         }
         let recording = Recording::record(self.shared_warp(), options, progress);
@@ -42,12 +42,12 @@ impl Transition {
         ) {
             return recording;
         }
-        self.slot().get_or_init(|| recording).clone()
+        self.recording_slot().get_or_init(|| recording).clone()
     }
 
     /// Returns the recording, or why there is none; `None` until recording was requested.
     #[must_use]
-    pub fn film(&self) -> Option<&Result<Recording, RecordingError>> {
-        self.slot().get()
+    pub fn recording(&self) -> Option<&Result<Recording, RecordingError>> {
+        self.recording_slot().get()
     }
 }

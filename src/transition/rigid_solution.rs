@@ -94,13 +94,14 @@ fn without_collisions(
     loop {
         let placed = placed(
             solution.clone(),
-            (layers, &sample_times),
+            layers,
+            &sample_times,
             options.quality,
             progress,
         )?;
         let arap = stiffen_folds(placed.arap, progress)?;
         let solution = RigidSolution { arap, ..placed };
-        if (options.quality, options.guard) != (BuildQuality::Best, CollisionAvoidance::Guarded) {
+        if (options.quality, options.guard) != (BuildQuality::Best, CollisionAvoidance::On) {
             return Ok(solution);
         }
         let pieces = (solution.matched.pieces.len(), &solution.swelling[..]);
@@ -125,7 +126,7 @@ fn without_collisions(
         }
         collision_times
             .iter()
-            .for_each(|&t| sample_times.look_at(t));
+            .for_each(|&t| sample_times.refine_at(t));
         previous_collisions.push(collision_times);
         first.get_or_insert(current);
     }
@@ -152,12 +153,13 @@ pub(super) fn with_requested_options(
 /// If the motion cannot be solved or the work is cancelled.
 fn placed(
     solution: RigidSolution,
-    (layers, steps): (&PieceLayers, &SampleTimes),
+    layers: &PieceLayers,
+    sample_times: &SampleTimes,
     quality: BuildQuality,
     progress: &dyn Progress,
 ) -> Result<RigidSolution, BuildError> {
     let options = solution.arap.options();
-    let obstacles = (&solution.holes[..], layers, steps);
+    let obstacles = (&solution.holes[..], layers, sample_times);
     let placed = placement::placed(
         &solution.matched,
         &solution.arap,
@@ -168,11 +170,11 @@ fn placed(
     Ok(match placed {
         Some(placed) => {
             let parameters = OutlineParameters {
-                lives: &placed.lives,
+                time_windows: &placed.lives,
                 stiffness: solution.arap.stiffness(),
             };
             RigidSolution {
-                arap: Arap::settled(&placed.mesh, options, parameters, progress)?,
+                arap: Arap::with_outline_parameters(&placed.mesh, options, parameters, progress)?,
                 matched: placed.matched,
                 swelling: placed.swelling,
                 // Holes lie in matched pieces, which were not moved.

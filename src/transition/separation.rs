@@ -20,7 +20,7 @@ use super::transients::placement::lives;
 use crate::compatible::{OutlineMeshError, merged_meshes};
 use crate::correspondence::{MatchPlan, PartGroup, RegionMatch};
 use crate::warp::Arap;
-use crate::work::progress::{Progress, ProgressShares, ProgressSpan, still_wanted};
+use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -51,7 +51,7 @@ pub(super) struct Separation {
     /// The matched and triangulated pieces.
     pub(super) pieces: Vec<MatchCandidate>,
     /// The pieces of each group, for reuse.
-    known: ChosenGroups,
+    groups: ChosenGroups,
 }
 
 impl Separation {
@@ -99,7 +99,7 @@ pub(super) fn separate(
     if let Some(mut joined) = prepared.shared_out(&joining) {
         // A failed attempt is no better: a result exists already.
         let candidate = apart(&mut joined, spec, &as_asked, &joining).ok();
-        still_wanted(&joining)?;
+        check_cancelled(&joining)?;
         let is_better = |candidate: &Separation| {
             drafts.unmatched_share() - candidate.unmatched_share() > MIN_SAVING
                 && candidate.misfit() < drafts.misfit()
@@ -109,7 +109,7 @@ pub(super) fn separate(
         }
     }
     let best = |group: &GroupSearch, progress: &dyn Progress| {
-        let drafts = drafts.known.get(&group.prepared.groups()[group.group]);
+        let drafts = drafts.groups.get(&group.prepared.groups()[group.index]);
         best_of_group(group, drafts, progress)
     };
     apart(prepared, spec, &best, &searching)
@@ -162,13 +162,13 @@ fn apart(
         let arap = Arap::of_outlines(&mesh, &coarse, &lives(&matched), &solving)?;
         let layers = PieceLayers::of(&matched, prepared.looks());
         let holes = timed(&matched.pieces, &arap, &layers, progress)?;
-        let unpaired = pieces_to_release(&matched, &arap, (&holes, &layers), progress)?;
+        let unpaired = pieces_to_release(&matched, &arap, &holes, &layers, progress)?;
         if round == MAX_ROUNDS || !prepared.let_go(&matched, &unpaired, progress) {
             return Ok(Separation {
                 matched,
                 arap,
                 pieces: candidates,
-                known,
+                groups: known,
             });
         }
         round += 1;
@@ -196,7 +196,7 @@ fn chosen(
         None => {
             let group = GroupSearch {
                 prepared,
-                group: k,
+                index: k,
                 spec,
             };
             choice(&group, &shares.part(k))

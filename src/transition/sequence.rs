@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// ```
 /// use morphospace::transition::Sequence;
 /// use morphospace::{Design, Transition};
-/// let box_ = |w: f64, h: f64| Design::of_rings("box", [[[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]]);
+/// let box_ = |w: f64, h: f64| Design::from_rings("box", [[[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]]);
 /// let segments = vec![
 ///     Transition::between(box_(1.0, 1.0)?, box_(3.0, 1.0)?)?,
 ///     Transition::between(box_(3.0, 1.0)?, box_(3.0, 3.0)?)?,
@@ -28,7 +28,7 @@ use std::sync::Arc;
 /// assert_eq!(sequence.end(), 2.0);
 /// let mut frame = sequence.frame(0.0);
 /// frame.seek(1.5);
-/// assert_eq!((frame.leg(), frame.now().t()), (1, 0.5));
+/// assert_eq!((frame.segment(), frame.frame().t()), (1, 0.5));
 /// # Ok::<(), morphospace::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -73,21 +73,21 @@ impl Sequence {
     /// Sets whether the last segment leads back to the first design: then the colours that change
     /// with t return as well.
     #[must_use]
-    pub fn leading_back(self, is_closed: bool) -> Self {
+    pub fn closed(self, is_closed: bool) -> Self {
         Self { is_closed, ..self }
     }
 
     /// Returns the transitions in order.
     #[must_use]
-    pub fn legs(&self) -> &[Transition] {
+    pub fn segments(&self) -> &[Transition] {
         &self.segments
     }
 
     /// Returns whether two sequences share the same transitions. Compares pointers, which clones
     /// share; comparing the data would take longer.
     #[must_use]
-    pub fn is(&self, other: &Self) -> bool {
-        let same = |(a, b): (&Transition, &Transition)| a.is(b);
+    pub fn is_same(&self, other: &Self) -> bool {
+        let same = |(a, b): (&Transition, &Transition)| a.is_same(b);
         self.segments.len() == other.segments.len()
             && self.segments.iter().zip(other.segments.iter()).all(same)
     }
@@ -101,7 +101,7 @@ impl Sequence {
     /// Returns the segment shown at `t`, and the t within it; before the first design and beyond
     /// the last one it is extrapolated.
     #[must_use]
-    pub fn place(&self, t: f64) -> (usize, f64) {
+    pub fn segment_at(&self, t: f64) -> (usize, f64) {
         segment_at(self.segments.len(), t)
     }
 
@@ -118,11 +118,11 @@ impl Sequence {
     /// Returns every t inside the sequence at which a design is reached or a part starts, stops or
     /// changes pace. Between these, every point moves smoothly. Unsorted.
     #[must_use]
-    pub fn breaks(&self) -> Vec<f64> {
+    pub fn break_times(&self) -> Vec<f64> {
         let breaks_of_segment = |(k, segment): (usize, &Transition)| {
             let first = k as f64;
             let segment_start = (k > 0).then_some(first);
-            let within = segment.breaks().into_iter().map(move |t| first + t);
+            let within = segment.break_times().into_iter().map(move |t| first + t);
             segment_start.into_iter().chain(within)
         };
         self.segments
@@ -136,14 +136,18 @@ impl Sequence {
     /// with t run once through all segments.
     #[must_use]
     pub fn style_of(&self, segment: usize, style: &TransitionStyle) -> TransitionStyle {
-        style_of(segment, (self.segments.len(), self.is_closed), style)
+        let layout = SequenceLayout {
+            segment_count: self.segments.len(),
+            is_closed: self.is_closed,
+        };
+        style_of(segment, layout, style)
     }
 
     /// Creates a frame at `t`, with its own memory; a `t` that is not finite counts as 0.
     #[must_use]
     pub fn frame(&self, t: f64) -> SequenceFrame {
         let t = if t.is_finite() { t } else { 0.0 };
-        let (segment, within) = self.place(t);
+        let (segment, within) = self.segment_at(t);
         let mut frames: Vec<Option<Frame>> = self.segments.iter().map(|_| None).collect();
         frames[segment] = Some(self.segments[segment].frame(within));
         SequenceFrame {
@@ -155,7 +159,22 @@ impl Sequence {
     }
 }
 
-/// As [`Sequence::place`], for a sequence of `segment_count` segments.
+/// Number of segments of a sequence, and whether it is closed.
+///
+/// ```
+/// use morphospace::transition::{SequenceLayout, colour_fraction};
+/// let layout = SequenceLayout { segment_count: 4, is_closed: true };
+/// assert_eq!([0.0, 1.0, 2.0, 4.0].map(|t| colour_fraction(t, layout)), [0.0, 0.5, 1.0, 0.0]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SequenceLayout {
+    /// Number of segments.
+    pub segment_count: usize,
+    /// Whether the last segment leads back to the first design.
+    pub is_closed: bool,
+}
+
+/// As [`Sequence::segment_at`], for a sequence of `segment_count` segments.
 #[must_use]
 pub fn segment_at(segment_count: usize, t: f64) -> (usize, f64) {
     let last = segment_count.saturating_sub(1);
@@ -164,14 +183,14 @@ pub fn segment_at(segment_count: usize, t: f64) -> (usize, f64) {
     (segment, t - segment as f64)
 }
 
-/// As [`Sequence::style_of`], given the number of segments and whether the last one leads back.
+/// As [`Sequence::style_of`], for a sequence with this layout.
 #[must_use]
 pub fn style_of(
     segment: usize,
-    sequence: (usize, bool),
+    layout: SequenceLayout,
     style: &TransitionStyle,
 ) -> TransitionStyle {
-    let colour_of_design = |k: usize| style.fill_at(colour_fraction(k as f64, sequence));
+    let colour_of_design = |k: usize| style.fill_at(colour_fraction(k as f64, layout));
     TransitionStyle {
         source: colour_of_design(segment),
         target: colour_of_design(segment + 1),
@@ -182,9 +201,9 @@ pub fn style_of(
 /// Returns the position between the style's source colour (0) and target colour (1) at `t`: from 0
 /// to 1 over all segments, or to 1 and back if the last segment leads back.
 #[must_use]
-pub fn colour_fraction(t: f64, (segment_count, is_closed): (usize, bool)) -> f64 {
-    let fraction = t / segment_count.max(1) as f64;
-    match is_closed {
+pub fn colour_fraction(t: f64, layout: SequenceLayout) -> f64 {
+    let fraction = t / layout.segment_count.max(1) as f64;
+    match layout.is_closed {
         true => 1.0 - (2.0 * fraction - 1.0).abs(),
         false => fraction,
     }
@@ -204,7 +223,7 @@ impl SequenceFrame {
     /// not finite counts as 0.
     pub fn seek(&mut self, t: f64) {
         self.t = if t.is_finite() { t } else { 0.0 };
-        let (segment, within) = self.sequence.place(self.t);
+        let (segment, within) = self.sequence.segment_at(self.t);
         self.segment = segment;
         match &mut self.frames[segment] {
             Some(frame) => frame.seek(within),
@@ -217,7 +236,7 @@ impl SequenceFrame {
     /// # Panics
     /// Never: that segment has a frame.
     #[must_use]
-    pub fn now(&self) -> &Frame {
+    pub fn frame(&self) -> &Frame {
         self.frames[self.segment]
             .as_ref()
             .unwrap_or_else(|| unreachable!("it was sought"))
@@ -225,7 +244,7 @@ impl SequenceFrame {
 
     /// Returns the index of the segment that is shown.
     #[must_use]
-    pub fn leg(&self) -> usize {
+    pub fn segment(&self) -> usize {
         self.segment
     }
 
@@ -250,7 +269,7 @@ mod tests {
     fn design(name: &str, size: [f64; 2]) -> Design {
         let [w, h] = size;
         let ring = [[0.0, 0.0], [w, 0.0], [w, h], [0.3 * w, 1.2 * h], [0.0, h]];
-        Design::of_rings(name, [ring]).expect("a design")
+        Design::from_rings(name, [ring]).expect("a design")
     }
 
     fn three() -> Sequence {
@@ -268,16 +287,16 @@ mod tests {
         let mut frame = sequence.frame(0.25);
         for t in [0.25, 1.75, 0.5, 1.0, -0.5, 2.5, 2.0] {
             frame.seek(t);
-            let (segment, within) = sequence.place(t);
-            let alone = sequence.legs()[segment].frame(within).figure();
-            assert_eq!(frame.now().figure(), alone, "{t}");
-            assert_eq!((frame.t(), frame.leg()), (t, segment));
+            let (segment, within) = sequence.segment_at(t);
+            let alone = sequence.segments()[segment].frame(within).figure();
+            assert_eq!(frame.frame().figure(), alone, "{t}");
+            assert_eq!((frame.t(), frame.segment()), (t, segment));
         }
         assert_eq!(
-            [-0.5, 0.0, 1.0, 1.5, 2.0, 2.5].map(|t| sequence.place(t).0),
+            [-0.5, 0.0, 1.0, 1.5, 2.0, 2.5].map(|t| sequence.segment_at(t).0),
             [0, 0, 1, 1, 1, 1]
         );
-        assert_eq!(sequence.place(2.5), (1, 1.5));
+        assert_eq!(sequence.segment_at(2.5), (1, 1.5));
         frame.seek(f64::NAN);
         assert_eq!(frame.t(), 0.0);
         assert!(Sequence::new(vec![]).is_none());
@@ -287,7 +306,7 @@ mod tests {
     fn designs_are_exact_from_both_sides() {
         let sequence = three();
         let [arriving, leaving] = [(0, 1.0), (1, 0.0)].map(|(segment, t)| {
-            let frame = sequence.legs()[segment].frame(t);
+            let frame = sequence.segments()[segment].frame(t);
             let mut points = frame.figure().rings.concat();
             points.retain(|p| design("x", [3.0, 1.0]).extent.padded(1e-9).contains(*p));
             points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -307,15 +326,15 @@ mod tests {
         assert_eq!(second.target, style.target);
         assert_eq!(first.target, second.source);
         assert_eq!(first.target, style.fill_at(0.5));
-        let one = Sequence::from(sequence.legs()[0].clone());
+        let one = Sequence::from(sequence.segments()[0].clone());
         assert_eq!(one.style_of(0, &style), style);
-        let round = sequence.leading_back(true);
+        let round = sequence.closed(true);
         assert_eq!(round.style_of(0, &style), style);
         assert_eq!(round.style_of(1, &style).target, style.source);
     }
 
     #[test]
     fn breaks_are_those_of_the_segments_and_the_designs_between_them() {
-        assert_eq!(three().breaks(), [1.0]);
+        assert_eq!(three().break_times(), [1.0]);
     }
 }

@@ -55,7 +55,7 @@ pub(super) fn rigid_parts(
         _ => {
             let pair = drawings.insert(spec.drawings(bar_width, progress)?);
             let solved = cached_or_best(spec, pair, progress)?;
-            let (motion, options) = (&solved.film.arap, &spec.options.arap);
+            let (motion, options) = (&solved.solution.arap, &spec.options.arap);
             let arap = rigid_solution::with_requested_options(motion, options, progress)?;
             (arap, Some(Arc::new(solved)))
         }
@@ -64,22 +64,22 @@ pub(super) fn rigid_parts(
     if solid.bars.is_empty() {
         solid.loops = arap.mesh().boundary_loops();
     }
-    let solution = solved.as_ref().map(|solved| &solved.film);
+    let solution = solved.as_ref().map(|solved| &solved.solution);
     if let Some((solution, drawings)) = solution.zip(drawings) {
         let loops = PieceBoundaryLoops::of_mesh(arap.mesh());
-        solid.coating =
+        solid.paint_layers =
             piece_coating::coating(&drawings, &solution.matched, &loops, &solution.holes);
         solid.holes = solution
             .holes
             .iter()
             .map(|(_, hole)| hole.clone())
             .collect();
-        (solid.swells, solid.specks) = shapes::drawn(&arap, &solution.swelling);
+        (solid.swelling_shapes, solid.seed_shapes) = shapes::drawn(&arap, &solution.swelling);
     }
     let moved = BuiltWarp {
         matched: solution.map(|solution| solution.matched.clone()),
         notes: solution.map_or_else(Vec::new, |solution| solution.notes.clone()),
-        kept: solved,
+        solution: solved,
         ..AnyWarp::Rigid(arap).into()
     };
     Ok((moved, solid))
@@ -112,11 +112,14 @@ fn cached_or_best(
     progress: &dyn Progress,
 ) -> Result<KeyedSolution, BuildError> {
     let key = cached_match::cache_key(&spec.options, drawings);
-    let film = match solution_cache::restore(&spec.found, &key, &spec.options, progress)? {
+    let film = match solution_cache::restore(&spec.cached_match, &key, &spec.options, progress)? {
         Some(film) => film,
         None => rigid_solution::solve_best(spec, drawings, progress)?,
     };
-    Ok(KeyedSolution { key, film })
+    Ok(KeyedSolution {
+        key,
+        solution: film,
+    })
 }
 
 /// Builds the interpolation of a triangulation that the designs bring along.

@@ -16,7 +16,7 @@ use crate::transition::options::TransitionOptions;
 use crate::transition::rigid_solution::RigidSolution;
 use crate::transition::transients::holes;
 use crate::warp::{Arap, Guard, OutlineParameters, TimeWindow};
-use crate::work::progress::{Progress, still_wanted};
+use crate::work::progress::{Progress, check_cancelled};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
@@ -35,13 +35,13 @@ const LINE_LENGTH: usize = 76;
 #[derive(Clone, Debug)]
 pub(in crate::transition) struct KeyedSolution {
     pub key: String,
-    pub film: RigidSolution,
+    pub solution: RigidSolution,
 }
 
 impl KeyedSolution {
     /// Packs the motion as text for a document.
-    pub fn packed(&self) -> CachedMatch {
-        let packed = SolutionRecord::of(&self.film).and_then(|record| record.packed());
+    pub fn cached_match(&self) -> CachedMatch {
+        let packed = SolutionRecord::of(&self.solution).and_then(|record| record.packed());
         CachedMatch {
             of: self.key.clone(),
             film: SharedText(packed.unwrap_or_default().into()),
@@ -65,7 +65,7 @@ pub(in crate::transition) fn restore(
         None
     };
     let solution = record.map(|record| record.rebuild(options, progress));
-    still_wanted(progress)?;
+    check_cancelled(progress)?;
     Ok(solution.transpose()?.flatten())
 }
 
@@ -97,9 +97,9 @@ impl SolutionRecord {
             pieces: solution.matched.pieces.clone(),
             faces: mesh.faces().to_vec(),
             places: [mesh.source().to_vec(), mesh.target().to_vec()],
-            lives: solution.arap.lives().to_vec(),
+            lives: solution.arap.time_windows().to_vec(),
             stiffness: solution.arap.stiffness().to_vec(),
-            holes: solution.holes.iter().map(|(_, hole)| hole.life).collect(),
+            holes: solution.holes.iter().map(|(_, hole)| hole.window).collect(),
             swelling: solution.swelling.clone(),
             mirrored,
             guard: solution.arap.guard().cloned(),
@@ -153,14 +153,14 @@ impl SolutionRecord {
         check_size(&mesh, &options.arap, progress)?;
         let options = unsubdivided(&options.arap);
         let settled = OutlineParameters {
-            lives: &self.lives,
+            time_windows: &self.lives,
             stiffness: &self.stiffness,
         };
-        let arap = Arap::settled(&mesh, &options, settled, progress);
+        let arap = Arap::with_outline_parameters(&mesh, &options, settled, progress);
         let Ok(arap) = arap else {
             return Ok(None);
         };
-        let arap = arap.guarded(self.guard);
+        let arap = arap.with_guard(self.guard);
         let holes = holes::with_lives(&self.pieces, arap.mesh(), &self.holes);
         Ok(holes.map(|holes| RigidSolution {
             matched: self.pieces.into(),
@@ -186,12 +186,12 @@ impl SolutionRecord {
                 && cuts.all(DVec2::is_finite)
         };
         let is_of = |(life, piece): (&Option<TimeWindow>, &PieceMatch)| {
-            life.is_none_or(|life| life.is_sound() && piece.alone() == Some(life.side))
+            life.is_none_or(|life| life.is_valid() && piece.only_side() == Some(life.side))
         };
         self.pieces.iter().all(is_piece)
             && self.lives.len() <= pieces
             && self.lives.iter().zip(&self.pieces).all(is_of)
-            && self.holes.iter().all(TimeWindow::is_sound)
+            && self.holes.iter().all(TimeWindow::is_valid)
             && self.swelling.iter().all(|&piece| piece < pieces)
             && self.stiffness.len() <= self.faces.len()
             && self.stiffness.iter().all(|&by| (1.0..1e12).contains(&by))
@@ -246,7 +246,7 @@ mod tests {
 
     /// Returns the cached match after a round trip through a document.
     fn found(transition: &Transition) -> CachedMatch {
-        let found = transition.found().expect("outlines were matched");
+        let found = transition.cached_match().expect("outlines were matched");
         let text = toml::to_string_pretty(&found).expect("text");
         assert!(text.lines().all(|line| line.len() < 100), "{text}");
         toml::from_str(&text).expect("what was written")
@@ -257,17 +257,17 @@ mod tests {
         let mut spec = spec();
         for subdivisions in 0..2 {
             spec.options.arap.subdivisions = subdivisions;
-            spec.found = CachedMatch::default();
+            spec.cached_match = CachedMatch::default();
             let first = built(&spec);
             assert!(spec.draft(&Silent).is_some());
-            spec.found = found(&first);
+            spec.cached_match = found(&first);
             assert!(spec.draft(&Silent).is_none());
             let again = built(&spec);
             assert_eq!(rings(&again), rings(&first));
             assert_eq!(again.notes(), first.notes());
             assert_eq!(
-                again.found().map(|f| f.film.0),
-                first.found().map(|f| f.film.0)
+                again.cached_match().map(|f| f.film.0),
+                first.cached_match().map(|f| f.film.0)
             );
         }
     }
@@ -286,7 +286,7 @@ mod tests {
         let found = found(&first);
         let mut record = SolutionRecord::unpacked(&found.film.0).expect("a record");
         record.guard = guard(record.places[0].len());
-        spec.found = CachedMatch {
+        spec.cached_match = CachedMatch {
             film: record.packed().expect("text").into(),
             ..found
         };
@@ -308,9 +308,9 @@ mod tests {
         spec.options.arap.subdivisions = 2;
         spec.options.field.cells = 99;
         assert_eq!(asked, of(&spec));
-        spec.options.guard = CollisionAvoidance::Plain;
+        spec.options.guard = CollisionAvoidance::Off;
         assert_ne!(asked, of(&spec));
-        spec.options.guard = CollisionAvoidance::Guarded;
+        spec.options.guard = CollisionAvoidance::On;
         spec.options.arap.symmetric = !spec.options.arap.symmetric;
         assert_ne!(asked, of(&spec));
         spec.options.arap.symmetric = !spec.options.arap.symmetric;
@@ -356,7 +356,7 @@ mod tests {
         let texts = changed.iter().map(|record| record.packed().expect("text"));
         let cut = |k: usize| found.film.0[..found.film.0.len() * k / 8].to_owned();
         for text in texts.chain((1..8).map(cut)).chain(["-".to_owned()]) {
-            spec.found = CachedMatch {
+            spec.cached_match = CachedMatch {
                 of: found.of.clone(),
                 film: text.into(),
             };
@@ -365,7 +365,7 @@ mod tests {
         // A valid record is used, so the ones above were really rejected.
         let mut record = record();
         change_life(&mut record, &|life| [life.from, life.to] = [0.3, 0.4]);
-        spec.found = CachedMatch {
+        spec.cached_match = CachedMatch {
             of: found.of.clone(),
             film: record.packed().expect("text").into(),
         };

@@ -11,7 +11,7 @@ use crate::content::ContentKind;
 use crate::design::{Design, DesignForm, Format, PaintLayer, Picture};
 use crate::geometry::{Regions, RegionsError};
 use crate::work::budget::WorkloadKind;
-use crate::work::progress::{Progress, beside, checkpoint};
+use crate::work::progress::{Progress, checkpoint, run_cancellable};
 use std::sync::Arc;
 
 /// Everything a transition is built from: two designs placed in one frame, a method, and the
@@ -24,13 +24,13 @@ pub struct TransitionSpec {
     /// Design at t = 1.
     pub target: Arc<Design>,
     /// The method: warp and content.
-    pub cell: TransitionMethod,
+    pub method: TransitionMethod,
     /// Options of all methods; positions of the match are in the coordinates of the common frame.
     pub options: TransitionOptions,
     /// Whether to start work that will take very long; see [`crate::work::budget`].
     pub patient: bool,
     /// A cached match, reused if it was computed for the same outlines and options.
-    pub found: CachedMatch,
+    pub cached_match: CachedMatch,
     /// The other designs of a sequence, placed in the same frame: all of its fields share one grid,
     /// and all of its bars one width.
     pub others: Vec<Arc<Design>>,
@@ -52,10 +52,10 @@ impl TransitionSpec {
         Self {
             source,
             target,
-            cell,
+            method: cell,
             options: TransitionOptions::default(),
             patient: false,
-            found: CachedMatch::default(),
+            cached_match: CachedMatch::default(),
             others: Vec::new(),
         }
     }
@@ -69,7 +69,7 @@ impl TransitionSpec {
             (DesignForm::Mesh(_), DesignForm::Mesh(_))
                 | (DesignForm::Truss(_), DesignForm::Truss(_))
         );
-        let is_matched = self.cell == TransitionMethod::RIGID_PARTS && !have_a_common_mesh;
+        let is_matched = self.method == TransitionMethod::RIGID_PARTS && !have_a_common_mesh;
         let is_wanted = is_matched && self.options.quality != BuildQuality::Draft;
         (is_wanted && !self.has_cached_match(progress)).then(|| {
             let mut draft = self.clone();
@@ -86,12 +86,12 @@ impl TransitionSpec {
     /// Returns whether the cached match was computed for these outlines and options.
     fn has_cached_match(&self, progress: &dyn Progress) -> bool {
         // Computing the key needs the outlines: skip that without a cached match.
-        if self.found.is_none() {
+        if self.cached_match.is_none() {
             return false;
         }
         let drawings = bar_width(self).and_then(|width| self.drawings(width, progress));
         let key = drawings.map(|drawings| cached_match::cache_key(&self.options, &drawings));
-        key.is_ok_and(|key| self.found.is_for(&key))
+        key.is_ok_and(|key| self.cached_match.is_for(&key))
     }
 
     /// Returns the outlines of both designs. `bar_width` is in units of the designs.
@@ -109,7 +109,7 @@ impl TransitionSpec {
         ];
         self.allow(&outlines, progress)?;
         // Parts that touch in a point are valid drawings but cannot be triangulated.
-        Ok(outlines.map(|outline| outline.pulled_apart()))
+        Ok(outlines.map(|outline| outline.with_contacts_separated()))
     }
 
     /// Returns both designs, with their paint layers, as they are matched for rigid parts.
@@ -123,7 +123,7 @@ impl TransitionSpec {
         progress: &dyn Progress,
     ) -> Result<DrawingPair, BuildError> {
         let designs = [&self.source, &self.target];
-        let is_painted = designs.iter().any(|design| !design.coats.is_empty());
+        let is_painted = designs.iter().any(|design| !design.paint_layers.is_empty());
         if self.options.paint == PaintRule::One || !is_painted {
             return Ok(DrawingPair::plain(self.outlines(bar_width, progress)?));
         }
@@ -145,9 +145,9 @@ impl TransitionSpec {
         let pieces = outlines.iter().map(|regions| regions.len()).sum();
         let rings = outlines.iter().flat_map(Regions::rings);
         let point_counts: Vec<usize> = rings.map(|ring| ring.points().len()).collect();
-        WorkloadKind::Pieces.allow(pieces, progress)?;
-        WorkloadKind::Holes.allow(point_counts.len() - pieces, progress)?;
-        Ok(WorkloadKind::Points.allow(point_counts.iter().sum(), progress)?)
+        WorkloadKind::Pieces.check(pieces, progress)?;
+        WorkloadKind::Holes.check(point_counts.len() - pieces, progress)?;
+        Ok(WorkloadKind::Points.check(point_counts.iter().sum(), progress)?)
     }
 
     /// Checks whether designs of these kinds can be interpolated by `cell`, without trying.
@@ -201,11 +201,13 @@ pub(crate) fn outline(
         return Ok(design.outline(bar_width)?);
     }
     if let DesignForm::Truss(truss) = &design.form {
-        WorkloadKind::Bars.allow(truss.bars().len(), progress)?;
+        WorkloadKind::Bars.check(truss.bars().len(), progress)?;
     }
     checkpoint(progress, "uniting", 0.0)?;
     let design = Arc::clone(design);
-    Ok(beside(progress, move || design.outline(bar_width))??)
+    Ok(run_cancellable(progress, move || {
+        design.outline(bar_width)
+    })??)
 }
 
 /// Returns the paint layers of a design; a single layer without paint if it has none.
@@ -214,7 +216,7 @@ fn coats_of(
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<Vec<PaintLayer>, BuildError> {
-    let coats = if design.coats.is_empty() {
+    let coats = if design.paint_layers.is_empty() {
         vec![PaintLayer {
             regions: outline(design, bar_width, progress)?,
             paint: None,
@@ -224,10 +226,10 @@ fn coats_of(
             is_text: false,
         }]
     } else {
-        design.coats.clone()
+        design.paint_layers.clone()
     };
     let separated = coats.into_iter().map(|coat| PaintLayer {
-        regions: coat.regions.pulled_apart(),
+        regions: coat.regions.with_contacts_separated(),
         ..coat
     });
     Ok(separated.collect())

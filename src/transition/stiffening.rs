@@ -10,7 +10,7 @@
 use super::error::BuildError;
 use crate::geometry::orient2d;
 use crate::warp::{Arap, Warp};
-use crate::work::progress::{Progress, still_wanted};
+use crate::work::progress::{Progress, check_cancelled};
 use rayon::prelude::*;
 
 /// Number of even time steps at which folds are detected (resource limit).
@@ -41,13 +41,13 @@ pub(super) fn stiffen_folds(motion: Arap, progress: &dyn Progress) -> Result<Ara
     stiffness.resize(motion.mesh().faces().len(), 1.0);
     let (mut best, mut fewest_folds) = (motion, folded.len());
     for _ in 0..MAX_ROUNDS {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         folded.sort_unstable();
         folded.dedup();
         for &face in &folded {
             stiffness[face] *= STIFFNESS_FACTOR;
         }
-        let Ok(stiffer) = best.stiffened(&stiffness, progress) else {
+        let Ok(stiffer) = best.with_stiffness(&stiffness, progress) else {
             break;
         };
         folded = folds(&stiffer);
@@ -59,7 +59,7 @@ pub(super) fn stiffen_folds(motion: Arap, progress: &dyn Progress) -> Result<Ara
             break;
         }
     }
-    still_wanted(progress)?;
+    check_cancelled(progress)?;
     Ok(best)
 }
 

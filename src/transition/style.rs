@@ -64,11 +64,11 @@ impl TransitionStyle {
             [Some(source), Some(target)] => Some(source.mixed(target, t)),
             [Some(source), None] => {
                 let target = self.paint_at(paints, 1.0);
-                Some(source.repainted(|paint| paint.mixed(target, t)))
+                Some(source.map_paints(|paint| paint.mixed(target, t)))
             }
             [None, Some(target)] => {
                 let source = self.paint_at(paints, 0.0);
-                Some(target.repainted(|paint| source.mixed(paint, t)))
+                Some(target.map_paints(|paint| source.mixed(paint, t)))
             }
         }
     }

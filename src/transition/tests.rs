@@ -35,7 +35,7 @@ const TRUSS: &str = r#"{"nodes": [[0,0],[2,0],[1,1.5]], "bars": [[0,1],[1,2],[2,
 /// A blend of distance fields on a coarse grid.
 fn field_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
-    spec.cell = TransitionMethod::new(WarpKind::None, ContentKind::Field).unwrap();
+    spec.method = TransitionMethod::new(WarpKind::None, ContentKind::Field).unwrap();
     spec.options.field.cells = 128;
     spec
 }
@@ -47,7 +47,7 @@ fn any_two_forms_become_rigid_parts() {
     for source in [&outline, &mesh, &truss] {
         for target in [&outline, &mesh, &truss] {
             let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
-            assert_eq!(spec.cell.warp(), WarpKind::Arap);
+            assert_eq!(spec.method.warp(), WarpKind::Arap);
             if source.name == target.name {
                 Transition::build(&spec, &Silent).unwrap();
             }
@@ -121,7 +121,7 @@ fn a_truss_is_drawn_as_bars_and_as_a_field() {
 /// Boundary paths.
 fn paths_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
-    spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    spec.method = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
     spec
 }
 
@@ -162,7 +162,7 @@ fn a_letter_appears_from_a_point() {
         .unwrap()
         .spec()
         .unwrap();
-    spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    spec.method = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
     let transition = Transition::build(&spec, &Silent).unwrap();
     let pieces = &transition.matched().unwrap().pieces;
     let born = pieces.iter().filter(|p| p.source_part.is_none());
@@ -266,7 +266,7 @@ fn fits_centre_and_scale_the_target() {
         (DesignFit::Centred, 40.0),
         (DesignFit::SameArea, 20.0),
     ] {
-        let [a, b] = [&small, &large].map(|d| place_in_frame(d, (&small, fit), still).unwrap());
+        let [a, b] = [&small, &large].map(|d| place_in_frame(d, &small, fit, still).unwrap());
         assert!(Arc::ptr_eq(&a, &small), "the first stays as it is");
         assert!((bounds(&b).size().x - width).abs() < 1e-6, "{fit:?}");
         let together = bounds(&a).centre().distance(bounds(&b).centre()) < 1e-6;
@@ -277,7 +277,7 @@ fn fits_centre_and_scale_the_target() {
         offset: DVec2::new(5.0, 0.0),
         ..Similarity::IDENTITY
     };
-    let a = place_in_frame(&small, (&small, DesignFit::AsDrawn), placement).unwrap();
+    let a = place_in_frame(&small, &small, DesignFit::AsDrawn, placement).unwrap();
     let moved = bounds(&a).centre() - bounds(&small).centre();
     assert!(
         moved.distance(DVec2::new(5.0, 0.0)) < 1e-6,
@@ -287,7 +287,7 @@ fn fits_centre_and_scale_the_target() {
         scale: 0.0,
         ..Similarity::IDENTITY
     };
-    assert!(place_in_frame(&large, (&small, DesignFit::AsDrawn), flat).is_err());
+    assert!(place_in_frame(&large, &small, DesignFit::AsDrawn, flat).is_err());
 }
 
 #[test]
@@ -301,7 +301,7 @@ fn a_mirrored_target_is_offered_the_mirror() {
         ..Similarity::IDENTITY
     };
     let source = design(SQUARE);
-    let target = place_in_frame(&design(mirrored), (&source, DesignFit::AsDrawn), flip).unwrap();
+    let target = place_in_frame(&design(mirrored), &source, DesignFit::AsDrawn, flip).unwrap();
     Transition::build(&TransitionSpec::new(source, target), &Silent).unwrap();
 }
 
@@ -349,7 +349,7 @@ fn arrow(turned: bool) -> Arc<Design> {
 fn fields_that_turn_are_not_cropped_by_the_frame() {
     for warp in [WarpKind::Scattered, WarpKind::Lattice, WarpKind::Arap] {
         let mut spec = field_spec(arrow(false), arrow(true));
-        spec.cell = TransitionMethod::new(warp, ContentKind::Field).unwrap();
+        spec.method = TransitionMethod::new(warp, ContentKind::Field).unwrap();
         let transition = Transition::build(&spec, &Silent).unwrap();
         let rings = transition.frame(0.5).figure().rings;
         let ends = area(&transition.frame(0.0).figure().rings);
@@ -366,7 +366,7 @@ fn fields_that_turn_are_not_cropped_by_the_frame() {
 #[test]
 fn automatic_pins_can_be_set_by_hand() {
     let mut spec = field_spec(arrow(false), arrow(true));
-    spec.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    spec.method = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let found = Transition::build(&spec, &Silent).unwrap();
     assert!(found.automatic_pins().len() > 8);
     spec.options.matching.pins = found.automatic_pins().to_vec();
@@ -381,7 +381,7 @@ fn rigid_parts_carry_a_rotated_field_rigidly() {
     let boot = "M10 10h20v40h30v20h-50z";
     let turned = "M20 70v-20h40v-30h20v50z";
     let mut spec = field_spec(svg(boot), svg(turned));
-    spec.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    spec.method = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
     for t in [0.0, 0.2, 0.5, 0.9, 1.0] {
@@ -411,7 +411,7 @@ fn one_part_and_two_are_carried_by_every_warp() {
     ] {
         for (source, target) in [(&one, &two), (&two, &one)] {
             let mut spec = field_spec(Arc::clone(source), Arc::clone(target));
-            spec.cell = TransitionMethod::new(warp, ContentKind::Field).unwrap();
+            spec.method = TransitionMethod::new(warp, ContentKind::Field).unwrap();
             let transition = Transition::build(&spec, &Silent).unwrap();
             assert!(!transition.frame(0.5).figure().rings.is_empty(), "{warp:?}");
         }
@@ -421,11 +421,11 @@ fn one_part_and_two_are_carried_by_every_warp() {
 #[test]
 fn the_mesh_that_carries_fields_and_pictures_is_accessible() {
     let mut fields = field_spec(arrow(false), arrow(true));
-    fields.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    fields.method = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let mut loaded = crate::project::gallery::load("portraits-points").unwrap();
     loaded.project.warp = Some(WarpKind::Arap);
     let pictures = loaded.spec().unwrap();
-    assert_eq!(pictures.cell.content(), ContentKind::Colours);
+    assert_eq!(pictures.method.content(), ContentKind::Colours);
     for spec in [fields, pictures] {
         let transition = Transition::build(&spec, &Silent).unwrap();
         let arap = transition.arap().expect("rigid parts");
@@ -446,9 +446,9 @@ fn every_method_is_built() {
             ContentKind::Colours => pictures.clone(),
             ContentKind::Solid | ContentKind::Field => field_spec(Arc::clone(&a), Arc::clone(&b)),
         };
-        spec.cell = cell;
+        spec.method = cell;
         let transition = Transition::build(&spec, &Silent).unwrap();
-        assert_eq!(transition.cell(), cell);
+        assert_eq!(transition.method(), cell);
         assert_eq!(transition.notes(), [], "{}", cell.name());
         let has_arap = cell.warp() == WarpKind::Arap;
         assert_eq!(transition.arap().is_some(), has_arap, "{}", cell.name());
@@ -457,7 +457,7 @@ fn every_method_is_built() {
 
 fn rigid_fields(source: &str, target: &str) -> TransitionSpec {
     let mut spec = field_spec(svg(source), svg(target));
-    spec.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    spec.method = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     spec.options.matching.holes = HoleRule::Close;
     spec
 }
@@ -469,7 +469,7 @@ fn parts_that_leave_a_hole_are_carried_by_fewer_pins_with_a_note() {
     let spec = rigid_fields(inside, outside);
     let transition = Transition::build(&spec, &Silent).unwrap();
     let [
-        TransitionNote::NotByOutlines(_),
+        TransitionNote::PinsInsteadOfOutlines(_),
         TransitionNote::FewerPins { left, of },
     ] = transition.notes()
     else {
@@ -492,7 +492,7 @@ fn pins_that_contradict_their_outlines_carry_alone_with_a_note() {
     }];
     let transition = Transition::build(&spec, &Silent).unwrap();
     assert!(
-        matches!(transition.notes(), [TransitionNote::NotMatched(_)]),
+        matches!(transition.notes(), [TransitionNote::PinsUnmatched(_)]),
         "{:?}",
         transition.notes()
     );

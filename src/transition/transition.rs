@@ -7,7 +7,7 @@ use super::note::TransitionNote;
 use super::paint_layer_options::PaintLayerOptions;
 use super::part_time::PartTime;
 use crate::compatible::CompatibleMesh;
-use crate::content::{Content, FieldBlend, FieldPairError};
+use crate::content::{Content, FieldBlend, FieldBlendError};
 use crate::correspondence::{PointPair, RegionMatch};
 use crate::design::Design;
 use crate::geometry::Bounds;
@@ -43,18 +43,18 @@ pub(super) type RecordingSlot = Arc<OnceLock<Result<Recording, RecordingError>>>
 #[derive(Clone, Debug)]
 pub(super) struct TransitionData {
     /// The method.
-    pub cell: TransitionMethod,
+    pub method: TransitionMethod,
     /// Source and target, placed in the common frame.
     pub designs: [Arc<Design>; 2],
     /// The warp, and how it was determined.
-    pub moved: BuiltWarp,
+    pub built_warp: BuiltWarp,
     pub content: Content,
     /// Box around all frames, approximately.
     pub bounds: Bounds,
     /// Width of truss bars in units of the designs.
     pub bar_width: f64,
     /// The recording of the warp, once it has been made.
-    pub film: RecordingSlot,
+    pub recording: RecordingSlot,
 }
 
 /// Identifies a transition without keeping it alive.
@@ -70,7 +70,7 @@ impl TransitionId {
 
     /// Returns whether the transition no longer exists.
     #[must_use]
-    pub fn is_gone(&self) -> bool {
+    pub fn is_dropped(&self) -> bool {
         self.0.strong_count() == 0
     }
 }
@@ -84,7 +84,7 @@ impl From<TransitionData> for Transition {
 impl Transition {
     /// Returns whether two transitions are clones of each other. The data is not compared.
     #[must_use]
-    pub fn is(&self, other: &Self) -> bool {
+    pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
@@ -98,8 +98,8 @@ impl Transition {
     /// again; `None` unless the content is the fields of two designs.
     ///
     /// # Errors
-    /// [`FieldPairError`] if ε or the threshold is out of range.
-    pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldPairError> {
+    /// [`FieldBlendError`] if ε or the threshold is out of range.
+    pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldBlendError> {
         let Content::Field(fields) = &self.0.content else {
             return Ok(None);
         };
@@ -121,14 +121,14 @@ impl Transition {
 
     /// Returns the same transition with these options for its paint layers.
     #[must_use]
-    pub fn with_coats(&self, options: &PaintLayerOptions) -> Self {
+    pub fn with_paint_layers(&self, options: &PaintLayerOptions) -> Self {
         Self::from(self.0.as_ref().clone().coated(options))
     }
 
     /// Returns the method: warp and content.
     #[must_use]
-    pub fn cell(&self) -> TransitionMethod {
-        self.0.cell
+    pub fn method(&self) -> TransitionMethod {
+        self.0.method
     }
 
     /// Returns the visible content.
@@ -140,23 +140,23 @@ impl Transition {
     /// Returns every t in (0, 1) at which a part starts, stops or changes pace. Between these,
     /// every point moves smoothly. Unsorted.
     #[must_use]
-    pub fn breaks(&self) -> Vec<f64> {
-        self.warp().breaks()
+    pub fn break_times(&self) -> Vec<f64> {
+        self.warp().break_times()
     }
 
     /// Returns the warp.
     pub(super) fn warp(&self) -> &dyn Warp {
-        self.0.moved.warp.as_warp()
+        self.0.built_warp.warp.as_warp()
     }
 
     /// Returns the warp as shared data, for a recording to own.
     pub(super) fn shared_warp(&self) -> Arc<dyn Warp> {
-        self.0.moved.warp.shared()
+        self.0.built_warp.warp.shared()
     }
 
     /// Returns the place where the recording is stored once it has been made.
-    pub(super) fn slot(&self) -> &RecordingSlot {
-        &self.0.film
+    pub(super) fn recording_slot(&self) -> &RecordingSlot {
+        &self.0.recording
     }
 
     /// Returns the rigidity-preserving interpolation, if the warp is one: of solids, or of the
@@ -164,30 +164,30 @@ impl Transition {
     /// the interpolation relative to that motion.
     #[must_use]
     pub fn arap(&self) -> Option<&Arap> {
-        self.0.moved.warp.arap()
+        self.0.built_warp.warp.arap()
     }
 
     /// Returns a placer for another interpolation of the same mesh, with the part timings of this
     /// transition.
-    pub(crate) fn placer_of(&self, arap: &Arap) -> Placer {
-        match &self.0.moved.warp {
-            AnyWarp::Staggered(warp) => warp.of(arap.clone()).placer(),
+    pub(crate) fn placer_for(&self, arap: &Arap) -> Placer {
+        match &self.0.built_warp.warp {
+            AnyWarp::Staggered(warp) => warp.with_arap(arap.clone()).placer(),
             _ => arap.placer(),
         }
     }
 
     /// As [`Self::placer_of`], for the interpolation of the exchanged designs.
-    pub(crate) fn placer_backwards(&self, arap: &Arap) -> Placer {
-        match &self.0.moved.warp {
+    pub(crate) fn reversed_placer_for(&self, arap: &Arap) -> Placer {
+        match &self.0.built_warp.warp {
             AnyWarp::Staggered(warp) => warp.backwards(arap.clone()).placer(),
             _ => arap.placer(),
         }
     }
 
     /// Returns the t that the part of a vertex has reached at `t`, according to its timing.
-    pub(crate) fn time_of(&self, vertex: u32, t: f64) -> f64 {
-        match &self.0.moved.warp {
-            AnyWarp::Staggered(warp) => warp.clock(vertex).at(t),
+    pub(crate) fn part_time_at(&self, vertex: u32, t: f64) -> f64 {
+        match &self.0.built_warp.warp {
+            AnyWarp::Staggered(warp) => warp.clock(vertex).part_time(t),
             _ => t,
         }
     }
@@ -195,40 +195,44 @@ impl Transition {
     /// Returns deviations from the request and suggestions, in the order in which they arose.
     #[must_use]
     pub fn notes(&self) -> &[TransitionNote] {
-        &self.0.moved.notes
+        &self.0.built_warp.notes
     }
 
     /// Returns which point of one outline corresponds to which of the other, in the coordinates of
     /// the common frame; `None` if the designs share a mesh or no match was needed.
     #[must_use]
     pub fn matched(&self) -> Option<&RegionMatch> {
-        self.0.moved.matched.as_ref()
+        self.0.built_warp.matched.as_ref()
     }
 
     /// Returns the match in a form that a document can cache; `None` if nothing had to be matched.
     #[must_use]
-    pub fn found(&self) -> Option<CachedMatch> {
-        self.0.moved.kept.as_ref().map(|kept| kept.packed())
+    pub fn cached_match(&self) -> Option<CachedMatch> {
+        self.0
+            .built_warp
+            .solution
+            .as_ref()
+            .map(|kept| kept.cached_match())
     }
 
     /// Returns the automatic pins of a plane warp, in the coordinates of the common frame; for
     /// lines, their starting points. Empty if the user has set pins or lines.
     #[must_use]
     pub fn automatic_pins(&self) -> &[PointPair] {
-        &self.0.moved.automatic
+        &self.0.built_warp.automatic
     }
 
     /// Returns the pins and lines that the warp misses at `t`; `None` if it meets all of them.
     #[must_use]
-    pub fn missed(&self, t: f64) -> Option<MissedFeatures> {
-        self.warp().missed(t)
+    pub fn missed_features(&self, t: f64) -> Option<MissedFeatures> {
+        self.warp().missed_features(t)
     }
 
     /// Returns the common triangulation of solid designs, if they have one. The mesh of the frame
     /// that carries fields and pictures is available from [`Self::arap`].
     #[must_use]
     pub fn compatible(&self) -> Option<&CompatibleMesh> {
-        match (self.content(), &self.0.moved.warp) {
+        match (self.content(), &self.0.built_warp.warp) {
             (Content::Solid(_), AnyWarp::Along(warp)) => Some(warp.mesh()),
             (Content::Solid(_), _) => self.arap().map(Arap::mesh),
             (Content::Field(_) | Content::Colours(_), _) => None,

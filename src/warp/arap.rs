@@ -65,7 +65,7 @@ use crate::compatible::CompatibleMesh;
 use crate::geometry::{DVec2, PolarDecomposition};
 use crate::mesh::Subdivision;
 use crate::numerics::{FactorError, SymmetricMatrix};
-use crate::work::progress::{Progress, checkpoint, still_wanted};
+use crate::work::progress::{Progress, check_cancelled, checkpoint};
 use assembly::LocalMaps;
 use bounded::Bounded;
 use evaluation_times::{EvaluationTimes, PartTimeBuffer};
@@ -104,7 +104,7 @@ pub struct Arap(Arc<FactoredArap>);
 pub(crate) struct OutlineParameters<'a> {
     /// Time window of each connected part that is a point in one of the designs; `None` for other
     /// parts and beyond the end of the list.
-    pub lives: &'a [Option<TimeWindow>],
+    pub time_windows: &'a [Option<TimeWindow>],
     /// Factor of each face's weight; 1 beyond the end of the list.
     pub stiffness: &'a [f64],
 }
@@ -121,12 +121,7 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let parameters = OutlineParameters::default();
-        Self::prepared(
-            mesh,
-            options,
-            (parameters, OutlineConstraints::No),
-            progress,
-        )
+        Self::prepared(mesh, options, parameters, OutlineConstraints::Off, progress)
     }
 
     /// Builds the interpolation of a triangulation of outlines.
@@ -147,28 +142,23 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let parameters = OutlineParameters {
-            lives,
+            time_windows: lives,
             ..OutlineParameters::default()
         };
-        Self::settled(mesh, options, parameters, progress)
+        Self::with_outline_parameters(mesh, options, parameters, progress)
     }
 
     /// Builds the interpolation like [`Self::of_outlines`], with time windows and stiffness.
     ///
     /// # Errors
     /// As [`Self::build`].
-    pub(crate) fn settled(
+    pub(crate) fn with_outline_parameters(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
         parameters: OutlineParameters,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        Self::prepared(
-            mesh,
-            options,
-            (parameters, OutlineConstraints::Yes),
-            progress,
-        )
+        Self::prepared(mesh, options, parameters, OutlineConstraints::On, progress)
     }
 
     /// Builds the interpolation of the same mesh with other options.
@@ -184,24 +174,25 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let parameters = OutlineParameters {
-            lives: self.lives(),
+            time_windows: self.time_windows(),
             stiffness: self.stiffness(),
         };
-        let parameters = (parameters, self.0.outlined);
-        let rebuilt = Self::prepared(self.mesh(), options, parameters, progress)?;
+        let constraints = self.0.outline_constraints;
+        let rebuilt = Self::prepared(self.mesh(), options, parameters, constraints, progress)?;
         let Some(guard) = self.guard() else {
             return Ok(rebuilt);
         };
         let vertices = self.mesh().source().len();
         let fine = Subdivision::new(self.mesh().faces(), vertices, options.subdivisions)?;
-        Ok(rebuilt.guarded(Some(guard.subdivided(&fine, vertices))))
+        Ok(rebuilt.with_guard(Some(guard.subdivided(&fine, vertices))))
     }
 
     /// Subdivides the mesh, computes the local maps and factors the matrix.
     fn prepared(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        (parameters, outlined): (OutlineParameters, OutlineConstraints),
+        parameters: OutlineParameters,
+        outline_constraints: OutlineConstraints,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let weights = options
@@ -221,11 +212,12 @@ impl Arap {
             subdivisions: 0,
             ..options.clone()
         };
-        let maps = LocalMaps::new(&mesh, &options, parameters.lives)?
-            .stiffened(&stiffness)
-            .rimmed(&mesh, parameters.lives, (&options, outlined));
-        let outline = (parameters.lives.to_vec(), outlined);
-        Self::from_maps(mesh, maps, options, outline, progress)
+        let windows = parameters.time_windows;
+        let maps = LocalMaps::new(&mesh, &options, windows)?
+            .with_stiffness(&stiffness)
+            .with_boundary_edges(&mesh, windows, &options, outline_constraints);
+        let windows = windows.to_vec();
+        Self::from_maps(mesh, maps, options, windows, outline_constraints, progress)
     }
 
     /// Assembles and factors the matrix of an already subdivided mesh.
@@ -233,37 +225,39 @@ impl Arap {
         mesh: CompatibleMesh,
         maps: LocalMaps,
         options: ArapOptions,
-        (lives, outlined): (Vec<Option<TimeWindow>>, OutlineConstraints),
+        time_windows: Vec<Option<TimeWindow>>,
+        outline_constraints: OutlineConstraints,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
         let ends = |vertex: usize| [mesh.source()[vertex], mesh.target()[vertex]];
-        let constraints = outlined.of(options.homotopy);
+        let constraints = outline_constraints.for_homotopy(options.homotopy);
         let result = factor_with_ridge(maps.matrix(&mesh, constraints), progress)?;
         let (cholesky, ridge) = result.map_err(|error| match error {
             FactorError::NotPositiveDefinite { index } => ArapError::Thin(ends(index)),
             error => ArapError::Factor(error),
         })?;
         checkpoint(progress, "preparing frames", 0.9)?;
-        let place = cholesky.place_in_order();
+        let place = cholesky.elimination_places();
         let mut stresses = ForceAssembly::new(&mesh, &maps, options.homotopy);
         edge_lengths::fit_halfway_lengths(
             &mut stresses,
             &mesh,
-            (&cholesky, options.homotopy),
+            &cholesky,
+            options.homotopy,
             progress,
         )?;
-        still_wanted(progress)?;
-        let drift = PartTranslations::new(&mesh, &maps, place, options.path, lives);
+        check_cancelled(progress)?;
+        let drift = PartTranslations::new(&mesh, &maps, place, options.path, time_windows);
         Ok(Self(Arc::new(FactoredArap {
             mesh,
             cholesky: Arc::new(cholesky),
             ridge,
-            stresses,
-            drift,
+            forces: stresses,
+            translations: drift,
             maps,
             options,
-            outlined,
+            outline_constraints,
             guard: None,
         })))
     }
@@ -283,14 +277,20 @@ impl Arap {
     /// Assembles the matrix of the energy, for measurements.
     #[must_use]
     pub fn system(&self) -> SymmetricMatrix {
-        let constraints = self.0.outlined.of(self.0.options.homotopy);
+        let constraints = self
+            .0
+            .outline_constraints
+            .for_homotopy(self.0.options.homotopy);
         self.0.maps.matrix(&self.0.mesh, constraints)
     }
 
     /// Assembles the matrix of the energy without grounding, so that translating a connected part
     /// has zero energy.
     pub(crate) fn free_system(&self) -> SymmetricMatrix {
-        let constraints = self.0.outlined.of(self.0.options.homotopy);
+        let constraints = self
+            .0
+            .outline_constraints
+            .for_homotopy(self.0.options.homotopy);
         self.0.maps.free_matrix(&self.0.mesh, constraints)
     }
 
@@ -311,8 +311,8 @@ impl Arap {
     /// Returns the number of edge-connected components that could not be flattened with bounded
     /// distortion. Their faces follow their own metrics independently.
     #[must_use]
-    pub fn unflattened(&self) -> usize {
-        self.0.stresses.bounded().map_or(0, Bounded::unflattened)
+    pub fn unflattened_count(&self) -> usize {
+        self.0.forces.bounded().map_or(0, Bounded::unflattened)
     }
 
     /// Returns the rotation angle of each face from source to target, in radians, consistent
@@ -348,31 +348,37 @@ impl Arap {
     pub fn swapped(&self, progress: &dyn Progress) -> Result<Self, ArapError> {
         let inner = &*self.0;
         let mesh = inner.mesh.swapped();
-        let windows = inner.drift.lives().iter();
+        let windows = inner.translations.time_windows().iter();
         let lives: Vec<_> = windows
             .map(|window| window.map(TimeWindow::backwards))
             .collect();
         let maps = LocalMaps::new(&mesh, &inner.options, &lives)?
-            .stiffened(self.stiffness())
-            .rimmed(&mesh, &lives, (&inner.options, inner.outlined))
-            .turning_back(&inner.maps);
-        let outline = (lives, inner.outlined);
-        let swapped = Self::from_maps(mesh, maps, inner.options.clone(), outline, progress)?;
-        Ok(swapped.guarded(self.guard().map(Guard::backwards)))
+            .with_stiffness(self.stiffness())
+            .with_boundary_edges(&mesh, &lives, &inner.options, inner.outline_constraints)
+            .with_reversed_angles(&inner.maps);
+        let swapped = Self::from_maps(
+            mesh,
+            maps,
+            inner.options.clone(),
+            lives,
+            inner.outline_constraints,
+            progress,
+        )?;
+        Ok(swapped.with_guard(self.guard().map(Guard::backwards)))
     }
 
     /// Returns the same interpolation with the displacements of a guard, or without any guard.
-    pub(crate) fn guarded(&self, guard: Option<Guard>) -> Self {
+    pub(crate) fn with_guard(&self, guard: Option<Guard>) -> Self {
         let inner = &*self.0;
         Self(Arc::new(FactoredArap {
             mesh: inner.mesh.clone(),
             cholesky: Arc::clone(&inner.cholesky),
             ridge: inner.ridge,
-            stresses: inner.stresses.clone(),
-            drift: inner.drift.clone(),
+            forces: inner.forces.clone(),
+            translations: inner.translations.clone(),
             maps: inner.maps.clone(),
             options: inner.options.clone(),
-            outlined: inner.outlined,
+            outline_constraints: inner.outline_constraints,
             guard: guard.map(Arc::new),
         }))
     }
@@ -381,18 +387,18 @@ impl Arap {
     ///
     /// # Errors
     /// As [`Self::build`].
-    pub(crate) fn with_lives(
+    pub(crate) fn with_time_windows(
         &self,
         lives: Vec<Option<TimeWindow>>,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let inner = &*self.0;
-        let outline = (lives, inner.outlined);
         Self::from_maps(
             inner.mesh.clone(),
             inner.maps.clone(),
             inner.options.clone(),
-            outline,
+            lives,
+            inner.outline_constraints,
             progress,
         )
     }
@@ -400,7 +406,7 @@ impl Arap {
     /// Returns the largest displacement applied to avoid collisions, in diameters of the mesh, or
     /// `None` without a guard.
     #[must_use]
-    pub fn moved_aside(&self) -> Option<f64> {
+    pub fn max_guard_displacement(&self) -> Option<f64> {
         let guard = self.guard()?;
         Some(guard.farthest() / self.mesh().diameter())
     }
@@ -422,15 +428,19 @@ impl Arap {
     ///
     /// # Errors
     /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
-    pub(crate) fn stiffened(&self, by: &[f64], progress: &dyn Progress) -> Result<Self, ArapError> {
+    pub(crate) fn with_stiffness(
+        &self,
+        by: &[f64],
+        progress: &dyn Progress,
+    ) -> Result<Self, ArapError> {
         let inner = &*self.0;
-        let maps = inner.maps.clone().stiffened(by);
-        let outline = (self.lives().to_vec(), inner.outlined);
+        let maps = inner.maps.clone().with_stiffness(by);
         Self::from_maps(
             inner.mesh.clone(),
             maps,
             inner.options.clone(),
-            outline,
+            self.time_windows().to_vec(),
+            inner.outline_constraints,
             progress,
         )
     }
@@ -444,22 +454,22 @@ impl Arap {
     ///
     /// It is `None` for other parts and beyond the end of the list.
     #[must_use]
-    pub fn lives(&self) -> &[Option<TimeWindow>] {
-        self.0.drift.lives()
+    pub fn time_windows(&self) -> &[Option<TimeWindow>] {
+        self.0.translations.time_windows()
     }
 
     /// Returns the position at `t` of a part that moves with the whole design.
     ///
     /// `ends` are its positions in source and target and `share` is the completed fraction of its
     /// own motion.
-    pub(crate) fn carried(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
-        self.0.drift.carried(ends, share, t)
+    pub(crate) fn carried_position(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
+        self.0.translations.carried_position(ends, share, t)
     }
 
     /// Returns the positions in source and target that the motion of the whole carries to `place`
     /// at `t`.
-    pub(crate) fn carried_back(&self, place: DVec2, t: f64) -> [DVec2; 2] {
-        self.0.drift.carried_back(place, t)
+    pub(crate) fn uncarried_ends(&self, place: DVec2, t: f64) -> [DVec2; 2] {
+        self.0.translations.uncarried_ends(place, t)
     }
 
     /// Returns the number of parts whose extra turns can be chosen separately (edge-connected
@@ -482,7 +492,7 @@ impl Arap {
         let mut times = PartTimeBuffer::default();
         let arap = Arc::clone(&self.0);
         Placer::new(self.at_rest(), move |t, placement| {
-            let (drift, time) = (&arap.drift, |part: usize| clock(part, t));
+            let (drift, time) = (&arap.translations, |part: usize| clock(part, t));
             player.place(times.set(drift.part_count(), time, drift.runs()), placement);
         })
     }
@@ -498,12 +508,12 @@ impl Warp for Arap {
     fn placer(&self) -> Placer {
         let mut player = FrameSolver::of(&self.0);
         Placer::new(self.at_rest(), move |t, placement| {
-            player.place(EvaluationTimes::Even(t), placement);
+            player.place(EvaluationTimes::Uniform(t), placement);
         })
     }
 
-    fn breaks(&self) -> Vec<f64> {
-        let windows = self.lives().iter().flatten();
+    fn break_times(&self) -> Vec<f64> {
+        let windows = self.time_windows().iter().flatten();
         let window_ends = windows.flat_map(|window| [window.from, window.to]);
         window_ends
             .chain(self.guard_times().iter().copied())

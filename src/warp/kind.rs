@@ -54,7 +54,7 @@ impl WarpKind {
     /// Returns whether the warp deforms the whole plane by pins and lines alone, so that it
     /// works with any designs.
     #[must_use]
-    pub const fn is_of_the_plane(self) -> bool {
+    pub const fn is_plane_warp(self) -> bool {
         matches!(self, Self::Lines | Self::Scattered | Self::Lattice)
     }
 
@@ -62,11 +62,11 @@ impl WarpKind {
     ///
     /// ```
     /// use morphospace::warp::WarpKind;
-    /// assert_eq!(WarpKind::Arap.words().name, "rigid parts");
-    /// assert!(WarpKind::None.words().solid.is_err());
+    /// assert_eq!(WarpKind::Arap.labels().name, "rigid parts");
+    /// assert!(WarpKind::None.labels().solid.is_err());
     /// ```
     #[must_use]
-    pub const fn words(self) -> &'static WarpLabels {
+    pub const fn labels(self) -> &'static WarpLabels {
         match self {
             Self::None => &NONE,
             Self::Paths => &PATHS,
@@ -99,7 +99,7 @@ pub type CellSupport = Result<CellLabels, &'static str>;
 pub struct CellLabels {
     /// Name in running text, in lower case.
     pub name: &'static str,
-    /// Label of the button that selects the method, next to the title of the warp.
+    /// Label of the button that selects the method; no two methods share one.
     pub button: &'static str,
     /// Row title in a table of measurements.
     pub report: &'static str,
@@ -114,10 +114,14 @@ const NOTHING_TO_LOOK_UP: &str = "this warp distorts a picture of the plane, and
 const NOTHING_INSIDE: &str = "this warp moves outlines but nothing inside them; choose solids, or rigid parts (arap) to carry fields and colours";
 
 /// Returns the texts for a distance field carried by a warp.
-const fn carried_field(name: &'static str, report: &'static str) -> CellLabels {
+const fn carried_field(
+    name: &'static str,
+    button: &'static str,
+    report: &'static str,
+) -> CellLabels {
     CellLabels {
         name,
-        button: "Carried field",
+        button,
         report,
         sentence: "Distance fields move with the warp, so parts travel instead of dissolving. \
                    Without pins, outlines are matched and pinned automatically.",
@@ -125,10 +129,10 @@ const fn carried_field(name: &'static str, report: &'static str) -> CellLabels {
 }
 
 /// Returns the texts for a morph of two pictures carried by a warp.
-const fn morph(name: &'static str, report: &'static str) -> CellLabels {
+const fn morph(name: &'static str, button: &'static str, report: &'static str) -> CellLabels {
     CellLabels {
         name,
-        button: "Morph",
+        button,
         report,
         sentence: "Aligns matching features while one picture fades into the other. Place pins \
                    or lines on eyes, corners and edges (key E).",
@@ -164,8 +168,16 @@ const ARAP: WarpLabels = WarpLabels {
         sentence: "Rotates and stretches each triangle evenly, then joins them by least squares. \
                    Parts keep their shape while they move. Outlines are matched automatically.",
     }),
-    field: Ok(carried_field("carried field (rigid parts)", "arap warp")),
-    colours: Ok(morph("morph (rigid parts)", "arap warp")),
+    field: Ok(carried_field(
+        "carried field (rigid parts)",
+        "Carried by rigid parts",
+        "arap warp",
+    )),
+    colours: Ok(morph(
+        "morph (rigid parts)",
+        "Morph by rigid parts",
+        "arap warp",
+    )),
 };
 
 /// Texts for [`WarpKind::Paths`].
@@ -186,24 +198,36 @@ const PATHS: WarpLabels = WarpLabels {
 const LINES: WarpLabels = WarpLabels {
     name: "line pairs",
     solid: Err(NOTHING_TO_LOOK_UP),
-    field: Ok(carried_field("carried field (lines)", "lines")),
-    colours: Ok(morph("morph (lines)", "lines")),
+    field: Ok(carried_field(
+        "carried field (lines)",
+        "Carried by lines",
+        "lines",
+    )),
+    colours: Ok(morph("morph (lines)", "Morph by lines", "lines")),
 };
 
 /// Texts for [`WarpKind::Scattered`].
 const SCATTERED: WarpLabels = WarpLabels {
     name: "scattered points",
     solid: Err(NOTHING_TO_LOOK_UP),
-    field: Ok(carried_field("carried field (points)", "scattered")),
-    colours: Ok(morph("morph (points)", "scattered")),
+    field: Ok(carried_field(
+        "carried field (points)",
+        "Carried by points",
+        "scattered",
+    )),
+    colours: Ok(morph("morph (points)", "Morph by points", "scattered")),
 };
 
 /// Texts for [`WarpKind::Lattice`].
 const LATTICE: WarpLabels = WarpLabels {
     name: "B-spline lattices",
     solid: Err(NOTHING_TO_LOOK_UP),
-    field: Ok(carried_field("carried field (lattice)", "lattice")),
-    colours: Ok(morph("morph (lattice)", "lattice")),
+    field: Ok(carried_field(
+        "carried field (lattice)",
+        "Carried by lattice",
+        "lattice",
+    )),
+    colours: Ok(morph("morph (lattice)", "Morph by lattice", "lattice")),
 };
 
 #[cfg(test)]
@@ -216,5 +240,20 @@ mod tests {
             let entries = WarpKind::BY_DEMAND.iter().filter(|other| **other == warp);
             assert_eq!(entries.count(), 1, "{warp:?}");
         }
+    }
+
+    #[test]
+    fn no_two_methods_have_the_same_button() {
+        let cells = WarpKind::ALL.map(WarpKind::labels);
+        let cells = cells.map(|warp| [warp.solid, warp.field, warp.colours]);
+        let mut buttons: Vec<&str> = cells
+            .as_flattened()
+            .iter()
+            .filter_map(|cell| Some(cell.ok()?.button))
+            .collect();
+        let count = buttons.len();
+        buttons.sort_unstable();
+        buttons.dedup();
+        assert_eq!(buttons.len(), count, "{buttons:?}");
     }
 }

@@ -69,9 +69,9 @@ const CHUNK: usize = 256;
 #[derive(Clone, Debug)]
 pub struct Lattice {
     features: WarpFeatures,
-    ground: LatticeDomain,
+    domain: LatticeDomain,
     /// Maps to the source and to the target at the most recent t.
-    towers: [LayerStack; 2],
+    stacks: [LayerStack; 2],
 }
 
 impl Lattice {
@@ -91,16 +91,16 @@ impl Lattice {
         options.check()?;
         let features = WarpFeatures::new(frame, points, lines)?;
         Ok(Self {
-            ground: LatticeDomain::new(frame, features.unit, options),
+            domain: LatticeDomain::new(frame, features.unit, options),
             features,
-            towers: Default::default(),
+            stacks: Default::default(),
         })
     }
 
     /// Returns the tolerance as a length in plane units.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
-        self.ground.tolerance
+        self.domain.tolerance
     }
 
     /// Returns each feature's distance at t from its source and its target position, in plane
@@ -111,15 +111,15 @@ impl Lattice {
     pub fn residuals(&self, t: f64) -> Vec<[f64; 2]> {
         let mut at_t = self.clone();
         at_t.build(t);
-        let [source, target] = &at_t.towers;
+        let [source, target] = &at_t.stacks;
         let both = source.residuals().zip(target.residuals());
         both.map(<[f64; 2]>::from).collect()
     }
 
     /// Builds both maps for time t.
     fn build(&mut self, t: f64) {
-        let [source, target] = &mut self.towers;
-        let (features, ground) = (&self.features, &self.ground);
+        let [source, target] = &mut self.stacks;
+        let (features, ground) = (&self.features, &self.domain);
         let build = |tower: &mut LayerStack, side: usize| {
             tower.build(ground, features.at(t).map(|(at, looks)| (at, looks[side])));
         };
@@ -136,19 +136,19 @@ impl PlaneWarp for Lattice {
         in_target: &mut [DVec2],
     ) {
         self.build(t);
-        let [to_source, to_target] = &self.towers;
+        let [to_source, to_target] = &self.stacks;
         in_chunks(
             CHUNK,
             frame,
             [in_source, in_target],
             |places, [source, target]| {
-                to_source.lead(places, source);
-                to_target.lead(places, target);
+                to_source.apply(places, source);
+                to_target.apply(places, target);
             },
         );
     }
 
-    fn missed(&self, t: f64) -> Option<MissedFeatures> {
+    fn missed_features(&self, t: f64) -> Option<MissedFeatures> {
         let limit = REPORTED_ERROR * self.tolerance();
         let residuals = self.residuals(t).into_iter().zip(self.features.at(t));
         let errors = residuals.map(|([a, b], (at, _))| (a.max(b), at));
@@ -156,9 +156,9 @@ impl PlaneWarp for Lattice {
         let worst = missed.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(MissedFeatures {
             count: missed.len(),
-            by: worst.0,
+            distance: worst.0,
             place: worst.1,
-            unfolded: self.ground.options.fold_free,
+            fold_free: self.domain.options.fold_free,
         })
     }
 }

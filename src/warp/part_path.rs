@@ -39,22 +39,22 @@ impl PartPath {
     }
 
     /// Returns the offset from the design's centroid at t.
-    pub(super) fn at(&self, t: f64, whole_angle: f64) -> DVec2 {
-        self.at_share(t, t, whole_angle)
+    pub(super) fn offset(&self, t: f64, whole_angle: f64) -> DVec2 {
+        self.offset_at_fraction(t, t, whole_angle)
     }
 
     /// Returns the offset at t for a part that has completed `share` of its own motion.
     ///
     /// `share` runs from 0 to 1; the rotation with the design always follows t.
-    pub(super) fn at_share(&self, t: f64, share: f64, whole_angle: f64) -> DVec2 {
+    pub(super) fn offset_at_fraction(&self, t: f64, share: f64, whole_angle: f64) -> DVec2 {
         let unrotated = self.begin * (1.0 - share) + self.turned_end * share;
         DMat2::from_angle(t * whole_angle) * unrotated
     }
 
     /// Returns the deviation from the straight path at t; exactly 0 at both ends.
     pub(super) fn deviation(&self, t: f64, whole_angle: f64) -> DVec2 {
-        let straight = self.begin * (1.0 - t) + self.at(1.0, whole_angle) * t;
-        self.at(t, whole_angle) - straight
+        let straight = self.begin * (1.0 - t) + self.offset(1.0, whole_angle) * t;
+        self.offset(t, whole_angle) - straight
     }
 }
 

@@ -28,7 +28,7 @@ pub trait PlaneWarp: Clone + Debug + Send + Sync + 'static {
     );
 
     /// Returns the features that the maps miss at t by more than their tolerance.
-    fn missed(&self, _t: f64) -> Option<MissedFeatures> {
+    fn missed_features(&self, _t: f64) -> Option<MissedFeatures> {
         None
     }
 }
@@ -112,8 +112,8 @@ impl<W: PlaneWarp> GridWarp<W> {
 }
 
 impl<W: PlaneWarp> Warp for GridWarp<W> {
-    fn missed(&self, t: f64) -> Option<MissedFeatures> {
-        self.warp.missed(t)
+    fn missed_features(&self, t: f64) -> Option<MissedFeatures> {
+        self.warp.missed_features(t)
     }
 
     fn placer(&self) -> Placer {

@@ -91,8 +91,8 @@ impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
         }
     }
 
-    fn missed(&self, t: f64) -> Option<MissedFeatures> {
-        let missed = self.elastic.missed(t)?;
+    fn missed_features(&self, t: f64) -> Option<MissedFeatures> {
+        let missed = self.elastic.missed_features(t)?;
         let (back, centre) = self.rigid.at(t);
         let place = conjugate(back).rotate(missed.place) + centre;
         Some(MissedFeatures { place, ..missed })
@@ -180,7 +180,7 @@ mod tests {
     }
 
     fn thin_plate(pairs: &[PointPair]) -> RigidElasticPlaneWarp<ScatteredWarp> {
-        let rigid = CommonRigidMotion::of(pairs, &[]).expect("two places");
+        let rigid = CommonRigidMotion::fit(pairs, &[]).expect("two places");
         RigidElasticPlaneWarp::new(rigid, &FRAME, pairs, &[], |frame, points, lines| {
             ScatteredWarp::new(frame, points, lines, ScatteredOptions::default())
         })
@@ -199,7 +199,7 @@ mod tests {
         for turn in [0.3, 2.0, -3.0, PI] {
             let pairs = rigid_pairs(&CORNERS, turn, DVec2::new(0.4, -0.2));
             let lattice = {
-                let rigid = CommonRigidMotion::of(&pairs, &[]).expect("two places");
+                let rigid = CommonRigidMotion::fit(&pairs, &[]).expect("two places");
                 RigidElasticPlaneWarp::new(rigid, &FRAME, &pairs, &[], |frame, points, lines| {
                     Lattice::new(frame, points, lines, LatticeOptions::default())
                 })
@@ -250,7 +250,7 @@ mod tests {
             let forward = lookups(&thin_plate(&pairs), t, &frame);
             let backward = lookups(&thin_plate(&exchanged), 1.0 - t, &frame);
             // Near half a turn rounding decides the direction of rotation.
-            let turn = CommonRigidMotion::of(&pairs, &[]).expect("two points").turn();
+            let turn = CommonRigidMotion::fit(&pairs, &[]).expect("two points").turn();
             prop_assume!(turn.abs() < 3.1);
             for k in 0..frame.len() {
                 prop_assert!(forward[0][k].is_finite() && forward[1][k].is_finite());

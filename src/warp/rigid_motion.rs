@@ -73,11 +73,11 @@ impl CommonRigidMotion {
     ///     target: DVec2::new(x, y).perp(),
     /// };
     /// let pairs = [pair(0.0, 0.0), pair(1.0, 0.0)];
-    /// let turned = CommonRigidMotion::of(&pairs, &[]).expect("two points");
+    /// let turned = CommonRigidMotion::fit(&pairs, &[]).expect("two points");
     /// assert!((turned.turn() - 0.5 * std::f64::consts::PI).abs() < 1e-12);
     /// ```
     #[must_use]
-    pub fn of(points: &[PointPair], lines: &[LinePair]) -> Option<Self> {
+    pub fn fit(points: &[PointPair], lines: &[LinePair]) -> Option<Self> {
         let ends = |line: &LinePair| {
             [0, 1].map(|k| PointPair {
                 source: line.source[k],
@@ -151,7 +151,7 @@ impl CommonRigidMotion {
     ///
     /// The motion is sampled, so the box may be too small by about half a percent.
     #[must_use]
-    pub fn swept(&self, frame: &Bounds) -> Bounds {
+    pub fn swept_bounds(&self, frame: &Bounds) -> Bounds {
         let mut swept = *frame;
         for k in 0..=SWEEP_STEPS {
             let t = f64::from(k) / f64::from(SWEEP_STEPS);
@@ -201,10 +201,10 @@ mod tests {
             source: DVec2::splat(x),
             target: DVec2::splat(y),
         };
-        assert_eq!(CommonRigidMotion::of(&[], &[]), None);
-        assert_eq!(CommonRigidMotion::of(&[pair(1.0, 2.0)], &[]), None);
+        assert_eq!(CommonRigidMotion::fit(&[], &[]), None);
+        assert_eq!(CommonRigidMotion::fit(&[pair(1.0, 2.0)], &[]), None);
         assert_eq!(
-            CommonRigidMotion::of(&[pair(1.0, f64::NAN), pair(0.0, 1.0)], &[]),
+            CommonRigidMotion::fit(&[pair(1.0, f64::NAN), pair(0.0, 1.0)], &[]),
             None
         );
     }

@@ -38,10 +38,10 @@ impl PartClock {
     /// use morphospace::time::NamedEasing;
     /// use morphospace::warp::PartClock;
     /// let late = PartClock { from: 0.5, to: 1.0, easing: NamedEasing::Linear.into() };
-    /// assert_eq!([0.0, 0.5, 0.75, 1.0].map(|t| late.at(t)), [0.0, 0.0, 0.5, 1.0]);
+    /// assert_eq!([0.0, 0.5, 0.75, 1.0].map(|t| late.part_time(t)), [0.0, 0.0, 0.5, 1.0]);
     /// ```
     #[must_use]
-    pub fn at(&self, t: f64) -> f64 {
+    pub fn part_time(&self, t: f64) -> f64 {
         if !(0.0..=1.0).contains(&t) {
             return t;
         }
@@ -51,7 +51,7 @@ impl PartClock {
 
     /// Returns the frame time at which the part reaches `time` in [0, 1], the inverse of
     /// [`Self::at`].
-    pub(crate) fn when(&self, time: f64) -> f64 {
+    pub(crate) fn film_time(&self, time: f64) -> f64 {
         self.from + (self.to - self.from) * self.easing.inverse(time)
     }
 
@@ -61,7 +61,7 @@ impl PartClock {
         Self {
             from: 1.0 - self.to,
             to: 1.0 - self.from,
-            easing: self.easing.backwards(),
+            easing: self.easing.reversed(),
         }
     }
 }
@@ -119,7 +119,7 @@ impl StaggeredArap {
 
     /// Applies the same clocks to another interpolation of the same parts.
     #[must_use]
-    pub(crate) fn of(&self, arap: Arap) -> Self {
+    pub(crate) fn with_arap(&self, arap: Arap) -> Self {
         Self {
             arap,
             ..self.clone()
@@ -149,20 +149,20 @@ impl Warp for StaggeredArap {
         let clock_of_part = Arc::clone(&self.clock_of_part);
         let clocks = Arc::clone(&self.clocks);
         self.arap
-            .placer_by(move |part, t| clocks[clock_of_part[part] as usize].at(t))
+            .placer_by(move |part, t| clocks[clock_of_part[part] as usize].part_time(t))
     }
 
-    fn breaks(&self) -> Vec<f64> {
+    fn break_times(&self) -> Vec<f64> {
         let parts = self.clock_of_part.iter().enumerate();
         let breaks = parts.flat_map(|(part, &clock)| {
             let clock = self.clocks[clock as usize];
-            let window = self.arap.lives().get(part).copied().flatten();
+            let window = self.arap.time_windows().get(part).copied().flatten();
             let window_ends = window
                 .into_iter()
                 .flat_map(|window| [window.from, window.to]);
             let part_times = window_ends.chain(self.arap.guard_times().iter().copied());
             // The part's own break times occur when its clock shows them.
-            let when = move |time: f64| clock.when(time);
+            let when = move |time: f64| clock.film_time(time);
             [clock.from, clock.to]
                 .into_iter()
                 .chain(part_times.map(when))
@@ -211,7 +211,7 @@ mod tests {
         let film = film();
         let late = StaggeredArap::new(film.clone(), &[LATE], &[None, Some(0)]);
         for t in [0.0, 0.3, 0.5, 0.8, 1.0, 1.2, -0.4] {
-            let (plain, delayed) = (positions(&film, t), positions(&film, LATE.at(t)));
+            let (plain, delayed) = (positions(&film, t), positions(&film, LATE.part_time(t)));
             let expected: Vec<DVec2> = plain[..3].iter().chain(&delayed[3..]).copied().collect();
             assert_eq!(positions(&late, t), expected, "{t}");
         }

@@ -1,120 +1,117 @@
-//! What is too much to begin without being asked twice.
+//! Size limits of jobs that need confirmation before they start.
 //!
-//! Work that takes longer than ten seconds, or more than two gibibytes, says so
-//! before it begins, and goes on only for who is patient
-//! ([`Progress::is_patient`]). All limits stand here, each with the measurement
-//! that set it: on two cores that others used too, as well optimised as a
-//! release but for its dependencies.
+//! A job expected to take more than 10 seconds or 2 GiB fails with [`WorkloadTooLarge`] before it
+//! starts, unless [`Progress::is_patient`]. All limits are listed here, each with the measurement
+//! behind it, taken on two shared cores in a build whose dependencies were less optimised than in
+//! a release.
 
 use crate::work::progress::Progress;
 
-/// What there can be too much of.
+/// Kind of input whose amount determines time or memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WorkloadKind {
-    /// Points of both designs' outlines that are to be matched and
-    /// triangulated.
+    /// Outline points of both designs, for matching and triangulation.
     Points,
-    /// Pieces of both designs that are to be matched and triangulated.
+    /// Outer outlines of both designs, for matching and triangulation.
     Pieces,
-    /// Holes of both designs that are to be matched and triangulated.
+    /// Holes of both designs, for matching and triangulation.
     Holes,
-    /// Bars of a truss whose outline is wanted.
+    /// Bars of a truss, for computing its outline.
     Bars,
-    /// Pairs of bars that cross without a node.
+    /// Pairs of bars that cross without a node, for triangulating a truss.
     CrossingBars,
-    /// Cells of a grid of distances.
+    /// Grid cells of distance fields.
     Cells,
-    /// Faces of a mesh that is to move.
+    /// Faces of a mesh, for solving its motion.
     Faces,
-    /// Pixels of all the pictures that are mixed.
+    /// Pixels of all blended pictures together.
     Pixels,
 }
 
 impl WorkloadKind {
-    /// The most that is begun without being asked twice.
+    /// Returns the largest amount that starts without confirmation.
     #[must_use]
-    pub const fn most(self) -> usize {
+    pub const fn limit(self) -> usize {
         match self {
-            // A coastline of 2,000 points against a square took 2.5 s, one of
-            // 5,000 took 4.0 s (`check coast.json square.json`).
+            // A coastline matched to a square takes 2.5 s with 2,000 points, 4.0 s with 5,000
+            // (`check coast.json square.json`).
             Self::Points => 12_000,
-            // 300 pieces against 300 others are first seen after 2.9 s, 600
-            // against 600 after 4.9 s, 2,000 against 2,000 after 23 s.
+            // The draft of 300 pieces per design takes 2.9 s, of 600 4.9 s, of 2,000 23 s.
             Self::Pieces => 1_500,
-            // 100 holes against 100 others are first seen after 1.3 s, 200 against
-            // 200 after 7.8 s.
+            // The draft of 100 holes per design takes 1.3 s, of 200 7.8 s.
             Self::Holes => 300,
-            // 20,000 bars that all overlap 240 others were not done after 15 s.
+            // 20,000 bars that each overlap 240 others take more than 15 s.
             Self::Bars => 5_000,
-            // 200 nodes, each joined to each other, have 60 million, in two
-            // gigabytes; 4 million are counted in a second.
+            // 200 nodes all joined to each other have 60 million crossings, which take 2 GB;
+            // 4 million are found in one second.
             Self::CrossingBars => 4_000_000,
-            // 8192 × 8192 cells took more than 40 s: a seventh of that.
+            // 8192 × 8192 cells take more than 40 s; this is a seventh of them.
             Self::Cells => 3072 * 3072,
-            // Two sheets of two million took 1.8 GiB and 4 s of one processor, and
-            // each frame until their film is there 0.3 s.
+            // Two sheets of two million faces take 1.8 GiB and 4 s of one core; until their
+            // motion is recorded each frame takes 0.3 s.
             Self::Faces => 2_200_000,
-            // Decoded, as they are mixed, one takes 26 bytes: two gibibytes.
+            // A pixel prepared for blending takes 26 bytes: 2 GiB together.
             Self::Pixels => 82_000_000,
         }
     }
 
-    const fn words(self) -> &'static str {
+    /// Returns the plural noun for messages.
+    const fn noun(self) -> &'static str {
         match self {
-            Self::Points => "points of outlines",
-            Self::Pieces => "outlines",
+            Self::Points => "outline points",
+            Self::Pieces => "parts",
             Self::Holes => "holes",
             Self::Bars => "bars",
-            Self::CrossingBars => "crossings of bars without a node",
-            Self::Cells => "cells",
-            Self::Faces => "faces",
-            Self::Pixels => "pixels of pictures",
+            Self::CrossingBars => "bar crossings without a node",
+            Self::Cells => "grid cells",
+            Self::Faces => "triangles",
+            Self::Pixels => "picture pixels",
         }
     }
 
-    const fn way_out(self) -> &'static str {
+    /// Returns what a user can do to reduce the amount.
+    const fn remedy(self) -> &'static str {
         match self {
             Self::Points => "simplify the outlines, or blend distance fields",
-            Self::Pieces => "leave small parts out, or blend distance fields",
-            Self::Holes => "leave small holes out, or blend distance fields",
-            Self::Bars => "leave bars out",
-            Self::CrossingBars => "put nodes where bars cross, or leave bars out",
+            Self::Pieces => "remove small parts, or blend distance fields",
+            Self::Holes => "remove small holes, or blend distance fields",
+            Self::Bars => "remove bars",
+            Self::CrossingBars => "add nodes where bars cross, or remove bars",
             Self::Cells => "choose fewer cells",
             Self::Faces => "subdivide less, or use a coarser mesh",
-            Self::Pixels => "use smaller pictures, or fewer",
+            Self::Pixels => "use fewer or smaller pictures",
         }
     }
 
-    /// Whether so many may be begun.
+    /// Checks whether a job with this amount may start.
     ///
     /// # Errors
-    /// [`WorkloadTooLarge`] if there are more than the limit, unless who asked is
-    /// patient.
+    /// [`WorkloadTooLarge`] if the amount exceeds the limit, unless [`Progress::is_patient`].
     ///
     /// ```
-    /// use morphospace::work::budget::Load;
+    /// use morphospace::work::budget::WorkloadKind;
     /// use morphospace::work::progress::Silent;
-    /// // Nobody waits who listens to nothing.
-    /// assert!(Load::Bars.allow(1_000_000, &Silent).is_ok());
+    /// // Without a waiting user there is no limit.
+    /// assert!(WorkloadKind::Bars.check(1_000_000, &Silent).is_ok());
     /// ```
-    pub fn allow(self, count: usize, progress: &dyn Progress) -> Result<(), WorkloadTooLarge> {
-        if count > self.most() && !progress.is_patient() {
-            return Err(WorkloadTooLarge { load: self, count });
+    pub fn check(self, count: usize, progress: &dyn Progress) -> Result<(), WorkloadTooLarge> {
+        if count > self.limit() && !progress.is_patient() {
+            return Err(WorkloadTooLarge { kind: self, count });
         }
         Ok(())
     }
 }
 
-/// More than is begun without being asked twice.
+/// A job that is too large to start without confirmation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{count} {} take longer than ten seconds, or more than two gibibytes; up to {} do not: {}",
-    .load.words(), .load.most(), .load.way_out()
+    "{count} {} may take more than 10 seconds or 2 GiB (the limit is {}); {}",
+    .kind.noun(), .kind.limit(), .kind.remedy()
 )]
 pub struct WorkloadTooLarge {
-    /// What there is too much of.
-    pub load: WorkloadKind,
-    /// How much there is, or how much was counted before it was given up.
+    /// Kind of input that exceeds its limit.
+    pub kind: WorkloadKind,
+    /// Amount of it; a lower bound if counting stopped early.
     pub count: usize,
 }

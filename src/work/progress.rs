@@ -1,34 +1,35 @@
-//! How long work tells how far it is, and how it is cancelled.
+//! Progress reports and cancellation of long computations.
 //!
-//! Everything slow in the core (import, matching, triangulation,
-//! factorisation, export) takes a [`Progress`]. It promises to report often
-//! enough for a progress bar, with shares of the whole that never go down, and
-//! to stop within half a second of a cancel: what runs for longer than some
-//! milliseconds asks whether it is [`still_wanted`], and a library's long call
-//! runs [`beside`]. It does not promise that shares are proportional to time.
+//! Every slow operation of the core (import, matching, triangulation, factorisation, export)
+//! takes a [`Progress`]. It reports often enough for a progress bar, with fractions that never
+//! decrease, and stops within half a second of being cancelled: loops of more than a few
+//! milliseconds call [`check_cancelled`], and long calls into a library run through
+//! [`run_cancellable`]. Fractions are not proportional to time.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// Receives progress and says whether the work is still wanted.
+/// Receives progress reports and decides whether the work goes on.
 pub trait Progress: Sync {
-    /// The work is in `stage`, a few words for people, and `fraction` in
-    /// [0, 1] of it is done: of all that whoever started it waits for.
+    /// Reports the current stage, in a few words for people, and the fraction done, in [0, 1].
+    ///
+    /// The fraction refers to the whole computation, not to the stage.
     fn report(&self, stage: &'static str, fraction: f64);
 
-    /// `true` once nobody wants the result any more.
+    /// Returns `true` once the work has been cancelled.
     fn is_cancelled(&self) -> bool;
 
-    /// Whether whoever waits was told that it takes long, and wants it all the
-    /// same, or has not been asked; see [`crate::work::budget`].
+    /// Returns whether jobs beyond the limits of [`crate::work::budget`] may start.
+    ///
+    /// `false` where a user is waiting and has not yet confirmed such a job.
     fn is_patient(&self) -> bool {
         true
     }
 }
 
-/// Reports to nobody and is never cancelled.
+/// A [`Progress`] that ignores reports and is never cancelled.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 
@@ -42,13 +43,13 @@ impl Progress for Silent {
 
 /// The work was cancelled; nothing was changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the work was cancelled; start it again to have its result")]
+#[error("the work was cancelled; start it again to get the result")]
 pub struct Cancelled;
 
-/// Reports, and turns a cancel into an error.
+/// Reports progress, and returns an error if the work was cancelled.
 ///
 /// # Errors
-/// [`Cancelled`] if nobody wants the result any more.
+/// [`Cancelled`] if the work was cancelled.
 ///
 /// ```
 /// use morphospace::work::progress::{Silent, checkpoint};
@@ -60,15 +61,16 @@ pub fn checkpoint(
     fraction: f64,
 ) -> Result<(), Cancelled> {
     progress.report(stage, fraction);
-    still_wanted(progress)
+    check_cancelled(progress)
 }
 
-/// Turns a cancel into an error and reports nothing: for loops within a stage,
-/// which may ask at every turn.
+/// Returns an error if the work was cancelled, without reporting progress.
+///
+/// Cheap enough for every iteration of a loop within a stage.
 ///
 /// # Errors
-/// [`Cancelled`] if nobody wants the result any more.
-pub fn still_wanted(progress: &dyn Progress) -> Result<(), Cancelled> {
+/// [`Cancelled`] if the work was cancelled.
+pub fn check_cancelled(progress: &dyn Progress) -> Result<(), Cancelled> {
     if progress.is_cancelled() {
         Err(Cancelled)
     } else {
@@ -76,39 +78,40 @@ pub fn still_wanted(progress: &dyn Progress) -> Result<(), Cancelled> {
     }
 }
 
-/// How long a cancel may go unseen while something runs [`beside`].
-const LOOKED_EVERY: Duration = Duration::from_millis(20);
+/// Interval at which [`run_cancellable`] checks for cancellation (heuristic).
+const CANCEL_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Runs a long call that cannot be stopped on a thread of its own. On a cancel
-/// it is left behind, to end when it ends; nobody waits for it. What it does in
-/// parallel it does on threads of its own where the caller is one of those that
-/// are shared: all of these may be waiting like this one.
+/// Runs an uninterruptible call on its own thread and waits for it, or for cancellation.
+///
+/// A cancelled call keeps running in the background until it ends, and its result is dropped.
+/// If the caller is a rayon thread, parallel work inside the call gets its own thread pool:
+/// otherwise it could deadlock, because all shared threads may be waiting in this function.
 ///
 /// # Errors
-/// [`Cancelled`] if nobody wants the result any more.
+/// [`Cancelled`] if the work was cancelled.
 ///
 /// # Panics
-/// If the work does, or if no thread can be had.
+/// If the call panics, or if no thread can be started.
 ///
 /// ```
-/// use morphospace::work::progress::{Silent, beside};
-/// assert_eq!(beside(&Silent, || 6 * 7), Ok(42));
+/// use morphospace::work::progress::{Silent, run_cancellable};
+/// assert_eq!(run_cancellable(&Silent, || 6 * 7), Ok(42));
 /// ```
-pub fn beside<T: Send + 'static>(
+pub fn run_cancellable<T: Send + 'static>(
     progress: &dyn Progress,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Cancelled> {
     let (sender, answer) = channel();
     let is_shared = rayon::current_thread_index().is_some();
     let thread = std::thread::spawn(move || {
-        let found = if is_shared { apart(work) } else { work() };
-        sender.send(found).is_ok()
+        let result = if is_shared { in_own_pool(work) } else { work() };
+        sender.send(result).is_ok()
     });
     loop {
-        match answer.recv_timeout(LOOKED_EVERY) {
-            Ok(found) => return Ok(found),
-            Err(RecvTimeoutError::Timeout) => still_wanted(progress)?,
-            // The sender is dropped without a word by a panic alone.
+        match answer.recv_timeout(CANCEL_POLL_INTERVAL) {
+            Ok(result) => return Ok(result),
+            Err(RecvTimeoutError::Timeout) => check_cancelled(progress)?,
+            // The sender is dropped without sending only if the call panics.
             Err(RecvTimeoutError::Disconnected) => match thread.join() {
                 Err(panic) => std::panic::resume_unwind(panic),
                 Ok(_) => return Err(Cancelled),
@@ -117,24 +120,26 @@ pub fn beside<T: Send + 'static>(
     }
 }
 
-/// Does the work with threads that nobody else waits for.
-fn apart<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+/// Runs the work in a rayon thread pool of its own.
+fn in_own_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match rayon::ThreadPoolBuilder::new().build() {
         Ok(pool) => pool.install(work),
-        // One that could not be had is no reason to give up what was asked for.
+        // If no pool can be created, the work still runs, on the shared threads.
         Err(_) => work(),
     }
 }
 
-/// A share in [0, 1] that only grows, whoever tells it. Bits of such numbers
-/// are ordered as the numbers are.
+/// Fraction in [0, 1] that several threads can only increase.
+///
+/// Stored as bits, because the bit patterns of non-negative floats are ordered like the numbers.
 #[derive(Debug, Default)]
 struct MonotoneFraction(AtomicU64);
 
 impl MonotoneFraction {
-    fn raise(&self, share: f64) {
-        // Relaxed: the number stands alone.
-        let bits = share.clamp(0.0, 1.0).to_bits();
+    /// Sets the fraction, unless it is already larger.
+    fn raise(&self, fraction: f64) {
+        // Relaxed ordering suffices: no other data depends on this number.
+        let bits = fraction.clamp(0.0, 1.0).to_bits();
         self.0.fetch_max(bits, Ordering::Relaxed);
     }
 
@@ -143,27 +148,26 @@ impl MonotoneFraction {
     }
 }
 
-/// All of some work: passes on what its parts tell as a share that never goes
-/// down.
+/// The whole of a computation: passes on reports as a fraction that never decreases.
 pub struct WholeProgress<'a> {
     inner: &'a dyn Progress,
-    /// Locked while it is told on: else of two threads the one with the smaller
-    /// share might come last.
-    told: Mutex<f64>,
+    /// Largest fraction reported so far. It stays locked while it is passed on, so that reports
+    /// of two threads arrive in increasing order.
+    reported: Mutex<f64>,
     patient: bool,
 }
 
 impl<'a> WholeProgress<'a> {
-    /// Nothing is done yet.
+    /// Starts at 0 and takes over whether long jobs may start.
     pub fn new(inner: &'a dyn Progress) -> Self {
         Self {
             inner,
-            told: Mutex::default(),
+            reported: Mutex::default(),
             patient: inner.is_patient(),
         }
     }
 
-    /// The same for somebody who is patient, or is not.
+    /// Sets whether long jobs may start; see [`Progress::is_patient`].
     #[must_use]
     pub fn patient(mut self, patient: bool) -> Self {
         self.patient = patient;
@@ -173,9 +177,9 @@ impl<'a> WholeProgress<'a> {
 
 impl Progress for WholeProgress<'_> {
     fn report(&self, stage: &'static str, fraction: f64) {
-        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-        *told = told.max(fraction.clamp(0.0, 1.0));
-        self.inner.report(stage, *told);
+        let mut reported = self.reported.lock().unwrap_or_else(PoisonError::into_inner);
+        *reported = reported.max(fraction.clamp(0.0, 1.0));
+        self.inner.report(stage, *reported);
     }
 
     fn is_cancelled(&self) -> bool {
@@ -187,7 +191,7 @@ impl Progress for WholeProgress<'_> {
     }
 }
 
-/// A part of some work that takes it from one share to another.
+/// A step of a computation that advances it from one fraction to another.
 #[derive(Clone, Copy)]
 pub struct ProgressSpan<'a> {
     inner: &'a dyn Progress,
@@ -196,11 +200,11 @@ pub struct ProgressSpan<'a> {
 }
 
 impl<'a> ProgressSpan<'a> {
-    /// The part from one share of the work to another.
+    /// Creates the step between two fractions of `inner`.
     ///
     /// ```
-    /// use morphospace::work::progress::{Progress, Silent, Span};
-    /// let second_half = Span::new(&Silent, 0.5, 1.0);
+    /// use morphospace::work::progress::{Progress, ProgressSpan, Silent};
+    /// let second_half = ProgressSpan::new(&Silent, 0.5, 1.0);
     /// second_half.report("matching", 0.5); // three quarters of the whole
     /// ```
     pub fn new(inner: &'a dyn Progress, from: f64, to: f64) -> Self {
@@ -223,14 +227,15 @@ impl Progress for ProgressSpan<'_> {
     }
 }
 
-/// Parts of some work that are done in any order, or side by side, and take
-/// alike: what is done is the mean of their shares.
+/// Equal parts of a computation, done in any order or in parallel.
+///
+/// The fraction of the whole is the mean of the parts' fractions.
 pub struct ProgressShares<'a> {
     inner: &'a dyn Progress,
     parts: Vec<MonotoneFraction>,
 }
 
-/// One of [`ProgressShares`].
+/// Progress of one part of [`ProgressShares`].
 #[derive(Clone, Copy)]
 pub struct ProgressShare<'a> {
     all: &'a ProgressShares<'a>,
@@ -238,7 +243,7 @@ pub struct ProgressShare<'a> {
 }
 
 impl<'a> ProgressShares<'a> {
-    /// So many parts, none of them begun.
+    /// Creates the given number of parts, all at 0.
     pub fn new(inner: &'a dyn Progress, parts: usize) -> Self {
         let parts = std::iter::repeat_with(MonotoneFraction::default).take(parts);
         Self {
@@ -247,11 +252,11 @@ impl<'a> ProgressShares<'a> {
         }
     }
 
-    /// What a part reports to.
+    /// Returns the progress of the part with this index.
     ///
     /// ```
-    /// use morphospace::work::progress::{Progress, Silent, Several};
-    /// let parts = Several::new(&Silent, 4);
+    /// use morphospace::work::progress::{Progress, ProgressShares, Silent};
+    /// let parts = ProgressShares::new(&Silent, 4);
     /// parts.part(2).report("matching", 1.0); // a quarter of the whole
     /// ```
     pub fn part(&self, part: usize) -> ProgressShare<'_> {
@@ -298,44 +303,44 @@ mod tests {
     }
 
     #[test]
-    fn parts_within_parts_make_one_share_that_never_goes_down() {
-        let heard = RecordedProgress::default();
-        let whole = WholeProgress::new(&heard);
+    fn nested_parts_make_one_fraction_that_never_decreases() {
+        let recorded = RecordedProgress::default();
+        let whole = WholeProgress::new(&recorded);
         ProgressSpan::new(&whole, 0.0, 0.5).report("first", 1.0);
-        let rest = ProgressSpan::new(&whole, 0.5, 1.0);
-        let parts = ProgressShares::new(&rest, 2);
+        let second_half = ProgressSpan::new(&whole, 0.5, 1.0);
+        let parts = ProgressShares::new(&second_half, 2);
         parts.part(1).report("second", 0.5);
         parts.part(0).report("second", 1.0);
         parts.part(0).report("again", 0.0);
         ProgressSpan::new(&whole, 0.0, 0.5).report("first", 0.2);
         parts.part(1).report("second", 1.0);
         assert_eq!(
-            *heard.0.lock().expect("free"),
+            *recorded.0.lock().expect("free"),
             [0.5, 0.625, 0.875, 0.875, 0.875, 1.0]
         );
     }
 
     #[test]
-    fn a_cancel_is_answered_while_work_goes_on_beside() {
-        let heard = RecordedProgress::default();
-        heard.1.store(true, Ordering::Relaxed);
+    fn cancelling_returns_while_the_call_still_runs() {
+        let cancelled = RecordedProgress::default();
+        cancelled.1.store(true, Ordering::Relaxed);
         let begun = Instant::now();
         let long = Duration::from_secs(20);
         assert_eq!(
-            beside(&heard, move || std::thread::sleep(long)),
+            run_cancellable(&cancelled, move || std::thread::sleep(long)),
             Err(Cancelled)
         );
         assert!(begun.elapsed() < long / 4);
     }
 
     #[test]
-    fn work_in_parallel_is_done_while_all_threads_wait_for_such() {
+    fn parallel_calls_finish_while_all_shared_threads_wait() {
         let sum = || {
             let (a, b) = rayon::join(|| 1, || 2);
             a + b
         };
-        // Each of the shared threads waits for work that is done in parallel.
-        let sums = rayon::broadcast(|_| beside(&Silent, sum));
+        // Every shared thread waits for a call that itself runs in parallel.
+        let sums = rayon::broadcast(|_| run_cancellable(&Silent, sum));
         assert!(sums.iter().all(|sum| *sum == Ok(3)));
     }
 }

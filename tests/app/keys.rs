@@ -1,6 +1,6 @@
-//! Keys: what each does to time, stops and panels.
+//! Effects of keys on time, stops, panels and the method.
 
-use crate::window::{Window, close};
+use crate::headless_window::{HeadlessWindow, is_close};
 use bevy::input::ButtonState;
 use bevy::input::keyboard::{Key, KeyCode};
 use morphospace::app::{Intent, KeyboardFocus};
@@ -9,7 +9,7 @@ use morphospace::transition::{PlayMode, TransitionMethod};
 
 #[test]
 fn space_plays_and_pauses() {
-    let mut window = Window::with_gallery();
+    let mut window = HeadlessWindow::with_gallery();
     window.press(KeyCode::Space, Key::Space);
     assert!(window.playback().is_playing());
     for _ in 0..60 {
@@ -23,27 +23,27 @@ fn space_plays_and_pauses() {
 }
 
 #[test]
-fn arrows_step_and_repeat_and_shift_makes_ten_of_one() {
-    let mut window = Window::with_gallery();
+fn arrows_step_and_repeat_and_shift_makes_steps_tenfold() {
+    let mut window = HeadlessWindow::with_gallery();
     window.press(KeyCode::ArrowRight, Key::ArrowRight);
-    assert!(close(window.t(), 0.01));
+    assert!(is_close(window.t(), 0.01));
     window.key(
         ButtonState::Pressed,
         KeyCode::ArrowRight,
         Key::ArrowRight,
         true,
     );
-    assert!(close(window.t(), 0.02));
+    assert!(is_close(window.t(), 0.02));
     window.press(KeyCode::ArrowLeft, Key::ArrowLeft);
     window.hold(KeyCode::ShiftLeft, Key::Shift, |window| {
         window.press(KeyCode::ArrowLeft, Key::ArrowLeft);
     });
-    assert!(close(window.t(), -0.09));
+    assert!(is_close(window.t(), -0.09));
 }
 
 #[test]
-fn home_and_end_go_to_the_ends() {
-    let mut window = Window::with_gallery();
+fn home_and_end_jump_to_the_start_and_end() {
+    let mut window = HeadlessWindow::with_gallery();
     window.press(KeyCode::End, Key::End);
     assert_eq!(window.t(), window.session().timing().to);
     window.press(KeyCode::Home, Key::Home);
@@ -51,14 +51,14 @@ fn home_and_end_go_to_the_ends() {
 }
 
 #[test]
-fn digits_go_by_their_place_and_signs_by_what_they_print() {
-    let mut window = Window::with_gallery();
+fn digits_act_by_position_and_signs_by_the_printed_character() {
+    let mut window = HeadlessWindow::with_gallery();
     // A French keyboard prints & on the key of the 1.
     window.type_char(KeyCode::Digit1, "&");
-    assert!(close(window.t(), 0.1));
+    assert!(is_close(window.t(), 0.1));
     // A German keyboard prints [ with AltGr on the key of the 8.
     window.type_char(KeyCode::Digit8, "[");
-    assert!(close(window.t(), 0.1));
+    assert!(is_close(window.t(), 0.1));
     assert!(window.playback().speed() < 1.0);
     window.type_char(KeyCode::BracketRight, "]");
     assert_eq!(window.playback().speed(), 1.0);
@@ -72,8 +72,8 @@ fn digits_go_by_their_place_and_signs_by_what_they_print() {
 }
 
 #[test]
-fn backspace_is_speed_one_and_r_turns_round() {
-    let mut window = Window::with_gallery();
+fn backspace_resets_the_speed_and_r_reverses_playback() {
+    let mut window = HeadlessWindow::with_gallery();
     window.type_char(KeyCode::BracketRight, "]");
     window.press(KeyCode::Backspace, Key::Backspace);
     assert_eq!(window.playback().speed(), 1.0);
@@ -82,8 +82,8 @@ fn backspace_is_speed_one_and_r_turns_round() {
 }
 
 #[test]
-fn l_goes_through_the_play_modes() {
-    let mut window = Window::with_gallery();
+fn l_cycles_through_the_play_modes() {
+    let mut window = HeadlessWindow::with_gallery();
     let mut seen = vec![window.session().timing().play];
     for _ in 0..3 {
         window.type_char(KeyCode::KeyL, "l");
@@ -96,8 +96,8 @@ fn l_goes_through_the_play_modes() {
 }
 
 #[test]
-fn stops_are_set_jumped_to_and_played_to() {
-    let mut window = Window::with_gallery();
+fn stops_are_added_jumped_to_and_played_to() {
+    let mut window = HeadlessWindow::with_gallery();
     let before = window.session().stops().len();
     window.send(Intent::Seek(0.437));
     window.type_char(KeyCode::KeyM, "m");
@@ -105,7 +105,7 @@ fn stops_are_set_jumped_to_and_played_to() {
     assert_eq!(
         window.session().stops().len(),
         before + 1,
-        "one stop at one place"
+        "a second stop at the same t is not added"
     );
     window.press(KeyCode::Home, Key::Home);
     window.press(KeyCode::ArrowUp, Key::ArrowUp);
@@ -114,12 +114,12 @@ fn stops_are_set_jumped_to_and_played_to() {
     window.press(KeyCode::ArrowDown, Key::ArrowDown);
     assert_eq!(window.t(), window.session().timing().from);
     window.press(KeyCode::PageDown, Key::PageDown);
-    assert!(window.playback().is_playing(), "played, not jumped");
+    assert!(window.playback().is_playing(), "plays instead of jumping");
     assert!(window.t() < first);
     while window.playback().is_playing() {
         window.update();
     }
-    assert_eq!(window.t(), first, "waits exactly at the stop");
+    assert_eq!(window.t(), first, "stops exactly at the stop");
     window.press(KeyCode::PageUp, Key::PageUp);
     while window.playback().is_playing() {
         window.update();
@@ -128,8 +128,8 @@ fn stops_are_set_jumped_to_and_played_to() {
 }
 
 #[test]
-fn no_key_acts_while_text_is_written() {
-    let mut window = Window::with_gallery();
+fn no_key_acts_while_a_text_field_has_the_focus() {
+    let mut window = HeadlessWindow::with_gallery();
     window.0.insert_resource(KeyboardFocus(true));
     window.press(KeyCode::Space, Key::Space);
     window.type_char(KeyCode::Digit5, "5");
@@ -142,13 +142,13 @@ fn no_key_acts_while_text_is_written() {
     assert_eq!(
         window.t(),
         window.session().timing().from,
-        "nothing is made up for"
+        "ignored keys do not act later"
     );
 }
 
 #[test]
-fn shift_and_control_tell_the_meanings_of_s_apart() {
-    let mut window = Window::with_gallery();
+fn shift_and_control_select_among_the_meanings_of_s() {
+    let mut window = HeadlessWindow::with_gallery();
     window.hold(KeyCode::ShiftRight, Key::Shift, |window| {
         window.type_char(KeyCode::KeyS, "S");
         assert!(
@@ -171,8 +171,8 @@ fn shift_and_control_tell_the_meanings_of_s_apart() {
 }
 
 #[test]
-fn escape_goes_back_step_by_step() {
-    let mut window = Window::with_gallery();
+fn escape_closes_one_thing_at_a_time() {
+    let mut window = HeadlessWindow::with_gallery();
     window.type_char(KeyCode::KeyH, "h");
     window.press(KeyCode::F1, Key::F1);
     assert!(!window.preferences().panels && window.preferences().help);
@@ -185,22 +185,25 @@ fn escape_goes_back_step_by_step() {
 }
 
 #[test]
-fn tab_takes_the_next_method_that_can_be_had() {
-    let mut window = Window::with_gallery();
-    let cell = |window: &Window| window.session().transition().map(|t| t.cell());
-    let first = cell(&window);
+fn tab_cycles_through_the_available_methods() {
+    let mut window = HeadlessWindow::with_gallery();
+    let method = |window: &HeadlessWindow| window.session().transition().map(|t| t.method());
+    let first = method(&window);
     let mut seen = vec![first];
     loop {
         window.press(KeyCode::Tab, Key::Tab);
         window.wait();
-        let next = cell(&window);
+        let next = method(&window);
         if next == first {
             break;
         }
-        assert!(!seen.contains(&next), "a method comes twice");
+        assert!(!seen.contains(&next), "a method appears twice");
         seen.push(next);
     }
-    // Two outlines have no colours; everything else can be had.
-    let can = |cell: &TransitionMethod| cell.content() != ContentKind::Colours;
-    assert_eq!(seen.len(), TransitionMethod::all().filter(can).count());
+    // Two outlines have no colours; every other method is available.
+    let is_available = |cell: &TransitionMethod| cell.content() != ContentKind::Colours;
+    assert_eq!(
+        seen.len(),
+        TransitionMethod::all().filter(is_available).count()
+    );
 }

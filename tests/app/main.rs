@@ -1,19 +1,20 @@
-//! The window's systems without a window: injected keys, intents, and what comes of them.
+//! Tests of the app's systems without a window: injected keys and intents, and their effects.
 #![cfg(feature = "app")]
 
-mod audience;
-mod beside;
-mod choosing;
-mod editor;
-mod film;
-mod history;
-mod keeping;
+mod autosave;
+mod comparison;
+mod files;
+mod first_minute;
+mod headless_window;
+mod hidden_panels;
+mod jobs_and_notices;
 mod keys;
 mod map;
-mod opening;
-mod rest;
-mod saving;
+mod match_editor;
+mod method_search;
+mod presentation;
+mod redraw_pace;
+mod save;
 mod sequence;
-mod talk;
-mod telling;
-mod window;
+mod stage_recording;
+mod undo;

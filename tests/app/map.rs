@@ -1,4 +1,4 @@
-//! The map of all designs in the window: built, walked on, laid out otherwise.
+//! The map of all designs: building it, moving the marker, layouts, paths and saved places.
 
 use std::path::PathBuf;
 
@@ -9,39 +9,40 @@ use morphospace::geometry::DVec2;
 use morphospace::space::MapLayout;
 use tempfile::TempDir;
 
-use crate::window::Window;
+use crate::headless_window::HeadlessWindow;
 
-fn map(window: &Window) -> &MapView {
+fn map_view(window: &HeadlessWindow) -> &MapView {
     window.0.world().resource::<MapView>()
 }
 
-/// Waits for the space and for all that is drawn of it.
-fn wait(window: &mut Window) {
+/// Updates until the map and its pictures are complete.
+fn wait_for_map(window: &mut HeadlessWindow) {
     for _ in 0..20_000 {
         window.update();
-        let view = map(window);
-        let is_drawn = view.made().is_some_and(|made| made.ground().is_some());
+        let view = map_view(window);
+        let is_drawn = view.pictures().is_some_and(|made| made.ground().is_some());
         if !view.is_busy() && (is_drawn || view.problem().is_some()) {
             return;
         }
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
-    panic!("the map is not there");
+    panic!("the map is not complete in time");
 }
 
-fn shown(mut window: Window) -> Window {
+/// Opens the map on a small stage.
+fn with_map(mut window: HeadlessWindow) -> HeadlessWindow {
     let area = StageArea {
         size: Vec2::new(160.0, 120.0),
         ..StageArea::default()
     };
     window.0.insert_resource(area);
     window.send(Intent::ToggleMap);
-    wait(&mut window);
+    wait_for_map(&mut window);
     window
 }
 
-/// Rectangles as wide as their numbers, the last one with a hole where it is asked for.
-fn opened(count: usize, has_hole: bool) -> (TempDir, Window) {
+/// A window with the map of rectangles of width 1, 2, …; the last may have a hole.
+fn with_rectangles(count: usize, has_hole: bool) -> (TempDir, HeadlessWindow) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |k: usize| {
         let path = folder.path().join(format!("d{k}.json"));
@@ -55,21 +56,29 @@ fn opened(count: usize, has_hole: bool) -> (TempDir, Window) {
         path
     };
     let files: Vec<PathBuf> = (0..count).map(file).collect();
-    let mut window = Window::new();
+    let mut window = HeadlessWindow::new();
     window.send(Intent::Open(files));
     window.wait();
     assert_eq!(window.problems(), Vec::<String>::new());
-    (folder, shown(window))
+    // The film plays at once, and the marker would follow it.
+    window.send(Intent::TogglePlay);
+    window.send(Intent::SeekStart);
+    (folder, with_map(window))
 }
 
-fn weights(window: &Window) -> Vec<f64> {
-    map(window).made().expect("a map").weights().to_vec()
+/// Weights of the designs at the marker.
+fn weights(window: &HeadlessWindow) -> Vec<f64> {
+    map_view(window)
+        .pictures()
+        .expect("a map")
+        .weights()
+        .to_vec()
 }
 
 #[test]
-fn the_puck_walks_between_the_designs() {
-    let (_folder, mut window) = opened(3, false);
-    let made = map(&window).made().expect("a map");
+fn the_marker_sets_the_weights_and_the_blend() {
+    let (_folder, mut window) = with_rectangles(3, false);
+    let made = map_view(&window).pictures().expect("a map");
     assert!(
         made.space().family().is_some(),
         "{:?}",
@@ -77,182 +86,196 @@ fn the_puck_walks_between_the_designs() {
     );
     let sites = made.map().sites().to_vec();
     assert_eq!(sites.len(), 3);
-    // In the middle all count as much.
-    let even = weights(&window);
+    // At the centre all designs have the same weight.
+    let central = weights(&window);
     assert!(
-        even.iter().all(|share| (share - 1.0 / 3.0).abs() < 1e-6),
-        "{even:?}"
+        central.iter().all(|share| (share - 1.0 / 3.0).abs() < 1e-6),
+        "{central:?}"
     );
-    let before = map(&window).made().and_then(|made| made.blend().cloned());
-    window.send(Intent::Puck(sites[2]));
+    let before = map_view(&window)
+        .pictures()
+        .and_then(|made| made.blend().cloned());
+    window.send(Intent::MoveMarker(sites[2]));
     window.update();
     assert_eq!(weights(&window), [0.0, 0.0, 1.0]);
-    let after = map(&window).made().and_then(|made| made.blend().cloned());
+    let after = map_view(&window)
+        .pictures()
+        .and_then(|made| made.blend().cloned());
     assert!(before.is_some() && before != after);
-    // An arrow goes a little, and t does not.
-    let (t, puck) = (window.t(), map(&window).puck());
+    // An arrow key moves the marker, and not t.
+    let (t, marker) = (window.t(), map_view(&window).marker());
     window.press(KeyCode::ArrowLeft, Key::ArrowLeft);
     window.update();
     assert_eq!(window.t(), t);
-    assert!(map(&window).puck().x < puck.x);
-    // Places beyond all bounds are none.
-    window.send(Intent::Puck(DVec2::NAN));
-    window.send(Intent::Puck(DVec2::splat(1e300)));
+    assert!(map_view(&window).marker().x < marker.x);
+    // Invalid positions are ignored or clamped.
+    window.send(Intent::MoveMarker(DVec2::NAN));
+    window.send(Intent::MoveMarker(DVec2::splat(1e300)));
     window.update();
     assert!(weights(&window).iter().all(|share| share.is_finite()));
 }
 
 #[test]
-fn designs_are_laid_out_and_moved() {
-    let (_folder, mut window) = opened(3, false);
-    window.send(Intent::LayOut(MapLayout::Line));
-    wait(&mut window);
-    let sites = |window: &Window| {
-        let made = map(window).made().expect("a map");
+fn designs_are_laid_out_on_a_line_and_moved_by_hand() {
+    let (_folder, mut window) = with_rectangles(3, false);
+    window.send(Intent::SetMapLayout(MapLayout::Line));
+    wait_for_map(&mut window);
+    let sites = |window: &HeadlessWindow| {
+        let made = map_view(window).pictures().expect("a map");
         made.map().sites().to_vec()
     };
     assert!(sites(&window).iter().all(|site| site.y == 0.0));
-    let to = DVec2::new(0.1, 0.8);
-    window.send(Intent::MoveSite(1, to));
-    wait(&mut window);
-    assert_eq!(sites(&window)[1], to);
-    // Onto another one: it stays where it was.
-    let other = sites(&window)[0];
-    window.send(Intent::MoveSite(1, other));
-    window.send(Intent::MoveSite(99, to));
-    wait(&mut window);
-    assert_eq!(sites(&window)[1], to);
-    // Where they were put is of the project, and can be taken back.
-    let kept = |window: &Window| {
+    let new_site = DVec2::new(0.1, 0.8);
+    window.send(Intent::MoveMapDesign(1, new_site));
+    wait_for_map(&mut window);
+    assert_eq!(sites(&window)[1], new_site);
+    // A site cannot be moved onto another one, and a design 99 does not exist.
+    let first_site = sites(&window)[0];
+    window.send(Intent::MoveMapDesign(1, first_site));
+    window.send(Intent::MoveMapDesign(99, new_site));
+    wait_for_map(&mut window);
+    assert_eq!(sites(&window)[1], new_site);
+    // Moved sites are stored in the project, and moving one can be undone.
+    let stored_sites = |window: &HeadlessWindow| {
         window
             .session()
-            .whole()
+            .whole_project()
             .expect("a project")
             .map
             .sites
             .clone()
     };
-    assert_eq!(kept(&window)[1], to);
+    assert_eq!(stored_sites(&window)[1], new_site);
     window.send(Intent::Undo);
-    wait(&mut window);
-    assert!(kept(&window).is_empty());
+    wait_for_map(&mut window);
+    assert!(stored_sites(&window).is_empty());
 }
 
-/// Waits for the film as well.
-fn wait_for_film(window: &mut Window) {
+/// Updates until the film and the map are complete.
+fn wait_for_film(window: &mut HeadlessWindow) {
     window.wait();
-    wait(window);
+    wait_for_map(window);
 }
 
 #[test]
-fn a_path_is_drawn_played_and_taken_back() {
-    let (_folder, mut window) = opened(3, false);
-    let sites = map(&window).made().expect("a map").map().sites().to_vec();
-    // One stop is no path yet.
+fn a_path_is_drawn_played_and_undone() {
+    let (_folder, mut window) = with_rectangles(3, false);
+    let sites = map_view(&window)
+        .pictures()
+        .expect("a map")
+        .map()
+        .sites()
+        .to_vec();
+    // One stop is not a path yet.
     window.send(Intent::ExtendPath(vec![sites[0] + DVec2::splat(0.01)]));
     wait_for_film(&mut window);
-    let whole = window.session().whole().expect("a project").clone();
+    let whole = window.session().whole_project().expect("a project").clone();
     assert!(!whole.follows_path());
     assert_eq!(
         whole.map.path.places[0].at, sites[0],
-        "it snaps to a design"
+        "a stop near a design snaps to it"
     );
     window.send(Intent::ExtendPath(vec![DVec2::ZERO]));
     wait_for_film(&mut window);
     window.send(Intent::ExtendPath(vec![DVec2::new(0.1, -0.1), sites[2]]));
     wait_for_film(&mut window);
     assert_eq!(window.problems(), Vec::<String>::new());
-    let whole = window.session().whole().expect("a project").clone();
+    let whole = window.session().whole_project().expect("a project").clone();
     assert!(whole.follows_path());
-    assert_eq!(whole.leg_count(), 2);
+    assert_eq!(whole.segment_count(), 2);
     let sequence = window.session().sequence().expect("a film");
     assert_eq!(sequence.end(), 2.0);
-    assert_eq!(window.session().names_on_the_way().len(), 3);
-    // The puck goes with the film.
+    assert_eq!(window.session().names_along_path().len(), 3);
+    // The marker follows the film.
     window.send(Intent::Seek(1.0));
     window.update();
     window.update();
     assert!(
-        map(&window).puck().length() < 1e-9,
+        map_view(&window).marker().length() < 1e-9,
         "{}",
-        map(&window).puck()
+        map_view(&window).marker()
     );
     window.send(Intent::Seek(2.0));
     window.update();
     window.update();
     assert_eq!(weights(&window), [0.0, 0.0, 1.0]);
-    // Not one that two designs could be matched by.
-    assert!(!window.session().can_match());
-    window.send(Intent::ShortenPath);
+    // A film along a path blends all designs, so there is no match of two to edit.
+    assert!(!window.session().has_match_editor());
+    window.send(Intent::RemoveLastPathStop);
     wait_for_film(&mut window);
-    assert_eq!(window.session().leg_count(), 1);
+    assert_eq!(window.session().segment_count(), 1);
     window.send(Intent::Undo);
     wait_for_film(&mut window);
-    assert_eq!(window.session().leg_count(), 2);
-    // Without it the film goes from design to design again.
-    let mut settings = window.session().whole().expect("a project").map.clone();
+    assert_eq!(window.session().segment_count(), 2);
+    // Without a path the film goes from design to design again.
+    let mut settings = window
+        .session()
+        .whole_project()
+        .expect("a project")
+        .map
+        .clone();
     settings.path = morphospace::space::MapPath::default();
     window.send(Intent::EditMap(Box::new(settings)));
     wait_for_film(&mut window);
     let first = window.session().transition().expect("a film");
     assert!(first.arap().is_some());
-    assert_eq!(window.session().leg_count(), 2);
+    assert_eq!(window.session().segment_count(), 2);
 }
 
 #[test]
-fn the_way_of_the_puck_becomes_a_path_and_places_are_kept() {
-    let (_folder, mut window) = opened(3, false);
-    window.send(Intent::RecordPath);
+fn marker_movement_is_recorded_as_a_path_and_places_are_saved() {
+    let (_folder, mut window) = with_rectangles(3, false);
+    window.send(Intent::TogglePathRecording);
     window.update();
     for k in 1..=20 {
-        window.send(Intent::Puck(DVec2::new(0.02 * f64::from(k), 0.0)));
+        window.send(Intent::MoveMarker(DVec2::new(0.02 * f64::from(k), 0.0)));
         window.update();
     }
-    window.send(Intent::RecordPath);
+    window.send(Intent::TogglePathRecording);
     wait_for_film(&mut window);
     let path = window
         .session()
-        .whole()
+        .whole_project()
         .expect("a project")
         .map
         .path
         .clone();
-    // A straight way needs no places within.
+    // A straight path needs no stops between its ends.
     assert_eq!(path.places.len(), 2, "{path:?}");
     assert!((path.places[1].at.x - 0.4).abs() < 1e-9);
-    window.send(Intent::Keep);
+    window.send(Intent::SaveBlend);
     wait_for_film(&mut window);
-    let kept = window
+    let saved = window
         .session()
-        .whole()
+        .whole_project()
         .expect("a project")
         .map
         .kept
         .clone();
-    assert_eq!(kept.len(), 1);
-    assert!(kept[0].name.contains('%'), "{}", kept[0].name);
-    let made = map(&window).made().expect("a map");
-    assert!(made.kept(kept[0].at).is_some());
-    // What is known of the land grows finer by itself.
-    let side = made
+    assert_eq!(saved.len(), 1);
+    assert!(saved[0].name.contains('%'), "{}", saved[0].name);
+    let made = map_view(&window).pictures().expect("a map");
+    assert!(made.kept(saved[0].at).is_some());
+    // The grid of the measures is refined in the background, up to 64 × 64.
+    let grid_side = made
         .land()
         .found()
         .map(morphospace::measure::MapLandscape::side);
-    assert_eq!(side, Some(64));
+    assert_eq!(grid_side, Some(64));
 }
 
 #[test]
-fn what_has_no_common_mesh_is_on_the_map_as_fields_and_esc_leaves() {
-    let (_folder, mut window) = opened(3, true);
-    let made = map(&window).made().expect("a map");
+fn designs_without_a_common_mesh_are_blended_as_fields_and_escape_closes_the_map() {
+    let (_folder, mut window) = with_rectangles(3, true);
+    let made = map_view(&window).pictures().expect("a map");
     assert!(made.space().family().is_none() && made.space().notes().len() == 1);
-    window.send(Intent::Back);
+    window.send(Intent::Escape);
     window.update();
-    assert!(!map(&window).is_shown);
-    // With the next project the map is another one.
+    assert!(!map_view(&window).is_shown);
+    // Another project has another map.
     window.send(Intent::OpenGallery("girder-to-arch".to_owned()));
     window.wait();
-    let window = shown(window);
-    let made = map(&window).made().expect("a map");
+    let window = with_map(window);
+    let made = map_view(&window).pictures().expect("a map");
     assert_eq!(made.space().designs().len(), 2);
 }

@@ -1,4 +1,4 @@
-//! Many designs in the window: opened together, walked through, put in another order.
+//! Films through several designs: opening, playing, reordering and saving them.
 
 use std::path::PathBuf;
 
@@ -8,9 +8,9 @@ use morphospace::project::LoadedProject;
 use morphospace::stage::{Blend, StageTransition};
 use tempfile::TempDir;
 
-use crate::window::Window;
+use crate::headless_window::HeadlessWindow;
 
-/// A rectangle as wide as its number, of each number.
+/// Files d0.json, d1.json, … with rectangles of width 1, 2, …
 fn designs(count: usize) -> (TempDir, Vec<PathBuf>) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |k: usize| {
@@ -23,17 +23,26 @@ fn designs(count: usize) -> (TempDir, Vec<PathBuf>) {
     (folder, files)
 }
 
-fn opened(count: usize) -> (TempDir, Window) {
+/// A window with `count` rectangles open.
+fn with_designs(count: usize) -> (TempDir, HeadlessWindow) {
     let (folder, files) = designs(count);
-    let mut window = Window::new();
+    let mut window = HeadlessWindow::new();
     window.send(Intent::Open(files));
     window.wait();
     assert_eq!(window.problems(), Vec::<String>::new());
+    pause_at_start(&mut window);
     (folder, window)
 }
 
-/// The names of the two designs on the stage, and where between them.
-fn on_stage(window: &mut Window) -> (String, f64) {
+/// Stops the film of designs that were just opened, which plays at once.
+fn pause_at_start(window: &mut HeadlessWindow) {
+    assert!(window.playback().is_playing());
+    window.send(Intent::TogglePlay);
+    window.send(Intent::SeekStart);
+}
+
+/// Names of the two designs on the stage, and the blend parameter between them.
+fn on_stage(window: &mut HeadlessWindow) -> (String, f64) {
     let world = window.0.world_mut();
     let mut staged = world.query_filtered::<(&StageTransition, &Blend), With<OnStage>>();
     let (StageTransition(transition), blend) = staged.single(world).expect("one on the stage");
@@ -45,10 +54,10 @@ fn on_stage(window: &mut Window) -> (String, f64) {
 }
 
 #[test]
-fn the_stage_shows_the_leg_that_t_is_in() {
-    let (_folder, mut window) = opened(4);
+fn the_stage_shows_the_segment_that_contains_t() {
+    let (_folder, mut window) = with_designs(4);
     assert_eq!(window.session().title(), "d0 to d3, 4 designs");
-    for (t, names, within) in [
+    for (t, names, t_in_segment) in [
         (0.25, "d0 d1", 0.25),
         (1.0, "d1 d2", 0.0),
         (2.75, "d2 d3", 0.75),
@@ -56,28 +65,28 @@ fn the_stage_shows_the_leg_that_t_is_in() {
         (-0.5, "d0 d1", -0.5),
     ] {
         window.send(Intent::Seek(t));
-        assert_eq!(on_stage(&mut window), (names.to_owned(), within));
+        assert_eq!(on_stage(&mut window), (names.to_owned(), t_in_segment));
     }
     assert_eq!(window.session().sequence().map(|all| all.end()), Some(3.0));
 }
 
 #[test]
-fn a_pass_goes_through_all_and_slides_stop_at_each() {
-    let (_folder, mut window) = opened(3);
-    let mut places = Vec::new();
+fn playing_to_the_next_stop_stops_at_each_design() {
+    let (_folder, mut window) = with_designs(3);
+    let mut stop_times = Vec::new();
     for _ in 0..2 {
         window.send(Intent::PlayToNextStop);
         while window.playback().is_playing() {
             window.update();
         }
-        places.push(window.t());
+        stop_times.push(window.t());
     }
-    assert_eq!(places, [1.0, 2.0]);
+    assert_eq!(stop_times, [1.0, 2.0]);
 }
 
 #[test]
-fn a_talk_begins_with_the_first_design() {
-    let (_folder, mut window) = opened(3);
+fn a_presentation_starts_with_the_first_design() {
+    let (_folder, mut window) = with_designs(3);
     window.send(Intent::Seek(1.5));
     window.send(Intent::Present { is_all: false });
     window.update();
@@ -85,43 +94,51 @@ fn a_talk_begins_with_the_first_design() {
 }
 
 #[test]
-fn what_is_said_of_two_designs_stays_with_them() {
-    let (_folder, mut window) = opened(4);
+fn settings_of_a_segment_stay_with_its_two_designs() {
+    let (_folder, mut window) = with_designs(4);
     window.send(Intent::Seek(2.5));
-    let mut pair = window.session().project().expect("a leg").clone();
+    let mut pair = window.session().project().expect("a segment").clone();
     assert_eq!(pair.designs.len(), 2);
     pair.options.matching.keep_up = true;
-    window.send(Intent::Edit(Box::new(pair)));
+    window.send(Intent::ReplaceSettings(Box::new(pair)));
     window.wait();
-    let ups = |window: &Window| -> Vec<bool> {
-        let whole = window.session().whole().expect("a project");
-        let up = |leg: usize| whole.leg(leg).options.matching.keep_up;
-        (0..whole.leg_count()).map(up).collect()
+    let keeps_upright = |window: &HeadlessWindow| -> Vec<bool> {
+        let whole = window.session().whole_project().expect("a project");
+        let of_segment = |segment: usize| whole.segment(segment).options.matching.keep_up;
+        (0..whole.segment_count()).map(of_segment).collect()
     };
-    assert_eq!(ups(&window), [false, false, true]);
-    // The first design comes last: the legs that stay keep theirs.
-    let mut order = window.session().whole().expect("a project").in_order();
+    assert_eq!(keeps_upright(&window), [false, false, true]);
+    // With the first design moved to the end, the remaining segments keep their settings.
+    let mut order = window
+        .session()
+        .whole_project()
+        .expect("a project")
+        .in_order();
     order.rotate_left(1);
-    window.send(Intent::Arrange(order));
+    window.send(Intent::ReorderDesigns(order));
     window.wait();
-    assert_eq!(ups(&window), [false, true, false]);
+    assert_eq!(keeps_upright(&window), [false, true, false]);
     window.send(Intent::Seek(1.5));
     assert_eq!(on_stage(&mut window).0, "d2 d3");
     window.send(Intent::Seek(2.5));
     assert_eq!(on_stage(&mut window).0, "d3 d0");
     window.send(Intent::Undo);
     window.wait();
-    assert_eq!(ups(&window), [false, false, true]);
+    assert_eq!(keeps_upright(&window), [false, false, true]);
     assert_eq!(on_stage(&mut window).0, "d2 d3");
 }
 
 #[test]
-fn designs_come_and_go_and_t_with_them() {
-    let (folder, mut window) = opened(3);
+fn t_follows_its_design_when_designs_are_removed_or_inserted() {
+    let (folder, mut window) = with_designs(3);
     window.send(Intent::Seek(2.0));
-    let mut order = window.session().whole().expect("a project").in_order();
+    let mut order = window
+        .session()
+        .whole_project()
+        .expect("a project")
+        .in_order();
     order.remove(1);
-    window.send(Intent::Arrange(order));
+    window.send(Intent::ReorderDesigns(order));
     window.wait();
     assert_eq!(
         (window.t(), on_stage(&mut window)),
@@ -132,8 +149,8 @@ fn designs_come_and_go_and_t_with_them() {
         vec![folder.path().join("d1.json")],
     ));
     window.wait();
-    assert_eq!(window.session().leg_count(), 2);
-    window.send(Intent::LeadBack(true));
+    assert_eq!(window.session().segment_count(), 2);
+    window.send(Intent::CloseLoop(true));
     window.wait();
     window.send(Intent::Seek(2.5));
     assert_eq!(on_stage(&mut window).0, "d2 d0");
@@ -141,24 +158,24 @@ fn designs_come_and_go_and_t_with_them() {
 }
 
 #[test]
-fn it_is_saved_and_opened_again() {
-    let (folder, mut window) = opened(3);
+fn a_film_of_several_designs_is_saved_and_opened_again() {
+    let (folder, mut window) = with_designs(3);
     let path = folder.path().join("all.morph");
     window.send(Intent::SaveTo(path.clone()));
     assert!(!window.session().is_dirty());
     let text = std::fs::read_to_string(&path).expect("a file");
     assert!(text.contains("version = 2"), "{text}");
-    let again = LoadedProject::open(&path).expect("a project");
-    assert_eq!(again.legs().len(), 2);
-    let mut other = Window::new();
+    let saved = LoadedProject::open(&path).expect("a project");
+    assert_eq!(saved.segments().len(), 2);
+    let mut other = HeadlessWindow::new();
     other.send(Intent::Open(vec![path]));
     other.wait();
     assert_eq!(other.session().sequence().map(|all| all.end()), Some(2.0));
 }
 
 #[test]
-fn a_leg_that_cannot_be_had_is_told_and_the_others_play() {
-    let (folder, mut window) = opened(3);
+fn a_segment_that_cannot_be_built_is_reported_and_the_others_play() {
+    let (folder, mut window) = with_designs(3);
     let bad = folder.path().join("gone.json");
     window.send(Intent::ReplaceDesign(2, bad));
     window.wait();

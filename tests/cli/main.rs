@@ -1,18 +1,19 @@
-//! Drives the built program: each kind of output on small sizes, and what goes
-//! wrong. Needs no graphics card and no display.
+//! Runs the built program from the command line: each command on small inputs, notes and errors.
+//!
+//! Needs no graphics card and no display.
 
-mod pictures;
-mod tables;
-mod workshop;
+mod cli_fixture;
+mod output_files;
+mod pair_tables;
 
 use std::fs;
 
-use crate::workshop::{Workshop, image, words};
+use crate::cli_fixture::{CliFixture, read_image, stderr};
 
 #[test]
-fn a_check_is_one_json_object() {
-    let shop = Workshop::new();
-    let json = shop.done("check a.obj b.obj --samples 5 --json");
+fn check_prints_one_json_object_or_a_table() {
+    let cli = CliFixture::new();
+    let json = cli.succeeds("check a.obj b.obj --samples 5 --json");
     let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(report["vertices"], 4);
     assert_eq!(report["faces"], 2);
@@ -31,14 +32,14 @@ fn a_check_is_one_json_object() {
     }
     assert_eq!(report["verdict"]["words"], "no folds, no crossings");
     assert_eq!(report["mesh"]["steiner_per_boundary_point"], 0.0);
-    let json = shop.done("check a.svg b.svg --method field --cells 64 --samples 3 --json");
+    let json = cli.succeeds("check a.svg b.svg --method field --cells 64 --samples 3 --json");
     let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(
         (&report["content"], &report["mesh"]),
         (&"field".into(), &().into())
     );
     assert_eq!(report["grid"][0], 64);
-    let table = shop.done("check a.obj b.obj --samples 5");
+    let table = cli.succeeds("check a.obj b.obj --samples 5");
     assert!(table.lines().any(|line| line.starts_with("time  ")));
     let verdict = "verdict      no folds, no crossings";
     assert!(table.lines().any(|line| line == verdict), "{table}");
@@ -48,281 +49,285 @@ fn a_check_is_one_json_object() {
 }
 
 #[test]
-fn a_check_tells_what_was_done_otherwise_than_asked() {
-    let shop = Workshop::new();
+fn check_lists_notes_on_options_that_were_changed() {
+    let cli = CliFixture::new();
     let check = "check a.svg b.svg --method field --cells 64 --samples 3 --metric city-block";
-    let said = "boundary runs between cells";
-    let table = shop.done(check);
-    let is_note = |line: &str| line.starts_with("note  ") && line.contains(said);
+    let expected = "boundary runs between cells";
+    let table = cli.succeeds(check);
+    let is_note = |line: &str| line.starts_with("note  ") && line.contains(expected);
     assert!(table.lines().any(is_note), "{table}");
-    let json = shop.done(&format!("{check} --json"));
+    let json = cli.succeeds(&format!("{check} --json"));
     let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     let note = report["verdict"]["notes"][0].as_str().expect("a note");
-    assert!(note.contains(said), "{note}");
-    let table = shop.done(&format!("{check} --boundary binary"));
-    assert!(!table.contains(said), "{table}");
+    assert!(note.contains(expected), "{note}");
+    let table = cli.succeeds(&format!("{check} --boundary binary"));
+    assert!(!table.contains(expected), "{table}");
 }
 
 #[test]
-fn a_new_project_is_rendered_from_anywhere() {
-    let shop = Workshop::new();
-    fs::create_dir(shop.path("sub")).expect("made");
-    shop.done("new a.svg b.svg --out sub/pair.morph --cells 64 --epsilon 2");
-    let text = fs::read_to_string(shop.path("sub/pair.morph")).expect("text");
+fn a_new_project_in_a_subfolder_stores_relative_paths() {
+    let cli = CliFixture::new();
+    fs::create_dir(cli.path("sub")).expect("made");
+    cli.succeeds("new a.svg b.svg --out sub/pair.morph --cells 64 --epsilon 2");
+    let text = fs::read_to_string(cli.path("sub/pair.morph")).expect("text");
     assert!(
         text.contains("../a.svg") && text.contains("epsilon = 2.0"),
         "{text}"
     );
-    shop.done("render sub/pair.morph --at 0 --size 30x20 --out x.png");
-    assert_eq!(image(&shop.path("x.png")).dimensions(), (30, 20));
-    shop.fails(1, "new a.svg b.svg --out sub/pair.morph", "--force");
-    shop.fails(2, "new a.svg b.svg --out pair.txt", ".morph");
-    shop.fails(1, "new a.svg missing.svg --out p.morph", "missing.svg");
+    cli.succeeds("render sub/pair.morph --at 0 --size 30x20 --out x.png");
+    assert_eq!(read_image(&cli.path("x.png")).dimensions(), (30, 20));
+    cli.fails(1, "new a.svg b.svg --out sub/pair.morph", "--force");
+    cli.fails(2, "new a.svg b.svg --out pair.txt", ".morph");
+    cli.fails(1, "new a.svg missing.svg --out p.morph", "missing.svg");
 }
 
 #[test]
-fn a_new_project_may_keep_its_film() {
-    let shop = Workshop::new();
-    shop.done("new a.svg b.svg --out plain.morph");
-    shop.done("new a.svg b.svg --out kept.morph --film");
-    let [plain, kept] = ["plain", "kept"].map(|name| {
-        let text = fs::read_to_string(shop.path(&format!("{name}.morph"))).expect("text");
-        let report = shop.done(&format!("check {name}.morph --json"));
+fn a_new_project_may_store_its_match() {
+    let cli = CliFixture::new();
+    cli.succeeds("new a.svg b.svg --out plain.morph");
+    cli.succeeds("new a.svg b.svg --out with-match.morph --film");
+    let [plain, with_match] = ["plain", "with-match"].map(|name| {
+        let text = fs::read_to_string(cli.path(&format!("{name}.morph"))).expect("text");
+        let report = cli.succeeds(&format!("check {name}.morph --json"));
         let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
         (text.contains("[found]"), report)
     });
-    assert_eq!([plain.0, kept.0], [false, true]);
+    assert_eq!([plain.0, with_match.0], [false, true]);
     let stages = |report: &serde_json::Value| report["seconds"]["stages"].as_object().cloned();
     let is_matched =
         |report: &serde_json::Value| stages(report).expect("stages").contains_key("matching");
-    assert!(is_matched(&plain.1) && !is_matched(&kept.1));
-    assert_eq!(kept.1["seconds"]["match"].to_string(), "0.0");
-    assert_eq!(plain.1["distortion"], kept.1["distortion"]);
-    // What the films decide on is written down: bars across each other tear as fields.
+    assert!(is_matched(&plain.1) && !is_matched(&with_match.1));
+    assert_eq!(with_match.1["seconds"]["match"].to_string(), "0.0");
+    assert_eq!(plain.1["distortion"], with_match.1["distortion"]);
+    // `auto` stores the method that it chose: crossed bars tear as fields, so it is rigid parts.
     for (name, d) in [
-        ("lying", "M0 40H100V60H0Z"),
-        ("standing", "M40 0H60V100H40Z"),
+        ("horizontal", "M0 40H100V60H0Z"),
+        ("vertical", "M40 0H60V100H40Z"),
     ] {
         let svg = format!("<svg xmlns='http://www.w3.org/2000/svg'><path d='{d}'/></svg>");
-        shop.put(&format!("{name}.svg"), &svg);
+        cli.write(&format!("{name}.svg"), &svg);
     }
-    shop.done("new lying.svg standing.svg --out auto.morph --method auto --cells 64");
-    let text = fs::read_to_string(shop.path("auto.morph")).expect("text");
+    cli.succeeds("new horizontal.svg vertical.svg --out auto.morph --method auto --cells 64");
+    let text = fs::read_to_string(cli.path("auto.morph")).expect("text");
     assert!(text.contains("warp = \"arap\"") && text.contains("content = \"solid\""));
     assert!(!text.contains("[found]"), "{text}");
-    // A field needs no film.
-    shop.done("new a.svg b.svg --out field.morph --film --method field");
-    let text = fs::read_to_string(shop.path("field.morph")).expect("text");
+    // A field blend needs no match.
+    cli.succeeds("new a.svg b.svg --out field.morph --film --method field");
+    let text = fs::read_to_string(cli.path("field.morph")).expect("text");
     assert!(!text.contains("[found]"));
 }
 
 #[test]
-fn a_path_over_the_map_is_a_film_and_what_is_kept_is_written() {
-    let shop = Workshop::new();
+fn a_map_path_is_rendered_and_saved_places_are_exported() {
+    let cli = CliFixture::new();
     let document = |map: &str| {
         let designs =
             ["a.svg", "b.svg", "a.svg"].map(|path| format!("[[designs]]\npath = \"{path}\"\n"));
         let text = format!("version = 2\n{}[timing]\nto = 2.0\n{map}", designs.concat());
-        fs::write(shop.path("walk.morph"), text).expect("a project");
+        fs::write(cli.path("path.morph"), text).expect("a project");
     };
     document("");
-    shop.fails(1, "catalogue walk.morph --out kept", "keeps no places");
+    cli.fails(1, "catalogue path.morph --out saved", "no saved blends");
     document(
         "[map.path]\nplaces = [{ at = [0.0, 1.0] }, { at = [0.1, 0.1], passed = true }, \
          { at = [0.0, 0.0], name = \"Middle\" }, { at = [0.4, -0.2] }]\n\
          [[map.kept]]\nat = [0.0, 0.0]\nname = \"Half, and half\"\nstars = 2\n",
     );
-    shop.done("render walk.morph --frames 3 --out f-#.png");
-    let [first, middle] = ["f-0.png", "f-1.png"].map(|name| image(&shop.path(name)));
+    cli.succeeds("render path.morph --frames 3 --out f-#.png");
+    let [first, middle] = ["f-0.png", "f-1.png"].map(|name| read_image(&cli.path(name)));
     assert_eq!(first.dimensions(), middle.dimensions());
     assert_ne!(first, middle);
-    let json = shop.done("check walk.morph --samples 3 --json");
-    let legs: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-    let legs = legs.as_array().expect("two legs");
-    assert_eq!(legs.len(), 2);
-    assert_eq!(legs[1]["title"], "Middle to ");
-    assert_eq!(legs[0]["verdict"]["words"], "no folds, no crossings");
-    let told = words(&shop.run("catalogue walk.morph --out kept --sort stars"));
-    assert!(told.contains("wrote 4 files of 1 kept places"), "{told}");
-    assert!(shop.path("kept/01-Half-and-half.svg").exists());
-    shop.fails(1, "catalogue walk.morph --out kept --stars 3", "3 stars");
-    shop.fails(
+    let json = cli.succeeds("check path.morph --samples 3 --json");
+    let segments: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let segments = segments.as_array().expect("two segments");
+    assert_eq!(segments.len(), 2);
+    assert_eq!(segments[1]["title"], "Middle to ");
+    assert_eq!(segments[0]["verdict"]["words"], "no folds, no crossings");
+    let messages = stderr(&cli.run("catalogue path.morph --out saved --sort stars"));
+    assert!(
+        messages.contains("wrote 4 files of 1 saved blends"),
+        "{messages}"
+    );
+    assert!(cli.path("saved/01-Half-and-half.svg").exists());
+    cli.fails(1, "catalogue path.morph --out saved --stars 3", "3 stars");
+    cli.fails(
         2,
-        "catalogue walk.morph --out kept --sort size",
+        "catalogue path.morph --out saved --sort size",
         "kept, stars",
     );
-    // Of all designs, where others are of two.
-    shop.fails(
+    // The path blends all designs, and a comparison shows two.
+    cli.fails(
         2,
-        "render walk.morph --compare --out c.png",
-        "of two designs",
+        "render path.morph --compare --out c.png",
+        "exactly two designs",
     );
 }
 
 #[test]
-fn many_designs_are_one_map() {
-    let shop = Workshop::new();
-    let told = words(&shop.run("render a.svg b.svg a.svg --map 3x2 --out map.svg"));
-    assert!(told.contains("wrote map.svg"), "{told}");
-    let text = fs::read_to_string(shop.path("map.svg")).expect("text");
+fn several_designs_are_drawn_as_a_map() {
+    let cli = CliFixture::new();
+    let messages = stderr(&cli.run("render a.svg b.svg a.svg --map 3x2 --out map.svg"));
+    assert!(messages.contains("wrote map.svg"), "{messages}");
+    let text = fs::read_to_string(cli.path("map.svg")).expect("text");
     assert!(text.matches("<path").count() >= 4, "{text}");
     for sites in ["line", "likeness", "polygon"] {
-        shop.done(&format!(
+        cli.succeeds(&format!(
             "render a.svg b.svg a.svg --map 3x1 --sites {sites} --size 90x40 --out map.png"
         ));
-        assert_eq!(image(&shop.path("map.png")).dimensions(), (90, 40));
+        assert_eq!(read_image(&cli.path("map.png")).dimensions(), (90, 40));
     }
-    shop.done("render a.svg b.svg a.svg --method field --cells 64 --map 2x2 --out map.png");
-    shop.fails(2, "render a.svg b.svg --map 3 --out map.png", "9x9");
-    shop.fails(
+    cli.succeeds("render a.svg b.svg a.svg --method field --cells 64 --map 2x2 --out map.png");
+    cli.fails(2, "render a.svg b.svg --map 3 --out map.png", "9x9");
+    cli.fails(
         2,
         "render a.svg b.svg --map 3x3 --out map.gif",
-        "--map makes one picture",
+        "--map makes a single image",
     );
-    shop.fails(
+    cli.fails(
         2,
         "render a.svg b.svg --map 3x3 --at 0.5 --out map.png",
         "cannot be used",
     );
-    shop.fails(
+    cli.fails(
         1,
         "render a.svg b.svg --warp lines --content field --map 3x3 --out map.png",
-        "rigid parts or as fields",
+        "as distance fields without a warp",
     );
 }
 
 #[test]
-fn many_designs_are_one_film() {
-    let shop = Workshop::new();
-    let legs = shop.done("check a.svg b.svg a.svg --samples 3 --quality draft --json");
-    let legs: serde_json::Value = serde_json::from_str(&legs).expect("JSON");
-    let titles = |k: usize| legs[k]["title"].as_str().map(str::to_owned);
+fn several_designs_are_one_film() {
+    let cli = CliFixture::new();
+    let json = cli.succeeds("check a.svg b.svg a.svg --samples 3 --quality draft --json");
+    let segments: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let title = |k: usize| segments[k]["title"].as_str().map(str::to_owned);
     assert_eq!(
-        [titles(0), titles(1), titles(2)],
+        [title(0), title(1), title(2)],
         [Some("a to b".into()), Some("b to a".into()), None]
     );
-    shop.done("new a.svg b.svg a.svg --out three.morph --film");
-    let text = fs::read_to_string(shop.path("three.morph")).expect("text");
+    cli.succeeds("new a.svg b.svg a.svg --out three.morph --film");
+    let text = fs::read_to_string(cli.path("three.morph")).expect("text");
     assert!(
         text.contains("version = 2") && text.contains("[legs.found]"),
         "{text}"
     );
-    shop.done("render three.morph --frames 5 --size 40x30 --out f-#.png");
+    cli.succeeds("render three.morph --frames 5 --size 40x30 --out f-#.png");
     let [first, middle, last] =
-        ["f-0.png", "f-2.png", "f-4.png"].map(|name| image(&shop.path(name)));
-    // The same design in the colours of both ends, and the other between them.
+        ["f-0.png", "f-2.png", "f-4.png"].map(|name| read_image(&cli.path(name)));
+    // The same design in the colours of both ends, and the other design at the middle.
     assert_ne!(first, last);
     assert_ne!(first, middle);
-    shop.done("render a.svg b.svg a.svg --sheet 5 --out sheet.png");
-    shop.done("render a.svg b.svg a.svg --out film.html");
-    shop.fails(2, "check a.svg b.svg a.svg --pin 1,2:3,4", "of two designs");
-    shop.fails(
+    cli.succeeds("render a.svg b.svg a.svg --sheet 5 --out sheet.png");
+    cli.succeeds("render a.svg b.svg a.svg --out film.html");
+    cli.fails(
+        2,
+        "check a.svg b.svg a.svg --pin 1,2:3,4",
+        "exactly two designs",
+    );
+    cli.fails(
         2,
         "render a.svg b.svg a.svg --compare --out c.png",
-        "of two designs",
+        "exactly two designs",
     );
-    shop.fails(2, "check a.svg three.morph b.svg", "one project alone");
+    cli.fails(2, "check a.svg three.morph b.svg", "a single project");
 }
 
 #[test]
-fn text_and_elements_are_designs_like_any_other() {
-    let shop = Workshop::new();
+fn glyphs_and_svg_elements_are_accepted_as_designs() {
+    let cli = CliFixture::new();
     let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"40\">\
         <rect id=\"bar\" width=\"20\" height=\"30\"/><rect x=\"30\" width=\"9\" height=\"9\"/></svg>";
-    shop.put("c.svg", svg);
-    shop.done("render glyph:D glyph:S --method field --cells 40 --at 0.5 --out ds.png");
-    assert!(shop.path("ds.png").is_file());
-    fs::create_dir_all(shop.path("deep")).expect("made");
-    shop.done("new glyph:D%40 c.svg --out deep/p.morph");
-    let text = fs::read_to_string(shop.path("deep/p.morph")).expect("read");
+    cli.write("c.svg", svg);
+    cli.succeeds("render glyph:D glyph:S --method field --cells 40 --at 0.5 --out ds.png");
+    assert!(cli.path("ds.png").is_file());
+    fs::create_dir_all(cli.path("deep")).expect("made");
+    cli.succeeds("new glyph:D%40 c.svg --out deep/p.morph");
+    let text = fs::read_to_string(cli.path("deep/p.morph")).expect("read");
     assert!(
         text.contains("\"glyph:D%40\"") && text.contains("\"../c.svg\""),
         "{text}"
     );
-    shop.done("render deep/p.morph --cells 40 --at 1 --out out.svg");
-    shop.put("bow.json", "[[0, 0], [20, 20], [20, 0], [0, 20]]");
-    let table = shop.done("check bow.json c.svg#bar --samples 2 --cells 40");
-    assert!(
-        table.contains("1 crossing of edges was resolved"),
-        "{table}"
-    );
-    shop.fails(2, "check glyph:D", "one design");
-    shop.fails(1, "check glyph:D glyph:\u{2603}", "U+2603");
+    cli.succeeds("render deep/p.morph --cells 40 --at 1 --out out.svg");
+    cli.write("bow.json", "[[0, 0], [20, 20], [20, 0], [0, 20]]");
+    let table = cli.succeeds("check bow.json c.svg#bar --samples 2 --cells 40");
+    assert!(table.contains("1 edge crossing was resolved"), "{table}");
+    cli.fails(2, "check glyph:D", "a single design");
+    cli.fails(1, "check glyph:D glyph:\u{2603}", "U+2603");
 }
 
 #[test]
 fn the_gallery_is_listed_and_rendered() {
-    let shop = Workshop::new();
-    let json = shop.done("gallery --json");
+    let cli = CliFixture::new();
+    let json = cli.succeeds("gallery --json");
     let entries: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     let first = entries[0]["name"].as_str().expect("a name");
-    let listed = shop.done("gallery");
+    let listed = cli.succeeds("gallery");
     assert!(listed.starts_with(&format!("gallery:{first} ")));
-    shop.done("render gallery:triangle-polar --at 0.5 --size 20x20 --out x.png");
-    shop.fails(1, "render gallery:no-such --at 0.5 --out x.png", "no-such");
+    cli.succeeds("render gallery:triangle-polar --at 0.5 --size 20x20 --out x.png");
+    cli.fails(1, "render gallery:no-such --at 0.5 --out x.png", "no-such");
 }
 
 #[test]
-fn wrong_use_ends_with_two() {
-    let shop = Workshop::new();
-    shop.fails(2, "render a.obj b.obj --at 0.5 --out x.jpg", ".png");
-    shop.fails(2, "render a.obj b.obj --out x.png", "--at");
-    shop.fails(2, "render a.obj b.obj --at 0.5 --out x.gif", "--at");
-    shop.fails(2, "render a.obj b.obj --at nan --out x.png", "finite");
-    shop.fails(
+fn wrong_usage_exits_with_code_two() {
+    let cli = CliFixture::new();
+    cli.fails(2, "render a.obj b.obj --at 0.5 --out x.jpg", ".png");
+    cli.fails(2, "render a.obj b.obj --out x.png", "--at");
+    cli.fails(2, "render a.obj b.obj --at 0.5 --out x.gif", "--at");
+    cli.fails(2, "render a.obj b.obj --at nan --out x.png", "finite");
+    cli.fails(
         2,
         "render a.obj b.obj --at 0.5 --sheet 3 --out x.png",
         "--sheet",
     );
-    shop.fails(
+    cli.fails(
         2,
         "render a.obj b.obj --at 0.5 --size 99999x99999 --out x.png",
         "too large",
     );
-    shop.fails(
+    cli.fails(
         2,
         "render a.obj b.obj --at 0.5 --size 0x5 --out x.png",
         "at least 1",
     );
-    shop.fails(2, "render a.obj b.obj --frames 0 --out x.gif", "frames");
-    shop.fails(
+    cli.fails(2, "render a.obj b.obj --frames 0 --out x.gif", "frames");
+    cli.fails(
         2,
         "render a.obj b.obj --frames 4 --frames-range 5..2 --out f",
         "A..B",
     );
-    shop.fails(
+    cli.fails(
         2,
         "render a.obj b.obj --frames 4 --frames-range 2..9 --out f",
         "0 to 3",
     );
-    shop.fails(
+    cli.fails(
         2,
         "render a.obj b.obj --frames 4 --fps 60 --out x.gif",
         "50",
     );
-    shop.fails(
+    cli.fails(
         2,
         "render a.obj b.obj --ground puce --at 0 --out x.png",
         "#rrggbb",
     );
-    shop.fails(2, "render a.obj --at 0 --out x.png", "one design");
-    shop.fails(2, "render", "--out");
-    shop.fails(2, "check a.obj b.obj --samples 1", "--samples");
-    assert_eq!(shop.names(".").len(), 4, "nothing was written");
+    cli.fails(2, "render a.obj --at 0 --out x.png", "a single design");
+    cli.fails(2, "render", "--out");
+    cli.fails(2, "check a.obj b.obj --samples 1", "--samples");
+    assert_eq!(cli.file_names(".").len(), 4, "nothing was written");
 }
 
 #[test]
-fn a_folder_and_a_project_among_designs_are_wrong_use() {
-    let shop = Workshop::new();
+fn folders_as_output_and_projects_among_designs_are_wrong_usage() {
+    let cli = CliFixture::new();
     let folder = "render a.obj b.obj --at 0.5 --out exist.png";
-    fs::create_dir(shop.path("exist.png")).expect("made");
-    shop.fails(2, folder, "`exist.png` is a folder: name a file in it");
+    fs::create_dir(cli.path("exist.png")).expect("made");
+    cli.fails(2, folder, "`exist.png` is a folder: name a file in it");
     for command in ["check", "render --out x.png --at 0"] {
         let line = format!("{command} a.obj x.morph a.svg");
-        shop.fails(2, &line, "3 inputs");
-        assert_eq!(words(&shop.run(&line)).lines().count(), 1, "{line}");
+        cli.fails(2, &line, "3 inputs");
+        assert_eq!(stderr(&cli.run(&line)).lines().count(), 1, "{line}");
     }
-    shop.fails(
+    cli.fails(
         2,
         "chek a.obj b.obj",
         "`chek` is neither a subcommand nor a file",
@@ -330,57 +335,57 @@ fn a_folder_and_a_project_among_designs_are_wrong_use() {
 }
 
 #[test]
-fn failures_end_with_one_and_name_the_file() {
-    let shop = Workshop::new();
-    shop.put("empty.svg", "");
-    shop.put("bad.morph", "version = 1\ncolour = 3\n");
+fn failures_exit_with_code_one_and_name_the_file() {
+    let cli = CliFixture::new();
+    cli.write("empty.svg", "");
+    cli.write("bad.morph", "version = 1\ncolour = 3\n");
     let at = "--at 0.5 --size 8x8 --out";
-    shop.fails(1, &format!("render a.obj none.obj {at} x.png"), "none.obj");
-    shop.fails(1, &format!("render none.morph {at} x.png"), "none.morph");
-    shop.fails(1, &format!("render bad.morph {at} x.png"), "line 2");
-    shop.fails(
+    cli.fails(1, &format!("render a.obj none.obj {at} x.png"), "none.obj");
+    cli.fails(1, &format!("render none.morph {at} x.png"), "none.morph");
+    cli.fails(1, &format!("render bad.morph {at} x.png"), "line 2");
+    cli.fails(
         1,
         &format!("render a.svg empty.svg {at} x.png"),
         "empty.svg",
     );
-    shop.fails(
+    cli.fails(
         1,
         &format!("render a.obj b.obj {at} none/x.png"),
         "none/x.png",
     );
-    shop.fails(
+    cli.fails(
         1,
         "render a.obj b.obj --frames 2 --size 8x8 --out a.obj/f-#.png",
         "a.obj",
     );
-    shop.fails(1, "check a.obj none.obj --json", "none.obj");
-    assert_eq!(shop.names(".").len(), 6, "nothing was written");
+    cli.fails(1, "check a.obj none.obj --json", "none.obj");
+    assert_eq!(cli.file_names(".").len(), 6, "nothing was written");
 }
 
 #[test]
-fn help_and_version_are_data() {
-    let shop = Workshop::new();
-    assert!(shop.done("--version").starts_with("morphospace "));
-    assert!(shop.done("--help").contains("Examples:"));
-    assert!(shop.done("render --help").contains("--frames-range"));
+fn help_and_version_go_to_stdout() {
+    let cli = CliFixture::new();
+    assert!(cli.succeeds("--version").starts_with("morphospace "));
+    assert!(cli.succeeds("--help").contains("Examples:"));
+    assert!(cli.succeeds("render --help").contains("--frames-range"));
 }
 
 #[test]
-fn a_verdict_names_t_cause_and_remedy() {
-    let shop = Workshop::new();
-    shop.put(
+fn a_defect_is_reported_with_its_t_cause_and_remedy() {
+    let cli = CliFixture::new();
+    cli.write(
         "turned.obj",
         "v 0 0 0\nv -1 0 0\nv -1 -3 0\nv 0 -3 0\nf 1 2 3\nf 1 3 4\n",
     );
-    let table = shop.done("check a.obj turned.obj --homotopy linear");
-    for words in [
-        "2 faces fold at t = 0.38, about (",
+    let table = cli.succeeds("check a.obj turned.obj --homotopy linear");
+    for text in [
+        "2 faces fold near t = 0.38, about (",
         "cause: straight",
-        "polar homotopy",
+        "polar interpolation",
     ] {
-        assert!(table.contains(words), "{words}: {table}");
+        assert!(table.contains(text), "{text}: {table}");
     }
-    let json = shop.done("check a.obj turned.obj --homotopy linear --json");
+    let json = cli.succeeds("check a.obj turned.obj --homotopy linear --json");
     let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     let finding = &report["verdict"]["findings"][0];
     assert_eq!(finding["trouble"]["kind"], "folds");
@@ -391,32 +396,32 @@ fn a_verdict_names_t_cause_and_remedy() {
 
 #[cfg(unix)]
 #[test]
-fn a_closed_pipe_is_no_crash() {
-    let shop = Workshop::new();
-    let mut command = shop.command("check a.obj b.obj --samples 2000 --json");
+fn a_closed_pipe_ends_the_program_quietly() {
+    let cli = CliFixture::new();
+    let mut command = cli.command("check a.obj b.obj --samples 2000 --json");
     command.stdout(std::process::Stdio::piped());
     command.stderr(std::process::Stdio::piped());
     let mut child = command.spawn().expect("the program starts");
     drop(child.stdout.take());
     let output = child.wait_with_output().expect("the program ends");
-    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
-    assert_eq!(words(&output), "");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "");
 }
 
-/// Where there is a window to open, and nowhere to open it.
+/// Needs a build that has a window.
 #[test]
 #[cfg(all(feature = "app", target_os = "linux"))]
-fn without_a_display_the_window_says_what_there_is_instead() {
-    let shop = Workshop::new();
-    let mut command = shop.command("a.svg b.svg");
-    command.env("HOME", shop.path("."));
+fn without_a_display_the_program_explains_what_works() {
+    let cli = CliFixture::new();
+    let mut command = cli.command("a.svg b.svg");
+    command.env("HOME", cli.path("."));
     for display in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
         command.env_remove(display);
     }
     let output = command.output().expect("the program runs");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{said}");
-    let last = said.lines().last().expect("a sentence");
-    assert!(last.contains("there is no display"), "{said}");
-    assert!(!said.contains("panicked"), "{said}");
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{messages}");
+    let last = messages.lines().last().expect("a sentence");
+    assert!(last.contains("no display was found"), "{messages}");
+    assert!(!messages.contains("panicked"), "{messages}");
 }

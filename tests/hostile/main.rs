@@ -1,14 +1,12 @@
-//! Files and arguments that were made to break the program, each given to it
-//! as a child process: it ends by itself with the right status, within the
-//! memory and the time that it promises, and what it says is one line that
-//! names the file and holds nothing that acts on a terminal.
+//! Hostile input: files and arguments made to break the program, each given to a child process.
 //!
-//! All of them are made here, small ones of their kinds. Not here: designs
-//! that are good and only laborious.
+//! The program must end by itself with the right exit status and within its limits of memory and
+//! time. Its error is one line that names the file and contains no terminal control characters.
+//! All files are generated here; valid designs that are only slow are not tested here.
 
-mod bombs;
-mod child;
-mod kinds;
-mod numbers;
-mod pictures;
-mod words;
+mod bounded_run;
+mod expansion_bombs;
+mod extreme_numbers;
+mod large_images;
+mod special_files;
+mod terminal_escapes;

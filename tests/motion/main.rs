@@ -1,12 +1,12 @@
-//! What leaves as motion is what our own frames show, as other programs play it.
+//! Exported vector animations, played in a browser, match the program's own frames.
 //!
-//! Chromium (`MORPHOSPACE_CHROMIUM`, or on the path) plays the animated SVG and the
-//! page, and with the script of lottie-web (`MORPHOSPACE_LOTTIE`, a `lottie.js`) the
-//! Lottie. Where a player is missing the test says so aloud and compares nothing.
-//! `MORPHOSPACE_MOTION` names the projects of the gallery to compare, or `all`;
-//! `MORPHOSPACE_MOTION_OUT` a folder to leave the files and pictures in.
+//! Chromium (`MORPHOSPACE_CHROMIUM`, or on the path) plays the animated SVG and the HTML page, and,
+//! with the script of lottie-web (`MORPHOSPACE_LOTTIE`, a `lottie.js`), the Lottie file. Where a
+//! player is missing, the test reports it and compares nothing. `MORPHOSPACE_MOTION` lists the
+//! gallery projects to compare, or is `all`; `MORPHOSPACE_MOTION_OUT` names a folder in which the
+//! files and images are saved.
 
-mod players;
+mod browser;
 
 use std::io::Write;
 use std::path::Path;
@@ -18,26 +18,37 @@ use morphospace::project::{LoadedProject, gallery};
 use morphospace::transition::Transition;
 use morphospace::work::progress::Silent;
 
-use players::{Kind, Players, Written};
+use browser::{AnimationFile, AnimationPlayers, VectorFormat};
 
-/// Frames of a film that are compared.
-const COMPARED: usize = 25;
+/// Number of compared frames of a film.
+const COMPARED_FRAMES: usize = 25;
 
-/// Of the longer side: a film for slides.
+/// Length of the longer side of a frame, in pixels: a film for slides.
 const SIDE_PX: u32 = 1920;
 
-/// Of the longer side where there are bars, which are little but edges: on slides two
-/// programs' stills of the girder overlap by 0.993, for what each makes of its edges.
+/// Length of the longer side of a frame with bars, in pixels.
+///
+/// Bars consist mostly of antialiased edge pixels, which differ between renderers. At [`SIDE_PX`]
+/// they alone would lower the overlap below [`MIN_OVERLAP`].
 const BARS_PX: u32 = 3840;
 
-/// Of the longer side, where nobody asks for another: of that size a page is to be small.
-const USUAL_PX: u32 = 960;
+/// Default length of the longer side of an exported page, in pixels; file sizes are checked at it.
+const DEFAULT_PX: u32 = 960;
 
-/// Projects that are compared where none are named: a drawing in colours, parts that
-/// are born, a truss, a field, and a hole that closes.
-const USUAL: &str = "day-to-night words bracket-to-davit letters spectacles";
+/// Projects that are compared by default: a coloured drawing, parts that appear, a truss, a field,
+/// and a hole that closes.
+const DEFAULT_PROJECTS: &str = "day-to-night words bracket-to-davit letters spectacles";
 
-/// How much of what either hides both hide.
+/// Minimum overlap of a frame with the program's own (tolerance: antialiasing differs).
+const MIN_OVERLAP: f64 = 0.995;
+
+/// Maximum mean difference of a colour channel, of 255 (tolerance: rounding of colours differs).
+const MAX_COLOUR_DIFFERENCE: f64 = 4.0;
+
+/// Maximum size of a page of default size, in kB.
+const MAX_PAGE_KB: f64 = 300.0;
+
+/// Intersection over union of the opaque areas of two images.
 fn overlap(a: &RgbaImage, b: &RgbaImage) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
     let [mut both, mut either] = [0.0; 2];
@@ -49,34 +60,34 @@ fn overlap(a: &RgbaImage, b: &RgbaImage) -> f64 {
     if either > 0.0 { both / either } else { 1.0 }
 }
 
-/// The largest difference in colour where both hide what is below, on average over
-/// such pixels.
-fn off_colour(a: &RgbaImage, b: &RgbaImage) -> f64 {
+/// Mean over the pixels that are opaque in both images of the largest channel difference.
+fn colour_difference(a: &RgbaImage, b: &RgbaImage) -> f64 {
     let both = a.pixels().zip(b.pixels());
     let both: Vec<_> = both
         .filter(|(a, b)| a.0[3] == 255 && b.0[3] == 255)
         .collect();
-    let off = both.iter().map(|(a, b)| {
+    let differences = both.iter().map(|(a, b)| {
         let channels = (0..3).map(|k| f64::from(a.0[k].abs_diff(b.0[k])));
         channels.fold(0.0, f64::max)
     });
-    off.sum::<f64>() / both.len().max(1) as f64
+    differences.sum::<f64>() / both.len().max(1) as f64
 }
 
-struct Shot {
+/// A film of a project, as a vector animation and as the program's own frames.
+struct ComparedFilm {
     camera: Camera,
     film: FilmSpec,
-    motion: VectorAnimation,
-    /// The frames that are compared.
+    animation: VectorAnimation,
+    /// Numbers of the compared frames.
     frames: Vec<usize>,
 }
 
-impl Shot {
-    /// None of pictures, which have no outlines.
-    fn of(loaded: &LoadedProject, side_px: impl Fn(&Transition) -> u32) -> Option<Self> {
-        let transition = loaded.legs()[0].build(&Silent);
+impl ComparedFilm {
+    /// `None` for bitmap images, which have no outlines.
+    fn new(loaded: &LoadedProject, side_px: impl Fn(&Transition) -> u32) -> Option<Self> {
+        let transition = loaded.segments()[0].build(&Silent);
         let transition = transition.expect("a transition");
-        if transition.cell().content() == ContentKind::Colours {
+        if transition.method().content() == ContentKind::Colours {
             return None;
         }
         let project = &loaded.project;
@@ -90,46 +101,48 @@ impl Shot {
             ground: None,
             captions: None,
         };
-        let motion = VectorAnimation::record(&camera, &film, &Silent).expect("a motion");
+        let animation = VectorAnimation::record(&camera, &film, &Silent).expect("an animation");
         let (from, to) = (project.timing.from, project.timing.to);
         let frame = |k: usize| {
-            let t = from + (to - from) * k as f64 / (COMPARED - 1) as f64;
-            let pass = film.times().iter().position(|&t| t == to).unwrap_or(0);
-            let off = |k: &usize| (film.times()[*k] - t).abs();
-            (0..=pass).min_by(|a, b| off(a).total_cmp(&off(b)))
+            let t = from + (to - from) * k as f64 / (COMPARED_FRAMES - 1) as f64;
+            let last = film.times().iter().position(|&t| t == to).unwrap_or(0);
+            let distance = |k: &usize| (film.times()[*k] - t).abs();
+            (0..=last).min_by(|a, b| distance(a).total_cmp(&distance(b)))
         };
-        let frames = (0..COMPARED).filter_map(frame).collect();
+        let frames = (0..COMPARED_FRAMES).filter_map(frame).collect();
         Some(Self {
             camera,
             film,
-            motion,
+            animation,
             frames,
         })
     }
 
-    fn text(&self, kind: Kind, title: &str) -> String {
+    /// The text of the exported file.
+    fn text(&self, kind: VectorFormat, title: &str) -> String {
         match kind {
-            Kind::Svg => self.motion.svg(),
-            Kind::Page => self.motion.page(title),
-            Kind::Lottie => self.motion.lottie(title),
+            VectorFormat::Svg => self.animation.svg(),
+            VectorFormat::Page => self.animation.page(title),
+            VectorFormat::Lottie => self.animation.lottie(title),
         }
     }
 
-    /// The least overlap with our own frames, the t where it is, and the largest
-    /// difference in colour. None where there is no player.
-    fn compared(
+    /// Minimum overlap with the program's own frames, its t, and the maximum colour difference.
+    ///
+    /// `None` without a player. Saves both images of each frame if `save_folder` is given.
+    fn compare(
         &self,
         play: impl Fn(&[(f64, f64)]) -> Option<Vec<RgbaImage>>,
-        keep: Option<&Path>,
+        save_folder: Option<&Path>,
     ) -> Option<(f64, f64, f64)> {
         let frames = (self.frames.iter()).map(|&k| (k as f64, self.film.times()[k]));
         let frames: Vec<(f64, f64)> = frames.collect();
         let mut worst = (1.0, 0.0, 0.0);
-        for some in frames.chunks(players::at_once(self.camera.view.size())) {
-            for (theirs, &(frame, t)) in play(some)?.iter().zip(some) {
+        for chunk in frames.chunks(browser::frames_per_sheet(self.camera.view.size())) {
+            for (theirs, &(frame, t)) in play(chunk)?.iter().zip(chunk) {
                 let own = self.camera.pixels(t);
                 let overlap = overlap(&own, theirs);
-                if let Some(folder) = keep {
+                if let Some(folder) = save_folder {
                     let save = |who: &str, picture: &RgbaImage| {
                         let file = folder.join(format!("{frame:03}-{who}.png"));
                         picture.save(file).expect("saved");
@@ -140,56 +153,58 @@ impl Shot {
                 if overlap < worst.0 {
                     (worst.0, worst.1) = (overlap, t);
                 }
-                worst.2 = f64::max(worst.2, off_colour(&own, theirs));
+                worst.2 = f64::max(worst.2, colour_difference(&own, theirs));
             }
         }
         Some(worst)
     }
 }
 
-/// Past what a test runner keeps to itself.
-fn say(line: &str) {
-    writeln!(std::io::stderr(), "{line}").expect("a place for words");
+/// Prints a line that the test runner does not capture.
+fn print_uncaptured(line: &str) {
+    writeln!(std::io::stderr(), "{line}").expect("standard error");
 }
 
-/// Plays one format of a project; a line where it is not what it has to be.
-fn played(
-    shot: &Shot,
-    kind: Kind,
+/// Plays one format of a project; returns a message if it differs too much.
+fn play_and_compare(
+    shot: &ComparedFilm,
+    kind: VectorFormat,
     entry: &gallery::GalleryEntry,
-    players: &Players,
+    players: &AnimationPlayers,
 ) -> Option<String> {
     let text = shot.text(kind, &entry.title);
     let folder = tempfile::tempdir().expect("a folder");
-    let kept = std::env::var_os("MORPHOSPACE_MOTION_OUT")
+    let save_folder = std::env::var_os("MORPHOSPACE_MOTION_OUT")
         .map(|out| Path::new(&out).join(&entry.name).join(kind.name()));
-    if let Some(folder) = &kept {
+    if let Some(folder) = &save_folder {
         std::fs::create_dir_all(folder).expect("a folder");
         let file = folder.join(format!("film.{}", kind.ending()));
         std::fs::write(file, &text).expect("written");
     }
-    let film = Written {
+    let file = AnimationFile {
         kind,
         text: &text,
         fps: shot.film.fps(),
         size: shot.camera.view.size(),
     };
-    let what = format!(
+    let label = format!(
         "{} as {}: {:.0} kB",
         entry.name,
         kind.name(),
         text.len() as f64 / 1e3
     );
-    let play = |some: &[(f64, f64)]| players.play(&film, some, folder.path());
-    let Some((overlap, t, colour)) = shot.compared(play, kept.as_deref()) else {
-        say(&format!("{what}, NOT COMPARED: {}", players.missing(kind)));
+    let play = |frames: &[(f64, f64)]| players.play(&file, frames, folder.path());
+    let Some((overlap, t, colour)) = shot.compare(play, save_folder.as_deref()) else {
+        print_uncaptured(&format!("{label}, NOT COMPARED: {}", players.missing(kind)));
         return None;
     };
-    let line = format!("{what}, least IoU {overlap:.4} at t = {t:.3}, colours off by {colour:.2}");
-    say(&line);
-    (overlap < 0.995 || colour > 4.0).then_some(line)
+    let line =
+        format!("{label}, minimum IoU {overlap:.4} at t = {t:.3}, colours off by {colour:.2}");
+    print_uncaptured(&line);
+    (overlap < MIN_OVERLAP || colour > MAX_COLOUR_DIFFERENCE).then_some(line)
 }
 
+/// Length of the longer side of the frames of a transition, in pixels.
 fn side_px(transition: &Transition) -> u32 {
     let figure = transition.frame(0.0);
     let has_bars = !figure.figure().bars.is_empty();
@@ -197,30 +212,36 @@ fn side_px(transition: &Transition) -> u32 {
 }
 
 #[test]
-fn players_show_what_our_frames_show() {
-    let players = Players::find();
-    let names = std::env::var("MORPHOSPACE_MOTION").unwrap_or_else(|_| USUAL.to_owned());
+fn browsers_show_the_same_as_our_frames() {
+    let players = AnimationPlayers::find();
+    let names = std::env::var("MORPHOSPACE_MOTION").unwrap_or_else(|_| DEFAULT_PROJECTS.to_owned());
     let mut failed = Vec::new();
     for entry in gallery::list().expect("the list") {
         if names != "all" && !names.split_whitespace().any(|name| name == entry.name) {
             continue;
         }
         let loaded = gallery::load(&entry.name).expect("a project");
-        match Shot::of(&loaded, side_px) {
+        match ComparedFilm::new(&loaded, side_px) {
             Some(shot) => {
-                let usual = Shot::of(&loaded, |_| USUAL_PX).expect("outlines");
-                let page = usual.text(Kind::Page, &entry.title).len() as f64 / 1e3;
-                say(&format!(
-                    "{}: a page of {page:.0} kB at {USUAL_PX} px",
+                let at_default_size = ComparedFilm::new(&loaded, |_| DEFAULT_PX).expect("outlines");
+                let page =
+                    at_default_size.text(VectorFormat::Page, &entry.title).len() as f64 / 1e3;
+                print_uncaptured(&format!(
+                    "{}: an HTML page of {page:.0} kB at {DEFAULT_PX} px",
                     entry.name
                 ));
-                if page >= 300.0 {
+                if page >= MAX_PAGE_KB {
                     failed.push(format!("{}: a page of {page:.0} kB", entry.name));
                 }
-                let kinds = Kind::ALL.into_iter();
-                failed.extend(kinds.filter_map(|kind| played(&shot, kind, &entry, &players)));
+                let kinds = VectorFormat::ALL.into_iter();
+                failed.extend(
+                    kinds.filter_map(|kind| play_and_compare(&shot, kind, &entry, &players)),
+                );
             }
-            None => say(&format!("{}: pictures, which have no outlines", entry.name)),
+            None => print_uncaptured(&format!(
+                "{}: skipped, bitmap images have no outlines",
+                entry.name
+            )),
         }
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));

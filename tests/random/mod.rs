@@ -1,22 +1,22 @@
-//! Random polygons with holes, and what must hold of every film between two.
+//! Random polygons with holes, and checks of the transition between two of them.
 //!
-//! The tests and the fuzzer (`fuzz/`) both read these files.
+//! Shared by the tests and the fuzzer (`fuzz/`).
 
-mod film;
 mod shapes;
+mod transition_check;
 
-pub use film::{Seen, seen};
-pub use shapes::{Rings, Seeded, polygon};
+pub use shapes::{Rings, SeededRandom, polygon};
+pub use transition_check::{FilmDefects, check_transition};
 
-/// The film between the two polygons of a seed, of 0 to 5 holes each.
+/// Checks the transition between the two polygons of a seed, with 0 to 5 holes each.
 ///
 /// # Errors
-/// As [`seen`].
-pub fn seen_of_seed(seed: u64) -> Result<Seen, String> {
-    let mut random = Seeded::new(seed);
+/// Those of [`check_transition`].
+pub fn defects_of_seed(seed: u64) -> Result<FilmDefects, String> {
+    let mut random = SeededRandom::new(seed);
     let [source, target] = [(); 2].map(|()| {
         let holes = random.below(6);
         polygon(&mut random, holes)
     });
-    seen(source, target)
+    check_transition(source, target)
 }

@@ -1,17 +1,16 @@
-//! Polygons drawn at random: three kinds of outlines, with round or spiked
-//! holes that touch nothing.
+//! Random polygons: three kinds of outlines, with round or spiky holes that touch nothing.
 
 use morphospace::geometry::DVec2;
 use std::f64::consts::TAU;
 
-/// Outlines and holes, to be filled by the non-zero rule.
+/// Outlines and holes, filled by the non-zero rule.
 pub type Rings = Vec<Vec<DVec2>>;
 
-/// The same numbers for the same seed everywhere (splitmix64: G. Steele,
+/// Random generator with the same numbers for a seed on every machine (splitmix64: G. Steele,
 /// D. Lea, C. Flood, 2014).
-pub struct Seeded(u64);
+pub struct SeededRandom(u64);
 
-impl Seeded {
+impl SeededRandom {
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -23,27 +22,27 @@ impl Seeded {
         b ^ (b >> 31)
     }
 
-    /// A number in [from, to).
+    /// Returns a number in [from, to).
     pub fn within(&mut self, from: f64, to: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         from + (to - from) * unit
     }
 
-    /// One of 0 to `count` − 1.
+    /// Returns an integer from 0 to `count` − 1.
     pub fn below(&mut self, count: usize) -> usize {
         (self.next() % count as u64) as usize
     }
 }
 
-/// A polygon with up to `holes` holes: as many as were found room for.
-pub fn polygon(random: &mut Seeded, holes: usize) -> Rings {
+/// A polygon with at most `holes` holes: fewer if there is no room.
+pub fn polygon(random: &mut SeededRandom, holes: usize) -> Rings {
     let outline = match random.below(3) {
-        0 => round(random, DVec2::ZERO, 1.0),
+        0 => star_shaped(random, DVec2::ZERO, 1.0),
         1 => limbs(random),
         _ => blocks(random),
     };
     let mut rings = vec![outline];
-    // Most places are outside or too near to something.
+    // Most random centres are outside or too near to a boundary.
     for _ in 0..40 * holes {
         if rings.len() > holes {
             break;
@@ -52,7 +51,7 @@ pub fn polygon(random: &mut Seeded, holes: usize) -> Rings {
         let room = room(&rings, centre);
         if room > 0.06 {
             let radius = room * random.within(0.4, 0.8);
-            let mut hole = round(random, centre, radius);
+            let mut hole = star_shaped(random, centre, radius);
             hole.reverse();
             rings.push(hole);
         }
@@ -60,24 +59,23 @@ pub fn polygon(random: &mut Seeded, holes: usize) -> Rings {
     rings
 }
 
-/// A ring about a centre that reaches no further than `radius`: a blob, a
-/// star or something between.
-fn round(random: &mut Seeded, centre: DVec2, radius: f64) -> Vec<DVec2> {
+/// A star-shaped ring within `radius` of a centre: anything from a blob to a spiky star.
+fn star_shaped(random: &mut SeededRandom, centre: DVec2, radius: f64) -> Vec<DVec2> {
     let corners = 3 + random.below(30);
-    let least = random.within(0.3, 1.0);
+    let min_share = random.within(0.3, 1.0);
     let turn = random.within(0.0, TAU);
     (0..corners)
         .map(|i| {
-            // Never two corners at one angle.
-            let share = (i as f64 + random.within(0.0, 0.8)) / corners as f64;
-            let reach = radius * random.within(least, 1.0);
-            centre + reach * DVec2::from_angle(turn + TAU * share)
+            // The jitter is below 1, so that no two corners have the same angle.
+            let turn_share = (i as f64 + random.within(0.0, 0.8)) / corners as f64;
+            let reach = radius * random.within(min_share, 1.0);
+            centre + reach * DVec2::from_angle(turn + TAU * turn_share)
         })
         .collect()
 }
 
-/// A ring with long limbs, as a hand has fingers.
-fn limbs(random: &mut Seeded) -> Vec<DVec2> {
+/// A ring with long limbs around a centre, like a starfish.
+fn limbs(random: &mut SeededRandom) -> Vec<DVec2> {
     let limbs = 2 + random.below(5);
     let mut ring = Vec::new();
     for i in 0..limbs {
@@ -95,8 +93,8 @@ fn limbs(random: &mut Seeded) -> Vec<DVec2> {
     ring
 }
 
-/// The outline of columns of blocks beside each other, right angles only.
-fn blocks(random: &mut Seeded) -> Vec<DVec2> {
+/// The outline of adjacent columns of different heights, with right angles only.
+fn blocks(random: &mut SeededRandom) -> Vec<DVec2> {
     let columns = 2 + random.below(6);
     let width = 2.0 / columns as f64;
     let (mut below, mut above) = (Vec::new(), Vec::new());
@@ -109,7 +107,7 @@ fn blocks(random: &mut Seeded) -> Vec<DVec2> {
     below.into_iter().chain(above.into_iter().rev()).collect()
 }
 
-/// How far it is from a point to the next boundary; 0 outside.
+/// Distance from a point to the nearest boundary; 0 outside the polygon.
 fn room(rings: &[Vec<DVec2>], p: DVec2) -> f64 {
     let sides = || {
         rings.iter().flat_map(|ring| {

@@ -1,7 +1,7 @@
-//! The stage's systems without a window and without a renderer.
+//! Tests of the stage's Bevy systems, without a window or a renderer.
 
-mod families;
-mod files;
+mod design_assets;
+mod mesh_families;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -23,9 +23,9 @@ use morphospace::transition::{Transition, TransitionMethod, TransitionSpec, Tran
 use morphospace::warp::WarpKind;
 use morphospace::work::progress::Silent;
 
-/// A strip of squares, each cut in two.
-fn strip(squares: u32, place: impl Fn(DVec2) -> DVec2) -> TriangleMesh {
-    let column = |i: u32| [0.0, 1.0].map(|y| place(DVec2::new(f64::from(i), y)));
+/// A horizontal strip of unit squares, each split into two triangles, mapped by `place`.
+fn strip(squares: u32, map: impl Fn(DVec2) -> DVec2) -> TriangleMesh {
+    let column = |i: u32| [0.0, 1.0].map(|y| map(DVec2::new(f64::from(i), y)));
     let positions = (0..=squares).flat_map(column).collect();
     let faces = (0..squares).flat_map(|i| {
         let [a, b, c, d] = [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1];
@@ -34,20 +34,23 @@ fn strip(squares: u32, place: impl Fn(DVec2) -> DVec2) -> TriangleMesh {
     TriangleMesh::new(positions, faces.collect()).expect("a legal mesh")
 }
 
+/// The strip of four squares.
 fn straight() -> TriangleMesh {
     strip(4, |p| p)
 }
 
-fn turned() -> TriangleMesh {
+/// The strip rotated by 90°.
+fn rotated() -> TriangleMesh {
     strip(4, |p| DVec2::new(-p.y, p.x))
 }
 
+/// The strip to the rotated strip, both moved by an offset.
 fn transition(offset: DVec2, cell: TransitionMethod) -> Transition {
     let design = |mesh: TriangleMesh| Arc::new(Design::new("strip", mesh));
     let source = design(strip(4, |p| p + offset));
     let target = design(strip(4, |p| DVec2::new(-p.y, p.x) + offset));
     let mut spec = TransitionSpec::new(source, target);
-    spec.cell = cell;
+    spec.method = cell;
     spec.options.field.cells = 32;
     Transition::build(&spec, &Silent).expect("a transition")
 }
@@ -64,44 +67,49 @@ fn field() -> TransitionMethod {
     TransitionMethod::new(WarpKind::None, ContentKind::Field).expect("a cell")
 }
 
-/// Only builds and solves.
+/// An app that builds and solves transitions, and draws nothing.
 fn bare_app() -> App {
     let mut app = App::new();
     app.add_plugins((MinimalPlugins, MorphPlugin));
     app
 }
 
-/// Draws too, into assets that no renderer takes.
+/// An app that also writes the meshes of the stage; no renderer draws them.
 fn drawing_app() -> App {
     let mut app = App::new();
     app.add_plugins((MinimalPlugins, AssetPlugin::default(), MorphPlugin));
     app
 }
 
-fn until(app: &mut App, done: impl Fn(&World) -> bool) {
+/// Updates until a condition holds.
+fn update_until(app: &mut App, is_done: impl Fn(&World) -> bool) {
     let start = Instant::now();
-    while !done(app.world()) {
+    while !is_done(app.world()) {
         assert!(start.elapsed() < Duration::from_secs(60), "waited too long");
         app.update();
     }
 }
 
+/// A condition: the entity has the component.
 fn has<C: Component>(entity: Entity) -> impl Fn(&World) -> bool {
     move |world| world.get::<C>(entity).is_some()
 }
 
+/// Spawns the strip and the rotated strip, and waits until they are built.
 fn spawn_pair(app: &mut App, t: f64) -> Entity {
-    let pair = (SourceMesh(straight()), TargetMesh(turned()), Blend { t });
+    let pair = (SourceMesh(straight()), TargetMesh(rotated()), Blend { t });
     let entity = app.world_mut().spawn(pair).id();
-    until(app, has::<Morph>(entity));
+    update_until(app, has::<Morph>(entity));
     entity
 }
 
-fn places(app: &App, entity: Entity) -> Vec<DVec2> {
+/// Positions of the vertices in the current frame.
+fn vertices(app: &App, entity: Entity) -> Vec<DVec2> {
     let morph = app.world().get::<Morph>(entity).expect("a morph");
     morph.frame().placement().in_frame.clone()
 }
 
+/// Meshes of the drawn parts of an entity.
 fn meshes_of(app: &App, entity: Entity) -> Vec<(Handle<Mesh>, Visibility)> {
     let world = app.world();
     let children = world.get::<Children>(entity).map(|c| c.to_vec());
@@ -116,6 +124,7 @@ fn meshes_of(app: &App, entity: Entity) -> Vec<(Handle<Mesh>, Visibility)> {
         .collect()
 }
 
+/// Positions in a mesh asset.
 fn positions(app: &App, mesh: &Handle<Mesh>) -> Vec<[f32; 3]> {
     let meshes = app.world().resource::<Assets<Mesh>>();
     let mesh = meshes.get(mesh).expect("a mesh");
@@ -126,21 +135,21 @@ fn positions(app: &App, mesh: &Handle<Mesh>) -> Vec<[f32; 3]> {
 }
 
 #[test]
-fn two_meshes_and_a_blend_morph() {
+fn two_meshes_with_a_blend_are_interpolated() {
     let mut app = bare_app();
     let entity = spawn_pair(&mut app, 0.0);
-    for (t, end) in [(0.0, straight()), (1.0, turned())] {
+    for (t, end) in [(0.0, straight()), (1.0, rotated())] {
         app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = t;
         app.update();
-        for (p, q) in places(&app, entity).iter().zip(end.positions()) {
+        for (p, q) in vertices(&app, entity).iter().zip(end.positions()) {
             assert!((*p - *q).length() < 1e-12, "{p} is not {q} at {t}");
         }
     }
-    // Half way a rigid target has turned by half of it.
+    // At t = ½ a rigid target has rotated by half of its angle, 45°.
     app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 0.5;
     app.update();
-    let places = places(&app, entity);
-    let edge = places[8] - places[0];
+    let vertices = vertices(&app, entity);
+    let edge = vertices[8] - vertices[0];
     assert!(
         (edge - DVec2::splat(8.0_f64.sqrt())).length() < 1e-9,
         "{edge}"
@@ -150,53 +159,53 @@ fn two_meshes_and_a_blend_morph() {
 }
 
 #[derive(Resource, Default)]
-struct Touched(u32);
+struct ChangedMorphs(u32);
 
-fn count_touched(changed: Query<(), Changed<Morph>>, mut touched: ResMut<Touched>) {
-    touched.0 += changed.iter().count() as u32;
+fn count_changed_morphs(changed: Query<(), Changed<Morph>>, mut count: ResMut<ChangedMorphs>) {
+    count.0 += changed.iter().count() as u32;
 }
 
 #[test]
-fn an_unmoved_or_senseless_blend_solves_nothing() {
+fn an_unchanged_or_non_finite_blend_is_not_solved() {
     let mut app = bare_app();
-    app.init_resource::<Touched>()
-        .add_systems(Last, count_touched);
+    app.init_resource::<ChangedMorphs>()
+        .add_systems(Last, count_changed_morphs);
     let entity = spawn_pair(&mut app, 0.25);
     app.update();
-    let before = places(&app, entity);
-    app.world_mut().resource_mut::<Touched>().0 = 0;
+    let before = vertices(&app, entity);
+    app.world_mut().resource_mut::<ChangedMorphs>().0 = 0;
     for t in [0.25, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = t;
         app.update();
     }
-    assert_eq!(app.world().resource::<Touched>().0, 0);
-    assert_eq!(places(&app, entity), before);
+    assert_eq!(app.world().resource::<ChangedMorphs>().0, 0);
+    assert_eq!(vertices(&app, entity), before);
     app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 0.75;
     app.update();
-    assert_eq!(app.world().resource::<Touched>().0, 1);
-    assert_ne!(places(&app, entity), before);
+    assert_eq!(app.world().resource::<ChangedMorphs>().0, 1);
+    assert_ne!(vertices(&app, entity), before);
 }
 
 #[derive(Resource, Default)]
 struct Failures(Vec<(Entity, String)>);
 
-fn note_failure(failed: On<BuildFailed>, mut failures: ResMut<Failures>) {
+fn record_failure(failed: On<BuildFailed>, mut failures: ResMut<Failures>) {
     failures.0.push((failed.entity, failed.error.to_string()));
 }
 
 #[test]
-fn a_failed_build_names_its_entity_and_keeps_what_was_shown() {
+fn a_failed_build_reports_its_entity_and_keeps_the_previous_morph() {
     let mut app = bare_app();
-    app.init_resource::<Failures>().add_observer(note_failure);
+    app.init_resource::<Failures>().add_observer(record_failure);
     let good = spawn_pair(&mut app, 0.0);
     let bad = (SourceMesh(straight()), TargetMesh(strip(3, |p| p)));
     let bad = app.world_mut().spawn(bad).id();
-    until(&mut app, |world| !world.resource::<Failures>().0.is_empty());
+    update_until(&mut app, |world| !world.resource::<Failures>().0.is_empty());
     app.world_mut()
         .get_mut::<TargetMesh>(good)
         .expect("a mesh")
         .0 = strip(2, |p| p);
-    until(&mut app, |world| world.resource::<Failures>().0.len() == 2);
+    update_until(&mut app, |world| world.resource::<Failures>().0.len() == 2);
     let failures = &app.world().resource::<Failures>().0;
     assert_eq!([failures[0].0, failures[1].0], [bad, good]);
     assert!(!failures[0].1.is_empty());
@@ -205,21 +214,21 @@ fn a_failed_build_names_its_entity_and_keeps_what_was_shown() {
 }
 
 #[test]
-fn entities_and_meshes_may_go_while_a_build_runs() {
+fn entities_may_be_despawned_or_replaced_during_a_build() {
     let mut app = bare_app();
     let long = strip(4000, |p| p);
     let pair = (SourceMesh(long.clone()), TargetMesh(long));
-    let gone = app.world_mut().spawn(pair.clone()).id();
+    let despawned = app.world_mut().spawn(pair.clone()).id();
     let replaced = app.world_mut().spawn(pair).id();
     app.update();
-    app.world_mut().despawn(gone);
-    let newer = (SourceMesh(straight()), TargetMesh(turned()));
+    app.world_mut().despawn(despawned);
+    let newer = (SourceMesh(straight()), TargetMesh(rotated()));
     app.world_mut().entity_mut(replaced).insert(newer);
-    until(&mut app, has::<Morph>(replaced));
+    update_until(&mut app, has::<Morph>(replaced));
     for _ in 0..20 {
         app.update();
     }
-    assert_eq!(places(&app, replaced).len(), straight().positions().len());
+    assert_eq!(vertices(&app, replaced).len(), straight().positions().len());
 }
 
 #[test]
@@ -235,25 +244,25 @@ fn boundaries_without_faces_are_filled() {
     };
     assert_eq!(*visibility, Visibility::Inherited);
     let area = |app: &App| -> f32 {
-        let places = positions(app, fill);
+        let vertices = positions(app, fill);
         let meshes = app.world().resource::<Assets<Mesh>>();
         let mesh = meshes.get(fill).expect("a mesh");
         let corners: Vec<usize> = mesh.indices().expect("faces").iter().collect();
-        let at = |v: usize| Vec3::from(places[v]).truncate();
+        let at = |v: usize| Vec3::from(vertices[v]).truncate();
         let faces = corners.as_chunks::<3>().0.iter();
         let twice = faces.map(|&[a, b, c]| (at(b) - at(a)).perp_dot(at(c) - at(a)));
         0.5 * twice.sum::<f32>()
     };
-    // A rigid target: as large on the way as at the ends.
-    let middle = area(&app);
-    assert!(middle > 0.0);
+    // The target is a rotation, so the area is constant.
+    let midway_area = area(&app);
+    assert!(midway_area > 0.0);
     app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 1.0;
     app.update();
-    assert!((area(&app) - middle).abs() < 1e-4 * middle);
+    assert!((area(&app) - midway_area).abs() < 1e-4 * midway_area);
 }
 
 #[test]
-fn a_transition_that_is_built_brings_its_components() {
+fn a_built_transition_adds_and_replaces_components() {
     let mut app = drawing_app();
     let staged = StageTransition(transition(DVec2::ZERO, arap()));
     let entity = app.world_mut().spawn((staged, Blend { t: 1.0 })).id();
@@ -265,7 +274,7 @@ fn a_transition_that_is_built_brings_its_components() {
     assert_eq!(morph.frame().t(), 1.0);
     let first_parts = meshes_of(&app, entity);
 
-    // The next one takes the place of the first, even where it is of its kind.
+    // A new transition replaces the old one, even with the same method.
     let staged = StageTransition(transition(DVec2::ONE, arap()));
     app.world_mut().entity_mut(entity).insert(staged);
     app.update();
@@ -287,22 +296,28 @@ fn a_transition_that_is_built_brings_its_components() {
 
     app.world_mut().entity_mut(entity).remove::<Morph>();
     app.update();
-    assert!(meshes_of(&app, entity).is_empty(), "parts stayed behind");
+    assert!(
+        meshes_of(&app, entity).is_empty(),
+        "the parts are removed with the morph"
+    );
 }
 
 #[derive(Resource, Default)]
-struct Rewritten(usize);
+struct ModifiedMeshes(usize);
 
-fn count_rewritten(mut events: MessageReader<AssetEvent<Mesh>>, mut count: ResMut<Rewritten>) {
-    let modified = |event: &&AssetEvent<Mesh>| matches!(event, AssetEvent::Modified { .. });
-    count.0 += events.read().filter(modified).count();
+fn count_modified_meshes(
+    mut events: MessageReader<AssetEvent<Mesh>>,
+    mut count: ResMut<ModifiedMeshes>,
+) {
+    let is_modified = |event: &&AssetEvent<Mesh>| matches!(event, AssetEvent::Modified { .. });
+    count.0 += events.read().filter(is_modified).count();
 }
 
 #[test]
-fn meshes_are_written_only_when_the_frame_moves() {
+fn meshes_are_written_only_when_the_frame_changes() {
     let mut app = drawing_app();
-    app.init_resource::<Rewritten>()
-        .add_systems(Last, count_rewritten);
+    app.init_resource::<ModifiedMeshes>()
+        .add_systems(Last, count_modified_meshes);
     let entity = spawn_pair(&mut app, 0.3);
     for _ in 0..5 {
         app.update();
@@ -310,36 +325,36 @@ fn meshes_are_written_only_when_the_frame_moves() {
     let fill = meshes_of(&app, entity)[0].0.clone();
     let origin = app.world().get::<Morph>(entity).expect("a morph");
     let origin = origin.frame().transition().bounds().centre();
-    for (p, q) in positions(&app, &fill).iter().zip(places(&app, entity)) {
+    for (p, q) in positions(&app, &fill).iter().zip(vertices(&app, entity)) {
         let q = q - origin;
-        let off = (f64::from(p[0]) - q.x).hypot(f64::from(p[1]) - q.y);
-        assert!(off < 1e-6, "{p:?} is not {q}");
+        let distance = (f64::from(p[0]) - q.x).hypot(f64::from(p[1]) - q.y);
+        assert!(distance < 1e-6, "{p:?} is not {q}");
     }
-    app.world_mut().resource_mut::<Rewritten>().0 = 0;
+    app.world_mut().resource_mut::<ModifiedMeshes>().0 = 0;
     for _ in 0..5 {
         app.update();
     }
-    assert_eq!(app.world().resource::<Rewritten>().0, 0);
+    assert_eq!(app.world().resource::<ModifiedMeshes>().0, 0);
     app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 0.4;
     for _ in 0..3 {
         app.update();
     }
-    // The fill alone: the wireframe is hidden, ghosts never move.
-    assert_eq!(app.world().resource::<Rewritten>().0, 1);
+    // Only the fill is written: the wireframe is hidden, and the outlines of the ends are static.
+    assert_eq!(app.world().resource::<ModifiedMeshes>().0, 1);
 }
 
 #[test]
-fn what_was_hidden_is_up_to_date_when_it_is_shown() {
+fn a_hidden_wireframe_is_updated_when_it_is_shown() {
     let mut app = drawing_app();
     let entity = spawn_pair(&mut app, 0.0);
     app.update();
     let corners = 3 * straight().faces().len();
-    let wire = |app: &App| {
+    let wireframe = |app: &App| {
         let meshes = app.world().resource::<Assets<Mesh>>();
-        let is_wire = |(mesh, _): &(Handle<Mesh>, _)| {
+        let is_wireframe = |(mesh, _): &(Handle<Mesh>, _)| {
             meshes.contains(mesh) && positions(app, mesh).len() == corners
         };
-        meshes_of(app, entity).into_iter().find(is_wire)
+        meshes_of(app, entity).into_iter().find(is_wireframe)
     };
     let show = |app: &mut App, wireframe: bool| {
         let show = StageVisibility {
@@ -350,27 +365,27 @@ fn what_was_hidden_is_up_to_date_when_it_is_shown() {
         app.world_mut().entity_mut(entity).insert(style);
         app.update();
     };
-    // What was never shown takes no memory.
-    assert!(wire(&app).is_none());
+    // A part that was never shown has no mesh.
+    assert!(wireframe(&app).is_none());
     show(&mut app, true);
-    assert_eq!(wire(&app).expect("wires").1, Visibility::Inherited);
+    assert_eq!(wireframe(&app).expect("wires").1, Visibility::Inherited);
     show(&mut app, false);
-    assert_eq!(wire(&app).expect("wires").1, Visibility::Hidden);
+    assert_eq!(wireframe(&app).expect("wires").1, Visibility::Hidden);
     app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 1.0;
     app.update();
     show(&mut app, true);
-    let (mesh, visibility) = wire(&app).expect("wires");
+    let (mesh, visibility) = wireframe(&app).expect("wires");
     assert_eq!(visibility, Visibility::Inherited);
-    // The first edge of the first face, turned by a right angle.
+    // The first edge of the first face, rotated by 90°.
     let [a, b] = [positions(&app, &mesh)[0], positions(&app, &mesh)[1]];
     assert!((b[0] - a[0]).abs() < 1e-6 && (b[1] - a[1] - 1.0).abs() < 1e-6);
 }
 
 #[test]
-fn designs_far_from_zero_are_placed_around_the_anchor() {
+fn designs_far_from_the_origin_are_drawn_relative_to_their_centre() {
     let mut app = drawing_app();
-    let far = DVec2::new(1e9, -1e9);
-    let built = transition(far, arap());
+    let offset = DVec2::new(1e9, -1e9);
+    let built = transition(offset, arap());
     let bounds = built.bounds();
     let entity = app.world_mut().spawn(StageTransition(built)).id();
     app.world_mut()
@@ -384,7 +399,7 @@ fn designs_far_from_zero_are_placed_around_the_anchor() {
     let at = translation(children[0]).expect("a place");
     assert_eq!(at.truncate(), Vec2::ZERO);
     let corner = positions(&app, &meshes_of(&app, entity)[0].0)[0];
-    let expected = (far - bounds.centre()).as_vec2();
+    let expected = (offset - bounds.centre()).as_vec2();
     assert!((Vec2::new(corner[0], corner[1]) - expected).length() < 1e-5);
 }
 
@@ -411,7 +426,7 @@ fn the_camera_follows_the_view() {
 }
 
 #[test]
-fn a_capture_without_a_renderer_is_refused_in_words() {
+fn a_capture_without_a_renderer_fails_with_a_reason() {
     let mut app = bare_app();
     app.world_mut().write_message(CaptureStage {
         id: 7,
@@ -424,11 +439,16 @@ fn a_capture_without_a_renderer_is_refused_in_words() {
     let answers: Vec<_> = answers.drain().collect();
     assert_eq!(answers.len(), 1);
     assert_eq!(answers[0].id, 7);
-    assert!(answers[0].result.as_ref().is_err_and(|why| !why.is_empty()));
+    assert!(
+        answers[0]
+            .result
+            .as_ref()
+            .is_err_and(|reason| !reason.is_empty())
+    );
 }
 
 #[derive(Resource, Default)]
-struct Seen(Vec<(f64, f64)>);
+struct SeenFrames(Vec<(f64, f64)>);
 
 fn step_blends(mut blends: Query<&mut Blend>) {
     for mut blend in &mut blends {
@@ -436,7 +456,7 @@ fn step_blends(mut blends: Query<&mut Blend>) {
     }
 }
 
-fn note_frames(morphs: Query<(&Blend, &Morph)>, mut seen: ResMut<Seen>) {
+fn record_frames(morphs: Query<(&Blend, &Morph)>, mut seen: ResMut<SeenFrames>) {
     let pairs = morphs
         .iter()
         .map(|(blend, morph)| (blend.t, morph.frame().t()));
@@ -444,26 +464,29 @@ fn note_frames(morphs: Query<(&Blend, &Morph)>, mut seen: ResMut<Seen>) {
 }
 
 #[test]
-fn what_runs_after_solving_sees_the_frame_of_this_update() {
+fn systems_after_solving_see_the_frame_of_the_same_update() {
     let mut app = bare_app();
     let entity = spawn_pair(&mut app, 0.0);
-    app.init_resource::<Seen>()
+    app.init_resource::<SeenFrames>()
         .add_systems(Update, step_blends.in_set(MorphSystems::Playback))
-        .add_systems(Update, note_frames.after(MorphSystems::Solve));
+        .add_systems(Update, record_frames.after(MorphSystems::Solve));
     for _ in 0..3 {
         app.update();
     }
-    let seen = &app.world().resource::<Seen>().0;
+    let seen = &app.world().resource::<SeenFrames>().0;
     assert_eq!(*seen, [(0.125, 0.125), (0.25, 0.25), (0.375, 0.375)]);
-    // What is built in an update is there in the same one.
+    // A transition that is added is built in the same update.
     let staged = StageTransition(transition(DVec2::ZERO, arap()));
     app.world_mut().entity_mut(entity).insert(staged);
     app.update();
-    assert_eq!(app.world().resource::<Seen>().0.last(), Some(&(0.5, 0.5)));
+    assert_eq!(
+        app.world().resource::<SeenFrames>().0.last(),
+        Some(&(0.5, 0.5))
+    );
 }
 
 #[test]
-fn components_are_known_to_reflection() {
+fn components_are_registered_for_reflection() {
     let app = bare_app();
     let registry = app.world().resource::<AppTypeRegistry>().read();
     for name in [
@@ -476,9 +499,10 @@ fn components_are_known_to_reflection() {
         "StageStyle",
         "StageCamera",
     ] {
-        let known = registry.get_with_short_type_path(name);
-        let known = known.and_then(|known| known.data::<ReflectComponent>());
-        assert!(known.is_some(), "{name}");
+        let registration = registry.get_with_short_type_path(name);
+        let registration =
+            registration.and_then(|registration| registration.data::<ReflectComponent>());
+        assert!(registration.is_some(), "{name}");
     }
     let style = StageStyle {
         style: TransitionStyle {

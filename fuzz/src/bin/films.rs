@@ -1,7 +1,7 @@
-//! Films between random polygons, one after the other: `films FIRST COUNT`.
+//! Checks the transitions between random polygons, one after the other: `films FIRST COUNT`.
 //!
-//! The same pairs as `tests/random_pairs.rs`, without a fuzzer: it tells what
-//! broke, what folds or crosses, and the slowest.
+//! The same pairs as `tests/random_pairs.rs`, without a fuzzer. Prints the pairs that fail, the
+//! numbers of pairs with folds and crossings, and the slowest pair.
 
 #[path = "../../../tests/random/mod.rs"]
 #[allow(dead_code, reason = "the fuzzer uses the rest")]
@@ -20,18 +20,18 @@ fn main() -> ExitCode {
     let (mut broken, mut folded, mut crossed) = (0, 0, 0);
     let mut slowest = (Duration::ZERO, first);
     for seed in first..first.saturating_add(count) {
-        let begun = Instant::now();
-        match random::seen_of_seed(seed) {
-            Ok(seen) => {
-                folded += u32::from(seen.folds > 0);
-                crossed += u32::from(seen.crossings > 0);
+        let pair_start = Instant::now();
+        match random::defects_of_seed(seed) {
+            Ok(defects) => {
+                folded += u32::from(defects.folds > 0);
+                crossed += u32::from(defects.crossings > 0);
             }
-            Err(fault) => {
+            Err(error) => {
                 broken += 1;
-                println!("pair {seed}: {fault}");
+                println!("pair {seed}: {error}");
             }
         }
-        slowest = slowest.max((begun.elapsed(), seed));
+        slowest = slowest.max((pair_start.elapsed(), seed));
     }
     println!(
         "{count} pairs, {:.1} a second: {broken} broken, {folded} with a fold, {crossed} with a crossing; slowest {:.2} s, pair {}",

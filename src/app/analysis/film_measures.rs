@@ -13,7 +13,7 @@ use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::session::state::Session;
-use crate::measure::{FilmReport, Remedy, Verdict, film};
+use crate::measure::{FilmReport, Remedy, Verdict, film_report};
 use crate::project::Project;
 use crate::transition::Transition;
 use crate::warp::WarpKind;
@@ -40,13 +40,13 @@ pub struct FilmMeasures {
 /// Measures of the transition on the stage.
 #[derive(Resource, Debug, Default)]
 pub struct StageMeasures {
-    of: Option<Transition>,
+    transition: Option<Transition>,
     job: Option<BackgroundJob<FilmMeasures, Cancelled>>,
     measures: Option<FilmMeasures>,
     /// Whether the work has ended; without measures if it was cancelled or failed.
     is_done: bool,
     /// Results for other segments, which return while a film of several segments plays.
-    before: TransitionMemo<FilmMeasures>,
+    memo: TransitionMemo<FilmMeasures>,
 }
 
 impl StageMeasures {
@@ -64,14 +64,17 @@ impl StageMeasures {
 
     /// Whether measuring was cancelled or failed.
     #[must_use]
-    pub fn is_broken_off(&self) -> bool {
+    pub fn was_stopped(&self) -> bool {
         self.is_done && self.measures.is_none()
     }
 
     /// Progress, 0 to 1, once measuring has taken long enough to be shown.
     #[must_use]
-    pub fn told(&self) -> Option<f64> {
-        let job = self.job.as_ref().filter(|job| job.lasts() > SHOWN_AFTER)?;
+    pub fn visible_progress(&self) -> Option<f64> {
+        let job = self
+            .job
+            .as_ref()
+            .filter(|job| job.elapsed() > SHOWN_AFTER)?;
         Some(job.progress().1)
     }
 
@@ -82,34 +85,34 @@ impl StageMeasures {
     }
 
     /// Adopts the transition on the stage and starts measuring it once no build is running.
-    fn follow(&mut self, session: &Session) {
+    fn adopt_stage(&mut self, session: &Session) {
         let transition = session.transition();
-        if !is_same(self.of.as_ref(), transition) {
+        if !is_same(self.transition.as_ref(), transition) {
             // Replacing `self` also cancels the job for the old transition.
-            let mut before = std::mem::take(&mut self.before);
-            if let (Some(of), Some(measures)) = (&self.of, self.measures.take()) {
-                before.keep(of, measures);
+            let mut memo = std::mem::take(&mut self.memo);
+            if let (Some(old), Some(measures)) = (&self.transition, self.measures.take()) {
+                memo.keep(old, measures);
             }
-            let measures = transition.and_then(|transition| before.take(transition));
+            let measures = transition.and_then(|transition| memo.take(transition));
             *self = Self {
-                of: transition.cloned(),
+                transition: transition.cloned(),
                 is_done: measures.is_some(),
                 measures,
-                before,
+                memo,
                 ..Self::default()
             };
         }
         if session.work().is_none() && !self.is_done && self.job.is_none() {
-            self.job = self.of.clone().map(|transition| {
+            self.job = self.transition.clone().map(|transition| {
                 BackgroundJob::start("measuring the film", move |progress| {
-                    measured(&transition, progress)
+                    measure_film(&transition, progress)
                 })
             });
         }
     }
 
     /// Collects the result; returns whether there was one.
-    fn take(&mut self) -> bool {
+    fn collect_result(&mut self) -> bool {
         let Some(answer) = BackgroundJob::take(&mut self.job) else {
             return false;
         };
@@ -120,27 +123,30 @@ impl StageMeasures {
 }
 
 /// Share of the progress bar given to sampling (heuristic).
-const SAMPLING: f64 = 0.8;
+const SAMPLING_SHARE: f64 = 0.8;
 
 /// Samples the film, then checks it for defects.
-fn measured(transition: &Transition, progress: &dyn Progress) -> Result<FilmMeasures, Cancelled> {
+fn measure_film(
+    transition: &Transition,
+    progress: &dyn Progress,
+) -> Result<FilmMeasures, Cancelled> {
     let progress = &WholeProgress::new(progress);
-    let [sampling, judging] =
-        [(0.0, SAMPLING), (SAMPLING, 1.0)].map(|(from, to)| ProgressSpan::new(progress, from, to));
-    let film = film(transition, STEPS, &sampling)?;
-    let verdict = Verdict::of_film(transition, &film, &judging)?;
+    let [sampling, checking] = [(0.0, SAMPLING_SHARE), (SAMPLING_SHARE, 1.0)]
+        .map(|(from, to)| ProgressSpan::new(progress, from, to));
+    let film = film_report(transition, STEPS, &sampling)?;
+    let verdict = Verdict::of_film(transition, &film, &checking)?;
     Ok(FilmMeasures { film, verdict })
 }
 
 /// Starts measuring a new transition and collects results.
-pub fn follow(session: Res<Session>, mut measured: ResMut<StageMeasures>) {
+pub fn follow(session: Res<Session>, mut stage_measures: ResMut<StageMeasures>) {
     // Change detection is set by hand: this system runs each frame but seldom changes anything.
-    let now = measured.bypass_change_detection();
+    let now = stage_measures.bypass_change_detection();
     let was_busy = now.is_busy();
-    let is_taken = now.take();
-    now.follow(&session);
+    let is_taken = now.collect_result();
+    now.adopt_stage(&session);
     if is_taken || now.is_busy() != was_busy {
-        measured.set_changed();
+        stage_measures.set_changed();
     }
 }
 
@@ -148,22 +154,23 @@ pub fn follow(session: Res<Session>, mut measured: ResMut<StageMeasures>) {
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
-    (mut measured, gesture): (ResMut<StageMeasures>, Res<Gesture>),
+    mut stage_measures: ResMut<StageMeasures>,
+    gesture: Res<Gesture>,
 ) {
     for intent in intents.read() {
-        if *intent == Intent::Measure && measured.is_broken_off() {
-            *measured = StageMeasures::default();
+        if *intent == Intent::MeasureAgain && stage_measures.was_stopped() {
+            *stage_measures = StageMeasures::default();
         }
-        let Intent::TakeAdvice(index) = *intent else {
+        let Intent::ApplyRemedy(index) = *intent else {
             continue;
         };
-        let findings = measured.measures().map(|m| &m.verdict.findings);
+        let findings = stage_measures.measures().map(|m| &m.verdict.findings);
         let Some(finding) = findings.and_then(|all| all.get(index)) else {
             continue;
         };
         let remedy = finding.remedy.clone();
-        session.change(gesture.mark(), |project| {
-            follow_advice(project, &remedy);
+        session.change(gesture.id(), |project| {
+            apply_remedy(project, &remedy);
         });
     }
 }
@@ -178,7 +185,7 @@ pub fn is_one_click(remedy: &Remedy) -> bool {
 }
 
 /// Applies a remedy to the project's settings.
-fn follow_advice(project: &mut Project, remedy: &Remedy) {
+fn apply_remedy(project: &mut Project, remedy: &Remedy) {
     match remedy {
         Remedy::Change { change, .. } => change.apply(&mut project.options),
         Remedy::Lattices => {
@@ -186,7 +193,7 @@ fn follow_advice(project: &mut Project, remedy: &Remedy) {
             project.options.lattice.fold_free = true;
         }
         Remedy::LetFold => project.options.lattice.fold_free = false,
-        // These remedies need the user's hand or a trial; `is_a_click` gives them no button.
+        // These remedies need the user's hand or a trial; `is_one_click` gives them no button.
         _ => {}
     }
 }

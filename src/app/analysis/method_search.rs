@@ -8,7 +8,7 @@ use crate::app::input::intent::Intent;
 use crate::app::jobs::job::{BackgroundJob, JobError};
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::session::state::Session;
-use crate::measure::{FilmRating, auto};
+use crate::measure::{FilmRating, build_best_method};
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::TransitionMethod;
 use crate::work::progress::{Progress, WholeProgress};
@@ -24,14 +24,14 @@ pub struct MethodSearch(Option<MethodSearchJob>);
 #[derive(Debug)]
 struct MethodSearchJob {
     /// Settings for which the search was started.
-    of: Project,
+    settings: Project,
     job: BackgroundJob<MethodChoice, ProjectError>,
 }
 
 impl MethodSearch {
     /// Progress of the search, 0 to 1; `None` if none runs.
     #[must_use]
-    pub fn told(&self) -> Option<f64> {
+    pub fn visible_progress(&self) -> Option<f64> {
         Some(self.0.as_ref()?.job.progress().1)
     }
 
@@ -43,27 +43,31 @@ impl MethodSearch {
 
     /// Starts a search for the current segment.
     fn start(&mut self, session: &Session) {
-        let Some(staged) = session.staged() else {
+        let Some(staged) = session.staged_segment() else {
             return;
         };
-        let of = staged.project.clone();
+        let settings = staged.project.clone();
         let job = BackgroundJob::start("the method search", move |progress| {
             search(&staged, progress)
         });
-        self.0 = Some(MethodSearchJob { of, job });
+        self.0 = Some(MethodSearchJob { settings, job });
     }
 
     /// Result of a finished search, returned once. A search for designs or options that have
     /// changed since is dropped.
-    fn take(&mut self, session: &Session) -> Option<Result<MethodChoice, JobError<ProjectError>>> {
-        let trial = self.0.as_ref()?;
-        let is_same =
-            |now: &Project| (&now.designs, &now.options) == (&trial.of.designs, &trial.of.options);
+    fn take_result(
+        &mut self,
+        session: &Session,
+    ) -> Option<Result<MethodChoice, JobError<ProjectError>>> {
+        let search = self.0.as_ref()?;
+        let is_same = |now: &Project| {
+            (&now.designs, &now.options) == (&search.settings.designs, &search.settings.options)
+        };
         if !session.project().is_some_and(is_same) {
             self.0 = None;
             return None;
         }
-        let answer = trial.job.poll()?;
+        let answer = search.job.poll()?;
         self.0 = None;
         Some(answer)
     }
@@ -72,39 +76,41 @@ impl MethodSearch {
 /// Builds and rates the suitable methods; returns the best one.
 fn search(loaded: &LoadedProject, progress: &dyn Progress) -> Result<MethodChoice, ProjectError> {
     let progress = &WholeProgress::new(progress);
-    let (transition, rating) = auto(&loaded.spec()?, progress)?;
-    Ok((transition.cell(), rating))
+    let (transition, rating) = build_best_method(&loaded.spec()?, progress)?;
+    Ok((transition.method(), rating))
 }
 
 /// Starts or cancels a search on request, and applies the method it found.
 pub fn apply(
     mut intents: MessageReader<Intent>,
-    (mut session, mut method_search): (ResMut<Session>, ResMut<MethodSearch>),
-    (mut notices, gesture): (ResMut<Notices>, Res<Gesture>),
+    mut session: ResMut<Session>,
+    mut method_search: ResMut<MethodSearch>,
+    mut notices: ResMut<Notices>,
+    gesture: Res<Gesture>,
 ) {
     // Change detection is set by hand: this system runs each frame but seldom changes anything.
-    let trial = method_search.bypass_change_detection();
-    let was_busy = trial.told().is_some();
+    let search = method_search.bypass_change_detection();
+    let was_busy = search.visible_progress().is_some();
     for intent in intents.read() {
         match intent {
-            Intent::ChooseMethod => trial.start(&session),
-            Intent::CancelChoice => trial.stop(),
+            Intent::ChooseBestMethod => search.start(&session),
+            Intent::CancelMethodSearch => search.stop(),
             _ => {}
         }
     }
-    match trial.take(&session) {
-        Some(Ok((cell, rating))) => {
-            session.change(gesture.mark(), |project| {
-                project.warp = Some(cell.warp());
-                project.content = Some(cell.content());
+    match search.take_result(&session) {
+        Some(Ok((method, rating))) => {
+            session.change(gesture.id(), |project| {
+                project.warp = Some(method.warp());
+                project.content = Some(method.content());
             });
             let rating = rating.map_or(String::new(), |rating| format!(" ({rating})"));
-            notices.done(format!("Best method: {}{rating}", cell.name()));
+            notices.done(format!("Best method: {}{rating}", method.name()));
         }
         Some(Err(error)) => notices.problem(NoticeTopic::Transition, error.to_string()),
         None => {}
     }
-    if trial.told().is_some() != was_busy {
+    if search.visible_progress().is_some() != was_busy {
         method_search.set_changed();
     }
 }

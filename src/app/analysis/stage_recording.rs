@@ -18,24 +18,24 @@ use crate::transition::{Transition, TransitionProof};
 #[derive(Resource, Debug, Default)]
 pub struct StageRecording {
     options: RecordingOptions,
-    of: Option<Transition>,
+    transition: Option<Transition>,
     job: Option<BackgroundJob<Option<TransitionProof>, RecordingError>>,
-    proved: Option<TransitionProof>,
-    refused: Option<RecordingError>,
+    proof: Option<TransitionProof>,
+    error: Option<RecordingError>,
     /// Results for other segments, which return while a film of several segments plays.
-    before: TransitionMemo<TransitionProof>,
+    memo: TransitionMemo<TransitionProof>,
 }
 
 impl StageRecording {
     /// Records with a memory limit in MiB; `None` is the default limit.
     #[must_use]
     pub fn within(mebibytes: Option<usize>) -> Self {
-        let usual = RecordingOptions::default();
-        let most = mebibytes.map_or(usual.most_bytes, |most| most.saturating_mul(1 << 20));
+        let defaults = RecordingOptions::default();
+        let max_bytes = mebibytes.map_or(defaults.max_bytes, |mib| mib.saturating_mul(1 << 20));
         Self {
             options: RecordingOptions {
-                most_bytes: most,
-                ..usual
+                max_bytes,
+                ..defaults
             },
             ..Self::default()
         }
@@ -44,14 +44,14 @@ impl StageRecording {
     /// Why the transition on the stage cannot be recorded, if so.
     #[must_use]
     pub fn refused(&self) -> Option<&RecordingError> {
-        self.refused.as_ref()
+        self.error.as_ref()
     }
 
     /// Properties proved for the film on the stage; `None` until then, and for methods without a
     /// mesh.
     #[must_use]
     pub fn proved(&self) -> Option<&TransitionProof> {
-        self.proved.as_ref()
+        self.proof.as_ref()
     }
 
     /// Current stage of the work and progress in it, 0 to 1.
@@ -67,19 +67,22 @@ impl StageRecording {
     }
 
     /// Stores the current proof for later and cancels the recording in progress.
-    fn remember(&mut self) {
+    fn cache_proof(&mut self) {
         // Dropping the job cancels it.
         self.job = None;
-        if let Some((of, proved)) = self.of.take().zip(self.proved.take()) {
-            self.before.keep(&of, proved);
+        if let Some((transition, proved)) = self.transition.take().zip(self.proof.take()) {
+            self.memo.keep(&transition, proved);
         }
     }
 
     /// Restores the proof of a transition that is on the stage again; returns whether there was
     /// one.
-    fn recall(&mut self) -> bool {
-        self.proved = self.of.as_ref().and_then(|of| self.before.take(of));
-        self.proved.is_some()
+    fn restore_proof(&mut self) -> bool {
+        self.proof = self
+            .transition
+            .as_ref()
+            .and_then(|transition| self.memo.take(transition));
+        self.proof.is_some()
     }
 }
 
@@ -87,16 +90,16 @@ impl StageRecording {
 pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
     // Change detection is set by hand: this system runs each frame but seldom changes anything.
     let now = recording.bypass_change_detection();
-    if session.is_changed() && !is_same(now.of.as_ref(), session.transition()) {
-        now.remember();
-        now.refused = None;
+    if session.is_changed() && !is_same(now.transition.as_ref(), session.transition()) {
+        now.cache_proof();
+        now.error = None;
         let options = now.options;
-        now.of = session.transition().cloned();
-        if now.recall() {
+        now.transition = session.transition().cloned();
+        if now.restore_proof() {
             recording.set_changed();
             return;
         }
-        now.job = now.of.clone().map(|transition| {
+        now.job = now.transition.clone().map(|transition| {
             BackgroundJob::start("the recording", move |progress| {
                 let recorded = transition.record(&options, progress);
                 let proved = recorded.and_then(|_| transition.prove(&options, progress));
@@ -108,10 +111,10 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
     }
     if let Some(answer) = BackgroundJob::take(&mut now.job) {
         // The reason for a missing recording is shown next to the frame times.
-        (now.proved, now.refused) = match answer {
+        (now.proof, now.error) = match answer {
             Ok(proved) => (proved, None),
             Err(JobError::Failed(error)) => (None, Some(error)),
-            Err(JobError::Broken(_)) => (None, None),
+            Err(JobError::Panicked(_)) => (None, None),
         };
         recording.set_changed();
     }

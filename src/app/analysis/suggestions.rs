@@ -19,16 +19,16 @@ use crate::app::jobs::job::BackgroundJob;
 use crate::app::session::state::Session;
 use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, PartRule};
-use crate::measure::{FilmRating, FilmReport, film};
+use crate::measure::{FilmRating, FilmReport, film_report};
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::settings::Choice;
 use crate::transition::{BuildError, DesignFit, Transition, TransitionMethod};
 use crate::warp::WarpKind;
-use crate::work::progress::{Progress, still_wanted};
+use crate::work::progress::{Progress, check_cancelled};
 
 /// Time without changes before suggestions are searched, so that nothing is tried during a drag
 /// (heuristic).
-const CALM: Duration = Duration::from_millis(800);
+const SEARCH_DELAY: Duration = Duration::from_millis(800);
 
 /// Maximum number of suggestions (heuristic: they share one line).
 const MAX_SUGGESTIONS: usize = 3;
@@ -49,7 +49,7 @@ pub enum SuggestedChange {
     /// Rotate the target counter-clockwise, in degrees.
     Turn(i32),
     /// Use another placement of the designs relative to each other.
-    Frame(DesignFit),
+    Fit(DesignFit),
     /// Use another rule for unmatched holes.
     Holes(HoleRule),
     /// Use another rule for unmatched parts.
@@ -71,29 +71,31 @@ impl SuggestedChange {
     /// Changes to try for a project, in order: first those that leave the designs as they are.
     fn all(loaded: &LoadedProject) -> Vec<Self> {
         let matching = &loaded.project.options.matching;
-        let others = PartRule::ALL.into_iter();
-        let others = others.filter(|other| *other != matching.parts);
-        let mut all: Vec<Self> = others.map(Self::Parts).collect();
+        let other_rules = PartRule::ALL
+            .into_iter()
+            .filter(|rule| *rule != matching.parts);
+        let mut all: Vec<Self> = other_rules.map(Self::Parts).collect();
         if matching.holes != HoleRule::Auto {
             // `Auto` includes all other rules.
             all.push(Self::Holes(HoleRule::Auto));
         }
         if loaded.project.fit == DesignFit::AsDrawn {
-            all.push(Self::Frame(DesignFit::Centred));
+            all.push(Self::Fit(DesignFit::Centred));
         }
-        let cells = [
+        let methods = [
             (WarpKind::Arap, ContentKind::Solid),
             (WarpKind::Arap, ContentKind::Field),
             (WarpKind::None, ContentKind::Field),
         ];
-        let cells = cells
+        let methods = methods
             .into_iter()
             .filter_map(|(warp, content)| TransitionMethod::new(warp, content).ok());
-        let now = loaded.cell().ok();
-        let can = |cell: &TransitionMethod| {
-            Some(*cell) != now && loaded.available(cell.warp(), cell.content()).is_ok()
+        let current = loaded.method().ok();
+        let is_available = |method: &TransitionMethod| {
+            let can_build = loaded.check_available(method.warp(), method.content());
+            Some(*method) != current && can_build.is_ok()
         };
-        all.extend(cells.filter(can).map(Self::Method));
+        all.extend(methods.filter(is_available).map(Self::Method));
         // Pins and other points of the designs stay valid, because they move with the target.
         all.push(Self::Mirror);
         all.extend([180, 90, -90].map(Self::Turn));
@@ -108,11 +110,11 @@ impl SuggestedChange {
     /// Applies the change to a project.
     pub fn apply(self, project: &mut Project) {
         match self {
-            Self::Method(cell) => {
-                project.warp = Some(cell.warp());
-                project.content = Some(cell.content());
+            Self::Method(method) => {
+                project.warp = Some(method.warp());
+                project.content = Some(method.content());
             }
-            Self::Frame(fit) => project.fit = fit,
+            Self::Fit(fit) => project.fit = fit,
             Self::Holes(holes) => project.options.matching.holes = holes,
             Self::Parts(parts) => project.options.matching.parts = parts,
             Self::Mirror | Self::Turn(_) => {
@@ -130,14 +132,14 @@ impl SuggestedChange {
 
     /// Short label of the change.
     #[must_use]
-    pub fn words(self) -> String {
+    pub fn label(self) -> String {
         match self {
-            Self::Mirror => "Mirror the target".to_owned(),
+            Self::Mirror => "Flip the target".to_owned(),
             Self::Turn(degrees) => format!("Rotate the target by {degrees}°"),
-            Self::Frame(fit) => format!("Placement: {}", fit.name().title.to_lowercase()),
+            Self::Fit(fit) => format!("Align: {}", fit.name().title.to_lowercase()),
             Self::Holes(holes) => format!("Holes: {}", holes.name().title.to_lowercase()),
-            Self::Parts(parts) => format!("Unmatched parts: {}", parts.name().title.to_lowercase()),
-            Self::Method(cell) => format!("Use {}", cell.name()),
+            Self::Parts(parts) => format!("Parts: {}", parts.name().title.to_lowercase()),
+            Self::Method(method) => format!("Use {}", method.name()),
         }
     }
 }
@@ -145,17 +147,17 @@ impl SuggestedChange {
 impl Suggestion {
     /// Whether the film has fewer defects than the current one, without much more overshoot.
     fn helps(&self, now: &FilmRating) -> bool {
-        let is_calm = self.rating.unrest() <= now.unrest() + MAX_ADDED_OVERSHOOT;
-        self.rating.has_fewer_faults_than(now) && is_calm
+        let is_within_limit = self.rating.overshoot() <= now.overshoot() + MAX_ADDED_OVERSHOOT;
+        self.rating.has_fewer_defects_than(now) && is_within_limit
     }
 
     /// Order of suggestions: fewer defects first, then less overshoot, with a penalty for showing
     /// the target differently from how it was drawn.
     fn compare(&self, other: &Self) -> Ordering {
-        let fewer = |a: &Self, b: &Self| a.rating.has_fewer_faults_than(&b.rating);
-        let cost = |offer: &Self| {
-            let changes = offer.what.changes_the_target();
-            offer.rating.unrest() + if changes { CHANGED_TARGET_PENALTY } else { 0.0 }
+        let fewer = |a: &Self, b: &Self| a.rating.has_fewer_defects_than(&b.rating);
+        let cost = |suggestion: &Self| {
+            let changes = suggestion.what.changes_the_target();
+            suggestion.rating.overshoot() + if changes { CHANGED_TARGET_PENALTY } else { 0.0 }
         };
         match (fewer(self, other), fewer(other, self)) {
             (true, _) => Ordering::Less,
@@ -169,14 +171,14 @@ impl Suggestion {
 #[derive(Resource, Debug, Default)]
 pub struct Suggestions {
     /// The transition on the stage.
-    of: Option<Transition>,
-    /// When its film was found to have defects; the search starts after [`CALM`].
+    transition: Option<Transition>,
+    /// When its film was found to have defects; the search starts after [`SEARCH_DELAY`].
     since: Option<Instant>,
-    trial: Option<SuggestionJob>,
+    search: Option<SuggestionJob>,
     /// Rating of the film on the stage.
-    now: Option<FilmRating>,
+    rating: Option<FilmRating>,
     /// Suggestions so far, best first.
-    offers: Vec<Suggestion>,
+    suggestions: Vec<Suggestion>,
     is_done: bool,
 }
 
@@ -184,32 +186,32 @@ pub struct Suggestions {
 #[derive(Debug)]
 struct SuggestionJob {
     job: BackgroundJob<(), ProjectError>,
-    found: Mutex<Receiver<Suggestion>>,
+    receiver: Mutex<Receiver<Suggestion>>,
 }
 
 impl Suggestions {
     /// The best suggestions, best first.
     #[must_use]
-    pub fn offers(&self) -> &[Suggestion] {
-        &self.offers[..self.offers.len().min(MAX_SUGGESTIONS)]
+    pub fn suggestions(&self) -> &[Suggestion] {
+        &self.suggestions[..self.suggestions.len().min(MAX_SUGGESTIONS)]
     }
 
     /// Rating of the film on the stage, comparable with those of the suggestions.
     #[must_use]
-    pub fn now(&self) -> Option<FilmRating> {
-        self.now
+    pub fn current_rating(&self) -> Option<FilmRating> {
+        self.rating
     }
 
     /// Whether a search is running or about to start.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.trial.is_some() || self.since.is_some()
+        self.search.is_some() || self.since.is_some()
     }
 
     /// Whether a search is running.
     #[must_use]
     pub fn is_trying(&self) -> bool {
-        self.trial.is_some()
+        self.search.is_some()
     }
 
     /// Whether all changes have been tried.
@@ -221,43 +223,46 @@ impl Suggestions {
     /// Cancels the search and starts no other for this film.
     pub fn stop(&mut self) {
         self.is_done |= self.is_busy();
-        (self.trial, self.since) = (None, None);
+        (self.search, self.since) = (None, None);
     }
 
     /// Starts a search for the film on the stage, given its measures.
     fn start(&mut self, session: &Session, film: &FilmReport) {
         self.since = None;
-        self.offers.clear();
-        self.now = self.of.as_ref().and_then(|of| rating(of, film));
-        let Some((staged, now)) = session.staged().zip(self.now) else {
+        self.suggestions.clear();
+        self.rating = self.transition.as_ref().and_then(|of| rating(of, film));
+        let Some((staged, now)) = session.staged_segment().zip(self.rating) else {
             self.is_done = true;
             return;
         };
-        let (sender, found) = channel();
+        let (sender, receiver) = channel();
         let job = BackgroundJob::start("the search for suggestions", move |progress| {
             try_all(&staged, &now, &sender, progress)
         });
-        self.trial = Some(SuggestionJob {
+        self.search = Some(SuggestionJob {
             job,
-            found: Mutex::new(found),
+            receiver: Mutex::new(receiver),
         });
     }
 
     /// Collects new suggestions; returns whether anything is new.
-    fn take(&mut self) -> bool {
-        let Some(trial) = &self.trial else {
+    fn collect_results(&mut self) -> bool {
+        let Some(search) = &self.search else {
             return false;
         };
         // Polled before receiving: suggestions sent before the end are then in the channel.
-        let is_done = trial.job.poll().is_some();
-        let receiver = trial.found.lock().unwrap_or_else(PoisonError::into_inner);
-        let found: Vec<Suggestion> = receiver.try_iter().collect();
+        let is_done = search.job.poll().is_some();
+        let receiver = search
+            .receiver
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        let received: Vec<Suggestion> = receiver.try_iter().collect();
         drop(receiver);
-        let is_new = is_done || !found.is_empty();
-        self.offers.extend(found);
-        self.offers.sort_by(Suggestion::compare);
+        let is_new = is_done || !received.is_empty();
+        self.suggestions.extend(received);
+        self.suggestions.sort_by(Suggestion::compare);
         if is_done {
-            self.trial = None;
+            self.search = None;
             self.is_done = true;
         }
         is_new
@@ -265,8 +270,8 @@ impl Suggestions {
 }
 
 /// Rating from the measures that the check uses; `None` for pictures.
-fn rating(of: &Transition, film: &FilmReport) -> Option<FilmRating> {
-    let content = of.cell().content();
+fn rating(transition: &Transition, film: &FilmReport) -> Option<FilmRating> {
+    let content = transition.method().content();
     (content != ContentKind::Colours).then(|| FilmRating::of_report(film, content))
 }
 
@@ -274,7 +279,7 @@ fn rating(of: &Transition, film: &FilmReport) -> Option<FilmRating> {
 fn try_all(
     loaded: &LoadedProject,
     now: &FilmRating,
-    found: &Sender<Suggestion>,
+    sender: &Sender<Suggestion>,
     progress: &dyn Progress,
 ) -> Result<(), ProjectError> {
     let mut flawless = 0;
@@ -282,20 +287,20 @@ fn try_all(
         let mut other = loaded.clone();
         what.apply(&mut other.project);
         let built = Transition::build(&other.spec()?, progress);
-        still_wanted(progress).map_err(BuildError::from)?;
+        check_cancelled(progress).map_err(BuildError::from)?;
         // A change that cannot be built is no suggestion.
         let Ok(built) = built else {
             continue;
         };
-        let report = film(&built, STEPS, progress).map_err(BuildError::from)?;
+        let report = film_report(&built, STEPS, progress).map_err(BuildError::from)?;
         let Some(rating) = rating(&built, &report) else {
             continue;
         };
-        let offer = Suggestion { what, rating };
-        if offer.helps(now) {
+        let suggestion = Suggestion { what, rating };
+        if suggestion.helps(now) {
             flawless += usize::from(rating.is_flawless());
             // Sending fails once the search has been cancelled.
-            found.send(offer).ok();
+            sender.send(suggestion).ok();
         }
         if flawless >= MAX_SUGGESTIONS {
             break;
@@ -314,28 +319,30 @@ pub fn follow(
     let now = suggestions.bypass_change_detection();
     let was_busy = now.is_busy();
     let transition = session.transition();
-    if !is_same(now.of.as_ref(), transition) {
+    if !is_same(now.transition.as_ref(), transition) {
         *now = Suggestions {
-            of: transition.cloned(),
+            transition: transition.cloned(),
             ..Suggestions::default()
         };
     }
-    let faulty = measured
+    let defective = measured
         .measures()
         .filter(|measures| !measures.verdict.is_clear());
     // Not for a path over the map: the changes apply to a pair of designs.
-    let is_pair = session.whole().is_some_and(|whole| !whole.follows_path());
-    match faulty.filter(|_| is_pair && session.work().is_none()) {
-        None => (now.trial, now.since) = (None, None),
-        Some(faulty) if now.trial.is_none() && !now.is_done => {
+    let is_pair = session
+        .whole_project()
+        .is_some_and(|whole| !whole.follows_path());
+    match defective.filter(|_| is_pair && session.work().is_none()) {
+        None => (now.search, now.since) = (None, None),
+        Some(defective) if now.search.is_none() && !now.is_done => {
             let since = *now.since.get_or_insert_with(Instant::now);
-            if since.elapsed() >= CALM {
-                now.start(&session, &faulty.film);
+            if since.elapsed() >= SEARCH_DELAY {
+                now.start(&session, &defective.film);
             }
         }
         Some(_) => {}
     }
-    if now.take() || now.is_busy() != was_busy {
+    if now.collect_results() || now.is_busy() != was_busy {
         suggestions.set_changed();
     }
 }
@@ -343,14 +350,16 @@ pub fn follow(
 /// Applies a suggestion chosen by the user.
 pub fn apply(
     mut intents: MessageReader<Intent>,
-    (mut session, suggestions, gesture): (ResMut<Session>, Res<Suggestions>, Res<Gesture>),
+    mut session: ResMut<Session>,
+    suggestions: Res<Suggestions>,
+    gesture: Res<Gesture>,
 ) {
     for intent in intents.read() {
-        let Intent::TakeOffer(index) = *intent else {
+        let Intent::ApplySuggestion(index) = *intent else {
             continue;
         };
-        if let Some(offer) = suggestions.offers().get(index) {
-            session.change(gesture.mark(), |project| offer.what.apply(project));
+        if let Some(suggestion) = suggestions.suggestions().get(index) {
+            session.change(gesture.id(), |project| suggestion.what.apply(project));
         }
     }
 }

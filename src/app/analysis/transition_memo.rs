@@ -2,7 +2,7 @@
 
 use crate::transition::{Transition, TransitionId};
 
-/// Results by transition. An entry lives only while its transition does, so the cache covers the
+/// Results by transition. An entry is dropped with its transition, so the cache covers the
 /// segments of open projects and nothing that was closed.
 #[derive(Debug)]
 pub struct TransitionMemo<T>(Vec<(TransitionId, T)>);
@@ -15,15 +15,15 @@ impl<T> Default for TransitionMemo<T> {
 
 impl<T> TransitionMemo<T> {
     /// Stores a result for as long as the transition exists.
-    pub fn keep(&mut self, of: &Transition, known: T) {
-        self.0.retain(|(id, _)| !id.is_gone());
-        self.0.push((of.id(), known));
+    pub fn keep(&mut self, of: &Transition, result: T) {
+        self.0.retain(|(id, _)| !id.is_dropped());
+        self.0.push((of.id(), result));
     }
 
     /// Removes and returns the result for a transition.
     pub fn take(&mut self, of: &Transition) -> Option<T> {
-        let known = self.0.iter().position(|(id, _)| id.is_of(of))?;
-        Some(self.0.swap_remove(known).1)
+        let index = self.0.iter().position(|(id, _)| id.is_of(of))?;
+        Some(self.0.swap_remove(index).1)
     }
 }
 
@@ -48,21 +48,21 @@ mod tests {
     #[test]
     fn a_result_is_returned_once() {
         let [one, other] = [transition(), transition()];
-        let mut known = TransitionMemo::default();
-        known.keep(&one, 1);
-        assert_eq!(known.take(&other), None);
-        assert_eq!(known.take(&one.clone()), Some(1));
-        assert_eq!(known.take(&one), None);
+        let mut memo = TransitionMemo::default();
+        memo.keep(&one, 1);
+        assert_eq!(memo.take(&other), None);
+        assert_eq!(memo.take(&one.clone()), Some(1));
+        assert_eq!(memo.take(&one), None);
     }
 
     #[test]
     fn the_cache_keeps_no_transition_alive() {
-        let mut known = TransitionMemo::default();
+        let mut memo = TransitionMemo::default();
         for _ in 0..3 {
-            known.keep(&transition(), ());
+            memo.keep(&transition(), ());
         }
         // The last entry lost its transition after it was stored; the next insertion removes it.
-        assert_eq!(known.0.len(), 1);
-        assert!(known.0[0].0.is_gone());
+        assert_eq!(memo.0.len(), 1);
+        assert!(memo.0[0].0.is_dropped());
     }
 }

@@ -1,18 +1,13 @@
 //! Copies the stage to the clipboard, as an image or as SVG.
 
 use arboard::{Clipboard, Error, ImageData};
-use bevy::prelude::{MessageReader, NonSendMut, Res, ResMut, Single, With};
-use bevy::window::{PrimaryWindow, Window};
+use bevy::prelude::{MessageReader, NonSendMut, ResMut};
 use image::RgbaImage;
 
+use crate::app::capture::image_inputs::StageImageInputs;
 use crate::app::input::intent::Intent;
-use crate::app::input::preferences::Preferences;
-use crate::app::map::map_view::MapView;
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::playback::player::Playback;
-use crate::app::session::state::Session;
 use crate::export::{Camera, PixelSize, PlaneView};
-use crate::stage::StageView;
 
 /// The system's clipboard, opened at the first copy. It must stay open: on some systems the content
 /// is lost with the program that copied it.
@@ -21,7 +16,10 @@ pub struct SystemClipboard(Option<Clipboard>);
 
 impl SystemClipboard {
     /// Applies `put` to the clipboard, opening it if needed.
-    fn with(&mut self, put: impl FnOnce(&mut Clipboard) -> Result<(), Error>) -> Result<(), Error> {
+    fn with_clipboard(
+        &mut self,
+        put: impl FnOnce(&mut Clipboard) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         if self.0.is_none() {
             self.0 = Some(Clipboard::new()?);
         }
@@ -30,13 +28,13 @@ impl SystemClipboard {
 
     /// Copies an image and reports it.
     pub fn picture(&mut self, image: &RgbaImage, notices: &mut Notices) {
-        let picture = ImageData {
+        let data = ImageData {
             width: image.width() as usize,
             height: image.height() as usize,
             bytes: image.as_raw().into(),
         };
         report(
-            self.with(|clipboard| clipboard.set_image(picture)),
+            self.with_clipboard(|clipboard| clipboard.set_image(data)),
             "Image copied",
             notices,
         );
@@ -45,7 +43,7 @@ impl SystemClipboard {
     /// Copies an SVG document as text and reports it.
     pub fn text(&mut self, text: String, notices: &mut Notices) {
         report(
-            self.with(|clipboard| clipboard.set_text(text)),
+            self.with_clipboard(|clipboard| clipboard.set_text(text)),
             "SVG copied",
             notices,
         );
@@ -56,7 +54,7 @@ impl SystemClipboard {
 fn report(result: Result<(), Error>, done: &str, notices: &mut Notices) {
     match result {
         Ok(()) => {
-            notices.well(NoticeTopic::Picture);
+            notices.resolve(NoticeTopic::Picture);
             notices.done(format!("{done} to the clipboard"));
         }
         Err(error) => notices.problem(NoticeTopic::Picture, format!("Could not copy: {error}")),
@@ -68,28 +66,27 @@ pub fn copy_shapes(
     mut intents: MessageReader<Intent>,
     mut clipboard: NonSendMut<SystemClipboard>,
     mut notices: ResMut<Notices>,
-    (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
-    map: Res<MapView>,
-    (view, window): (Res<StageView>, Single<&Window, With<PrimaryWindow>>),
+    inputs: StageImageInputs,
 ) {
-    let is_asked = |intent: &Intent| *intent == Intent::CopyShapes && !map.is_shown;
-    if intents.read().filter(|intent| is_asked(intent)).count() == 0 {
+    let is_requested = |intent: &Intent| *intent == Intent::CopySvg && !inputs.map.is_shown;
+    if intents.read().filter(|intent| is_requested(intent)).count() == 0 {
         return;
     }
-    let Some(sequence) = session.sequence() else {
+    let Some(sequence) = inputs.session.sequence() else {
         return;
     };
-    let style = session.style();
-    let px = (view.viewport_px.as_dvec2() * f64::from(window.scale_factor())).round();
+    let style = inputs.session.style();
+    let scale = f64::from(inputs.window.scale_factor());
+    let px = (inputs.view.viewport_px.as_dvec2() * scale).round();
     let Ok(size) = PixelSize::new(px.x as u32, px.y as u32) else {
         return;
     };
     let camera = Camera {
         sequence,
         style,
-        view: PlaneView::fit(view.visible(), size),
-        ground: (!preferences.capture_transparent).then_some(style.ground),
+        view: PlaneView::fit(inputs.view.visible(), size),
+        ground: (!inputs.preferences.capture_transparent).then_some(style.ground),
         captions: None,
     };
-    clipboard.text(camera.svg(playback.t()), &mut notices);
+    clipboard.text(camera.svg(inputs.playback.t()), &mut notices);
 }

@@ -21,7 +21,7 @@ type EstimateKey = (FilmExportOptions, Option<FilmFileFormat>);
 /// Estimate for the current export settings, while they are shown.
 #[derive(Resource, Debug, Default)]
 pub struct ExportEstimate {
-    of: Option<EstimateKey>,
+    key: Option<EstimateKey>,
     since: Option<Instant>,
     job: Option<BackgroundJob<FilmCost, FilmExportError>>,
     cost: Option<FilmCost>,
@@ -44,25 +44,29 @@ impl ExportEstimate {
 /// Restarts the estimate when settings change, and collects its result.
 pub fn follow(
     mut estimate: ResMut<ExportEstimate>,
-    (session, preferences): (Res<Session>, Res<Preferences>),
-    places: (Res<CaptureFolder>, Res<ScratchFolder>),
+    session: Res<Session>,
+    preferences: Res<Preferences>,
+    folder: Res<CaptureFolder>,
+    scratch: Res<ScratchFolder>,
     exporter: Res<FilmExporter>,
 ) {
     let is_open = preferences.film_options && preferences.panels;
-    let wanted = is_open.then_some((preferences.film, preferences.record_format));
+    let key = is_open.then_some((preferences.film, preferences.record_format));
     // Runs each frame; only a result counts as a change.
     let now = estimate.bypass_change_detection();
-    if now.of != wanted || session.is_changed() {
+    if now.key != key || session.is_changed() {
         (now.job, now.cost) = (None, None);
-        now.since = wanted.map(|_| Instant::now());
-        now.of = wanted;
+        now.since = key.map(|_| Instant::now());
+        now.key = key;
     }
-    let is_calm = now.since.is_some_and(|since| since.elapsed() >= QUIET_TIME);
+    let is_quiet = now.since.is_some_and(|since| since.elapsed() >= QUIET_TIME);
     // Not during an export: both would slow each other down and spoil the estimate.
-    if is_calm && session.work().is_none() && exporter.work().is_none() {
+    if is_quiet && session.work().is_none() && exporter.work().is_none() {
         now.since = None;
-        now.job = FilmRequest::new(&preferences, &session, (&places.0, &places.1)).map(|order| {
-            BackgroundJob::start("the export estimate", move |progress| order.tried(progress))
+        now.job = FilmRequest::new(&preferences, &session, &folder, &scratch).map(|request| {
+            BackgroundJob::start("the export estimate", move |progress| {
+                request.estimate_cost(progress)
+            })
         });
     }
     if let Some(answer) = BackgroundJob::take(&mut now.job) {

@@ -66,36 +66,38 @@ pub fn apply(
     mut intents: MessageReader<Intent>,
     mut exporter: ResMut<FilmExporter>,
     mut notices: ResMut<Notices>,
-    (session, preferences): (Res<Session>, Res<Preferences>),
-    folders: (Res<CaptureFolder>, Res<ScratchFolder>),
+    session: Res<Session>,
+    preferences: Res<Preferences>,
+    folder: Res<CaptureFolder>,
+    scratch: Res<ScratchFolder>,
 ) {
-    let new_request = || FilmRequest::new(&preferences, &session, (&folders.0, &folders.1));
+    let new_request = || FilmRequest::new(&preferences, &session, &folder, &scratch);
     for intent in intents.read() {
         match intent {
             // The job remains until it has deleted its partial file, and then reports that it was
             // cancelled.
-            Intent::CancelRecording => exporter.cancel(),
-            Intent::Record | Intent::Compare if exporter.job.is_some() => {
+            Intent::CancelExport => exporter.cancel(),
+            Intent::ExportFilm | Intent::ExportMethodSheet if exporter.job.is_some() => {
                 notices.done("An export is already running. Wait for it, or cancel it first");
             }
-            Intent::Compare => {
-                notices.well(NoticeTopic::Film);
+            Intent::ExportMethodSheet => {
+                notices.resolve(NoticeTopic::Film);
                 exporter.preview = FilmPreview::default();
-                if let (Some(order), Some(staged)) = (new_request(), session.staged()) {
+                if let (Some(request), Some(staged)) = (new_request(), session.staged_segment()) {
                     exporter.job = Some(BackgroundJob::start(
                         "the comparison sheet",
-                        move |progress| order.compare(&staged, progress),
+                        move |progress| request.export_method_sheet(&staged, progress),
                     ));
                 }
             }
-            Intent::Record => {
+            Intent::ExportFilm => {
                 // Problems of the last export are outdated.
-                notices.well(NoticeTopic::Film);
+                notices.resolve(NoticeTopic::Film);
                 exporter.preview = FilmPreview::default();
                 let preview = exporter.preview.clone();
-                exporter.job = new_request().map(|order| {
+                exporter.job = new_request().map(|request| {
                     BackgroundJob::start("the film export", move |progress| {
-                        order.carry_out(&preview, progress)
+                        request.export(&preview, progress)
                     })
                 });
             }
@@ -108,7 +110,7 @@ pub fn apply(
 pub fn report(mut exporter: ResMut<FilmExporter>, mut notices: ResMut<Notices>) {
     match BackgroundJob::take(&mut exporter.job) {
         None => {}
-        Some(Ok(path)) => notices.wrote(path),
+        Some(Ok(path)) => notices.file_written(path),
         Some(Err(JobError::Failed(FilmExportError::Cancelled))) => {
             notices.done(FilmExportError::Cancelled.to_string());
         }

@@ -56,14 +56,15 @@ pub enum FilmFramingError {
 /// [`FilmFramingError`] if the timing or the size makes no film.
 pub fn frame_film(
     sequence: &Sequence,
-    (timing, stops): (&Timing, &[TransitionStop]),
-    look: &FilmExportOptions,
+    timing: &Timing,
+    stops: &[TransitionStop],
+    options: &FilmExportOptions,
 ) -> Result<(FilmSpec, PlaneView), FilmFramingError> {
-    let timing = look.timing(timing, stops);
+    let timing = options.timing(timing, stops);
     timing.check(stops)?;
-    let film = FilmSpec::of_timing(&timing, stops, f64::from(look.fps))?;
+    let film = FilmSpec::of_timing(&timing, stops, f64::from(options.fps))?;
     let bounds = framing(sequence, film.times());
-    let view = look.layout.view(bounds)?;
+    let view = options.layout.view(bounds)?;
     Ok((film, view))
 }
 
@@ -81,8 +82,8 @@ pub fn follow(
         .then(|| session.sequence())
         .flatten();
     let framed = sequence.and_then(|sequence| {
-        let timing = (session.timing(), session.stops());
-        let (film, view) = frame_film(&sequence, timing, &preferences.film).ok()?;
+        let (timing, stops) = (session.timing(), session.stops());
+        let (film, view) = frame_film(&sequence, timing, stops, &preferences.film).ok()?;
         let frames = film.times().len();
         Some(FilmFrameInfo {
             view,

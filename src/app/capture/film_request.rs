@@ -34,7 +34,7 @@ pub enum FilmExportError {
     Film(#[from] FilmFramingError),
     /// The film has no such section.
     #[error(transparent)]
-    Part(#[from] FilmSpecError),
+    Section(#[from] FilmSpecError),
     /// The output file could not be created.
     #[error(transparent)]
     File(#[from] CreateFileError),
@@ -49,7 +49,7 @@ pub enum FilmExportError {
     Project(#[from] ProjectError),
     /// The scratch folder could not be created.
     #[error(transparent)]
-    Workshop(#[from] std::io::Error),
+    ScratchFolder(#[from] std::io::Error),
     /// Writing failed.
     #[error(transparent)]
     Export(ExportError),
@@ -71,10 +71,10 @@ impl From<ExportError> for FilmExportError {
 }
 
 /// Number of frames per method on a comparison sheet (heuristic).
-const COLUMNS: usize = 7;
+const SHEET_COLUMNS: usize = 7;
 
 /// Number of frames exported to estimate the duration and size of an export (heuristic).
-const TRIALS: usize = 12;
+const TRIAL_FRAMES: usize = 12;
 
 /// Longer side of the progress image, in pixels (heuristic).
 const PREVIEW_PX: f64 = 240.0;
@@ -111,7 +111,7 @@ pub struct FilmCost {
 pub struct FilmRequest {
     project: Project,
     sequence: Sequence,
-    look: FilmExportOptions,
+    options: FilmExportOptions,
     /// Names of the designs along the film.
     names: Vec<String>,
     /// Background colour; `None` is transparent.
@@ -119,7 +119,7 @@ pub struct FilmRequest {
     format: FilmFileFormat,
     folder: PathBuf,
     stem: String,
-    workshop: ScratchFolder,
+    scratch: ScratchFolder,
 }
 
 impl FilmRequest {
@@ -128,21 +128,22 @@ impl FilmRequest {
     pub fn new(
         preferences: &Preferences,
         session: &Session,
-        (folder, workshop): (&CaptureFolder, &ScratchFolder),
+        folder: &CaptureFolder,
+        scratch: &ScratchFolder,
     ) -> Option<Self> {
-        let project = session.whole()?.clone();
+        let project = session.whole_project()?.clone();
         let ground = project.style.ground;
         let format = preferences.format(project.content);
         Some(Self {
             project,
             sequence: session.sequence()?,
-            look: preferences.film,
-            names: session.names_on_the_way(),
+            options: preferences.film,
+            names: session.names_along_path(),
             ground: (!preferences.film.is_transparent).then_some(ground),
             format,
             folder: folder.0.clone(),
             stem: session.file_stem(),
-            workshop: workshop.clone(),
+            scratch: scratch.clone(),
         })
     }
 
@@ -150,20 +151,20 @@ impl FilmRequest {
     ///
     /// # Errors
     /// There is no film, or it cannot be written; nothing is left of it.
-    pub fn carry_out(
+    pub fn export(
         self,
         preview: &FilmPreview,
         progress: &dyn Progress,
     ) -> Result<PathBuf, FilmExportError> {
         check_writable(&self.folder)?;
-        let workshop = self.workshop.begin()?;
-        let path = self.path_in(workshop.path(), "film")?;
-        let (camera, film) = self.film()?;
+        let temp_dir = self.scratch.create_temp_dir()?;
+        let path = self.path_in(temp_dir.path(), "film")?;
+        let (camera, film) = self.camera_and_film()?;
         let previewing = PreviewingProgress::new(&camera, &film, preview, progress);
         write_film(
             &camera,
             &film,
-            &ExportTarget::of_path(&path)?.moving(),
+            &ExportTarget::of_path(&path)?.preferring_film(),
             &previewing,
         )?;
         Ok(move_to_free_name(&path, &self.folder, &self.stem)?)
@@ -181,34 +182,36 @@ impl FilmRequest {
         }
     }
 
-    /// Estimates the cost of the export by exporting one frame and [`TRIALS`] frames, and
+    /// Estimates the cost of the export by exporting one frame and [`TRIAL_FRAMES`] frames, and
     /// extrapolating.
     ///
     /// # Errors
     /// There is no film, or those frames cannot be written.
-    pub fn tried(self, progress: &dyn Progress) -> Result<FilmCost, FilmExportError> {
-        let folder = self.workshop.begin()?;
-        let (camera, film) = self.film()?;
+    pub fn estimate_cost(self, progress: &dyn Progress) -> Result<FilmCost, FilmExportError> {
+        let folder = self.scratch.create_temp_dir()?;
+        let (camera, film) = self.camera_and_film()?;
         let first = typical_start(film.times());
-        let part = |frames: usize| film.part(first..(first + frames).min(film.times().len()));
+        let part =
+            |frames: usize| film.frame_range(first..(first + frames).min(film.times().len()));
         let cost = |film: &FilmSpec, name: &str| -> Result<FilmCost, FilmExportError> {
             let path = self.path_in(folder.path(), name)?;
             let started = Instant::now();
             write_film(
                 &camera,
                 film,
-                &ExportTarget::of_path(&path)?.moving(),
+                &ExportTarget::of_path(&path)?.preferring_film(),
                 progress,
             )?;
             Ok(FilmCost {
                 secs: started.elapsed().as_secs_f64(),
-                bytes: bytes(&path)? as f64,
+                bytes: size_on_disk(&path)? as f64,
             })
         };
-        let (one, some) = (cost(&part(1)?, "one")?, cost(&part(TRIALS)?, "some")?);
+        let (one, some) = (cost(&part(1)?, "one")?, cost(&part(TRIAL_FRAMES)?, "some")?);
         // Linear extrapolation from one frame to all distinct frames: the first frame carries the
         // fixed costs.
-        let more = (film.runs().len() - 1) as f64 / (part(TRIALS)?.runs().len().max(2) - 1) as f64;
+        let more =
+            (film.runs().len() - 1) as f64 / (part(TRIAL_FRAMES)?.runs().len().max(2) - 1) as f64;
         let whole = |one: f64, some: f64| one + (some - one).max(0.0) * more;
         Ok(FilmCost {
             secs: whole(one.secs, some.secs),
@@ -217,11 +220,11 @@ impl FilmRequest {
     }
 
     /// Camera and film; a ping-pong film includes the way back, so that it can loop.
-    fn film(&self) -> Result<(Camera, FilmSpec), FilmExportError> {
+    fn camera_and_film(&self) -> Result<(Camera, FilmSpec), FilmExportError> {
         let (style, stops) = (self.project.style, &self.project.stops);
-        let timing = (&self.project.timing, stops.as_slice());
-        let (film, view) = frame_film(&self.sequence, timing, &self.look)?;
-        let film = film.titled(&self.project.title);
+        let timing = &self.project.timing;
+        let (film, view) = frame_film(&self.sequence, timing, stops, &self.options)?;
+        let film = film.with_title(&self.project.title);
         let names = self.names.iter().map(String::as_str);
         let captions = Captions::new(stops, names, style.ground);
         let is_opaque = self.format == FilmFileFormat::OPAQUE;
@@ -231,7 +234,7 @@ impl FilmRequest {
             view,
             // A file type without transparency gets the background colour in any case.
             ground: self.ground.or(is_opaque.then_some(style.ground)),
-            captions: self.look.layout.has_captions.then_some(captions),
+            captions: self.options.layout.has_captions.then_some(captions),
         };
         Ok((camera, film))
     }
@@ -240,7 +243,7 @@ impl FilmRequest {
     ///
     /// # Errors
     /// No method suits, or the sheet cannot be written.
-    pub fn compare(
+    pub fn export_method_sheet(
         self,
         staged: &LoadedProject,
         progress: &dyn Progress,
@@ -249,14 +252,14 @@ impl FilmRequest {
         let rows = MethodRow::all(&staged.spec()?, progress)?;
         // A segment is compared over all of it; a whole project over its film's range.
         let timing = &staged.project.timing;
-        let times = if staged.is_leg() {
-            even_times(0.0, 1.0, COLUMNS)
+        let times = if staged.is_segment() {
+            even_times(0.0, 1.0, SHEET_COLUMNS)
         } else {
-            even_times(timing.from, timing.to, COLUMNS)
+            even_times(timing.from, timing.to, SHEET_COLUMNS)
         };
         let drawing = comparison_sheet(&rows, &self.project.style, &times, self.ground)?;
-        let workshop = self.workshop.begin()?;
-        let path = workshop.path().join("methods.png");
+        let temp_dir = self.scratch.create_temp_dir()?;
+        let path = temp_dir.path().join("methods.png");
         write_still(&drawing, StillKind::Png, &path)?;
         let stem = format!("{}-methods", self.stem);
         Ok(move_to_free_name(&path, &self.folder, &stem)?)
@@ -270,17 +273,17 @@ fn typical_start(times: &[f64]) -> usize {
         .windows(2)
         .map(|two| (two[1] - two[0]).abs())
         .collect();
-    let moving = moves.iter().filter(|way| **way > 0.0).count();
+    let moving = moves.iter().filter(|step| **step > 0.0).count();
     let mean = moves.iter().sum::<f64>() / moving.max(1) as f64;
-    let tried = moves.windows(TRIALS - 1).enumerate();
-    let moving = tried.filter(|(_, ways)| ways.iter().all(|way| *way > 0.0));
-    let deviation = |ways: &[f64]| (ways.iter().sum::<f64>() / ways.len() as f64 - mean).abs();
+    let tried = moves.windows(TRIAL_FRAMES - 1).enumerate();
+    let moving = tried.filter(|(_, steps)| steps.iter().all(|step| *step > 0.0));
+    let deviation = |steps: &[f64]| (steps.iter().sum::<f64>() / steps.len() as f64 - mean).abs();
     let typical = moving.min_by(|(_, a), (_, b)| deviation(a).total_cmp(&deviation(b)));
     typical.map_or(0, |(first, _)| first)
 }
 
 /// Size of a file, or of all files in a folder, in bytes.
-fn bytes(path: &Path) -> std::io::Result<u64> {
+fn size_on_disk(path: &Path) -> std::io::Result<u64> {
     if !path.is_dir() {
         return Ok(path.metadata()?.len());
     }
@@ -297,7 +300,7 @@ struct PreviewingProgress<'a> {
     times: &'a [f64],
     preview: &'a FilmPreview,
     /// Time of the last drawn image.
-    drawn: Mutex<Option<Instant>>,
+    last_drawn: Mutex<Option<Instant>>,
     progress: &'a dyn Progress,
 }
 
@@ -322,7 +325,7 @@ impl<'a> PreviewingProgress<'a> {
             },
             times: film.times(),
             preview,
-            drawn: Mutex::new(None),
+            last_drawn: Mutex::new(None),
             progress,
         }
     }
@@ -332,21 +335,23 @@ impl Progress for PreviewingProgress<'_> {
     fn report(&self, stage: &'static str, fraction: f64) {
         self.progress.report(stage, fraction);
         // If another thread is drawing already, skip.
-        let Ok(mut drawn) = self.drawn.try_lock() else {
+        let Ok(mut last_drawn) = self.last_drawn.try_lock() else {
             return;
         };
-        if drawn.is_some_and(|last| last.elapsed() < PREVIEW_EVERY) {
+        if last_drawn.is_some_and(|last| last.elapsed() < PREVIEW_EVERY) {
             return;
         }
-        let at = (fraction * (self.times.len() - 1) as f64) as usize;
-        let picture = self.camera.pixels(self.times[at.min(self.times.len() - 1)]);
-        let mut shown = self
+        let index = (fraction * (self.times.len() - 1) as f64) as usize;
+        let image = self
+            .camera
+            .pixels(self.times[index.min(self.times.len() - 1)]);
+        let mut preview = self
             .preview
             .0
             .lock()
             .unwrap_or_else(PoisonError::into_inner);
-        *shown = Some(Arc::new(picture));
-        *drawn = Some(Instant::now());
+        *preview = Some(Arc::new(image));
+        *last_drawn = Some(Instant::now());
     }
 
     fn is_cancelled(&self) -> bool {
@@ -364,20 +369,20 @@ mod tests {
 
     #[test]
     fn trial_frames_move_at_average_speed() {
-        let rest = [0.0; 20];
+        let pause = [0.0; 20];
         let slow = (1..=20).map(|k| f64::from(k) * 0.001);
         let even = (1..=50).map(|k| 0.02 + f64::from(k) * 0.01);
-        let times: Vec<f64> = rest.into_iter().chain(slow).chain(even).collect();
+        let times: Vec<f64> = pause.into_iter().chain(slow).chain(even).collect();
         let first = typical_start(&times);
-        let moves = times[first + TRIALS - 1] - times[first];
+        let moves = times[first + TRIAL_FRAMES - 1] - times[first];
         let mean = (times[times.len() - 1] - times[0]) / 70.0;
         assert!(
-            (moves / (TRIALS - 1) as f64 - mean).abs() < 0.5 * mean,
+            (moves / (TRIAL_FRAMES - 1) as f64 - mean).abs() < 0.5 * mean,
             "{first}"
         );
         assert_eq!(
             [
-                typical_start(&rest),
+                typical_start(&pause),
                 typical_start(&[]),
                 typical_start(&[0.0, 1.0])
             ],

@@ -9,19 +9,16 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
-use bevy::window::PrimaryWindow;
 use image::{DynamicImage, ImageError, ImageFormat};
 
 use crate::app::capture::clipboard::SystemClipboard;
+use crate::app::capture::image_inputs::StageImageInputs;
 use crate::app::input::gesture::TextSelected;
 use crate::app::input::intent::Intent;
-use crate::app::input::preferences::{ImageScale, Preferences};
+use crate::app::input::preferences::ImageScale;
 use crate::app::jobs::job::BackgroundJob;
-use crate::app::map::map_view::MapView;
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::output_files::{CaptureFolder, CreateFileError, create_new, keep_if_written};
-use crate::app::playback::player::Playback;
-use crate::app::session::state::Session;
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 
 /// Longer side of a 4K image, in pixels.
@@ -41,7 +38,7 @@ enum ImageDestination {
     /// A new file with this name.
     File(String),
     /// The clipboard.
-    Board,
+    Clipboard,
 }
 
 /// Why an image was not saved.
@@ -66,14 +63,13 @@ pub fn ask(
     mut captures: ResMut<ImageCaptures>,
     mut requests: MessageWriter<CaptureStage>,
     mut commands: Commands,
-    (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
-    (marked, map): (Res<TextSelected>, Res<MapView>),
-    (view, window): (Res<StageView>, Single<&Window, With<PrimaryWindow>>),
+    inputs: StageImageInputs,
+    text_selected: Res<TextSelected>,
 ) {
     for intent in intents.read() {
         // Named now, because the image arrives some frames later, when t has moved on.
-        let name = format!("{}-t{:.3}", session.file_stem(), playback.t());
-        let wish = match intent {
+        let name = format!("{}-t{:.3}", inputs.session.file_stem(), inputs.playback.t());
+        let destination = match intent {
             Intent::Screenshot { with_panels: true } => {
                 commands
                     .spawn(Screenshot::primary_window())
@@ -81,22 +77,26 @@ pub fn ask(
                 continue;
             }
             // The map's blend is handled by `blend_image`.
-            _ if map.is_shown => continue,
+            _ if inputs.map.is_shown => continue,
             Intent::Screenshot { with_panels: false } => ImageDestination::File(name),
-            Intent::CopyPicture if !marked.0 => ImageDestination::Board,
+            Intent::CopyImage if !text_selected.0 => ImageDestination::Clipboard,
             _ => continue,
         };
-        let Some(project) = session.project() else {
+        let Some(project) = inputs.session.project() else {
             continue;
         };
         captures.next_id += 1;
         let id = captures.next_id;
-        captures.awaited.insert(id, wish);
+        captures.awaited.insert(id, destination);
         requests.write(CaptureStage {
             id,
-            size_px: size_px(&view, window.scale_factor(), preferences.capture_scale),
-            ground: (!preferences.capture_transparent).then_some(project.style.ground),
-            view: view.visible(),
+            size_px: size_px(
+                &inputs.view,
+                inputs.window.scale_factor(),
+                inputs.preferences.capture_scale,
+            ),
+            ground: (!inputs.preferences.capture_transparent).then_some(project.style.ground),
+            view: inputs.view.visible(),
         });
     }
 }
@@ -175,14 +175,14 @@ pub fn receive(
     folder: Res<CaptureFolder>,
 ) {
     for answer in answers.read() {
-        let Some(wish) = captures.awaited.remove(&answer.id) else {
+        let Some(destination) = captures.awaited.remove(&answer.id) else {
             continue;
         };
-        match (&answer.result, wish) {
+        match (&answer.result, destination) {
             (Ok(image), ImageDestination::File(name)) => {
                 captures.write(&folder, &name, image.clone().into())
             }
-            (Ok(image), ImageDestination::Board) => clipboard.picture(image, &mut notices),
+            (Ok(image), ImageDestination::Clipboard) => clipboard.picture(image, &mut notices),
             (Err(error), _) => notices.problem(NoticeTopic::Picture, error.clone()),
         }
     }
@@ -194,8 +194,8 @@ pub fn report(mut captures: ResMut<ImageCaptures>, mut notices: ResMut<Notices>)
         match job.poll() {
             None => return true,
             Some(Ok(path)) => {
-                notices.well(NoticeTopic::Picture);
-                notices.wrote(path);
+                notices.resolve(NoticeTopic::Picture);
+                notices.file_written(path);
             }
             Some(Err(error)) => notices.problem(NoticeTopic::Picture, error.to_string()),
         }

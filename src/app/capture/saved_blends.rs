@@ -40,30 +40,33 @@ impl SavedBlendsExport {
 pub fn export(
     mut intents: MessageReader<Intent>,
     mut export_job: ResMut<SavedBlendsExport>,
-    (map, session, preferences): (Res<MapView>, Res<Session>, Res<Preferences>),
+    map: Res<MapView>,
+    session: Res<Session>,
+    preferences: Res<Preferences>,
     folder: Res<CaptureFolder>,
     mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
-        let (Intent::ExportKept, Some(made), Some(whole)) = (intent, map.made(), session.whole())
+        let (Intent::ExportSavedBlends, Some(pictures), Some(whole)) =
+            (intent, map.pictures(), session.whole_project())
         else {
             continue;
         };
-        let (space, map) = (made.space().clone(), made.map().clone());
-        let kept = whole.map.kept.clone();
+        let (space, map) = (pictures.space().clone(), pictures.map().clone());
+        let saved_places = whole.map.kept.clone();
         let style = session.style();
         let ground = (!preferences.capture_transparent).then_some(style.ground);
         let (folder, stem) = (folder.0.clone(), format!("{}-kept", session.file_stem()));
         export_job.0 = Some(BackgroundJob::start("the saved blends", move |progress| {
             let to = create_new_folder(&folder, &stem)?;
-            let catalogue = Catalogue::new((&space, &map), &kept, 0, CatalogueOrder::Kept);
-            catalogue.write(&space, (&style, ground), &to, progress)?;
+            let catalogue = Catalogue::new(&space, &map, &saved_places, 0, CatalogueOrder::Saved);
+            catalogue.write(&space, &style, ground, &to, progress)?;
             Ok(to.join("catalogue.png"))
         }));
     }
     match BackgroundJob::take(&mut export_job.bypass_change_detection().0) {
         None => {}
-        Some(Ok(sheet)) => notices.wrote(sheet),
+        Some(Ok(sheet)) => notices.file_written(sheet),
         Some(Err(error)) => notices.problem(NoticeTopic::Picture, error.to_string()),
     }
 }

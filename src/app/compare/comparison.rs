@@ -56,13 +56,13 @@ impl Comparison {
 
     /// Method compared with a project: the user's choice or the default.
     #[must_use]
-    pub fn method_beside(&self, project: &Project) -> ComparisonMethod {
+    pub fn method_for(&self, project: &Project) -> ComparisonMethod {
         self.method
-            .unwrap_or(ComparisonMethod::plainest(project.content))
+            .unwrap_or(ComparisonMethod::default_for(project.content))
     }
 
     /// Discards the compared transition; keeps the user's choices.
-    fn forget(&mut self) {
+    fn discard(&mut self) {
         *self = Self {
             is_shown: self.is_shown,
             method: self.method,
@@ -71,33 +71,33 @@ impl Comparison {
     }
 
     /// Starts building the comparison if the settings on the stage, or the method, have changed.
-    fn follow(&mut self, session: &Session) {
-        let Some(staged) = session.staged() else {
-            self.forget();
+    fn start_if_changed(&mut self, session: &Session) {
+        let Some(staged) = session.staged_segment() else {
+            self.discard();
             return;
         };
         let now = staged.project.clone();
-        let mut wanted = staged;
-        set(self.method_beside(&now), &mut wanted.project);
+        let mut compared = staged;
+        set_method(self.method_for(&now), &mut compared.project);
         // A failed build is not repeated: the same settings would fail the same way.
-        if self.settings.as_ref() == Some(&wanted.project) {
+        if self.settings.as_ref() == Some(&compared.project) {
             return;
         }
         // The old transition stays until the new one is ready, as on the stage.
-        self.settings = Some(wanted.project.clone());
+        self.settings = Some(compared.project.clone());
         self.problem = None;
-        if wanted.project == now {
+        if compared.project == now {
             self.job = None;
             self.transition = session.transition().cloned();
         } else {
             self.job = Some(BackgroundJob::start("the comparison", move |progress| {
-                built(&wanted, progress)
+                build_comparison(&compared, progress)
             }));
         }
     }
 
     /// Collects the result; returns whether there was one.
-    fn take(&mut self) -> bool {
+    fn collect_result(&mut self) -> bool {
         let Some(answer) = BackgroundJob::take(&mut self.job) else {
             return false;
         };
@@ -110,13 +110,13 @@ impl Comparison {
 }
 
 /// Builds the transition to compare with, if the designs support its method.
-fn built(
+fn build_comparison(
     project: &LoadedProject,
     progress: &dyn Progress,
 ) -> Result<Transition, TransitionProblem> {
     let (warp, content) = (project.project.warp, project.project.content);
     if let (Some(warp), Some(content)) = (warp, content) {
-        project.available(warp, content)?;
+        project.check_available(warp, content)?;
     }
     transition_of(project, progress)
 }
@@ -125,8 +125,8 @@ fn built(
 pub fn apply(mut intents: MessageReader<Intent>, mut comparison: ResMut<Comparison>) {
     for intent in intents.read() {
         match intent {
-            Intent::ToggleTwin => comparison.is_shown = !comparison.is_shown,
-            Intent::TwinMethod(method) => comparison.method = Some(*method),
+            Intent::ToggleComparison => comparison.is_shown = !comparison.is_shown,
+            Intent::SetComparisonMethod(method) => comparison.method = Some(*method),
             _ => {}
         }
     }
@@ -136,11 +136,11 @@ pub fn apply(mut intents: MessageReader<Intent>, mut comparison: ResMut<Comparis
 pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
     let is_new = session.is_changed() || comparison.is_changed();
     let now = comparison.bypass_change_detection();
-    let is_taken = now.take();
+    let has_result = now.collect_result();
     if !now.is_shown {
         // Only once: resetting it each frame would report a change each frame.
         if now.settings.is_some() {
-            now.forget();
+            now.discard();
             comparison.set_changed();
         }
         return;
@@ -148,14 +148,14 @@ pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
     // While the stage's transition is being built, the settings to compare with are about to
     // change.
     if is_new && session.work().is_none() {
-        comparison.follow(&session);
-    } else if is_taken {
+        comparison.start_if_changed(&session);
+    } else if has_result {
         comparison.set_changed();
     }
 }
 
 /// Sets a project to this method.
-fn set(method: ComparisonMethod, project: &mut Project) {
+fn set_method(method: ComparisonMethod, project: &mut Project) {
     let cell = method.cell();
     (project.warp, project.content) = (Some(cell.warp()), Some(cell.content()));
     match method {

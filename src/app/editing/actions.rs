@@ -27,7 +27,8 @@ pub fn apply(
     mut intents: MessageReader<Intent>,
     mut editor: ResMut<MatchEditor>,
     mut session: ResMut<Session>,
-    (sheet, gesture): (Res<MatchSheet>, Res<Gesture>),
+    sheet: Res<MatchSheet>,
+    gesture: Res<Gesture>,
 ) {
     for intent in intents.read() {
         let act = match intent {
@@ -47,7 +48,7 @@ pub fn apply(
         editor.act(act, &sheet, &session, &mut matching);
         if *act == EditorAction::Toggle && editor.is_open {
             // Only on opening: a user who later selects a method without a warp means it.
-            session.change(gesture.mark(), ensure_warp);
+            session.change(gesture.id(), ensure_warp);
             let is_free = session
                 .project()
                 .is_some_and(|p| p.content != Some(ContentKind::Solid));
@@ -59,7 +60,7 @@ pub fn apply(
             }
         }
         if matching != before {
-            session.change(gesture.mark(), |project| {
+            session.change(gesture.id(), |project| {
                 project.options.matching = matching;
             });
         }
@@ -89,13 +90,13 @@ impl MatchEditor {
         matching: &mut MatchSettings,
     ) {
         match act {
-            EditorAction::Toggle => self.is_open = !self.is_open && session.can_match(),
+            EditorAction::Toggle => self.is_open = !self.is_open && session.has_match_editor(),
             EditorAction::Tool(tool) => {
                 self.tool = *tool;
                 self.first_part = None;
             }
             EditorAction::Snap(on) => self.snaps = *on,
-            EditorAction::Triangles(on) => self.triangles = *on,
+            EditorAction::ShowTriangles(on) => self.triangles = *on,
             EditorAction::Hover(touch) => self.hover(*touch, sheet),
             EditorAction::Press(touch) => self.press(*touch, sheet),
             EditorAction::Drag(touch, delta) => self.drag(*touch, *delta, sheet, matching),
@@ -113,8 +114,8 @@ impl MatchEditor {
                 matching.lone.clear();
                 self.selected = None;
             }
-            EditorAction::Film(on) => self.panes.film = *on,
-            EditorAction::Together(on) => self.panes.set_together(*on),
+            EditorAction::ShowFilm(on) => self.panes.film = *on,
+            EditorAction::LinkPanes(on) => self.panes.set_together(*on),
             EditorAction::Pan(pane, delta) => self.panes.pan(*pane, *delta),
             EditorAction::Zoom { pane, at, factor } => self.panes.zoom_at(*pane, *at, *factor),
         }
@@ -127,9 +128,12 @@ impl MatchEditor {
         self.trace = touch
             .filter(|_| is_pinning && self.hovered.is_none())
             .and_then(|touch| sheet.trace(touch));
-        self.part = touch
-            .filter(|_| !is_pinning)
-            .and_then(|touch| Some((touch.side, sheet.part(touch.side, touch.at, touch.reach)?)));
+        self.part = touch.filter(|_| !is_pinning).and_then(|touch| {
+            Some((
+                touch.side,
+                sheet.part(touch.side, touch.position, touch.pick_radius)?,
+            ))
+        });
     }
 
     /// Selects the handle under the pointer and starts a drag.
@@ -139,17 +143,17 @@ impl MatchEditor {
         // A press on empty space pans the view and keeps the selection.
         self.selected = handle.or(self.selected);
         let grab = match handle {
-            None if self.tool == EditorTool::Lines && sheet.is_free() => {
-                EditorGrab::NewLine(touch.at)
+            None if self.tool == EditorTool::Lines && sheet.has_free_pins() => {
+                EditorGrab::NewLine(touch.position)
             }
             None => EditorGrab::View,
             Some(EditorHandle::Pin(k)) => EditorGrab::Pin(k),
             Some(EditorHandle::Line(k, end)) => EditorGrab::Line(k, end),
             Some(EditorHandle::Feature(k)) => EditorGrab::Feature(k),
             // `handle_at` returns indices into the cuts of this sheet, so this one exists.
-            Some(EditorHandle::Cut(k, end)) => match sheet.cuts[k].asked {
-                Some(asked) => EditorGrab::Cut(asked, end),
-                None => EditorGrab::FoundCut(k, end),
+            Some(EditorHandle::Cut(k, end)) => match sheet.cuts[k].requested_index {
+                Some(requested) => EditorGrab::Cut(requested, end),
+                None => EditorGrab::AutomaticCut(k, end),
             },
         };
         self.grabbed = Some((touch.side, grab));
@@ -177,14 +181,15 @@ impl MatchEditor {
                 if let (Some(pin), Some(to)) =
                     (matching.pins.get_mut(k), sheet.landing(touch, self.snaps))
                 {
-                    pin[side] = sheet.own(side, to);
+                    pin[side] = sheet.to_design(side, to);
                 }
             }
             EditorGrab::Cut(k, end) => {
-                if let (Some(cut), Some(foot)) =
-                    (matching.cuts.get_mut(k), sheet.on_boundary(side, touch.at))
-                {
-                    let to = sheet.own(side, foot.point);
+                if let (Some(cut), Some(foot)) = (
+                    matching.cuts.get_mut(k),
+                    sheet.on_boundary(side, touch.position),
+                ) {
+                    let to = sheet.to_design(side, foot.point);
                     match end {
                         CutEnd::Outer => cut.outer = to,
                         CutEnd::Hole => cut.hole = to,
@@ -194,19 +199,19 @@ impl MatchEditor {
             EditorGrab::Line(k, end) => {
                 self.selected = Some(EditorHandle::Line(k, end));
                 if let Some(line) = matching.lines.get_mut(k) {
-                    line[side][end] = sheet.own(side, touch.at);
+                    line[side][end] = sheet.to_design(side, touch.position);
                 }
             }
-            EditorGrab::Stretch(k) => {
+            EditorGrab::NewLineEnd(k) => {
                 self.selected = Some(EditorHandle::Line(k, 1));
                 if let Some(line) = matching.lines.get_mut(k) {
                     for side in Side::BOTH {
-                        line[side][1] = sheet.own(side, touch.at);
+                        line[side][1] = sheet.to_design(side, touch.position);
                     }
                 }
             }
             // Unreachable: `make_explicit` has converted these.
-            EditorGrab::Feature(_) | EditorGrab::FoundCut(..) | EditorGrab::NewLine(_) => {}
+            EditorGrab::Feature(_) | EditorGrab::AutomaticCut(..) | EditorGrab::NewLine(_) => {}
         }
     }
 
@@ -226,38 +231,40 @@ impl MatchEditor {
     fn add_pin(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
         self.selected = None;
         let is_near = sheet
-            .on_boundary(touch.side, touch.at)
-            .is_some_and(|foot| foot.distance <= touch.reach);
+            .on_boundary(touch.side, touch.position)
+            .is_some_and(|foot| foot.distance <= touch.pick_radius);
         let landing = sheet.landing(touch, self.snaps);
-        let Some(here) = landing.filter(|_| is_near || sheet.is_free()) else {
-            return self.take_part(touch, sheet, matching);
+        let Some(here) = landing.filter(|_| is_near || sheet.has_free_pins()) else {
+            return self.start_pairing(touch, sheet, matching);
         };
-        let partner = if sheet.is_free() {
+        let partner = if sheet.has_free_pins() {
             Some(here)
         } else {
             sheet.partner(touch.side, here)
         };
         let Some(there) = partner else {
-            match sheet.is_alone(touch) {
-                true => self.take_part(touch, sheet, matching),
+            match sheet.is_unmatched_part(touch) {
+                true => self.start_pairing(touch, sheet, matching),
                 false => self.refusal = Some(NO_PARTNER),
             }
             return;
         };
-        let pin = sheet.own_pair(&SourceTarget::on(touch.side, here, there));
-        keep_automatic_pins(sheet, matching);
+        let pin = sheet.to_designs(&SourceTarget::with_side(touch.side, here, there));
+        adopt_automatic_pins(sheet, matching);
         matching.pins.push(pin);
         self.selected = Some(EditorHandle::Pin(matching.pins.len() - 1));
     }
 
     /// Selects a part for pairing, if the design has several and there is nothing to pin.
-    fn take_part(
+    fn start_pairing(
         &mut self,
         touch: EditorPointer,
         sheet: &MatchSheet,
         matching: &mut MatchSettings,
     ) {
-        let is_part = sheet.part(touch.side, touch.at, touch.reach).is_some();
+        let is_part = sheet
+            .part(touch.side, touch.position, touch.pick_radius)
+            .is_some();
         if sheet.pieces.len() > 1 && is_part {
             self.tool = EditorTool::Parts;
             self.pair(touch, sheet, matching);
@@ -266,16 +273,16 @@ impl MatchEditor {
 
     /// Selects the first part of a pair, or completes the pair.
     fn pair(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
-        let Some(part) = sheet.part(touch.side, touch.at, touch.reach) else {
+        let Some(part) = sheet.part(touch.side, touch.position, touch.pick_radius) else {
             match self.first_part.take() {
                 // A click on empty space of the other design: the part has no partner.
                 Some((side, part, at)) if side != touch.side => {
                     unlink(
                         sheet,
                         matching,
-                        SourceTarget::on(side, Some(part), None).to_array(),
+                        SourceTarget::with_side(side, Some(part), None).to_array(),
                     );
-                    let at = sheet.own(side, at);
+                    let at = sheet.to_design(side, at);
                     matching.lone.push(UnmatchedPart { side, at });
                 }
                 _ => self.refusal = Some(NO_PART_HERE),
@@ -284,13 +291,13 @@ impl MatchEditor {
         };
         match self.first_part.take() {
             Some((side, _, first)) if side != touch.side => {
-                let link = sheet.own_pair(&SourceTarget::on(side, first, touch.at));
-                let parts = Side::BOTH.map(|side| sheet.part(side, sheet.framed(&link, side), 0.0));
+                let link = sheet.to_designs(&SourceTarget::with_side(side, first, touch.position));
+                let parts = Side::BOTH.map(|side| sheet.part(side, sheet.to_frame(&link, side), 0.0));
                 unlink(sheet, matching, parts);
                 matching.links.push(link);
             }
             Some((_, first, _)) if first == part => {}
-            _ => self.first_part = Some((touch.side, part, touch.at)),
+            _ => self.first_part = Some((touch.side, part, touch.position)),
         }
     }
 
@@ -303,7 +310,7 @@ impl MatchEditor {
             (self.selected, self.hovered) = (None, None);
         } else if self.tool == EditorTool::Parts {
             let mut parts = [None; 2];
-            parts[touch.side] = sheet.part(touch.side, touch.at, touch.reach);
+            parts[touch.side] = sheet.part(touch.side, touch.position, touch.pick_radius);
             unlink(sheet, matching, parts);
             self.first_part = None;
         }
@@ -314,41 +321,41 @@ impl MatchEditor {
 fn make_explicit(grab: EditorGrab, sheet: &MatchSheet, matching: &mut MatchSettings) -> EditorGrab {
     match grab {
         EditorGrab::Feature(k) => match sheet.features.get(k) {
-            Some(_) if sheet.is_free() => {
-                keep_automatic_pins(sheet, matching);
+            Some(_) if sheet.has_free_pins() => {
+                adopt_automatic_pins(sheet, matching);
                 EditorGrab::Pin(k)
             }
             Some(pair) => {
-                matching.pins.push(sheet.own_pair(pair));
+                matching.pins.push(sheet.to_designs(pair));
                 EditorGrab::Pin(matching.pins.len() - 1)
             }
             None => EditorGrab::View,
         },
-        EditorGrab::FoundCut(k, end) => match sheet.cuts.get(k) {
+        EditorGrab::AutomaticCut(k, end) => match sheet.cuts.get(k) {
             Some(automatic) => {
                 let RingCut { side, outer, hole } = automatic.cut;
-                let [outer, hole] = [outer, hole].map(|p| sheet.own(side, p));
+                let [outer, hole] = [outer, hole].map(|p| sheet.to_design(side, p));
                 matching.cuts.push(RingCut { side, outer, hole });
                 EditorGrab::Cut(matching.cuts.len() - 1, end)
             }
             None => EditorGrab::View,
         },
         EditorGrab::NewLine(from) => {
-            keep_automatic_pins(sheet, matching);
+            adopt_automatic_pins(sheet, matching);
             matching
                 .lines
-                .push(SourceTarget::of(|side| [sheet.own(side, from); 2]));
-            EditorGrab::Stretch(matching.lines.len() - 1)
+                .push(SourceTarget::from_fn(|side| [sheet.to_design(side, from); 2]));
+            EditorGrab::NewLineEnd(matching.lines.len() - 1)
         }
-        known => known,
+        other => other,
     }
 }
 
 /// Warps of the plane use no automatic pins once the user sets one. So the automatic ones are added
 /// to the project before the first change.
-fn keep_automatic_pins(sheet: &MatchSheet, matching: &mut MatchSettings) {
-    if sheet.is_free() && matching.pins.is_empty() && matching.lines.is_empty() {
-        let automatic = sheet.features.iter().map(|pair| sheet.own_pair(pair));
+fn adopt_automatic_pins(sheet: &MatchSheet, matching: &mut MatchSettings) {
+    if sheet.has_free_pins() && matching.pins.is_empty() && matching.lines.is_empty() {
+        let automatic = sheet.features.iter().map(|pair| sheet.to_designs(pair));
         matching.pins.extend(automatic);
     }
 }
@@ -360,8 +367,8 @@ fn remove_handle(handle: EditorHandle, sheet: &MatchSheet, matching: &mut MatchS
             matching.pins.remove(k);
         }
         EditorHandle::Cut(k, _) => {
-            let asked = sheet.cuts.get(k).and_then(|cut| cut.asked);
-            if let Some(k) = asked.filter(|k| *k < matching.cuts.len()) {
+            let requested = sheet.cuts.get(k).and_then(|cut| cut.requested_index);
+            if let Some(k) = requested.filter(|k| *k < matching.cuts.len()) {
                 matching.cuts.remove(k);
             }
         }
@@ -376,40 +383,41 @@ fn remove_handle(handle: EditorHandle, sheet: &MatchSheet, matching: &mut MatchS
 fn unlink(sheet: &MatchSheet, matching: &mut MatchSettings, parts: [Option<usize>; 2]) {
     matching.links.retain(|link| {
         Side::BOTH.into_iter().all(|side| {
-            let wanted = parts[side];
-            wanted.is_none() || sheet.part(side, sheet.framed(link, side), 0.0) != wanted
+            let part = parts[side];
+            part.is_none() || sheet.part(side, sheet.to_frame(link, side), 0.0) != part
         })
     });
-    matching.lone.retain(|lone| {
-        let (side, at) = (lone.side, sheet.by[lone.side].apply(lone.at));
+    matching.lone.retain(|unmatched| {
+        let side = unmatched.side;
+        let at = sheet.frame_from_design[side].apply(unmatched.at);
         parts[side].is_none() || sheet.part(side, at, 0.0) != parts[side]
     });
 }
 
 impl MatchSheet {
     /// Whether there is a part without a partner here.
-    fn is_alone(&self, touch: EditorPointer) -> bool {
-        let part = self.part(touch.side, touch.at, touch.reach);
-        let is_it = |piece: &SheetPiece| piece.parts[touch.side] == part;
-        let mut alone = self
+    fn is_unmatched_part(&self, touch: EditorPointer) -> bool {
+        let part = self.part(touch.side, touch.position, touch.pick_radius);
+        let is_of_part = |piece: &SheetPiece| piece.parts[touch.side] == part;
+        let mut unmatched = self
             .pieces
             .iter()
             .filter(|piece| piece.fate != PieceFate::Paired);
-        part.is_some() && alone.any(is_it)
+        part.is_some() && unmatched.any(is_of_part)
     }
 
     /// Converts a point from the frame to a design's own coordinates.
-    fn own(&self, side: Side, p: DVec2) -> DVec2 {
-        self.by[side].inverse().apply(p)
+    fn to_design(&self, side: Side, p: DVec2) -> DVec2 {
+        self.frame_from_design[side].inverse().apply(p)
     }
 
     /// Converts a pair of points from the frame to the designs' own coordinates.
-    fn own_pair(&self, pair: &PointPair) -> PointPair {
-        SourceTarget::of(|side| self.own(side, pair[side]))
+    fn to_designs(&self, pair: &PointPair) -> PointPair {
+        SourceTarget::from_fn(|side| self.to_design(side, pair[side]))
     }
 
     /// Converts one end of a pair from its design's own coordinates to the frame.
-    fn framed(&self, pair: &PointPair, side: Side) -> DVec2 {
-        self.by[side].apply(pair[side])
+    fn to_frame(&self, pair: &PointPair, side: Side) -> DVec2 {
+        self.frame_from_design[side].apply(pair[side])
     }
 }

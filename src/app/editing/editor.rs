@@ -37,7 +37,7 @@ pub enum EditorGrab {
     /// An automatic point, by its index on the sheet; becomes a pin when it moves.
     Feature(usize),
     /// An automatic cut, by its index on the sheet; becomes one of the project's when it moves.
-    FoundCut(usize, CutEnd),
+    AutomaticCut(usize, CutEnd),
     /// A cut, by its index in the project.
     Cut(usize, CutEnd),
     /// End 0 or 1 of a line, by the line's index in the project.
@@ -45,7 +45,7 @@ pub enum EditorGrab {
     /// A new line from this point; created when the pointer moves.
     NewLine(DVec2),
     /// The second end of a new line, in both designs.
-    Stretch(usize),
+    NewLineEnd(usize),
     /// The view of a pane.
     View,
 }

@@ -116,6 +116,7 @@ fn index(pane: EditorPane) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Side;
 
     /// Pane of the source design.
     const SOURCE: EditorPane = EditorPane::Design(Side::Source);

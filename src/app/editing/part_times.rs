@@ -37,8 +37,8 @@ named! { StaggerOrder {
 #[must_use]
 pub fn time_of_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Option<usize>> {
     let mut time_of_piece = vec![None; sheet.pieces.len()];
-    for (k, named) in named_pieces(sheet, times).into_iter().enumerate() {
-        for piece in named {
+    for (k, pieces) in pieces_of_times(sheet, times).into_iter().enumerate() {
+        for piece in pieces {
             time_of_piece[piece] = Some(k);
         }
     }
@@ -49,30 +49,30 @@ pub fn time_of_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Option<usiz
 /// default and needs no entry.
 pub fn set(sheet: &MatchSheet, times: &mut Vec<PartTime>, piece: usize, clock: PartClock) {
     let time_of_piece = time_of_pieces(sheet, times);
-    let named_by = named_pieces(sheet, times);
-    let is_removed = |k: usize| named_by[k].contains(&piece);
+    let pieces_of_time = pieces_of_times(sheet, times);
+    let is_removed = |k: usize| pieces_of_time[k].contains(&piece);
     // Removed entries may also apply to other pieces of the same part, which get entries of their
     // own.
-    let others = time_of_piece
+    let remaining = time_of_piece
         .iter()
         .enumerate()
         .filter_map(|(other, time)| {
             let time = (*time).filter(|&k| other != piece && is_removed(k))?;
-            named(sheet, other, times[time].clock())
+            part_time_of_piece(sheet, other, times[time].clock())
         });
-    let others: Vec<PartTime> = others.collect();
+    let remaining: Vec<PartTime> = remaining.collect();
     let mut number = 0..times.len();
     times.retain(|_| !number.next().is_some_and(is_removed));
-    times.extend(others);
+    times.extend(remaining);
     if clock != PartClock::WHOLE {
-        times.extend(named(sheet, piece, clock));
+        times.extend(part_time_of_piece(sheet, piece, clock));
     }
 }
 
 /// Time windows that let all pieces start one after the other.
 #[must_use]
 pub fn staggered(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime> {
-    let middle = |k: usize| sheet.pieces[k].at[side_of(sheet, k)];
+    let middle = |k: usize| sheet.pieces[k].label_at[identifying_side(sheet, k)];
     let count = sheet.pieces.len();
     let sum: DVec2 = (0..count).map(middle).sum();
     let centre = sum / count.max(1) as f64;
@@ -87,28 +87,28 @@ pub fn staggered(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime> {
     let time = |(place, piece): (usize, usize)| {
         // The last piece starts just early enough to end with the film.
         let step = (1.0 - PART_DURATION) / (count.max(2) - 1) as f64;
-        let from = rounded(step * place as f64);
+        let from = round_to_thousandth(step * place as f64);
         let clock = PartClock {
             from,
-            to: rounded(from + PART_DURATION),
+            to: round_to_thousandth(from + PART_DURATION),
             easing: EasingFunction::default(),
         };
-        named(sheet, piece, clock)
+        part_time_of_piece(sheet, piece, clock)
     };
     pieces.into_iter().enumerate().filter_map(time).collect()
 }
 
 /// Rounds to a thousandth, within the film.
-fn rounded(t: f64) -> f64 {
+fn round_to_thousandth(t: f64) -> f64 {
     (t.clamp(0.0, 1.0) * 1000.0).round() / 1000.0
 }
 
 /// Time window of a piece, identified by a point of it.
-fn named(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Option<PartTime> {
-    let side = side_of(sheet, piece);
-    let at = sheet.by[side]
+fn part_time_of_piece(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Option<PartTime> {
+    let side = identifying_side(sheet, piece);
+    let at = sheet.frame_from_design[side]
         .inverse()
-        .apply(sheet.pieces.get(piece)?.at[side]);
+        .apply(sheet.pieces.get(piece)?.label_at[side]);
     let PartClock { from, to, easing } = clock;
     Some(PartTime {
         side,
@@ -120,16 +120,16 @@ fn named(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Option<PartTime>
 }
 
 /// The design in which a piece is identified.
-fn side_of(sheet: &MatchSheet, piece: usize) -> Side {
-    let own = &sheet.pieces[piece].parts;
+fn identifying_side(sheet: &MatchSheet, piece: usize) -> Side {
+    let parts = &sheet.pieces[piece].parts;
     let is_only_piece_in = |side: &Side| {
         let same = sheet
             .pieces
             .iter()
-            .filter(|other| other.parts[*side] == own[*side]);
-        own[*side].is_some() && same.count() == 1
+            .filter(|other| other.parts[*side] == parts[*side]);
+        parts[*side].is_some() && same.count() == 1
     };
-    let has = |side: &Side| own[*side].is_some();
+    let has = |side: &Side| parts[*side].is_some();
     let sides = Side::BOTH.into_iter();
     let identifying = sides
         .clone()
@@ -140,25 +140,25 @@ fn side_of(sheet: &MatchSheet, piece: usize) -> Side {
 
 /// For each time window, the pieces it applies to: those of the topmost part that contains its
 /// point, or else of the nearest part.
-fn named_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
-    let mut of_pieces: Vec<Vec<&SheetRing>> = vec![Vec::new(); sheet.pieces.len()];
+fn pieces_of_times(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
+    let mut rings_of_piece: Vec<Vec<&SheetRing>> = vec![Vec::new(); sheet.pieces.len()];
     for ring in &sheet.rings {
-        of_pieces[ring.piece].push(ring);
+        rings_of_piece[ring.piece].push(ring);
     }
     let boxes = Side::BOTH.map(|side| {
-        let of = |rings: &Vec<&SheetRing>| {
+        let bounds_of = |rings: &Vec<&SheetRing>| {
             Bounds::of(
                 rings
                     .iter()
                     .flat_map(|ring| ring.sides[side].iter().copied()),
             )
         };
-        of_pieces.iter().map(of).collect::<Vec<_>>()
+        rings_of_piece.iter().map(bounds_of).collect::<Vec<_>>()
     });
-    let of_time = |time: &PartTime| {
-        let (side, at) = (time.side, sheet.by[time.side].apply(time.at));
+    let pieces_of_time = |time: &PartTime| {
+        let (side, at) = (time.side, sheet.frame_from_design[time.side].apply(time.at));
         let is_in = |piece: &usize| {
-            let rings = of_pieces[*piece].iter();
+            let rings = rings_of_piece[*piece].iter();
             boxes[side][*piece].is_some_and(|bounds| bounds.contains(at))
                 && polyline::encloses(rings.map(|ring| ring.sides[side].as_slice()), at)
         };
@@ -167,16 +167,16 @@ fn named_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
             Some(sheet.rings[polyline::nearest(all, at)?.ring].piece)
         };
         let part = |k: usize| sheet.pieces[k].parts[side];
-        let holding = (0..of_pieces.len()).filter(is_in);
+        let containing = (0..rings_of_piece.len()).filter(is_in);
         // The part with the largest index is painted last and so lies on top.
-        let Some(named) = holding.max_by_key(|&k| part(k)).or_else(nearest) else {
+        let Some(topmost) = containing.max_by_key(|&k| part(k)).or_else(nearest) else {
             return Vec::new();
         };
         // A time set for a part applies to all its pieces.
-        let is_of_part = |&k: &usize| k == named || (part(k).is_some() && part(k) == part(named));
-        (0..of_pieces.len()).filter(is_of_part).collect()
+        let is_of_part = |&k: &usize| k == topmost || (part(k).is_some() && part(k) == part(topmost));
+        (0..rings_of_piece.len()).filter(is_of_part).collect()
     };
-    times.iter().map(of_time).collect()
+    times.iter().map(pieces_of_time).collect()
 }
 
 #[cfg(test)]
@@ -197,7 +197,7 @@ mod tests {
         let piece = |(k, parts): (usize, [usize; 2])| SheetPiece {
             name: k.to_string(),
             fate: PieceFate::Paired,
-            at: [DVec2::new(3.0 * k as f64 + 0.5, 0.5); 2],
+            label_at: [DVec2::new(3.0 * k as f64 + 0.5, 0.5); 2],
             is_linked: false,
             parts: parts.map(Some),
         };
@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn the_time_of_a_part_applies_to_its_pieces() {
         let sheet = sheet();
-        let mut time = named(&sheet, 0, LATE).expect("a piece");
+        let mut time = part_time_of_piece(&sheet, 0, LATE).expect("a piece");
         time.side = Side::Source;
         assert_eq!(time_of_pieces(&sheet, &[time]), [Some(0), Some(0), None]);
         // The other half keeps the window that was set for both.
@@ -261,9 +261,9 @@ mod tests {
     #[test]
     fn a_part_on_top_of_others_has_its_own_time() {
         let loaded = crate::project::gallery::load("day-to-night").expect("a project");
-        let film = loaded.legs()[0].build(&Silent).expect("a film");
+        let film = loaded.segments()[0].build(&Silent).expect("a film");
         let designs = [0, 1].map(|k| &*loaded.designs[k]);
-        let by = loaded.arrangement().expect("places");
+        let by = loaded.frame_similarities().expect("places");
         let sheet = MatchSheet::new(
             designs,
             by,

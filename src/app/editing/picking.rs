@@ -27,8 +27,9 @@ impl MatchSheet {
     /// The cut to draw: where the user wants it while it is dragged, otherwise where it was made.
     #[must_use]
     pub fn drawn(&self, cut: &SheetCut, grab: Option<EditorGrab>) -> RingCut {
-        let is_dragged = matches!(grab, Some(EditorGrab::Cut(k, _)) if cut.asked == Some(k));
-        cut.wanted.filter(|_| is_dragged).unwrap_or(cut.cut)
+        let is_dragged =
+            matches!(grab, Some(EditorGrab::Cut(k, _)) if cut.requested_index == Some(k));
+        cut.requested.filter(|_| is_dragged).unwrap_or(cut.cut)
     }
 
     /// All handles, topmost first.
@@ -44,7 +45,7 @@ impl MatchSheet {
             .flat_map(|k| [EditorHandle::Line(k, 0), EditorHandle::Line(k, 1)]);
         (0..self.pins.len())
             .map(EditorHandle::Pin)
-            .chain(lines.filter(|_| self.is_free()))
+            .chain(lines.filter(|_| self.has_free_pins()))
             .chain(cuts)
             .chain(features)
     }
@@ -52,12 +53,12 @@ impl MatchSheet {
     /// Nearest handle within the pointer's reach.
     #[must_use]
     pub fn handle_at(&self, touch: EditorPointer) -> Option<EditorHandle> {
-        let within = self.handles().filter_map(|handle| {
-            let distance = self.place(handle, touch.side)?.distance(touch.at);
-            (distance <= touch.reach).then_some((distance, handle))
+        let in_reach = self.handles().filter_map(|handle| {
+            let distance = self.place(handle, touch.side)?.distance(touch.position);
+            (distance <= touch.pick_radius).then_some((distance, handle))
         });
         // Of equals, `min_by` returns the first, which is topmost.
-        within
+        in_reach
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, handle)| handle)
     }
@@ -66,18 +67,18 @@ impl MatchSheet {
     /// anywhere.
     #[must_use]
     pub fn landing(&self, touch: EditorPointer, snaps: bool) -> Option<DVec2> {
-        if self.in_colours() {
-            return Some(touch.at);
+        if self.shows_pictures() {
+            return Some(touch.position);
         }
         // A corner wins over the boundary it lies on.
-        let corner = (snaps && !touch.is_free)
-            .then(|| self.corner(touch.side, touch.at, touch.reach))
+        let corner = (snaps && !touch.ignores_snapping)
+            .then(|| self.corner(touch.side, touch.position, touch.pick_radius))
             .flatten();
         let on_boundary = || {
-            let foot = self.on_boundary(touch.side, touch.at)?;
-            let is_here =
-                !self.is_free() || foot.distance <= touch.reach && snaps && !touch.is_free;
-            Some(if is_here { foot.point } else { touch.at })
+            let foot = self.on_boundary(touch.side, touch.position)?;
+            let snaps_to_boundary = !self.has_free_pins()
+                || foot.distance <= touch.pick_radius && snaps && !touch.ignores_snapping;
+            Some(if snaps_to_boundary { foot.point } else { touch.position })
         };
         corner.or_else(on_boundary)
     }
@@ -85,12 +86,12 @@ impl MatchSheet {
     /// The boundary point under the pointer and its match: source and target.
     #[must_use]
     pub fn trace(&self, touch: EditorPointer) -> Option<[DVec2; 2]> {
-        if self.is_free() {
+        if self.has_free_pins() {
             return None;
         }
-        let foot = self.on_boundary(touch.side, touch.at)?;
-        let here = (foot.distance <= touch.reach).then_some(foot.point)?;
+        let foot = self.on_boundary(touch.side, touch.position)?;
+        let here = (foot.distance <= touch.pick_radius).then_some(foot.point)?;
         let there = self.partner(touch.side, here)?;
-        Some(SourceTarget::on(touch.side, here, there).to_array())
+        Some(SourceTarget::with_side(touch.side, here, there).to_array())
     }
 }

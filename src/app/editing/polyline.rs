@@ -77,7 +77,7 @@ pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2>
     let low = ys().reduce(f64::min)?;
     let high = ys().reduce(f64::max)?;
     let widest = |shares: &[f64]| {
-        let free = shares.iter().flat_map(|share| {
+        let free_intervals = shares.iter().flat_map(|share| {
             let y = low + share * (high - low);
             let mut remaining = spans(rings.iter().copied(), y);
             for cover in above {
@@ -89,19 +89,19 @@ pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2>
                 .into_iter()
                 .map(move |[a, b]| (b - a, DVec2::new(0.5 * (a + b), y)))
         });
-        free.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at)
+        free_intervals.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at)
     };
     // If the middle runs along an edge or through a hole, another height has more room; nearly
     // covered shapes are visible at few heights only.
-    let many: [f64; 31] = std::array::from_fn(|k| (k + 1) as f64 / 32.0);
-    widest(&[0.5, 0.4, 0.6, 0.25, 0.75]).or_else(|| widest(&many))
+    let dense_shares: [f64; 31] = std::array::from_fn(|k| (k + 1) as f64 / 32.0);
+    widest(&[0.5, 0.4, 0.6, 0.25, 0.75]).or_else(|| widest(&dense_shares))
 }
 
 /// Parts of intervals outside another interval.
-fn subtract(stretches: Vec<[f64; 2]>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
-    let rests = |[a, b]: [f64; 2]| [[a, b.min(from)], [a.max(to), b]];
-    let rests = stretches.into_iter().flat_map(rests);
-    rests.filter(|[a, b]| a < b).collect()
+fn subtract(intervals: Vec<[f64; 2]>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+    let remainders = |[a, b]: [f64; 2]| [[a, b.min(from)], [a.max(to), b]];
+    let remainders = intervals.into_iter().flat_map(remainders);
+    remainders.filter(|[a, b]| a < b).collect()
 }
 
 /// Corners of a ring.

@@ -21,35 +21,35 @@ pub fn refresh(
     if !(is_opened || session.is_changed()) {
         return;
     }
-    let mut laid_out = MatchSheet::of(&session);
+    let mut rebuilt = MatchSheet::of(&session);
     // Points of other designs are different even if they coincide with earlier ones.
     let before = std::mem::take(&mut *sheet);
-    let is_same = !is_opened && before.sides == laid_out.sides;
-    laid_out.call(is_same.then_some(&before));
-    *sheet = laid_out;
+    let is_same = !is_opened && before.sides == rebuilt.sides;
+    rebuilt.assign_letters(is_same.then_some(&before));
+    *sheet = rebuilt;
     if sheet.sides.is_none() {
         editor.is_open = false;
     }
-    let is_there = |handle: &EditorHandle| sheet.handles().any(|other| other == *handle);
-    editor.selected = editor.selected.filter(is_there);
-    editor.hovered = editor.hovered.filter(is_there);
+    let exists = |handle: &EditorHandle| sheet.handles().any(|other| other == *handle);
+    editor.selected = editor.selected.filter(exists);
+    editor.hovered = editor.hovered.filter(exists);
 }
 
 impl MatchSheet {
     /// Sheet of the designs on the stage and their match.
     #[must_use]
     pub fn of(session: &Session) -> Self {
-        Self::laid_out(session).unwrap_or_default()
+        Self::try_of(session).unwrap_or_default()
     }
 
     /// As [`Self::of`]; `None` if there are not exactly two designs.
-    fn laid_out(session: &Session) -> Option<Self> {
-        let (project, staged) = (session.project()?, session.staged()?);
+    fn try_of(session: &Session) -> Option<Self> {
+        let (project, staged) = (session.project()?, session.staged_segment()?);
         let [source, target] = staged.designs.as_slice() else {
             return None;
         };
         // Placement as on the stage, not as in newer settings: the match belongs to the stage.
-        let by = staged.arrangement().ok()?;
+        let similarities = staged.frame_similarities().ok()?;
         let transition = session.transition();
         let matched = transition.and_then(Transition::matched);
         let mut sheet = Self {
@@ -61,17 +61,17 @@ impl MatchSheet {
             content: project.content,
             ..Self::new(
                 [source, target],
-                by,
+                similarities,
                 staged.project.options.paint,
                 &project.options.matching,
                 matched,
             )
         };
-        if sheet.is_free() {
+        if sheet.has_free_pins() {
             // The user's first pin disables automatic ones, while the stage may still show them.
-            let is_bare = sheet.pins.is_empty() && sheet.lines.is_empty();
-            let shown = transition.filter(|_| is_bare);
-            sheet.features = shown.map_or_else(Vec::new, |t| t.automatic_pins().to_vec());
+            let has_no_pins = sheet.pins.is_empty() && sheet.lines.is_empty();
+            let with_automatic_pins = transition.filter(|_| has_no_pins);
+            sheet.features = with_automatic_pins.map_or_else(Vec::new, |t| t.automatic_pins().to_vec());
         }
         Some(sheet)
     }

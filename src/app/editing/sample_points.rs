@@ -41,19 +41,19 @@ pub fn chosen(rings: &[SheetRing], pins: &[PointPair]) -> Vec<PointPair> {
 /// pins.
 fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair> {
     let scores = scores(ring);
-    let mut taken: Vec<f64> = pins.iter().filter_map(|pin| ring.place_of(pin)).collect();
+    let mut occupied: Vec<f64> = pins.iter().filter_map(|pin| ring.place_of(pin)).collect();
     // Half the gap between points if all were evenly spaced, as a fraction of the ring.
-    let room = 0.5 / (count + taken.len()) as f64;
+    let min_gap = 0.5 / (count + occupied.len()) as f64;
     let mut vertices = Vec::new();
     for _ in 0..count {
         let weighted = ring.places.iter().enumerate().map(|(k, place)| {
-            let near = taken.iter().map(|other| ring_distance(*place, *other));
+            let near = occupied.iter().map(|other| ring_distance(*place, *other));
             let distance = near.fold(1.0, f64::min);
-            let value = if distance < room {
+            let value = if distance < min_gap {
                 0.0
             } else {
                 // Beyond three times that distance, only the sharper corner counts.
-                scores[k] * (distance / room).min(3.0)
+                scores[k] * (distance / min_gap).min(3.0)
             };
             (value, k)
         });
@@ -65,7 +65,7 @@ fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<Poi
         if value <= 0.0 {
             break;
         }
-        taken.push(ring.places[k]);
+        occupied.push(ring.places[k]);
         vertices.push(k);
     }
     vertices.sort_unstable();
@@ -112,8 +112,8 @@ mod tests {
 
     #[test]
     fn corners_come_first() {
-        let found = choose_on_ring(&ring(), 4, &[]);
-        let points: Vec<DVec2> = found.iter().map(|pair| pair.source).collect();
+        let points = choose_on_ring(&ring(), 4, &[]);
+        let points: Vec<DVec2> = points.iter().map(|pair| pair.source).collect();
         let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(DVec2::from);
         assert_eq!(points, corners);
     }
@@ -124,10 +124,10 @@ mod tests {
             source: DVec2::new(4.0, 0.5),
             target: DVec2::new(4.0, 0.5),
         };
-        let found = choose_on_ring(&ring(), 4, &[pin]);
-        assert!(!found.is_empty());
+        let points = choose_on_ring(&ring(), 4, &[pin]);
+        assert!(!points.is_empty());
         assert!(
-            found
+            points
                 .iter()
                 .all(|pair| pair.source.distance(pin.source) > 1.0)
         );
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn one_ring_shows_about_a_dozen_points() {
-        let found = chosen(&[ring()], &[]);
-        assert!((8..=16).contains(&found.len()), "{}", found.len());
+        let points = chosen(&[ring()], &[]);
+        assert!((8..=16).contains(&points.len()), "{}", points.len());
     }
 }

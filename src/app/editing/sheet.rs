@@ -48,7 +48,7 @@ pub struct MatchSheet {
     /// Cuts that open rings around holes.
     pub cuts: Vec<SheetCut>,
     /// Transformations from each design's own coordinates to the frame.
-    pub by: [Similarity; 2],
+    pub frame_from_design: [Similarity; 2],
 }
 
 /// One design on the sheet.
@@ -72,7 +72,7 @@ pub struct SheetPiece {
     /// Whether it exists in both designs.
     pub fate: PieceFate,
     /// Position of its label in the source and in the target.
-    pub at: [DVec2; 2],
+    pub label_at: [DVec2; 2],
     /// Whether the user paired it, or said that it has no partner.
     pub is_linked: bool,
     /// Indices of its parts in the source and in the target.
@@ -85,9 +85,9 @@ pub enum PieceFate {
     /// It exists in both designs.
     Paired,
     /// It exists only in the target and appears, growing from a point.
-    Born,
+    Appears,
     /// It exists only in the source and disappears, shrinking to a point.
-    Dies,
+    Disappears,
 }
 
 /// A cut that opens a ring around a hole.
@@ -96,9 +96,9 @@ pub struct SheetCut {
     /// The cut as made.
     pub cut: RingCut,
     /// The cut as requested by the user, if it was.
-    pub wanted: Option<RingCut>,
+    pub requested: Option<RingCut>,
     /// Index of the project's cut that requested it; `None` for an automatic cut.
-    pub asked: Option<usize>,
+    pub requested_index: Option<usize>,
 }
 
 impl MatchSheet {
@@ -107,16 +107,16 @@ impl MatchSheet {
     #[must_use]
     pub fn new(
         designs: [&Design; 2],
-        by: [Similarity; 2],
+        similarities: [Similarity; 2],
         paint: PaintRule,
         matching: &MatchSettings,
         matched: Option<&RegionMatch>,
     ) -> Self {
-        let side = |k: usize| side(designs[k], &by[k], paint);
+        let side = |k: usize| side(designs[k], &similarities[k], paint);
         let [Some(source), Some(target)] = [0, 1].map(side) else {
             return Self::default();
         };
-        let placed = matching.placed(&by);
+        let placed = matching.placed(&similarities);
         let pieces: &[PieceMatch] = matched.map_or(&[], |matched| &matched.pieces);
         let rings = rings(pieces);
         let diameter = source.bounds.diameter().max(target.bounds.diameter());
@@ -124,7 +124,7 @@ impl MatchSheet {
         Self {
             // Automatic points keep away from pins, which matter more.
             features: sample_points::chosen(&rings, &placed.pins),
-            pieces: names(pieces, &sides, &placed),
+            pieces: label_pieces(pieces, &sides, &placed),
             cuts: cuts(pieces, &placed.cuts, diameter),
             sides: Some(sides),
             rings,
@@ -135,30 +135,30 @@ impl MatchSheet {
             faulty: Vec::new(),
             letters: Vec::new(),
             earlier: Vec::new(),
-            by,
+            frame_from_design: similarities,
         }
     }
 
     /// Assigns letters to the automatic points; points already on one of the last two sheets keep
     /// theirs.
-    pub fn call(&mut self, before: Option<&Self>) {
+    pub fn assign_letters(&mut self, before: Option<&Self>) {
         let sizes = self.sides.iter().flatten();
         let largest = sizes.map(|side| side.bounds.diameter()).fold(0.0, f64::max);
         let shown: Vec<(PointPair, usize)> = before.map_or_else(Vec::new, |before| {
             let letters = before.letters.iter().copied();
             before.features.iter().copied().zip(letters).collect()
         });
-        let earlier = before.map_or(&[][..], |before| &before.earlier);
-        let known = [&shown[..], earlier].concat();
-        self.letters = labels::stable_letters(&self.features, &known, labels::SAME * largest);
-        let gone = shown.into_iter();
-        let gone = gone.filter(|(_, letter)| !self.letters.contains(letter));
-        self.earlier = gone.collect();
+        let missing_before = before.map_or(&[][..], |before| &before.earlier);
+        let lettered = [&shown[..], missing_before].concat();
+        self.letters = labels::stable_letters(&self.features, &lettered, labels::SAME * largest);
+        let missing = shown.into_iter();
+        let missing = missing.filter(|(_, letter)| !self.letters.contains(letter));
+        self.earlier = missing.collect();
     }
 
     /// Whether pins and lines may lie anywhere, because they move the plane and not a boundary.
     #[must_use]
-    pub fn is_free(&self) -> bool {
+    pub fn has_free_pins(&self) -> bool {
         matches!(
             self.content,
             Some(ContentKind::Field | ContentKind::Colours)
@@ -167,7 +167,7 @@ impl MatchSheet {
 
     /// Whether the content is pictures.
     #[must_use]
-    pub fn in_colours(&self) -> bool {
+    pub fn shows_pictures(&self) -> bool {
         self.content == Some(ContentKind::Colours)
     }
 
@@ -205,9 +205,9 @@ impl MatchSheet {
         // Containing wins over near: a part may lie in the hole of another.
         uppermost(parts, p).or_else(|| {
             let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
-            let gap = |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
-            let nearest = (0..parts.len()).min_by(|a, b| gap(*a).total_cmp(&gap(*b)))?;
-            (gap(nearest) <= reach).then_some(nearest)
+            let distance = |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
+            let nearest = (0..parts.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
+            (distance(nearest) <= reach).then_some(nearest)
         })
     }
 }
@@ -258,17 +258,17 @@ fn side(design: &Design, by: &Similarity, paint: PaintRule) -> Option<SheetSide>
 
 /// All rings of all pieces, including those in only one design.
 fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
-    let of = |(k, piece): (usize, &PieceMatch)| -> Vec<SheetRing> {
+    let rings_of_piece = |(k, piece): (usize, &PieceMatch)| -> Vec<SheetRing> {
         let ring = |ring: &crate::correspondence::RingMatch| {
             SheetRing::new(k, ring.kind, [ring.source.clone(), ring.target.clone()])
         };
         piece.rings.iter().chain(&piece.lone).map(ring).collect()
     };
-    pieces.iter().enumerate().flat_map(of).collect()
+    pieces.iter().enumerate().flat_map(rings_of_piece).collect()
 }
 
 /// Names the pieces and places their labels.
-fn names(
+fn label_pieces(
     pieces: &[PieceMatch],
     sides: &[SheetSide; 2],
     matching: &MatchSettings,
@@ -298,17 +298,17 @@ fn names(
     let piece = |(k, piece): (usize, &PieceMatch)| {
         let parts = [piece.source_part, piece.target_part];
         let fate = match parts {
-            [Some(_), None] => PieceFate::Dies,
-            [None, Some(_)] => PieceFate::Born,
+            [Some(_), None] => PieceFate::Disappears,
+            [None, Some(_)] => PieceFate::Appears,
             _ => PieceFate::Paired,
         };
         let at = Side::BOTH.map(|side| {
-            let own = parts[side].and_then(|k| Some((k, (*boxes[side].get(k)?)?)));
-            let Some((own, bounds)) = own else {
+            let part = parts[side].and_then(|k| Some((k, (*boxes[side].get(k)?)?)));
+            let Some((part, bounds)) = part else {
                 return label_position(piece, side, &[]);
             };
             // Later parts are painted above this one; only those that meet its box can cover it.
-            let all = sides[side].parts.iter().zip(&boxes[side]).skip(own + 1);
+            let all = sides[side].parts.iter().zip(&boxes[side]).skip(part + 1);
             let above = all.filter(|(_, other)| other.is_some_and(|other| other.meets(&bounds)));
             let above: Vec<&[Vec<DVec2>]> = above.map(|(part, _)| part.as_slice()).collect();
             label_position(piece, side, &above)
@@ -316,7 +316,7 @@ fn names(
         SheetPiece {
             name: labels::of_part(k),
             fate,
-            at,
+            label_at: at,
             is_linked: is_user_set(&parts),
             parts,
         }
@@ -339,28 +339,28 @@ fn label_position(piece: &PieceMatch, side: Side, above: &[&[Vec<DVec2>]]) -> DV
 }
 
 /// The actual cuts, each with the request it answers; then requests without an actual cut.
-fn cuts(pieces: &[PieceMatch], asked: &[RingCut], diameter: f64) -> Vec<SheetCut> {
+fn cuts(pieces: &[PieceMatch], requests: &[RingCut], diameter: f64) -> Vec<SheetCut> {
     let gap = |a: &RingCut, b: &RingCut| a.outer.distance(b.outer) + a.hole.distance(b.hole);
-    let mut unanswered: Vec<usize> = (0..asked.len()).collect();
+    let mut open_requests: Vec<usize> = (0..requests.len()).collect();
     let mut cuts: Vec<SheetCut> = Vec::new();
     for cut in pieces.iter().flat_map(|piece| &piece.cuts) {
-        let near = unanswered
+        let nearest = open_requests
             .iter()
             .copied()
-            .filter(|&k| asked[k].side == cut.side && gap(&asked[k], cut) < CUT_SHIFT * diameter)
-            .min_by(|&a, &b| gap(&asked[a], cut).total_cmp(&gap(&asked[b], cut)));
+            .filter(|&k| requests[k].side == cut.side && gap(&requests[k], cut) < CUT_SHIFT * diameter)
+            .min_by(|&a, &b| gap(&requests[a], cut).total_cmp(&gap(&requests[b], cut)));
         // Each request is answered by at most one cut.
-        unanswered.retain(|k| Some(*k) != near);
+        open_requests.retain(|k| Some(*k) != nearest);
         cuts.push(SheetCut {
             cut: *cut,
-            wanted: near.map(|k| asked[k]),
-            asked: near,
+            requested: nearest.map(|k| requests[k]),
+            requested_index: nearest,
         });
     }
-    cuts.extend(unanswered.into_iter().map(|k| SheetCut {
-        cut: asked[k],
-        wanted: Some(asked[k]),
-        asked: Some(k),
+    cuts.extend(open_requests.into_iter().map(|k| SheetCut {
+        cut: requests[k],
+        requested: Some(requests[k]),
+        requested_index: Some(k),
     }));
     cuts
 }

@@ -26,7 +26,7 @@ impl DroppedDesign {
 
     /// Whether the question is open.
     #[must_use]
-    pub fn asks(&self) -> bool {
+    pub fn is_pending(&self) -> bool {
         self.undecided.is_some()
     }
 
@@ -39,20 +39,20 @@ impl DroppedDesign {
 /// Sort key in which numbers compare by value: 2 before 10.
 fn natural_sort_key(name: &str) -> Vec<(String, u64)> {
     let digits = |c: &char| c.is_ascii_digit();
-    let mut rest = name.chars().peekable();
-    let mut parts = Vec::new();
-    while rest.peek().is_some() {
+    let mut chars = name.chars().peekable();
+    let mut words_and_numbers = Vec::new();
+    while chars.peek().is_some() {
         let mut word = String::new();
-        while let Some(c) = rest.next_if(|c| !digits(c)) {
+        while let Some(c) = chars.next_if(|c| !digits(c)) {
             word.extend(c.to_lowercase());
         }
         let mut number: u64 = 0;
-        while let Some(digit) = rest.next_if(digits).and_then(|c| c.to_digit(10)) {
+        while let Some(digit) = chars.next_if(digits).and_then(|c| c.to_digit(10)) {
             number = number.saturating_mul(10).saturating_add(digit.into());
         }
-        parts.push((word, number));
+        words_and_numbers.push((word, number));
     }
-    parts
+    words_and_numbers
 }
 
 /// Opens all files dropped together. The system reports them one by one, but all before the next
@@ -84,20 +84,21 @@ pub fn read_drops(
 /// Closes the question once it is answered.
 pub fn decide(
     mut intents: MessageReader<Intent>,
-    mut state: ResMut<DroppedDesign>,
-    (question, autosave): (Res<UnsavedQuestion>, Res<Autosave>),
+    mut dropped: ResMut<DroppedDesign>,
+    question: Res<UnsavedQuestion>,
+    autosave: Res<Autosave>,
 ) {
     // Esc is meant for the topmost question.
-    let is_topmost = question.text().is_none() && autosave.lost().is_none();
+    let is_topmost = question.text().is_none() && autosave.recoverable().is_none();
     let is_decided = |intent: &Intent| match intent {
-        Intent::Back => is_topmost,
+        Intent::Escape => is_topmost,
         intent => matches!(
             intent,
             Intent::Open(..) | Intent::ReplaceDesign(..) | Intent::InsertDesigns(..)
         ),
     };
-    if intents.read().filter(|intent| is_decided(intent)).count() > 0 && state.asks() {
-        state.undecided = None;
+    if intents.read().filter(|intent| is_decided(intent)).count() > 0 && dropped.is_pending() {
+        dropped.undecided = None;
     }
 }
 

@@ -63,15 +63,15 @@ impl DialogPurpose {
 /// The open dialog, if any; at most one.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileDialogRequest {
-    asks: Option<DialogPurpose>,
+    purpose: Option<DialogPurpose>,
     folder: Option<PathBuf>,
 }
 
 impl FileDialogRequest {
     /// Purpose of the dialog, while it is open.
     #[must_use]
-    pub fn asks(&self) -> Option<&DialogPurpose> {
-        self.asks.as_ref()
+    pub fn purpose(&self) -> Option<&DialogPurpose> {
+        self.purpose.as_ref()
     }
 
     /// Folder last chosen from.
@@ -88,19 +88,19 @@ pub fn open(
     session: Res<Session>,
 ) {
     for intent in intents.read() {
-        let asks = match intent {
+        let purpose = match intent {
             Intent::AskOpen => DialogPurpose::Open,
             Intent::AskReplace(index) => DialogPurpose::Replace(*index),
             Intent::AskInsert(at) => DialogPurpose::Insert(*at),
-            Intent::SaveAs => DialogPurpose::Save(named(&session.file_stem())),
+            Intent::SaveAs => DialogPurpose::Save(project_file_name(&session.file_stem())),
             Intent::Save if session.path().is_none() => {
-                DialogPurpose::Save(named(&session.file_stem()))
+                DialogPurpose::Save(project_file_name(&session.file_stem()))
             }
             _ => continue,
         };
-        let applies = session.project().is_some() || asks == DialogPurpose::Open;
-        if dialog.asks.is_none() && applies {
-            dialog.asks = Some(asks);
+        let applies = session.project().is_some() || purpose == DialogPurpose::Open;
+        if dialog.purpose.is_none() && applies {
+            dialog.purpose = Some(purpose);
             // The project's folder, until the user chooses another one.
             let project_folder = session.path().and_then(Path::parent).map(Path::to_owned);
             dialog.folder = dialog
@@ -119,7 +119,7 @@ fn default_folder() -> Option<PathBuf> {
 }
 
 /// File name of a project with this stem.
-fn named(stem: &str) -> String {
+fn project_file_name(stem: &str) -> String {
     format!("{stem}.{}", Project::EXTENSION)
 }
 
@@ -132,17 +132,17 @@ pub fn choose(
     mut commands: Commands,
 ) {
     for intent in intents.read() {
-        let Intent::Choose(paths) = intent else {
+        let Intent::AnswerDialog(paths) = intent else {
             continue;
         };
-        let (asks, first) = (dialog.asks.take(), paths.first());
+        let (purpose, first) = (dialog.purpose.take(), paths.first());
         if let Some(folder) = first.and_then(|path| path.parent()) {
             dialog.folder = Some(folder.to_owned());
         }
-        match (asks, first) {
+        match (purpose, first) {
             (Some(DialogPurpose::Save(_)), None) => {
                 notices.note("Save cancelled");
-                question.not_saved();
+                question.save_cancelled();
             }
             (None, _) | (_, None) => {}
             (Some(DialogPurpose::Open), Some(_)) => {
@@ -157,19 +157,19 @@ pub fn choose(
             (Some(DialogPurpose::Save(_)), Some(path)) => match with_extension(path) {
                 // The dialog confirmed overwriting a different file: the name without the
                 // extension.
-                whole if whole != *path && whole.exists() => {
-                    let name = whole.file_name().unwrap_or_default().to_string_lossy();
+                full_path if full_path != *path && full_path.exists() => {
+                    let name = full_path.file_name().unwrap_or_default().to_string_lossy();
                     notices.problem(
                         NoticeTopic::Saving,
                         format!(
                             "{} already exists. Select it to replace it, or choose another name",
-                            whole.display()
+                            full_path.display()
                         ),
                     );
-                    dialog.asks = Some(DialogPurpose::Save(name.into_owned()));
+                    dialog.purpose = Some(DialogPurpose::Save(name.into_owned()));
                 }
-                whole => {
-                    commands.write_message(Intent::SaveTo(whole));
+                full_path => {
+                    commands.write_message(Intent::SaveTo(full_path));
                 }
             },
         }
@@ -178,7 +178,7 @@ pub fn choose(
 
 /// Appends the project extension if it is missing.
 fn with_extension(path: &Path) -> PathBuf {
-    if Project::is_named(path) {
+    if Project::has_document_extension(path) {
         path.to_owned()
     } else {
         path.with_added_extension(Project::EXTENSION)
@@ -193,10 +193,10 @@ mod tests {
     fn dialogs_show_every_importable_file() {
         for purpose in [DialogPurpose::Open, DialogPurpose::Replace(0)] {
             let filters = purpose.filters();
-            let (_, shown) = &filters[0];
+            let (_, extensions) = &filters[0];
             for format in Format::ALL {
                 let read = format.extensions();
-                assert!(read.iter().all(|e| shown.contains(e)), "{}", format.name());
+                assert!(read.iter().all(|e| extensions.contains(e)), "{}", format.name());
                 assert!(filters.iter().any(|(name, _)| name == format.name()));
             }
         }

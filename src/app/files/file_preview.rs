@@ -60,56 +60,56 @@ pub fn follow(
     dialog: Res<FileDialogRequest>,
     mut preview: ResMut<FilePreview>,
 ) {
-    let wanted = intents.read().filter_map(|intent| match intent {
-        Intent::LookAt(path) => Some(path),
+    let requested = intents.read().filter_map(|intent| match intent {
+        Intent::PreviewFile(path) => Some(path),
         _ => None,
     });
     // Runs each frame; change detection is set by hand.
     let now = preview.bypass_change_detection();
-    if let Some(path) = wanted.last()
+    if let Some(path) = requested.last()
         && now.path.as_ref() != Some(path)
     {
         let file = path.clone();
         *now = FilePreview {
             path: Some(path.clone()),
-            job: Some(BackgroundJob::start("the preview", move |_| drawn(&file))),
+            job: Some(BackgroundJob::start("the preview", move |_| draw_preview(&file))),
             picture: None,
         };
     }
     if let Some(answer) = BackgroundJob::take(&mut now.job) {
         now.picture = Some(answer.map(Arc::new).map_err(|error| error.to_string()));
         preview.set_changed();
-    } else if dialog.asks().is_none() && now.path.is_some() {
+    } else if dialog.purpose().is_none() && now.path.is_some() {
         *now = FilePreview::default();
     }
 }
 
 /// Draws the preview of a project or design file.
-fn drawn(path: &Path) -> Result<RgbaImage, FilePreviewError> {
-    let why = |error: &dyn std::error::Error| FilePreviewError(error.to_string());
-    let designs = if Project::is_named(path) {
-        let loaded = LoadedProject::open(path).map_err(|error| why(&error))?;
+fn draw_preview(path: &Path) -> Result<RgbaImage, FilePreviewError> {
+    let preview_error = |error: &dyn std::error::Error| FilePreviewError(error.to_string());
+    let designs = if Project::has_document_extension(path) {
+        let loaded = LoadedProject::open(path).map_err(|error| preview_error(&error))?;
         loaded.designs.into_iter().take(MAX_DESIGNS).collect()
     } else {
         let options = ImportOptions::default();
         vec![Arc::new(
-            import_file(path, &options).map_err(|error| why(&error))?,
+            import_file(path, &options).map_err(|error| preview_error(&error))?,
         )]
     };
     if let [design] = designs.as_slice()
         && let Some(picture) = &design.picture
     {
-        return Ok(small(picture.pixels()));
+        return Ok(scale_to_preview(picture.pixels()));
     }
-    side_by_side(&designs).map_err(|error| why(&error))
+    side_by_side(&designs).map_err(|error| preview_error(&error))
 }
 
 /// Scales an image down to the size of the preview.
-fn small(pixels: &RgbaImage) -> RgbaImage {
+fn scale_to_preview(pixels: &RgbaImage) -> RgbaImage {
     let (width, height) = pixels.dimensions();
-    let share = |px: u32, max_px: u32| f64::from(max_px) / f64::from(px.max(1));
-    let scale = share(width, PREVIEW_PX.0)
-        .min(share(height, PREVIEW_PX.1))
+    let ratio = |px: u32, max_px: u32| f64::from(max_px) / f64::from(px.max(1));
+    let scale = ratio(width, PREVIEW_PX.0)
+        .min(ratio(height, PREVIEW_PX.1))
         .min(1.0);
     let side = |px: u32| ((f64::from(px) * scale) as u32).max(1);
     image::imageops::thumbnail(pixels, side(width), side(height))

@@ -41,7 +41,7 @@ pub struct FileWatcher(Arc<Mutex<WatchedFiles>>);
 
 #[derive(Debug, Default)]
 struct WatchedFiles {
-    looked: Vec<WatchedFile>,
+    watched: Vec<WatchedFile>,
     changed: Vec<PathBuf>,
 }
 
@@ -53,20 +53,20 @@ impl FileWatcher {
     /// Polls all files; returns whether any has changed since it was read.
     pub fn poll(&self) -> bool {
         // Without holding the lock, because network drives may be slow.
-        let paths: Vec<PathBuf> = self.files().looked.iter().map(|l| l.path.clone()).collect();
+        let paths: Vec<PathBuf> = self.files().watched.iter().map(|file| file.path.clone()).collect();
         let stamps: Vec<FileStamp> = paths.iter().map(|path| stamp(path)).collect();
         let mut files = self.files();
         let mut changed = Vec::new();
         for (path, now) in paths.into_iter().zip(stamps) {
             // Another project may have been opened meanwhile.
-            let Some(looked) = files.looked.iter_mut().find(|l| l.path == path) else {
+            let Some(watched) = files.watched.iter_mut().find(|file| file.path == path) else {
                 continue;
             };
-            if now != looked.read && now == looked.last {
-                looked.read = now;
+            if now != watched.read && now == watched.last {
+                watched.read = now;
                 changed.push(path);
             }
-            looked.last = now;
+            watched.last = now;
         }
         files.changed.extend(changed);
         !files.changed.is_empty()
@@ -99,11 +99,11 @@ pub fn follow(mut session: ResMut<Session>, watch: Res<FileWatcher>, mut notices
     let mut files = watch.files();
     if session.is_changed() {
         let paths = session.files();
-        files.looked.retain(|looked| paths.contains(&looked.path));
+        files.watched.retain(|watched| paths.contains(&watched.path));
         for path in paths {
-            if files.looked.iter().all(|looked| looked.path != path) {
+            if files.watched.iter().all(|watched| watched.path != path) {
                 let now = stamp(&path);
-                files.looked.push(WatchedFile {
+                files.watched.push(WatchedFile {
                     path,
                     read: now,
                     last: now,
@@ -140,7 +140,7 @@ mod tests {
         std::fs::write(&path, "one")?;
         let watch = FileWatcher::default();
         let now = stamp(&path);
-        watch.files().looked.push(WatchedFile {
+        watch.files().watched.push(WatchedFile {
             path: path.clone(),
             read: now,
             last: now,

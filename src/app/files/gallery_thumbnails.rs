@@ -2,9 +2,10 @@
 
 use std::collections::{HashMap, VecDeque};
 
-use bevy::prelude::{DetectChangesMut, FromWorld, Res, ResMut, Resource, World};
+use bevy::prelude::{DetectChangesMut, FromWorld, Res, ResMut, Resource, UVec2, World};
 use image::RgbaImage;
 
+use crate::app::files::invitation::EXAMPLES;
 use crate::app::files::project_actions::GalleryEntries;
 use crate::app::jobs::job::BackgroundJob;
 use crate::app::persistence::gallery_strips::GalleryStripCache;
@@ -47,11 +48,12 @@ enum StripTask {
 impl FromWorld for GalleryThumbnails {
     fn from_world(world: &mut World) -> Self {
         let entries = &world.resource::<GalleryEntries>().0;
-        let drawn = entries
-            .iter()
-            .map(|entry| StripTask::Draw(entry.name.clone()));
+        let mut names: Vec<&String> = entries.iter().map(|entry| &entry.name).collect();
+        // The invitation shows these large and at once.
+        names.sort_by_key(|name| !EXAMPLES.contains(&name.as_str()));
+        let drawing_tasks = names.into_iter().map(|name| StripTask::Draw(name.clone()));
         Self {
-            waiting: std::iter::once(StripTask::Read).chain(drawn).collect(),
+            waiting: std::iter::once(StripTask::Read).chain(drawing_tasks).collect(),
             running: None,
             done: StripsByName::new(),
         }
@@ -100,7 +102,7 @@ impl GalleryThumbnails {
 /// Collects finished strips and starts the next one unless more urgent work is running.
 pub fn advance(
     session: Res<Session>,
-    kept: Res<GalleryStripCache>,
+    cache: Res<GalleryStripCache>,
     mut thumbnails: ResMut<GalleryThumbnails>,
 ) {
     // Change detection is not used for this resource.
@@ -108,13 +110,13 @@ pub fn advance(
     let Some(task) = thumbnails.next(session.work().is_some()) else {
         return;
     };
-    let (kept, job_task) = (kept.clone(), task.clone());
+    let (cache, job_task) = (cache.clone(), task.clone());
     let job = BackgroundJob::start("the gallery thumbnails", move |progress| match job_task {
-        StripTask::Read => Ok(kept.read(STRIP_PX)),
+        StripTask::Read => Ok(cache.read(STRIP_PX)),
         StripTask::Draw(name) => {
             let strip = strip(&name, progress)?;
             // A strip that cannot be cached is drawn again at the next start.
-            kept.keep(&name, &strip).ok();
+            cache.keep(&name, &strip).ok();
             Ok(HashMap::from([(name, strip)]))
         }
     });
@@ -127,37 +129,41 @@ type StripError = Box<dyn std::error::Error + Send + Sync>;
 /// Loads and builds a gallery project and draws its strip.
 fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let loaded = gallery::load(name)?;
-    let legs = loaded.legs();
-    let built = legs.iter().map(|leg| Ok(leg.build(progress)?));
+    let segments = loaded.segments();
+    let built = segments.iter().map(|segment| Ok(segment.build(progress)?));
     let built: Vec<Transition> = built.collect::<Result<_, StripError>>()?;
     let sequence = Sequence::new(built).ok_or("a project has at least one segment")?;
-    let sequence = sequence.leading_back(loaded.project.leads_back());
+    let sequence = sequence.closed(loaded.project.ends_where_it_starts());
     let timing = loaded.project.timing;
     // With several segments, a selection of the designs without in-betweens.
-    let frames = if legs.len() > 1 {
-        legs.len() + 1
+    let frames = if segments.len() > 1 {
+        segments.len() + 1
     } else {
         FRAMES
     };
     let frames = frames.min(MAX_FRAMES);
     let times = even_times(timing.from, timing.to, frames);
-    let cell = (STRIP_PX.0 / frames as u32, STRIP_PX.1);
+    let cell_px = UVec2::new(STRIP_PX.0 / frames as u32, STRIP_PX.1);
     let style = &loaded.project.style;
-    let drawn = draw_strip(&sequence, style, &times, cell)?;
+    let strip = draw_strip(&sequence, style, &times, cell_px)?;
     // Designs with their own colours were drawn for paper: navy letters vanish on a dark window.
-    if loaded.designs.iter().all(|design| design.coats.is_empty()) {
-        return Ok(drawn);
+    if loaded
+        .designs
+        .iter()
+        .all(|design| design.paint_layers.is_empty())
+    {
+        return Ok(strip);
     }
     let Rgb([r, g, b]) = style.ground;
     let mut paper = RgbaImage::from_pixel(STRIP_PX.0, STRIP_PX.1, image::Rgba([r, g, b, 255]));
-    image::imageops::overlay(&mut paper, &drawn, 0, 0);
+    image::imageops::overlay(&mut paper, &strip, 0, 0);
     Ok(paper)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::work::progress::still_wanted;
+    use crate::work::progress::check_cancelled;
 
     fn with(waiting: impl IntoIterator<Item = StripTask>) -> GalleryThumbnails {
         GalleryThumbnails {
@@ -201,7 +207,7 @@ mod tests {
         let mut thumbnails = with([draw("letters")]);
         let endless = BackgroundJob::start("a strip", |progress| {
             loop {
-                still_wanted(progress)?;
+                check_cancelled(progress)?;
                 std::thread::yield_now();
             }
         });

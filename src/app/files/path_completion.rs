@@ -12,7 +12,7 @@ pub fn expand_path(typed: &str, folder: &Path) -> PathBuf {
     let below_home = typed
         .strip_prefix("~/")
         .or_else(|| (typed == "~").then_some(""));
-    match below_home.and_then(|rest| Some(dirs::home_dir()?.join(rest))) {
+    match below_home.and_then(|below| Some(dirs::home_dir()?.join(below))) {
         Some(path) => path,
         None => folder.join(typed),
     }
@@ -25,35 +25,35 @@ pub fn expand_path(typed: &str, folder: &Path) -> PathBuf {
 pub fn completions(typed: &str, folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     let path = expand_path(typed, folder);
     let is_folder = typed.is_empty() || typed.ends_with(['/', std::path::MAIN_SEPARATOR]);
-    let (inside, prefix) = if is_folder {
+    let (folder_to_list, prefix) = if is_folder {
         (path.as_path(), String::new())
     } else {
         let name = path.file_name().unwrap_or_default();
         let prefix = name.to_string_lossy().to_lowercase();
         (path.parent().unwrap_or(folder), prefix)
     };
-    let Ok(entries) = std::fs::read_dir(inside) else {
+    let Ok(entries) = std::fs::read_dir(folder_to_list) else {
         return Vec::new();
     };
-    let mut found: Vec<(bool, String, PathBuf)> = entries
+    let mut matches: Vec<(bool, String, PathBuf)> = entries
         .filter_map(|entry| {
             let path = entry.ok()?.path();
             let name = path.file_name()?.to_string_lossy().to_lowercase();
-            let is_wanted =
+            let has_prefix =
                 name.starts_with(&prefix) && (prefix.starts_with('.') || !name.starts_with('.'));
             let is_file = !path.is_dir();
-            let ends = path
+            let extension = path
                 .extension()
                 .unwrap_or_default()
                 .to_string_lossy()
                 .to_lowercase();
-            let is_readable = !is_file || extensions.contains(&ends.as_str());
-            (is_wanted && is_readable).then_some((is_file, name, path))
+            let is_readable = !is_file || extensions.contains(&extension.as_str());
+            (has_prefix && is_readable).then_some((is_file, name, path))
         })
         .collect();
-    found.sort();
-    found.truncate(MAX_COMPLETIONS);
-    found.into_iter().map(|(_, _, path)| path).collect()
+    matches.sort();
+    matches.truncate(MAX_COMPLETIONS);
+    matches.into_iter().map(|(_, _, path)| path).collect()
 }
 
 /// The path as text; folders end with a separator.
@@ -80,8 +80,8 @@ mod tests {
             std::fs::write(here.join(name), "").expect("a file");
         }
         let names = |typed: &str| -> Vec<String> {
-            let found = completions(typed, here, &["svg", "png"]);
-            let relative = found.iter().filter_map(|path| path.strip_prefix(here).ok());
+            let completions = completions(typed, here, &["svg", "png"]);
+            let relative = completions.iter().filter_map(|path| path.strip_prefix(here).ok());
             relative.map(|path| path.display().to_string()).collect()
         };
         assert_eq!(names("dr"), ["Drawings", "drum.svg"]);

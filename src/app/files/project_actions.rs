@@ -4,12 +4,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::{
     Commands, DetectChanges, DetectChangesMut, Local, MessageReader, Res, ResMut, Resource,
 };
 
 use crate::app::editing::editor::MatchEditor;
 use crate::app::files::drop::DroppedDesign;
+use crate::app::files::invitation::{Invitation, START_PROJECT};
 use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
 use crate::app::notices::{NoticeTopic, Notices};
@@ -34,14 +36,22 @@ pub fn open(
     mut question: ResMut<UnsavedQuestion>,
     mut drop: ResMut<DroppedDesign>,
     mut notices: ResMut<Notices>,
+    mut to_play: ResMut<PlayWhenOpened>,
+    invitation: Res<Invitation>,
 ) {
     for intent in intents.read() {
         let request = match intent {
-            Intent::OpenGallery(name) => LoadRequest::Gallery(name.clone()),
+            Intent::OpenGallery(name) | Intent::PlayGallery(name) => {
+                LoadRequest::Gallery(name.clone())
+            }
+            Intent::Welcome => LoadRequest::Gallery(START_PROJECT.to_owned()),
             Intent::Open(paths) => match paths.as_slice() {
-                [project] if Project::is_named(project) => LoadRequest::File(project.clone()),
-                // With a project open, a single design may replace or extend its designs.
-                [design] if session.project().is_some() => {
+                [project] if Project::has_document_extension(project) => {
+                    LoadRequest::File(project.clone())
+                }
+                // With a project open, a single design may replace or extend its designs; not those
+                // of the project that plays next to the invitation.
+                [design] if session.project().is_some() && !invitation.is_shown() => {
                     drop.ask(design.clone());
                     continue;
                 }
@@ -49,7 +59,10 @@ pub fn open(
                 [design] => LoadRequest::Designs(vec![design.clone(), design.clone()]),
                 [] => continue,
                 // A project cannot be combined with other files.
-                _ if paths.iter().any(|path| Project::is_named(path)) => {
+                _ if paths
+                    .iter()
+                    .any(|path| Project::has_document_extension(path)) =>
+                {
                     notices.problem(NoticeTopic::Opening, too_many_files(paths.len()));
                     continue;
                 }
@@ -61,10 +74,20 @@ pub fn open(
             // The intent is sent again after the answer.
             question.ask(intent.clone(), UnsavedKind::Changes, session.unsaved_text());
         } else {
+            to_play.0 = match (intent, &request) {
+                (Intent::PlayGallery(_) | Intent::Welcome, LoadRequest::Gallery(name)) => {
+                    Some(name.clone())
+                }
+                _ => None,
+            };
             session.open(request);
         }
     }
 }
+
+/// Name of the gallery project that starts to play as soon as it is open.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct PlayWhenOpened(Option<String>);
 
 /// The gallery projects; empty if a bundled project is invalid, which the tests rule out.
 #[derive(Resource, Clone, Debug, PartialEq, Eq)]
@@ -85,13 +108,14 @@ pub fn edit(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
     mut notices: ResMut<Notices>,
-    (playback, gesture): (Res<Playback>, Res<Gesture>),
+    playback: Res<Playback>,
+    gesture: Res<Gesture>,
 ) {
-    let mark = gesture.mark();
+    let mark = gesture.id();
     for intent in intents.read() {
         match intent {
             Intent::CancelWork => session.cancel(),
-            Intent::Insist => session.insist(),
+            Intent::BuildAnyway => session.build_anyway(),
             Intent::Undo => {
                 let undone = session.undo();
                 report_result(undone, "Nothing to undo", &mut notices);
@@ -100,20 +124,24 @@ pub fn edit(
                 let redone = session.redo();
                 report_result(redone, "Nothing to redo", &mut notices);
             }
-            Intent::NextMethod => match next_cell(&session) {
-                Some(cell) => session.change(mark, |project| set_cell(project, cell)),
+            Intent::NextMethod => match next_method(&session) {
+                Some((warp, content)) => {
+                    session.change(mark, |project| set_method(project, warp, content));
+                }
                 None => notices.done("These designs support only one method"),
             },
             Intent::AddStop => {
                 let added = add_stop(&mut session, playback.t(), mark);
                 report_result(Ok(added), "There is already a stop here", &mut notices);
             }
-            Intent::Edit(changed) => session.change(mark, |project| project.clone_from(changed)),
-            Intent::UseCell(warp, content) => {
-                session.change(mark, |project| set_cell(project, (*warp, *content)));
+            Intent::ReplaceSettings(changed) => {
+                session.change(mark, |project| project.clone_from(changed))
+            }
+            Intent::SetMethod(warp, content) => {
+                session.change(mark, |project| set_method(project, *warp, *content));
             }
             Intent::CyclePlayMode => {
-                session.change(mark, |project| cycle(&mut project.timing.play));
+                session.change(mark, |project| cycle_play_mode(&mut project.timing.play));
             }
             Intent::ReplaceDesign(index, path) => {
                 session.change_whole(mark, |project| replace_design(project, *index, path));
@@ -121,11 +149,11 @@ pub fn edit(
             Intent::InsertDesigns(at, paths) => {
                 session.change_whole(mark, |project| insert_designs(project, *at, paths));
             }
-            Intent::Arrange(designs) => {
-                session.change_whole(mark, |project| project.rearrange(designs.clone()));
+            Intent::ReorderDesigns(designs) => {
+                session.change_whole(mark, |project| project.set_designs(designs.clone()));
             }
-            Intent::LeadBack(closed) => {
-                session.change_whole(mark, |project| project.close(*closed));
+            Intent::CloseLoop(closed) => {
+                session.change_whole(mark, |project| project.set_closed(*closed));
             }
             _ => {}
         }
@@ -141,7 +169,7 @@ fn report_result(result: Result<bool, SaveError>, nothing: &str, notices: &mut N
     }
 }
 
-fn cycle(mode: &mut PlayMode) {
+fn cycle_play_mode(mode: &mut PlayMode) {
     *mode = match mode {
         PlayMode::Once => PlayMode::Loop,
         PlayMode::Loop => PlayMode::PingPong,
@@ -155,45 +183,45 @@ fn replace_design(project: &mut Project, index: usize, path: &Path) {
         return;
     };
     *entry = DesignEntry::new(absolute(path));
-    for leg in 0..project.pair_count() {
-        if project.pair_designs(leg).contains(&index) {
-            let mut pair = project.pair_alone(leg);
+    for segment in 0..project.pair_count() {
+        if project.pair_designs(segment).contains(&index) {
+            let mut pair = project.pair_project(segment);
             // Pins and part settings refer to points of the old design.
             pair.options.matching = pair.options.matching.without_places();
             pair.options.parts.clear();
-            project.take_pair(leg, pair);
+            project.replace_pair(segment, pair);
         }
     }
 }
 
 /// Inserts designs before index `at`, or appends them.
 fn insert_designs(project: &mut Project, at: usize, paths: &[PathBuf]) {
-    let mut designs = project.in_order();
+    let mut designs = project.designs_with_indices();
     let at = at.min(designs.len());
     let new = paths
         .iter()
         .map(|path| (DesignEntry::new(absolute(path)), None));
     designs.splice(at..at, new);
-    project.rearrange(designs);
+    project.set_designs(designs);
 }
 
-fn set_cell(project: &mut Project, (warp, content): (WarpKind, ContentKind)) {
+fn set_method(project: &mut Project, warp: WarpKind, content: ContentKind) {
     project.warp = Some(warp);
     project.content = Some(content);
 }
 
 /// The next method after the current one that the designs support.
-fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
+fn next_method(session: &Session) -> Option<(WarpKind, ContentKind)> {
     let project = session.project()?;
     // All warps for the same content first, so that pictures stay pictures.
-    let cells: Vec<_> = ContentKind::ALL
+    let methods: Vec<_> = ContentKind::ALL
         .into_iter()
         .flat_map(|content| WarpKind::ALL.map(|warp| (warp, content)))
         .collect();
-    let here = (project.warp?, project.content?);
-    let here = cells.iter().position(|cell| *cell == here)?;
+    let current = (project.warp?, project.content?);
+    let current = methods.iter().position(|method| *method == current)?;
     // Without the current method, which would come up again after a full round.
-    let after = cells.iter().cycle().skip(here + 1).take(cells.len() - 1);
+    let after = methods.iter().cycle().skip(current + 1).take(methods.len() - 1);
     after
         .copied()
         .find(|(warp, content)| session.available(*warp, *content).is_ok())
@@ -204,13 +232,13 @@ fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
     let mut is_added = false;
     session.change(mark, |project| {
         // Stops are sorted by t.
-        let place = project.stops.partition_point(|stop| stop.t < t - SAME_T);
+        let index = project.stops.partition_point(|stop| stop.t < t - SAME_T);
         if project
             .stops
             .iter()
             .all(|stop| (stop.t - t).abs() >= SAME_T)
         {
-            project.stops.insert(place, TransitionStop::at(t));
+            project.stops.insert(index, TransitionStop::at(t));
             is_added = true;
         }
     });
@@ -234,13 +262,13 @@ pub fn save(
         };
         match saved {
             Ok(path) => {
-                notices.well(NoticeTopic::Saving);
+                notices.resolve(NoticeTopic::Saving);
                 notices.done(format!("Saved {}", path.display()));
-                waiting = question.safe(UnsavedKind::Changes);
+                waiting = question.take_if_resolved(UnsavedKind::Changes);
             }
             Err(error) => {
                 notices.problem(NoticeTopic::Saving, error.to_string());
-                question.not_saved();
+                question.save_cancelled();
             }
         }
     }
@@ -249,32 +277,44 @@ pub fn save(
     }
 }
 
+/// State that [`poll`] carries from frame to frame.
+#[derive(SystemParam)]
+pub struct PollState<'w, 's> {
+    /// Open designs whose notes have been shown.
+    reported: Local<'s, Vec<Arc<Design>>>,
+    /// Whether the opened project starts to play as soon as it has a film.
+    is_to_play: Local<'s, bool>,
+    /// The gallery project chosen to be played.
+    to_play: ResMut<'w, PlayWhenOpened>,
+}
+
 /// Adopts opened projects and finished builds, and reports their problems and notes.
 pub fn poll(
     mut session: ResMut<Session>,
     mut notices: ResMut<Notices>,
     mut playback: ResMut<Playback>,
-    (mut auto_fit, editor, presentation): (ResMut<AutoFit>, Res<MatchEditor>, Res<Presentation>),
-    mut reported: Local<Vec<Arc<Design>>>,
-    mut is_to_play: Local<bool>,
+    mut auto_fit: ResMut<AutoFit>,
+    editor: Res<MatchEditor>,
+    presentation: Res<Presentation>,
+    mut state: PollState,
 ) {
     // Polled each frame; only an outcome counts as a change.
-    let may_change = playback.may_change_film(session.timing());
-    let outcome = session.bypass_change_detection().poll(may_change);
+    let can_swap = playback.can_swap_film(session.timing());
+    let outcome = session.bypass_change_detection().poll(can_swap);
     if outcome.is_some() {
         session.set_changed();
     }
     if session.is_changed() && session.problem().is_none() {
-        notices.well(NoticeTopic::Transition);
+        notices.resolve(NoticeTopic::Transition);
     }
     match outcome {
         None => return,
         // The match editor shows the problem where it was caused.
-        Some(WorkOutcome::NotRebuilt) if editor.is_open => return,
-        Some(WorkOutcome::NotRebuilt) => {}
+        Some(WorkOutcome::RebuildFailed) if editor.is_open => return,
+        Some(WorkOutcome::RebuildFailed) => {}
         Some(WorkOutcome::Rebuilt) => {
             // The last segment may no longer exist.
-            let end = session.leg_count() as f64;
+            let end = session.segment_count() as f64;
             if playback.t() > end && session.timing().to <= end {
                 let (timing, stops) = (*session.timing(), session.stops().to_vec());
                 playback.seek(end, &timing, &stops);
@@ -285,26 +325,31 @@ pub fn poll(
             return;
         }
         Some(WorkOutcome::Opened) => {
-            playback.begin(session.timing());
+            playback.rewind(session.timing());
             auto_fit.0 = true;
-            // Two newly opened designs play at once. With more, the user first chooses an order; a
-            // saved project is started by the user.
-            *is_to_play = session.is_new_pair() && !presentation.is_on();
+            // Newly opened designs play at once, and so does a gallery project chosen by its
+            // picture; a saved project is started by the user.
+            let chosen = state.to_play.0.take();
+            let is_chosen = chosen.is_some()
+                && chosen.as_deref() == session.gallery_name()
+                && !session.is_rescued();
+            let plays = session.has_new_designs() || is_chosen;
+            *state.is_to_play = plays && !presentation.is_on();
         }
     }
     // Not before the requested film is there, if only as a draft, and not if the user has already
     // moved t.
-    if *is_to_play && session.has_film() {
-        *is_to_play = false;
+    if *state.is_to_play && session.has_film() {
+        *state.is_to_play = false;
         if !playback.is_playing() && playback.t() == session.timing().from {
             playback.toggle(session.timing(), session.stops());
         }
     }
-    notices.well(NoticeTopic::Opening);
-    show_notes(session.all_designs(), &mut reported, &mut notices);
+    notices.resolve(NoticeTopic::Opening);
+    show_notes(session.all_designs(), &mut state.reported, &mut notices);
     if let Some(problem) = session.problem() {
         // Only the latest problem: earlier settings are no longer requested.
-        notices.well(NoticeTopic::Transition);
+        notices.resolve(NoticeTopic::Transition);
         notices.problem(
             NoticeTopic::Transition,
             problem_text(problem, session.transition()),
@@ -333,6 +378,6 @@ fn show_notes(designs: &[Arc<Design>], reported: &mut Vec<Arc<Design>>, notices:
 
 /// Describes a problem, and names the method shown instead, if any.
 fn problem_text(problem: &TransitionProblem, shown: Option<&Transition>) -> String {
-    let fallback = shown.map(|shown| format!(". Showing {} instead", shown.cell().name()));
+    let fallback = shown.map(|shown| format!(". Showing {} instead", shown.method().name()));
     format!("{problem}{}", fallback.unwrap_or_default())
 }

@@ -14,7 +14,7 @@ pub enum EditorAction {
     /// Whether pins snap to corners.
     Snap(bool),
     /// Whether the triangles of the mesh are shown.
-    Triangles(bool),
+    ShowTriangles(bool),
     /// The pointer hovers here; `None` when it leaves the designs.
     Hover(Option<EditorPointer>),
     /// The mouse button goes down here.
@@ -32,9 +32,9 @@ pub enum EditorAction {
     /// Delete all pins, lines, cuts and part pairings set by hand; matching rules stay.
     Clear,
     /// Whether the film is shown next to the designs.
-    Film(bool),
+    ShowFilm(bool),
     /// Whether all panes pan and zoom together.
-    Together(bool),
+    LinkPanes(bool),
     /// Move a pane by an offset in logical pixels, y down.
     Pan(EditorPane, Vec2),
     /// Zoom a pane about a point.
@@ -54,11 +54,11 @@ pub struct EditorPointer {
     /// The design under the pointer.
     pub side: Side,
     /// Position in the frame that both designs are placed in.
-    pub at: DVec2,
+    pub position: DVec2,
     /// Maximum distance, in the frame, at which the pointer picks something.
-    pub reach: f64,
+    pub pick_radius: f64,
     /// Whether snapping is suspended (a modifier key is down).
-    pub is_free: bool,
+    pub ignores_snapping: bool,
 }
 
 /// Tool of the match editor: the effect of a click.

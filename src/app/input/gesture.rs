@@ -26,7 +26,7 @@ pub struct Gesture {
 impl Gesture {
     /// Number of the gesture in progress; changes with the same number are one undo step.
     #[must_use]
-    pub fn mark(&self) -> Option<u64> {
+    pub fn id(&self) -> Option<u64> {
         (self.frames_left > 0).then_some(self.number)
     }
 
@@ -64,19 +64,15 @@ mod tests {
     #[test]
     fn changes_shortly_after_a_release_belong_to_the_gesture() {
         let mut gesture = Gesture::default();
-        assert_eq!(gesture.mark(), None);
+        assert_eq!(gesture.id(), None);
         gesture.note(true, true);
-        let mark = gesture.mark();
+        let mark = gesture.id();
         assert!(mark.is_some());
         gesture.note(false, false);
-        assert_eq!(
-            gesture.mark(),
-            mark,
-            "the release is acted on a frame later"
-        );
+        assert_eq!(gesture.id(), mark, "the release is acted on a frame later");
         gesture.note(false, false);
-        assert_eq!(gesture.mark(), None);
+        assert_eq!(gesture.id(), None);
         gesture.note(true, false);
-        assert_ne!(gesture.mark(), mark);
+        assert_ne!(gesture.id(), mark);
     }
 }

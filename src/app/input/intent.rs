@@ -57,25 +57,31 @@ pub enum Intent {
     /// Redo the change that was undone last.
     Redo,
     /// Replace the settings of the current segment; shared settings change for the whole project.
-    Edit(Box<Project>),
+    ReplaceSettings(Box<Project>),
     /// Use the method with this warp and content.
-    UseCell(WarpKind, ContentKind),
+    SetMethod(WarpKind, ContentKind),
     /// Use the next method that these designs support.
     NextMethod,
     /// Try all suitable methods in the background, then use the best.
-    ChooseMethod,
+    ChooseBestMethod,
     /// Stop trying methods.
-    CancelChoice,
+    CancelMethodSearch,
     /// Open the dialog that asks for files to open.
     AskOpen,
     /// Files chosen in the dialog; empty if it was cancelled.
-    Choose(Vec<PathBuf>),
+    AnswerDialog(Vec<PathBuf>),
     /// Preview this file in the dialog.
-    LookAt(PathBuf),
+    PreviewFile(PathBuf),
     /// Open these files: one project, or designs that become a new project.
     Open(Vec<PathBuf>),
     /// Open the gallery project with this name.
     OpenGallery(String),
+    /// Open the gallery project with this name and play it.
+    PlayGallery(String),
+    /// Start without files: play a gallery project and show the invitation.
+    Welcome,
+    /// Close the invitation.
+    CloseInvitation,
     /// Open the dialog that asks for a replacement of the design with this index.
     AskReplace(usize),
     /// Replace the design with this index by this file.
@@ -86,9 +92,9 @@ pub enum Intent {
     /// Insert these designs at this index; the number of designs appends.
     InsertDesigns(usize, Vec<PathBuf>),
     /// Replace the list of designs: each entry is new or names the index it had before.
-    Arrange(Vec<MovedDesigns>),
+    ReorderDesigns(Vec<MovedDesigns>),
     /// Close the loop: whether the last design leads back to the first.
-    LeadBack(bool),
+    CloseLoop(bool),
     /// Save the project to its file; asks for a file if it has none.
     Save,
     /// Ask for a file and save the project there.
@@ -101,19 +107,19 @@ pub enum Intent {
         with_panels: bool,
     },
     /// Copy an image of the stage to the clipboard.
-    CopyPicture,
+    CopyImage,
     /// Copy the stage to the clipboard as an SVG document.
-    CopyShapes,
+    CopySvg,
     /// Export the film in the background.
-    Record,
+    ExportFilm,
     /// Export a comparison sheet of all methods for this pair, in the background.
-    Compare,
+    ExportMethodSheet,
     /// Cancel building the transition.
     CancelWork,
     /// Build anyway, although the estimate exceeds the time or memory limit.
-    Insist,
+    BuildAnyway,
     /// Cancel the export in progress.
-    CancelRecording,
+    CancelExport,
     /// Start or end a talk.
     Present {
         /// Whether the window was opened for the talk and closes with it.
@@ -132,45 +138,45 @@ pub enum Intent {
     /// Show or hide the list of keys.
     ToggleHelp,
     /// Show or hide the frame times.
-    ToggleTimes,
+    ToggleFrameTimes,
     /// Show or hide the graphs over time.
     TogglePlots,
     /// Apply the remedy suggested for the finding with this index.
-    TakeAdvice(usize),
+    ApplyRemedy(usize),
     /// Apply the suggestion with this index.
-    TakeOffer(usize),
+    ApplySuggestion(usize),
     /// Measure the film again after measuring was stopped.
-    Measure,
+    MeasureAgain,
     /// Show or hide the comparison with a second method next to the stage.
-    ToggleTwin,
+    ToggleComparison,
     /// Set the method of the comparison.
-    TwinMethod(ComparisonMethod),
+    SetComparisonMethod(ComparisonMethod),
     /// Show the map of all designs in place of the stage, or hide it.
     ToggleMap,
     /// Set how the designs are laid out on the map.
-    LayOut(MapLayout),
+    SetMapLayout(MapLayout),
     /// Move the marker to this point of the map, y up.
-    Puck(DVec2),
+    MoveMarker(DVec2),
     /// Move the design with this index to this point of the map.
-    MoveSite(usize, DVec2),
+    MoveMapDesign(usize, DVec2),
     /// Replace the map's settings.
     EditMap(Box<MapSettings>),
     /// Show contours of this measure on the map; `None` shows none.
-    ShowMeasure(Option<MapMeasure>),
+    ShowMapMeasure(Option<MapMeasure>),
     /// Whether a click on the map adds a stop to the path instead of moving the marker.
-    DrawPath(bool),
+    SetPathDrawing(bool),
     /// Extend the path through these points of the map; the last becomes a stop.
     ExtendPath(Vec<DVec2>),
     /// Remove the last stop of the path.
-    ShortenPath,
+    RemoveLastPathStop,
     /// Start or end recording the marker's movement as a path.
-    RecordPath,
+    TogglePathRecording,
     /// Save the blend under the marker.
-    Keep,
+    SaveBlend,
     /// Export the saved blends to files.
-    ExportKept,
+    ExportSavedBlends,
     /// Esc: close the topmost question, overlay or mode, and last cancel an export.
-    Back,
+    Escape,
     /// Fit the whole transition into the view.
     FitView,
     /// Move the view by an offset in logical pixels, y down.
@@ -190,21 +196,21 @@ pub enum Intent {
     /// Show or hide onion skins: thin outlines of the film at other t.
     ToggleOnion,
     /// Replace the user's preferences.
-    Prefer(Preferences),
+    SetPreferences(Preferences),
     /// Use the export preset with this name.
     UsePreset(String),
     /// Save the export settings as a preset with this name.
-    KeepPreset(String),
+    SavePreset(String),
     /// Remove the preset with this name.
-    ForgetPreset(String),
+    RemovePreset(String),
     /// Dismiss the notice with this id.
-    Dismiss(u64),
+    DismissNotice(u64),
     /// Close the window; asks first if work would be lost.
     Close,
     /// Answer to the question about unsaved work.
-    Answer(UnsavedAnswer),
+    AnswerUnsaved(UnsavedAnswer),
     /// Answer to the offer to recover unsaved work.
-    Rescue(RecoveryAnswer),
+    AnswerRecovery(RecoveryAnswer),
 }
 
 /// Answer to "Recover unsaved work?".
@@ -221,7 +227,7 @@ pub enum RecoveryAnswer {
 impl Intent {
     /// Whether the intent is allowed during a talk: it shows the audience nothing but the drawing.
     #[must_use]
-    pub const fn is_of_a_talk(&self) -> bool {
+    pub const fn is_allowed_in_talk(&self) -> bool {
         matches!(
             self,
             Self::TogglePlay
@@ -242,7 +248,7 @@ impl Intent {
                 | Self::ToggleSpeaker
                 | Self::ToggleCaptions
                 | Self::ToggleFullscreen
-                | Self::Back
+                | Self::Escape
         )
     }
 }
@@ -255,5 +261,5 @@ pub enum UnsavedAnswer {
     /// Continue without saving.
     Discard,
     /// Cancel the action that raised the question.
-    Stay,
+    Cancel,
 }

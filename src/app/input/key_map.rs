@@ -108,7 +108,7 @@ impl KeyMap {
         if !input.state.is_pressed() {
             return None;
         }
-        let rank = |binding: &KeyBinding| match (binding.in_editor(), &binding.trigger) {
+        let rank = |binding: &KeyBinding| match (binding.is_editor_only(), &binding.trigger) {
             (true, _) => 0,
             (false, KeyTrigger::Named(_) | KeyTrigger::Letter(_) | KeyTrigger::Sign(_)) => 1,
             (false, KeyTrigger::Digit(_)) => 2,
@@ -116,7 +116,7 @@ impl KeyMap {
         self.0
             .iter()
             .flat_map(|row| &row.bindings)
-            .filter(|binding| is_editing || !binding.in_editor())
+            .filter(|binding| is_editing || !binding.is_editor_only())
             .filter(|binding| binding.repeats() || !input.repeat)
             .filter(|binding| binding.matches(input, held))
             .min_by_key(|binding| rank(binding))
@@ -196,7 +196,7 @@ impl KeyBinding {
 
     /// Whether the binding applies only while the match editor is open.
     #[must_use]
-    pub const fn in_editor(&self) -> bool {
+    pub const fn is_editor_only(&self) -> bool {
         matches!(self.intent, Intent::Editor(EditorAction::RemoveSelected))
     }
 

@@ -1,5 +1,5 @@
 //! The table of keys: every key combination, its intent, and its description in the list of keys.
-//! The README repeats it; a test compares the two.
+//! `docs/reference/keys.md` repeats it; a test compares the two.
 
 use bevy::input::keyboard::Key;
 
@@ -71,7 +71,7 @@ fn playback() -> Vec<KeyTableRow> {
             ),
             (
                 "Slower and faster",
-                speeds.map(|(c, act)| key(Sign(c), act)).into(),
+                speeds.map(|(c, intent)| key(Sign(c), intent)).into(),
             ),
             ("Reset speed", vec![key(Named(Key::Backspace), NormalSpeed)]),
             ("Reverse direction", vec![key(Letter('r'), Reverse)]),
@@ -166,8 +166,8 @@ fn edit() -> Vec<KeyTableRow> {
 
 fn view() -> Vec<KeyTableRow> {
     use Intent::{
-        Back, FitView, NextMethod, ToggleFullscreen, ToggleGrid, ToggleHelp, ToggleMap,
-        ToggleOnion, TogglePanels, TogglePlots, ToggleTimes, ToggleTwin,
+        Escape, FitView, NextMethod, ToggleComparison, ToggleFrameTimes, ToggleFullscreen,
+        ToggleGrid, ToggleHelp, ToggleMap, ToggleOnion, TogglePanels, TogglePlots,
     };
     let letter = |c: char, intent: Intent| vec![key(Letter(c), intent)];
     let named = |name: Key, intent: Intent| key(Named(name), intent);
@@ -175,12 +175,18 @@ fn view() -> Vec<KeyTableRow> {
         "View",
         [
             ("Next method", vec![named(Key::Tab, NextMethod)]),
-            ("Compare with a second method", letter('v', ToggleTwin)),
+            (
+                "Compare with a second method",
+                letter('v', ToggleComparison),
+            ),
             (
                 "Map of all designs; arrow keys move on it",
                 letter('d', ToggleMap),
             ),
-            ("On the map: save this blend", letter('k', Intent::Keep)),
+            (
+                "On the map: save this blend",
+                letter('k', Intent::SaveBlend),
+            ),
             (
                 "Grid of the warp; on the map: record a path",
                 letter('w', ToggleGrid),
@@ -199,18 +205,20 @@ fn view() -> Vec<KeyTableRow> {
                 ],
             ),
             ("Hide everything but the stage", letter('h', TogglePanels)),
-            ("Close, cancel or go back", vec![named(Key::Escape, Back)]),
+            ("Close, cancel or go back", vec![named(Key::Escape, Escape)]),
             (
                 "List of keys",
                 vec![key(Sign('?'), ToggleHelp), named(Key::F1, ToggleHelp)],
             ),
-            ("Frame times", vec![named(Key::F3, ToggleTimes)]),
+            ("Frame times", vec![named(Key::F3, ToggleFrameTimes)]),
         ],
     )
 }
 
 fn files() -> Vec<KeyTableRow> {
-    use Intent::{AskOpen, Compare, CopyPicture, CopyShapes, Record, Save, SaveAs, Screenshot};
+    use Intent::{
+        AskOpen, CopyImage, CopySvg, ExportFilm, ExportMethodSheet, Save, SaveAs, Screenshot,
+    };
     let letter = |c: char, intent: Intent| key(Letter(c), intent);
     let picture = |with_panels: bool| letter('s', Screenshot { with_panels });
     group(
@@ -224,14 +232,14 @@ fn files() -> Vec<KeyTableRow> {
             (
                 "Copy as image, as SVG",
                 vec![
-                    letter('c', CopyPicture).control(),
-                    letter('c', CopyShapes).control().shift(),
+                    letter('c', CopyImage).control(),
+                    letter('c', CopySvg).control().shift(),
                 ],
             ),
-            ("Export film", vec![letter('g', Record)]),
+            ("Export film", vec![letter('g', ExportFilm)]),
             (
                 "Export a comparison sheet of all methods",
-                vec![letter('c', Compare)],
+                vec![letter('c', ExportMethodSheet)],
             ),
         ],
     )
@@ -243,7 +251,7 @@ mod tests {
 
     use super::*;
 
-    /// Key combinations in one row of the README's table, such as `R`, `→ ←`, `1 – 9`, `Ctrl+S,
+    /// Key combinations in one row of the documented table, such as `R`, `→ ←`, `1 – 9`, `Ctrl+S,
     /// Ctrl+O`.
     fn chords(keys: &str, does: &str) -> BTreeSet<String> {
         let keys = keys.replace("Page ", "Page_").replace('`', "");
@@ -269,9 +277,9 @@ mod tests {
     }
 
     #[test]
-    fn the_readme_lists_exactly_the_bound_keys() {
-        let readme = include_str!("../../../README.md");
-        let table = readme.split_once("| key | does |").expect("a table").1;
+    fn the_docs_list_exactly_the_bound_keys() {
+        let page = include_str!("../../../docs/reference/keys.md");
+        let table = page.split_once("| key | does |").expect("a table").1;
         let documented: BTreeSet<String> = table
             .lines()
             .skip(2)
@@ -281,7 +289,7 @@ mod tests {
         let map = KeyMap::default();
         let bindings = map.rows().iter().flat_map(|row| &row.bindings);
         let bound: BTreeSet<String> = bindings
-            // Backspace appears twice: the README documents only its meaning outside the editor.
+            // Backspace appears twice: the page lists only its meaning outside the editor.
             .map(KeyBinding::chord)
             .collect();
         assert_eq!(documented, bound);
@@ -290,10 +298,10 @@ mod tests {
     #[test]
     fn no_two_keys_are_the_same() {
         let map = KeyMap::default();
-        let mut seen = BTreeSet::new();
+        let mut chords = BTreeSet::new();
         for binding in map.rows().iter().flat_map(|row| &row.bindings) {
             assert!(
-                seen.insert((binding.in_editor(), binding.chord())),
+                chords.insert((binding.is_editor_only(), binding.chord())),
                 "{} means two things",
                 binding.chord()
             );

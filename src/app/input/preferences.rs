@@ -89,30 +89,30 @@ impl FilmExportOptions {
     /// First and last t of the export. Drops values that are neither an end nor a stop of the
     /// project: another project may be open by now, or a stop may have been removed.
     #[must_use]
-    pub fn places(&self, pass: &Timing, stops: &[TransitionStop]) -> [Option<f64>; 2] {
-        let is_there = |t: &f64| {
-            let ends = [pass.from, pass.to];
+    pub fn places(&self, whole_film: &Timing, stops: &[TransitionStop]) -> [Option<f64>; 2] {
+        let exists = |t: &f64| {
+            let ends = [whole_film.from, whole_film.to];
             ends.contains(t) || stops.iter().any(|stop| stop.t == *t)
         };
-        self.span.map(|at| at.filter(is_there))
+        self.span.map(|at| at.filter(exists))
     }
 
     /// Timing of the exported film; a section runs at the same speed as in the whole film.
     #[must_use]
-    pub fn timing(&self, pass: &Timing, stops: &[TransitionStop]) -> Timing {
-        let [from, to] = self.places(pass, stops);
-        let (from, to) = (from.unwrap_or(pass.from), to.unwrap_or(pass.to));
-        let share = (to - from).abs() / (pass.to - pass.from).abs();
+    pub fn timing(&self, whole_film: &Timing, stops: &[TransitionStop]) -> Timing {
+        let [from, to] = self.places(whole_film, stops);
+        let (from, to) = (from.unwrap_or(whole_film.from), to.unwrap_or(whole_film.to));
+        let fraction = (to - from).abs() / (whole_film.to - whole_film.from).abs();
         Timing {
             from,
             to,
-            duration_secs: pass.duration_secs * share,
+            duration_secs: whole_film.duration_secs * fraction,
             play: match self.ending {
-                FilmEnding::AsPlayed => pass.play,
+                FilmEnding::AsPlayed => whole_film.play,
                 FilmEnding::Once => PlayMode::Once,
-                FilmEnding::Seamless => PlayMode::PingPong,
+                FilmEnding::Loop => PlayMode::PingPong,
             },
-            ..*pass
+            ..*whole_film
         }
     }
 }
@@ -126,13 +126,13 @@ pub enum FilmEnding {
     /// It stops.
     Once,
     /// It plays back to its start, so that it can loop.
-    Seamless,
+    Loop,
 }
 
 named! { FilmEnding {
     AsPlayed: "as-played", "As on the stage", "Plays as on the stage (set next to Duration)";
     Once: "once", "Play once", "Plays from the first design to the last and stops";
-    Seamless: "seamless", "Loop", "Plays forwards and back, so that it loops without a jump";
+    Loop: "seamless", "Loop", "Plays forwards and back, so that it loops without a jump";
 } }
 
 /// Colour theme of the panels.
@@ -176,14 +176,14 @@ impl Preferences {
     #[must_use]
     pub fn format(&self, content: Option<ContentKind>) -> FilmFileFormat {
         self.record_format
-            .unwrap_or_else(|| FilmFileFormat::suited(content))
+            .unwrap_or_else(|| FilmFileFormat::default_for_content(content))
     }
 }
 
 impl FilmFileFormat {
     /// GIF, which plays everywhere; for pictures MP4 or APNG, because GIF has few colours and
     /// becomes large.
-    fn suited(content: Option<ContentKind>) -> Self {
+    fn default_for_content(content: Option<ContentKind>) -> Self {
         Self::Film(match content {
             Some(ContentKind::Colours) if has_ffmpeg() => FilmKind::Mp4,
             Some(ContentKind::Colours) => FilmKind::Apng,
@@ -209,7 +209,7 @@ impl ComparisonMethod {
 
     /// Default method to compare with: cross-dissolve for pictures, straight lines for shapes.
     #[must_use]
-    pub fn plainest(content: Option<ContentKind>) -> Self {
+    pub fn default_for(content: Option<ContentKind>) -> Self {
         if content == Some(ContentKind::Colours) {
             Self::Cell(TransitionMethod::CROSS_DISSOLVE)
         } else {
@@ -219,10 +219,10 @@ impl ComparisonMethod {
 
     /// The cell of the method table that builds this comparison.
     #[must_use]
-    pub fn cell(self) -> TransitionMethod {
+    pub fn method(self) -> TransitionMethod {
         match self {
             Self::Straight => TransitionMethod::RIGID_PARTS,
-            Self::Cell(cell) => cell,
+            Self::Cell(method) => method,
         }
     }
 
@@ -231,7 +231,7 @@ impl ComparisonMethod {
     pub fn name(self) -> &'static str {
         match self {
             Self::Straight => "straight lines",
-            Self::Cell(cell) => cell.name(),
+            Self::Cell(method) => method.name(),
         }
     }
 }

@@ -67,7 +67,7 @@ pub enum JobError<E> {
     Failed(E),
     /// The thread panicked or could not be started; the job's name.
     #[error("internal error ({0}); this is a bug, please report it")]
-    Broken(&'static str),
+    Panicked(&'static str),
 }
 
 /// Work running in the background.
@@ -88,7 +88,7 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
         let (sender, receiver) = channel();
         let tracker = Arc::new(JobTracker::default());
         let thread_tracker = Arc::clone(&tracker);
-        // If the thread cannot be started, the sender is dropped here and `poll` returns `Broken`.
+        // If the thread cannot be started, the sender is dropped here and `poll` returns `Panicked`.
         std::thread::Builder::new()
             .name(name.to_owned())
             .spawn(move || {
@@ -117,7 +117,7 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
         match result.try_recv() {
             Ok(result) => Some(result.map_err(JobError::Failed)),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(JobError::Broken(self.name))),
+            Err(TryRecvError::Disconnected) => Some(Err(JobError::Panicked(self.name))),
         }
     }
 
@@ -133,7 +133,7 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
 
     /// Time since the job started.
     #[must_use]
-    pub fn lasts(&self) -> Duration {
+    pub fn elapsed(&self) -> Duration {
         self.started.elapsed()
     }
 
@@ -197,7 +197,7 @@ mod tests {
     fn a_panic_is_an_error() {
         let job: BackgroundJob<(), _> =
             BackgroundJob::start("fault", |_| panic!("intended by the test"));
-        assert_eq!(wait(&job), Err(JobError::Broken("fault")));
+        assert_eq!(wait(&job), Err(JobError::Panicked("fault")));
     }
 
     #[test]

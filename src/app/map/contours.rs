@@ -32,10 +32,10 @@ const HATCH_COLOUR: Rgb = Rgb([196, 84, 40]);
 /// Samples of all measures over the map, and the image drawn from them.
 #[derive(Debug, Default)]
 pub struct MapContours {
-    found: Option<MapLandscape>,
+    landscape: Option<MapLandscape>,
     sampling: Option<BackgroundJob<MapLandscape, Cancelled>>,
     /// Content of the image: the measure, the colour, and the samples per side.
-    of: Option<(ShownMeasure, Rgb, usize)>,
+    drawn: Option<(ShownMeasure, Rgb, usize)>,
     drawing: Option<BackgroundJob<Arc<RgbaImage>, Cancelled>>,
     picture: Option<Arc<RgbaImage>>,
 }
@@ -52,8 +52,8 @@ impl MapContours {
 
     /// The samples taken so far.
     #[must_use]
-    pub fn found(&self) -> Option<&MapLandscape> {
-        self.found.as_ref()
+    pub fn landscape(&self) -> Option<&MapLandscape> {
+        self.landscape.as_ref()
     }
 
     /// Whether samples are being taken or drawn.
@@ -66,32 +66,33 @@ impl MapContours {
     /// whether the image is new.
     pub fn work(
         &mut self,
-        (space, map): (&DesignSpace, &WeightMap),
+        space: &DesignSpace,
+        map: &WeightMap,
         shown: ShownMeasure,
         ink: Rgb,
     ) -> bool {
-        if let Some(Ok(found)) = BackgroundJob::take(&mut self.sampling) {
-            self.found = Some(found);
+        if let Some(Ok(landscape)) = BackgroundJob::take(&mut self.sampling) {
+            self.landscape = Some(landscape);
         }
-        let sampled = self.found.as_ref().map_or(0, MapLandscape::side);
+        let sampled = self.landscape.as_ref().map_or(0, MapLandscape::side);
         let next = SAMPLES_PER_SIDE.into_iter().find(|side| *side > sampled);
         if let Some(side) = next.filter(|_| self.sampling.is_none()) {
             let (space, map) = (space.clone(), map.clone());
             self.sampling = Some(BackgroundJob::start("measuring the map", move |progress| {
-                MapLandscape::of((&space, &map), side, REACH, progress)
+                MapLandscape::measure(&space, &map, side, REACH, progress)
             }));
         }
         let mut is_new = false;
-        if let Some(answer) = BackgroundJob::take(&mut self.drawing) {
-            self.picture = answer.ok();
+        if let Some(image) = BackgroundJob::take(&mut self.drawing) {
+            self.picture = image.ok();
             is_new = true;
         }
-        let of = (shown, ink, sampled);
-        if let Some(found) = self.found.as_ref().filter(|_| self.of != Some(of)) {
-            let found = found.clone();
-            self.of = Some(of);
+        let drawn = (shown, ink, sampled);
+        if let Some(landscape) = self.landscape.as_ref().filter(|_| self.drawn != Some(drawn)) {
+            let landscape = landscape.clone();
+            self.drawn = Some(drawn);
             self.drawing = Some(BackgroundJob::start("drawing the map", move |_| {
-                Ok(Arc::new(draw(&found, shown, ink)))
+                Ok(Arc::new(draw(&landscape, shown, ink)))
             }));
         }
         is_new
@@ -99,25 +100,25 @@ impl MapContours {
 }
 
 /// Draws the contours of `shown` and the hatching; straight alpha on a transparent background.
-fn draw(land: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
+fn draw(landscape: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
     let px = 2.0 * REACH / f64::from(SIDE_PX);
-    let place = |x: u32, y: u32| {
+    let map_point = |x: u32, y: u32| {
         let [across, down] = [x, y].map(|k| (f64::from(k) + 0.5) * px - REACH);
         DVec2::new(across, -down)
     };
-    let range = shown.and_then(|measure| Some((measure, land.range(measure)?)));
+    let range = shown.and_then(|measure| Some((measure, landscape.range(measure)?)));
     // A constant measure has no contours.
     let range = range.filter(|(_, [min, max])| max - min > 1e-9 * max.abs());
     RgbaImage::from_fn(SIDE_PX, SIDE_PX, |x, y| {
-        let at = place(x, y);
+        let at = map_point(x, y);
         let is_line = (x + y) % HATCH_PX.0 < HATCH_PX.1;
-        if is_line && land.trouble(at) > 0.5 {
+        if is_line && landscape.defect_fraction(at) > 0.5 {
             let Rgb([r, g, b]) = HATCH_COLOUR;
             return Rgba([r, g, b, 200]);
         }
         let shade = range.and_then(|(measure, [min, max])| {
             let height = |at: DVec2| {
-                let value = land.value(measure, at)?;
+                let value = landscape.value(measure, at)?;
                 Some((value - min) / (max - min) * CONTOURS)
             };
             let here = height(at)?;

@@ -9,8 +9,8 @@ use crate::app::map::thumbnails::REACH;
 use crate::app::notices::Notices;
 use crate::app::session::state::Session;
 use crate::geometry::DVec2;
-use crate::project::{MOST_PLACES, MapSettings, SavedPlace};
-use crate::space::{MapPath, Waypoint, thinned};
+use crate::project::{MAX_PLACES, MapSettings, SavedPlace};
+use crate::space::{MapPath, Waypoint, simplify_polyline};
 
 /// Distance within which a new stop snaps to a design or another stop (heuristic).
 const SNAP_DISTANCE: f64 = 0.05 * REACH;
@@ -30,52 +30,52 @@ pub fn apply(
     for intent in intents.read() {
         match intent {
             Intent::ToggleMap => view.is_shown = !view.is_shown,
-            Intent::Puck(to) if to.is_finite() => view.move_puck(*to),
-            Intent::ShowMeasure(shown) => view.shown = *shown,
-            Intent::DrawPath(on) => view.draws_path = *on,
-            Intent::RecordPath => match view.record() {
-                Some(way) if way.len() > 1 => {
-                    let mut path = extended(MapPath::default(), &way, &view);
-                    path.places.truncate(MOST_PLACES);
-                    session.change_whole(gesture.mark(), |project| project.follow(path));
+            Intent::MoveMarker(to) if to.is_finite() => view.move_marker(*to),
+            Intent::ShowMapMeasure(shown) => view.measure = *shown,
+            Intent::SetPathDrawing(on) => view.is_drawing_path = *on,
+            Intent::TogglePathRecording => match view.toggle_recording() {
+                Some(points) if points.len() > 1 => {
+                    let mut path = extend_path(MapPath::default(), &points, &view);
+                    path.places.truncate(MAX_PLACES);
+                    session.change_whole(gesture.id(), |project| project.set_path(path));
                 }
                 Some(_) => notices.done("The marker did not move, so no path was recorded"),
                 None => notices.done("Recording a path: move the marker, then press W to finish"),
             },
             Intent::ExtendPath(through) => {
-                let path = session.whole().map(|whole| whole.map.path.clone());
-                let path = path.map(|path| extended(path, through, &view));
-                if let Some(path) = path.filter(|path| path.places.len() <= MOST_PLACES) {
+                let path = session.whole_project().map(|whole| whole.map.path.clone());
+                let path = path.map(|path| extend_path(path, through, &view));
+                if let Some(path) = path.filter(|path| path.places.len() <= MAX_PLACES) {
                     let last = path.places.last().map(|place| place.at);
-                    last.into_iter().for_each(|last| view.move_puck(last));
-                    session.change_whole(gesture.mark(), |project| project.follow(path));
+                    last.into_iter().for_each(|last| view.move_marker(last));
+                    session.change_whole(gesture.id(), |project| project.set_path(path));
                 }
             }
-            _ => change(intent, &view, &mut session, gesture.mark()),
+            _ => change_project(intent, &view, &mut session, gesture.id()),
         }
     }
 }
 
 /// Applies those intents that only change the project.
-fn change(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: Option<u64>) {
+fn change_project(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: Option<u64>) {
     match intent {
-        Intent::LayOut(layout) => session.change_whole(mark, |project| {
+        Intent::SetMapLayout(layout) => session.change_whole(mark, |project| {
             (project.map.layout, project.map.sites) = (*layout, Vec::new());
         }),
-        Intent::MoveSite(design, to) => {
+        Intent::MoveMapDesign(design, to) => {
             if let Some(sites) = view.sites_with(*design, *to) {
                 session.change_whole(mark, |project| project.map.sites = sites);
             }
         }
-        Intent::ShortenPath => session.change_whole(mark, |project| {
+        Intent::RemoveLastPathStop => session.change_whole(mark, |project| {
             let mut path = project.map.path.clone();
-            shorten(&mut path);
-            project.follow(path);
+            remove_last_stop(&mut path);
+            project.set_path(path);
         }),
-        Intent::Keep if view.made().is_some() && view.is_shown => {
+        Intent::SaveBlend if view.pictures().is_some() && view.is_shown => {
             let place = saved_blend(view);
             session.change_whole(mark, |project| {
-                if project.map.kept.len() < MOST_PLACES {
+                if project.map.kept.len() < MAX_PLACES {
                     project.map.kept.push(place);
                 }
             });
@@ -86,27 +86,27 @@ fn change(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: 
                 path,
                 ..MapSettings::clone(changed)
             };
-            project.follow(changed.path.clone());
+            project.set_path(changed.path.clone());
         }),
         _ => {}
     }
 }
 
 /// Extends a path through these points; the last becomes a stop.
-fn extended(mut path: MapPath, through: &[DVec2], view: &MapView) -> MapPath {
+fn extend_path(mut path: MapPath, through: &[DVec2], view: &MapView) -> MapPath {
     let Some((&to, before)) = through.split_last() else {
         return path;
     };
-    let mut way = thinned(through, PATH_TOLERANCE);
+    let mut points = simplify_polyline(through, PATH_TOLERANCE);
     if path.places.is_empty() && !before.is_empty() {
         // A path drawn in one go also starts with a stop.
-        path.places.push(stop(way.remove(0), &path, view));
+        path.places.push(new_stop(points.remove(0), &path, view));
     } else {
-        way.remove(0);
+        points.remove(0);
     }
-    way.pop();
-    path.places.extend(way.into_iter().map(Waypoint::passed));
-    let last = stop(to, &path, view);
+    points.pop();
+    path.places.extend(points.into_iter().map(Waypoint::via));
+    let last = new_stop(to, &path, view);
     // A second click on the same place adds nothing.
     if path.places.last().is_none_or(|place| place.at != last.at) {
         path.places.push(last);
@@ -115,40 +115,40 @@ fn extended(mut path: MapPath, through: &[DVec2], view: &MapView) -> MapPath {
 }
 
 /// A named stop at a point, snapped to the nearest design or stop.
-fn stop(at: DVec2, path: &MapPath, view: &MapView) -> Waypoint {
-    let made = view.made();
-    let sites = made.map_or(&[][..], |made| made.map().sites());
+fn new_stop(at: DVec2, path: &MapPath, view: &MapView) -> Waypoint {
+    let pictures = view.pictures();
+    let sites = pictures.map_or(&[][..], |pictures| pictures.map().sites());
     let stops = path.places.iter().filter(|place| !place.passed);
-    let known = sites.iter().copied().chain(stops.map(|place| place.at));
-    let near = known.min_by(|a, b| a.distance(at).total_cmp(&b.distance(at)));
-    let at = near
-        .filter(|near| near.distance(at) < SNAP_DISTANCE)
+    let snap_points = sites.iter().copied().chain(stops.map(|place| place.at));
+    let nearest = snap_points.min_by(|a, b| a.distance(at).total_cmp(&b.distance(at)));
+    let at = nearest
+        .filter(|nearest| nearest.distance(at) < SNAP_DISTANCE)
         .unwrap_or(at);
     Waypoint {
         name: blend_name(at, view),
-        ..Waypoint::stop(at)
+        ..Waypoint::new_stop(at)
     }
 }
 
 /// Name of the blend at a point.
 fn blend_name(at: DVec2, view: &MapView) -> String {
-    view.made().map_or_else(String::new, |made| {
-        let mut weights = vec![0.0; made.map().sites().len()];
-        made.map().weights(at, &mut weights);
-        made.space().told(&weights)
+    view.pictures().map_or_else(String::new, |pictures| {
+        let mut weights = vec![0.0; pictures.map().sites().len()];
+        pictures.map().weights(at, &mut weights);
+        pictures.space().blend_label(&weights)
     })
 }
 
 /// Saved blend at the marker.
 fn saved_blend(view: &MapView) -> SavedPlace {
     SavedPlace {
-        name: blend_name(view.puck(), view),
-        ..SavedPlace::new(view.puck())
+        name: blend_name(view.marker(), view),
+        ..SavedPlace::new(view.marker())
     }
 }
 
 /// Removes the last stop and the points leading to it.
-fn shorten(path: &mut MapPath) {
+fn remove_last_stop(path: &mut MapPath) {
     path.places.pop();
     while path.places.last().is_some_and(|place| place.passed) {
         path.places.pop();

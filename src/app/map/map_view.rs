@@ -20,7 +20,7 @@ use crate::geometry::DVec2;
 use crate::measure::MapMeasure;
 use crate::project::{LoadedProject, MapSettings, Project, ProjectError};
 use crate::space::{DesignSpace, MapCurve, WeightMap};
-use crate::stage::StageTimes;
+use crate::stage::DurationHistory;
 use crate::transition::{BuildQuality, Timing, TransitionStyle, segment_at};
 
 /// Distance that an arrow key moves the marker, as a fraction of the map's half side (heuristic).
@@ -37,38 +37,38 @@ pub struct MapView {
     /// Whether the map is shown in place of the stage.
     pub is_shown: bool,
     /// Whether a click on the map adds a stop to the path.
-    pub draws_path: bool,
+    pub is_drawing_path: bool,
     /// Measure whose contours are shown.
-    pub shown: Option<MapMeasure>,
+    pub measure: Option<MapMeasure>,
     /// Position of the marker, y up.
-    puck: DVec2,
+    marker: DVec2,
     /// Positions of the marker since recording started; `None` when not recording.
     recorded: Option<Vec<DVec2>>,
     /// Playback position in the previous frame.
     t: Option<f64>,
     /// The project that the map shows.
-    whole: Option<LoadedProject>,
+    project: Option<LoadedProject>,
     curve: Option<MapCurve>,
     /// Whether the space being built is a draft.
     is_draft: bool,
     job: Option<BackgroundJob<DesignSpace, MapBuildError>>,
     problem: Option<JobError<MapBuildError>>,
-    made: Option<MapPictures>,
+    pictures: Option<MapPictures>,
     /// Durations from a move of the marker to the new image of the blend.
-    times: StageTimes,
+    times: DurationHistory,
 }
 
 impl MapView {
     /// Position of the marker, y up.
     #[must_use]
-    pub fn puck(&self) -> DVec2 {
-        self.puck
+    pub fn marker(&self) -> DVec2 {
+        self.marker
     }
 
     /// The map with its images; `None` until it is built.
     #[must_use]
-    pub fn made(&self) -> Option<&MapPictures> {
-        self.made.as_ref()
+    pub fn pictures(&self) -> Option<&MapPictures> {
+        self.pictures.as_ref()
     }
 
     /// Curve of the path over the map, if there is one.
@@ -86,7 +86,7 @@ impl MapView {
     /// Whether the map is being built or drawn.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.job.is_some() || self.made.as_ref().is_some_and(MapPictures::is_busy)
+        self.job.is_some() || self.pictures.as_ref().is_some_and(MapPictures::is_busy)
     }
 
     /// Whether the marker's movement is being recorded.
@@ -96,9 +96,9 @@ impl MapView {
     }
 
     /// Starts recording the marker's movement, or stops and returns the recorded positions.
-    pub fn record(&mut self) -> Option<Vec<DVec2>> {
+    pub fn toggle_recording(&mut self) -> Option<Vec<DVec2>> {
         if self.recorded.is_none() {
-            self.recorded = Some(vec![self.puck]);
+            self.recorded = Some(vec![self.marker]);
             return None;
         }
         self.recorded.take()
@@ -107,35 +107,35 @@ impl MapView {
     /// Replacement for the intent of a key while the map is shown: arrow keys move the marker, and
     /// the stop key adds a stop to the path.
     #[must_use]
-    pub fn instead(&self, intent: &Intent) -> Option<Intent> {
+    pub fn map_intent(&self, intent: &Intent) -> Option<Intent> {
         let by = match intent {
             _ if !self.is_shown => return None,
             Intent::Step(n) => DVec2::new(f64::from(*n), 0.0),
             Intent::JumpToNextStop => DVec2::Y,
             Intent::JumpToPreviousStop => DVec2::NEG_Y,
-            Intent::AddStop => return Some(Intent::ExtendPath(vec![self.puck])),
+            Intent::AddStop => return Some(Intent::ExtendPath(vec![self.marker])),
             Intent::Editor(EditorAction::Toggle) => {
-                return Some(Intent::DrawPath(!self.draws_path));
+                return Some(Intent::SetPathDrawing(!self.is_drawing_path));
             }
-            Intent::ToggleGrid => return Some(Intent::RecordPath),
-            Intent::NormalSpeed if self.draws_path => return Some(Intent::ShortenPath),
+            Intent::ToggleGrid => return Some(Intent::TogglePathRecording),
+            Intent::NormalSpeed if self.is_drawing_path => return Some(Intent::RemoveLastPathStop),
             _ => return None,
         };
-        Some(Intent::Puck(self.puck + by * STEP * REACH))
+        Some(Intent::MoveMarker(self.marker + by * STEP * REACH))
     }
 
     /// Moves the marker, clamped to the map.
-    pub fn move_puck(&mut self, to: DVec2) {
-        self.puck = to.clamp(DVec2::splat(-REACH), DVec2::splat(REACH));
+    pub fn move_marker(&mut self, to: DVec2) {
+        self.marker = to.clamp(DVec2::splat(-REACH), DVec2::splat(REACH));
         if let Some(recorded) = &mut self.recorded {
-            recorded.push(self.puck);
+            recorded.push(self.marker);
         }
     }
 
     /// Places of all designs after moving one of them; `None` if it cannot be there.
     #[must_use]
     pub fn sites_with(&self, design: usize, to: DVec2) -> Option<Vec<DVec2>> {
-        let mut sites = self.made.as_ref()?.map().sites().to_vec();
+        let mut sites = self.pictures.as_ref()?.map().sites().to_vec();
         let site = sites.get_mut(design).filter(|_| to.is_finite())?;
         *site = to.clamp(DVec2::splat(-1.0), DVec2::ONE);
         // Two designs in one place are refused.
@@ -143,23 +143,23 @@ impl MapView {
     }
 
     /// Moves the marker along with playback; returns whether it moved.
-    pub fn go_with(&mut self, t: f64) -> bool {
-        let is_new = self.t.replace(t).is_some_and(|before| before != t);
+    pub fn follow_playback(&mut self, t: f64) -> bool {
+        let is_new = self.t.replace(t).is_some_and(|previous| previous != t);
         if !(is_new && self.is_shown) {
             return false;
         }
-        let to = match (&self.curve, &self.made, &self.whole) {
+        let to = match (&self.curve, &self.pictures, &self.project) {
             (Some(curve), ..) => Some(curve.at(t)),
-            (None, Some(made), Some(whole)) => {
-                let (leg, within) = segment_at(whole.project.pair_count(), t);
-                let [from, to] = whole.project.pair_designs(leg);
-                let sites = made.map().sites();
+            (None, Some(pictures), Some(project)) => {
+                let (segment, within) = segment_at(project.project.pair_count(), t);
+                let [from, to] = project.project.pair_designs(segment);
+                let sites = pictures.map().sites();
                 let ends = sites.get(from).zip(sites.get(to));
                 ends.map(|(from, to)| from.lerp(*to, within))
             }
             _ => None,
         };
-        to.into_iter().for_each(|to| self.move_puck(to));
+        to.into_iter().for_each(|to| self.move_marker(to));
         to.is_some()
     }
 
@@ -170,27 +170,27 @@ impl MapView {
             return is_changed;
         }
         if is_new && session.work().is_none() {
-            match session.whole_loaded() {
-                Some(whole) => is_changed |= self.follow(whole),
+            match session.loaded_project() {
+                Some(project) => is_changed |= self.follow(project),
                 None => {
-                    (self.made, self.whole, self.curve) = (None, None, None);
+                    (self.pictures, self.project, self.curve) = (None, None, None);
                     (self.job, self.is_draft) = (None, false);
                 }
             }
         }
-        if let (Some(made), Some(whole)) = (&mut self.made, &self.whole) {
+        if let (Some(pictures), Some(project)) = (&mut self.pictures, &self.project) {
             let is_final = self.job.is_none();
-            let kept = &whole.project.map.kept;
-            is_changed |= made.work(session.style(), kept, self.shown, is_final);
+            let saved_places = &project.project.map.kept;
+            is_changed |= pictures.work(session.style(), saved_places, self.measure, is_final);
         }
         is_changed
     }
 
     /// Draws the blend under the marker unless the current image shows it; returns whether it drew.
     pub fn look(&mut self, size: PixelSize, style: TransitionStyle) -> bool {
-        let (puck, start) = (self.puck, Instant::now());
-        let made = self.made.as_mut();
-        let is_new = made.is_some_and(|made| made.look(puck, size, style));
+        let (marker, start) = (self.marker, Instant::now());
+        let pictures = self.pictures.as_mut();
+        let is_new = pictures.is_some_and(|pictures| pictures.look(marker, size, style));
         if is_new {
             self.times.record(start.elapsed());
         }
@@ -199,62 +199,62 @@ impl MapView {
 
     /// Durations of the last moves of the marker, up to the new image of the blend.
     #[must_use]
-    pub fn times(&self) -> &StageTimes {
+    pub fn times(&self) -> &DurationHistory {
         &self.times
     }
 
     /// Adopts a newly built space and lays out its map.
     fn place(&mut self, space: DesignSpace) {
-        let Some(whole) = &self.whole else {
+        let Some(project) = &self.project else {
             return;
         };
         // The old thumbnails stay until the new ones are drawn.
-        let ground = self.made.take().and_then(|made| made.ground().cloned());
+        let ground = self.pictures.take().and_then(|pictures| pictures.thumbnails().cloned());
         let ground = ground.filter(|ground| ground.count == space.designs().len());
-        match whole.map_of(&space) {
-            Ok(map) => self.made = Some(MapPictures::new(space, map, ground)),
+        match project.map_of(&space) {
+            Ok(map) => self.pictures = Some(MapPictures::new(space, map, ground)),
             Err(error) => self.refuse(JobError::Failed(MapBuildError(Arc::new(error)))),
         }
     }
 
     /// Adopts the project's current settings; returns whether the map changes.
-    fn follow(&mut self, whole: LoadedProject) -> bool {
-        let before = self.whole.replace(whole.clone());
+    fn follow(&mut self, project: LoadedProject) -> bool {
+        let before = self.project.replace(project.clone());
         let is_same = before.is_some_and(|before| {
-            let same_space = have_same_space(&before.project, &whole.project);
-            let designs = before.designs.iter().zip(&whole.designs);
+            let same_space = have_same_space(&before.project, &project.project);
+            let designs = before.designs.iter().zip(&project.designs);
             same_space && designs.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
         });
-        self.curve = MapCurve::new(&whole.project.map.path);
+        self.curve = MapCurve::new(&project.project.map.path);
         if is_same && self.problem.is_none() {
-            if let Some(made) = &self.made {
-                let is_elsewhere = whole
-                    .map_of(made.space())
-                    .is_ok_and(|map| map.sites() != made.map().sites());
+            if let Some(pictures) = &self.pictures {
+                let is_elsewhere = project
+                    .map_of(pictures.space())
+                    .is_ok_and(|map| map.sites() != pictures.map().sites());
                 if is_elsewhere {
-                    self.place(made.space().clone());
+                    self.place(pictures.space().clone());
                 }
             }
             return true;
         }
         self.problem = None;
         // A draft first, so that a map appears at once.
-        self.is_draft = whole.project.options.quality != BuildQuality::Draft;
-        self.start(whole, self.is_draft.then_some(BuildQuality::Draft));
+        self.is_draft = project.project.options.quality != BuildQuality::Draft;
+        self.start(project, self.is_draft.then_some(BuildQuality::Draft));
         true
     }
 
     /// Starts building the space, as a draft or in the project's own quality.
-    fn start(&mut self, whole: LoadedProject, quality: Option<BuildQuality>) {
+    fn start(&mut self, project: LoadedProject, quality: Option<BuildQuality>) {
         self.job = Some(BackgroundJob::start("the map", move |progress| {
-            let built = whole.built_space(quality, progress);
+            let built = project.build_space(quality, progress);
             built.map_err(|error| MapBuildError(Arc::new(error)))
         }));
     }
 
     /// Replaces the map by the reason why there is none.
     fn refuse(&mut self, problem: JobError<MapBuildError>) {
-        (self.problem, self.made, self.is_draft) = (Some(problem), None, false);
+        (self.problem, self.pictures, self.is_draft) = (Some(problem), None, false);
     }
 
     /// Collects a space that was built; returns whether there was a result.
@@ -264,10 +264,10 @@ impl MapView {
             Some(Ok(space)) => {
                 self.place(space);
                 // Spaces of fields and of given meshes have no draft.
-                let is_matched = self.made.as_ref().is_some_and(MapPictures::is_matched);
+                let is_matched = self.pictures.as_ref().is_some_and(MapPictures::is_matched);
                 let is_draft = std::mem::take(&mut self.is_draft);
-                if let Some(whole) = self.whole.clone().filter(|_| is_draft && is_matched) {
-                    self.start(whole, None);
+                if let Some(project) = self.project.clone().filter(|_| is_draft && is_matched) {
+                    self.start(project, None);
                 }
             }
             Some(Err(problem)) => self.refuse(problem),

@@ -90,13 +90,13 @@ impl MapPictures {
 
     /// Thumbnails of blends and designs, once they are drawn.
     #[must_use]
-    pub fn ground(&self) -> Option<&MapThumbnails> {
+    pub fn thumbnails(&self) -> Option<&MapThumbnails> {
         self.ground.as_ref()
     }
 
     /// Contours of a measure.
     #[must_use]
-    pub fn land(&self) -> &MapContours {
+    pub fn contours(&self) -> &MapContours {
         &self.land
     }
 
@@ -116,7 +116,7 @@ impl MapPictures {
 
     /// Thumbnail of the saved blend at a place.
     #[must_use]
-    pub fn kept(&self, at: DVec2) -> Option<&Arc<RgbaImage>> {
+    pub fn saved_blend(&self, at: DVec2) -> Option<&Arc<RgbaImage>> {
         let found = self.kept.iter().find(|(place, _)| *place == at);
         found.map(|(_, picture)| picture)
     }
@@ -132,7 +132,7 @@ impl MapPictures {
         let mut weights = vec![0.0; self.space.designs().len()];
         self.lacks_saved_blends = false;
         for place in places {
-            if self.kept(place.at).is_none() {
+            if self.saved_blend(place.at).is_none() {
                 if self.kept.len() >= before + SAVED_BLENDS_PER_FRAME {
                     self.lacks_saved_blends = true;
                     break;
@@ -200,7 +200,7 @@ impl MapPictures {
         // Thumbnails first, measures afterwards.
         if is_final && self.ground.is_some() && self.drawing.is_none() {
             let ink = text_colour_on(Some(style.ground));
-            is_new |= self.land.work((&self.space, &self.map), shown, ink);
+            is_new |= self.land.work(&self.space, &self.map, shown, ink);
         }
         is_new
     }

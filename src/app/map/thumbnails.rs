@@ -29,7 +29,7 @@ pub struct MapThumbnails {
     /// Number of designs.
     pub count: usize,
     /// Thumbnails of the blends.
-    pub between: Arc<RgbaImage>,
+    pub blends: Arc<RgbaImage>,
     /// Thumbnails of the designs.
     pub designs: Arc<RgbaImage>,
 }
@@ -72,11 +72,11 @@ pub fn draw_thumbnails(
             across > 0.9 * cell || !(-0.9 * cell..1.3 * cell).contains(&below)
         })
     };
-    let blend_places = steps.filter(|place| map.holds(*place, 0.3 * cell));
+    let blend_places = steps.filter(|place| map.contains(*place, 0.3 * cell));
     let blend_places: Vec<DVec2> = blend_places.filter(is_free).collect();
     Ok(MapThumbnails {
         count: map.sites().len(),
-        between: picture(&blend_places, 1.0),
+        blends: picture(&blend_places, 1.0),
         designs: picture(map.sites(), DESIGN_SCALE),
     })
 }

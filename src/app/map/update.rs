@@ -27,7 +27,7 @@ pub fn follow(
     // Change detection is set by hand: this system runs each frame but seldom changes anything.
     let map = view.bypass_change_detection();
     let mut is_changed = map.work(&session, is_new);
-    is_changed |= map.go_with(playback.t());
+    is_changed |= map.follow_playback(playback.t());
     if map.is_shown {
         let scale = window.single().map_or(1.0, Window::scale_factor);
         let seen = area.size * scale;

@@ -15,7 +15,7 @@ use crate::app::persistence::autosave_slot::{AbandonedProject, AutosaveSlot};
 use crate::app::session::load::LoadRequest;
 use crate::app::session::state::Session;
 use crate::app::unsaved_question::UnsavedQuestion;
-use crate::io::atomic_file::reason;
+use crate::io::atomic_file::write_error_reason;
 use crate::project::Project;
 
 /// Minimum interval between two autosaves: with the time for writing, at most five seconds of work
@@ -73,7 +73,7 @@ impl Autosave {
 
     /// The newest autosave to recover: its title and its age.
     #[must_use]
-    pub fn lost(&self) -> Option<(&str, Option<Duration>)> {
+    pub fn recoverable(&self) -> Option<(&str, Option<Duration>)> {
         let lost = self.lost.first()?;
         let age = lost
             .when
@@ -106,15 +106,16 @@ impl Drop for Autosave {
 /// Applies the user's answer to the offer to recover a project.
 pub fn rescue(
     mut intents: MessageReader<Intent>,
-    (mut autosave, mut session): (ResMut<Autosave>, ResMut<Session>),
+    mut autosave: ResMut<Autosave>,
+    mut session: ResMut<Session>,
     question: Res<UnsavedQuestion>,
     mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
         let answer = match intent {
-            Intent::Rescue(answer) => *answer,
+            Intent::AnswerRecovery(answer) => *answer,
             // Another question lies above this one.
-            Intent::Back if question.text().is_none() => RecoveryAnswer::Later,
+            Intent::Escape if question.text().is_none() => RecoveryAnswer::Later,
             _ => continue,
         };
         if autosave.lost.is_empty() {
@@ -129,7 +130,7 @@ pub fn rescue(
             }
             RecoveryAnswer::Restore => {
                 let lost = autosave.lost.remove(0);
-                session.open(LoadRequest::Rescued(Box::new(lost.kept)));
+                session.open(LoadRequest::Recovered(Box::new(lost.kept)));
                 // Keeps the lock: the autosave is still the only copy of these changes.
                 autosave.opening = Some(lost.slot);
             }
@@ -155,7 +156,7 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
     if session.is_changed() {
         let written = autosave.written.as_ref().map(|(project, _)| project);
         if session.is_dirty() {
-            autosave.is_behind = session.whole() != written;
+            autosave.is_behind = session.whole_project() != written;
             (autosave.is_own, autosave.is_over) = (true, false);
         } else {
             autosave.is_behind = false;
@@ -170,7 +171,7 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
 /// Text of the notice about a failed autosave.
 fn autosave_problem(path: &Path, error: &JobError<io::Error>) -> String {
     let reason = match error {
-        JobError::Failed(error) => reason(error),
+        JobError::Failed(error) => write_error_reason(error),
         broken => broken.to_string(),
     };
     format!(
@@ -211,8 +212,9 @@ impl Autosave {
         if !(self.is_behind && is_due) {
             return;
         }
-        let kept = session.kept().and_then(Result::ok);
-        if let (Some(slot), Some(kept), Some(project)) = (&self.slot, kept, session.whole()) {
+        let kept = session.unsaved_project().and_then(Result::ok);
+        if let (Some(slot), Some(kept), Some(project)) = (&self.slot, kept, session.whole_project())
+        {
             let path = slot.path.clone();
             self.job = Some(BackgroundJob::start("the autosave", move |_| {
                 kept.write(&path)

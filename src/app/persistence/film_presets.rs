@@ -88,7 +88,8 @@ pub fn apply(
     mut intents: MessageReader<Intent>,
     mut kept: ResMut<StoredPresets>,
     mut preferences: ResMut<Preferences>,
-    (session, mut notices): (Res<Session>, ResMut<Notices>),
+    session: Res<Session>,
+    mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
         let changed = match intent {
@@ -103,7 +104,7 @@ pub fn apply(
                 }
                 continue;
             }
-            Intent::KeepPreset(name) => {
+            Intent::SavePreset(name) => {
                 let content = session.project().and_then(|project| project.content);
                 let now = preset(&preferences, content);
                 let keep = |all: &mut FilmPresets| {
@@ -111,7 +112,7 @@ pub fn apply(
                 };
                 kept.change(keep)
             }
-            Intent::ForgetPreset(name) => kept.change(|all| {
+            Intent::RemovePreset(name) => kept.change(|all| {
                 all.0.remove(name);
             }),
             _ => continue,

@@ -79,7 +79,7 @@ impl Playback {
     /// Whether the film may be replaced unnoticed by another one of the same designs: at rest, near
     /// a design, or at any time if the film never reaches a design.
     #[must_use]
-    pub fn may_change_film(&self, timing: &Timing) -> bool {
+    pub fn can_swap_film(&self, timing: &Timing) -> bool {
         // At the designs all films of a segment are equal.
         let is_end = |t: f64| t < SAME_FILM_T || (t - t.round()).abs() < SAME_FILM_T;
         let meets_an_end = [timing.from, timing.to].into_iter().any(is_end);
@@ -99,7 +99,7 @@ impl Playback {
     }
 
     /// Stops at the start of the film; keeps the speed.
-    pub fn begin(&mut self, timing: &Timing) {
+    pub fn rewind(&mut self, timing: &Timing) {
         self.motion = PlaybackMotion::Still;
         self.backwards = false;
         self.t = timing.from;

@@ -5,6 +5,7 @@
 
 use std::time::{Duration, Instant};
 
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::{
     Commands, DetectChangesMut, MessageReader, MessageWriter, Query, Real, Res, ResMut, Resource,
     Time, With,
@@ -67,7 +68,7 @@ impl Presentation {
         let talk = self.talk.as_ref()?;
         let stops = session.stops();
         let is_named = stops.iter().any(|stop| !stop.name.is_empty());
-        let names = session.names_on_the_way();
+        let names = session.names_along_path();
         let are_wanted = talk.captions.unwrap_or(is_named) && !names.is_empty();
         let names = names.iter().map(String::as_str);
         are_wanted.then(|| Captions::new(stops, names, session.style().ground))
@@ -75,14 +76,14 @@ impl Presentation {
 
     /// Duration of the talk so far.
     #[must_use]
-    pub fn lasts(&self) -> Duration {
+    pub fn elapsed(&self) -> Duration {
         let talk = self.talk.as_ref();
         talk.map_or(Duration::ZERO, |talk| talk.began.elapsed())
     }
 
     /// Whether the talk is about to change by itself: to begin, or to hide the pointer.
     #[must_use]
-    pub fn waits(&self) -> bool {
+    pub fn has_pending_change(&self) -> bool {
         let talk = self.talk.as_ref();
         talk.is_some_and(|talk| !talk.has_begun || talk.rest_secs < POINTER_SECS)
     }
@@ -101,16 +102,31 @@ impl Presentation {
     }
 }
 
+/// Views that the user opens in place of the stage or to its right.
+#[derive(SystemParam)]
+pub struct ToolViews<'w> {
+    /// The match editor.
+    pub editor: ResMut<'w, MatchEditor>,
+    /// The comparison with another method.
+    pub comparison: ResMut<'w, Comparison>,
+    /// The map of all designs.
+    pub map: ResMut<'w, MapView>,
+}
+
+impl ToolViews<'_> {
+    /// Whether one of them is open.
+    #[must_use]
+    pub fn is_any_open(&self) -> bool {
+        self.editor.is_open || self.comparison.is_shown || self.map.is_shown
+    }
+}
+
 /// Starts and ends talks, and applies the intents of a talk.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut presentation: ResMut<Presentation>,
     mut preferences: ResMut<Preferences>,
-    (mut editor, mut comparison, mut map): (
-        ResMut<MatchEditor>,
-        ResMut<Comparison>,
-        ResMut<MapView>,
-    ),
+    mut views: ToolViews,
     session: Res<Session>,
     mut windows: Query<(&mut Window, &mut CursorOptions), With<PrimaryWindow>>,
     mut commands: Commands,
@@ -128,10 +144,10 @@ pub fn apply(
                 (preferences.panels, preferences.help) = (false, false);
                 preferences.film_options = false;
                 commands.write_message(Intent::FitView);
-                editor.is_open = false;
-                (comparison.is_shown, map.is_shown) = (false, false);
+                views.editor.is_open = false;
+                (views.comparison.is_shown, views.map.is_shown) = (false, false);
             }
-            (Intent::Back | Intent::Present { .. } | Intent::Close, Some(talk)) => {
+            (Intent::Escape | Intent::Present { .. } | Intent::Close, Some(talk)) => {
                 if talk.is_all {
                     commands.write_message(Intent::Close);
                 } else {
@@ -184,17 +200,17 @@ pub fn begin(
     };
     if session.transition().is_some() {
         let (timing, stops) = (session.timing(), session.stops());
-        playback.begin(timing);
+        playback.rewind(timing);
         // With several segments, stops lie at the designs between; the talk starts at the very
         // first.
-        if session.leg_count() == 1 {
+        if session.segment_count() == 1 {
             playback.seek(first_stop(timing, stops), timing, stops);
         }
         talk.has_begun = true;
     } else if session.work().is_none() {
         // Nothing to show; the window shows the reason.
         talk.is_all = false;
-        intents.write(Intent::Back);
+        intents.write(Intent::Escape);
     }
 }
 

@@ -50,7 +50,7 @@ impl SpeakerWindow {
 
     /// Whether `window` is the speaker's window.
     #[must_use]
-    pub fn is_its(&self, window: Entity) -> bool {
+    pub fn owns_window(&self, window: Entity) -> bool {
         self.window.is_some_and(|(own, _)| own == window)
     }
 
@@ -145,7 +145,7 @@ pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playbac
     let next = playback.next_stop(session.timing(), session.stops());
     let wanted = session.sequence().zip(next);
     let is_same = match (&wanted, &speaker.shown) {
-        (Some((new, t)), Some((old, shown))) => t == shown && new.is(old),
+        (Some((new, t)), Some((old, shown))) => t == shown && new.is_same(old),
         (wanted, shown) => wanted.is_none() && shown.is_none(),
     };
     if is_same {

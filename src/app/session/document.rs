@@ -14,7 +14,7 @@ use crate::app::session::save::SaveError;
 use crate::app::session::unsaved_project::UnsavedProject;
 use crate::design::{Design, DesignSource};
 use crate::geometry::Bounds;
-use crate::io::file_name::safe;
+use crate::io::file_name::safe_file_name;
 use crate::io::sanitize::SanitizedLine;
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::{Sequence, Transition, TransitionMethod};
@@ -31,7 +31,7 @@ pub struct OpenDocument {
     /// Whether a design file has changed on disk.
     pub must_reread: bool,
     /// Whether it was recovered from an autosave.
-    pub is_rescued: bool,
+    pub is_recovered: bool,
     /// The segments on the stage: one for each pair of consecutive designs.
     legs: Vec<BuiltSegment>,
     /// Index of the current segment: the one at the current t.
@@ -49,13 +49,13 @@ impl OpenDocument {
     pub fn new(loaded: BuiltProject, origin: ProjectOrigin) -> Self {
         let project = loaded.project.project.clone();
         Self {
-            seen: project.leg(0),
+            seen: project.segment(0),
             loaded: loaded.project,
             staged: loaded.settings,
             history: UndoHistory::default(),
             must_reread: false,
-            is_rescued: false,
-            legs: loaded.legs,
+            is_recovered: false,
+            legs: loaded.segments,
             leg: 0,
             origin,
             saved: project,
@@ -66,71 +66,70 @@ impl OpenDocument {
     #[must_use]
     pub fn unsaved(loaded: BuiltProject, origin: ProjectOrigin) -> Self {
         Self {
-            saved: Project::pair("", ""),
-            is_rescued: true,
+            saved: Project::from_pair("", ""),
+            is_recovered: true,
             ..Self::new(loaded, origin)
         }
     }
 
-    /// Whether it consists of two designs just opened together, without changes.
+    /// Whether it consists of different designs just opened together, without changes.
     #[must_use]
-    pub fn is_new_pair(&self) -> bool {
-        let is_pair = match self.loaded.project.designs.as_slice() {
-            [a, b] => a.path != b.path,
-            _ => false,
-        };
-        is_pair && self.origin == ProjectOrigin::Unsaved && !self.is_dirty()
+    pub fn has_new_designs(&self) -> bool {
+        let designs = &self.loaded.project.designs;
+        // A single design is its own partner.
+        let are_different = designs.windows(2).any(|pair| pair[0].path != pair[1].path);
+        are_different && self.origin == ProjectOrigin::Unsaved && !self.is_dirty()
     }
 
     /// Data for an autosave of the project.
     ///
     /// # Errors
     /// As [`UnsavedProject::new`].
-    pub fn kept(&self) -> Result<UnsavedProject, ProjectError> {
+    pub fn unsaved_project(&self) -> Result<UnsavedProject, ProjectError> {
         UnsavedProject::new(self.title(), &self.origin, &self.loaded)
     }
 
     /// Index of the current segment.
     #[must_use]
-    pub fn leg(&self) -> usize {
+    pub fn segment(&self) -> usize {
         self.leg
     }
 
     /// Number of segments on the stage.
     #[must_use]
-    pub fn leg_count(&self) -> usize {
+    pub fn segment_count(&self) -> usize {
         self.legs.len()
     }
 
     /// Makes another segment the current one.
-    pub fn look_at(&mut self, leg: usize) {
+    pub fn select_segment(&mut self, leg: usize) {
         self.leg = leg.min(self.legs.len().saturating_sub(1));
-        self.look_again();
+        self.refresh_segment();
     }
 
     /// Updates `seen`, the settings of the current segment, or of the last one if that no longer
     /// exists.
-    fn look_again(&mut self) {
-        let last = self.loaded.project.leg_count() - 1;
-        self.seen = self.loaded.project.leg(self.leg.min(last));
+    fn refresh_segment(&mut self) {
+        let last = self.loaded.project.segment_count() - 1;
+        self.seen = self.loaded.project.segment(self.leg.min(last));
     }
 
     /// Current settings of the current segment.
     #[must_use]
-    pub fn seen(&self) -> &Project {
+    pub fn segment_project(&self) -> &Project {
         &self.seen
     }
 
     /// The whole project, with the designs and settings on the stage.
     #[must_use]
-    pub fn whole_on_stage(&self) -> LoadedProject {
-        self.loaded.with(self.staged.clone())
+    pub fn staged_project(&self) -> LoadedProject {
+        self.loaded.with_project(self.staged.clone())
     }
 
     /// The current segment, with the designs and settings on the stage.
     #[must_use]
-    pub fn leg_on_stage(&self) -> LoadedProject {
-        let mut legs = self.whole_on_stage().legs();
+    pub fn staged_segment(&self) -> LoadedProject {
+        let mut legs = self.staged_project().segments();
         let leg = self.leg.min(legs.len() - 1);
         legs.swap_remove(leg)
     }
@@ -139,7 +138,7 @@ impl OpenDocument {
     #[must_use]
     pub fn designs(&self) -> [&Arc<Design>; 2] {
         self.staged
-            .leg_designs(self.leg)
+            .segment_designs(self.leg)
             .map(|k| &self.loaded.designs[k])
     }
 
@@ -152,7 +151,7 @@ impl OpenDocument {
     /// The same, with the settings it was built from.
     #[must_use]
     pub fn stage(&self) -> Option<&PlayableSegment> {
-        self.legs.get(self.leg)?.stage.as_ref()
+        self.legs.get(self.leg)?.playable.as_ref()
     }
 
     /// All transitions on the stage; `None` unless every segment has one.
@@ -161,15 +160,15 @@ impl OpenDocument {
         let legs = self
             .legs
             .iter()
-            .map(|leg| Some(leg.stage.as_ref()?.transition.clone()));
+            .map(|leg| Some(leg.playable.as_ref()?.transition.clone()));
         let sequence = Sequence::new(legs.collect::<Option<_>>()?)?;
-        Some(sequence.leading_back(self.staged.leads_back()))
+        Some(sequence.closed(self.staged.ends_where_it_starts()))
     }
 
     /// Approximate bounding box of all frames of all segments; frames are sampled.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
-        let stages = self.legs.iter().filter_map(|leg| leg.stage.as_ref());
+        let stages = self.legs.iter().filter_map(|leg| leg.playable.as_ref());
         let boxes = stages.map(|stage| stage.transition.bounds());
         boxes.reduce(|a, b| a.union(&b))
     }
@@ -218,7 +217,7 @@ impl OpenDocument {
             None => entry
                 .path
                 .is_absolute()
-                .then(|| DesignSource::of(&entry.path)),
+                .then(|| DesignSource::from_path(&entry.path)),
         });
         sources
             .filter_map(|source| Some(source.file()?.to_owned()))
@@ -246,9 +245,9 @@ impl OpenDocument {
         let name = || self.gallery_name().map(str::to_owned);
         let stem = self.stem().or_else(name).unwrap_or_else(|| self.title());
         let path = &self.loaded.project.map.path;
-        match path.is_none() || path.name.is_empty() {
-            true => safe(&stem),
-            false => safe(&format!("{stem}-{}", path.name)),
+        match path.is_too_short() || path.name.is_empty() {
+            true => safe_file_name(&stem),
+            false => safe_file_name(&format!("{stem}-{}", path.name)),
         }
     }
 
@@ -260,7 +259,7 @@ impl OpenDocument {
 
     /// Treats the current settings as saved.
     pub fn forget_changes(&mut self) {
-        self.is_rescued = false;
+        self.is_recovered = false;
         self.saved = self.loaded.project.clone();
     }
 
@@ -268,15 +267,15 @@ impl OpenDocument {
     pub fn edit(&mut self, project: Project, mark: Option<u64>) {
         let before = self.snapshot();
         self.loaded.project = project;
-        self.look_again();
+        self.refresh_segment();
         self.history.note(before, self.snapshot(), mark);
     }
 
     /// Replaces the settings of the current segment, as [`Self::edit`] does.
-    pub fn edit_leg(&mut self, pair: Project, mark: Option<u64>) {
+    pub fn edit_segment(&mut self, pair: Project, mark: Option<u64>) {
         let mut whole = self.loaded.project.clone();
-        let last = whole.leg_count() - 1;
-        whole.take_leg(self.leg.min(last), pair);
+        let last = whole.segment_count() - 1;
+        whole.replace_segment(self.leg.min(last), pair);
         self.edit(whole, mark);
     }
 
@@ -284,7 +283,7 @@ impl OpenDocument {
     ///
     /// # Errors
     /// A bundled design named by the step cannot be written; the project stays as it was.
-    pub fn go(
+    pub fn step_history(
         &mut self,
         step: impl FnOnce(&mut UndoHistory) -> Option<ProjectSnapshot>,
     ) -> Result<bool, SaveError> {
@@ -299,7 +298,7 @@ impl OpenDocument {
             }
             _ => project,
         };
-        self.look_again();
+        self.refresh_segment();
         Ok(true)
     }
 
@@ -315,7 +314,7 @@ impl OpenDocument {
 
     /// Clears the problems of all segments that have something to show.
     fn clear_problems_of_shown_segments(&mut self) {
-        for leg in self.legs.iter_mut().filter(|leg| leg.stage.is_some()) {
+        for leg in self.legs.iter_mut().filter(|leg| leg.playable.is_some()) {
             leg.problem = None;
         }
     }
@@ -324,12 +323,12 @@ impl OpenDocument {
     #[must_use]
     pub fn rebuild(&self) -> RebuildRequest {
         RebuildRequest {
-            now: self.loaded.clone(),
+            requested: self.loaded.clone(),
             staged: self.staged.clone(),
-            stages: self
+            segments: self
                 .legs
                 .iter()
-                .filter_map(|leg| leg.stage.clone())
+                .filter_map(|leg| leg.playable.clone())
                 .collect(),
             must_reread: self.must_reread,
         }
@@ -340,10 +339,10 @@ impl OpenDocument {
     /// The settings are kept, because they may have changed again; so is any segment on the stage
     /// whose replacement could not be built.
     pub fn restage(&mut self, built: BuiltProject) -> bool {
-        let can_stay = built.legs.len() == self.legs.len();
-        if can_stay && built.legs.iter().all(|leg| leg.problem.is_some()) {
+        let can_stay = built.segments.len() == self.legs.len();
+        if can_stay && built.segments.iter().all(|leg| leg.problem.is_some()) {
             // Every replacement failed: what is on the stage is at least as good.
-            let new = self.legs.iter_mut().zip(built.legs);
+            let new = self.legs.iter_mut().zip(built.segments);
             new.for_each(|(leg, built)| leg.problem = built.problem);
             return false;
         }
@@ -357,17 +356,17 @@ impl OpenDocument {
                 .next()
                 .filter(|_| can_stay && built.problem.is_some());
             BuiltSegment {
-                stage: old.and_then(|old| old.stage).or(built.stage),
+                playable: old.and_then(|old| old.playable).or(built.playable),
                 problem: built.problem,
             }
         };
-        self.legs = built.legs.into_iter().map(merged).collect();
-        self.look_at(self.leg);
+        self.legs = built.segments.into_iter().map(merged).collect();
+        self.select_segment(self.leg);
         true
     }
 
     /// Resets the settings to those on the stage; the change leaves no undo step.
-    pub fn give_up_changes(&mut self) {
+    pub fn reset_settings(&mut self) {
         self.must_reread = false;
         let cell = self.cell_on_stage();
         self.amend(|now, staged| {
@@ -383,14 +382,14 @@ impl OpenDocument {
 
     /// Method by which all segments are shown; `None` if they differ.
     fn cell_on_stage(&self) -> Option<TransitionMethod> {
-        let cell = |leg: &BuiltSegment| Some(leg.stage.as_ref()?.transition.cell());
+        let cell = |leg: &BuiltSegment| Some(leg.playable.as_ref()?.transition.method());
         let first = cell(self.legs.first()?)?;
         let is_same = |leg: &BuiltSegment| cell(leg) == Some(first);
         self.legs.iter().all(is_same).then_some(first)
     }
 
     /// Resets the designs to those on the stage, because a file cannot be read.
-    pub fn give_up_designs(&mut self) {
+    pub fn reset_designs(&mut self) {
         self.must_reread = false;
         self.amend(|now, staged| {
             // A different number of designs means different segments.
@@ -408,7 +407,7 @@ impl OpenDocument {
     fn amend(&mut self, change: impl FnOnce(&mut Project, &Project)) {
         let before = self.snapshot();
         change(&mut self.loaded.project, &self.staged);
-        self.look_again();
+        self.refresh_segment();
         self.history.amend(before, self.snapshot());
     }
 
@@ -420,25 +419,29 @@ impl OpenDocument {
         // Results of the search are saved only if the stage shows what the settings ask for.
         if !load::needs_build(&self.staged, &self.loaded.project) {
             for (k, leg) in self.legs.iter().enumerate() {
-                if let Some(found) = leg.stage.as_ref().and_then(|s| s.transition.found()) {
-                    self.loaded.project.keep_found(k, found);
+                if let Some(found) = leg
+                    .playable
+                    .as_ref()
+                    .and_then(|s| s.transition.cached_match())
+                {
+                    self.loaded.project.cache_match(k, found);
                 }
             }
         }
         save::save(&mut self.loaded, &path)?;
-        self.look_again();
+        self.refresh_segment();
         self.saved = self.loaded.project.clone();
         // Only paths changed, which requires no rebuild.
         if self.staged.designs.len() == self.saved.designs.len() {
             self.staged.designs.clone_from(&self.saved.designs);
             for (k, leg) in self.legs.iter_mut().enumerate() {
-                if let Some(stage) = &mut leg.stage {
+                if let Some(stage) = &mut leg.playable {
                     stage.settings.rename(&self.staged, k);
                 }
             }
         }
         self.origin = ProjectOrigin::File(path);
-        self.is_rescued = false;
+        self.is_recovered = false;
         Ok(())
     }
 

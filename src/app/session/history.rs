@@ -127,7 +127,7 @@ mod tests {
     use super::*;
 
     fn at(title: &str) -> ProjectSnapshot {
-        let mut project = Project::pair("a.svg", "b.svg");
+        let mut project = Project::from_pair("a.svg", "b.svg");
         title.clone_into(&mut project.title);
         ProjectSnapshot {
             project,

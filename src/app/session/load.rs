@@ -25,14 +25,14 @@ pub struct BuiltProject {
     /// method or of drafts while the final result is being built.
     pub settings: Project,
     /// One entry per segment of the path through the designs.
-    pub legs: Vec<BuiltSegment>,
+    pub segments: Vec<BuiltSegment>,
 }
 
 /// Result of building one segment: the part of the film between two consecutive designs.
 #[derive(Debug, Default)]
 pub struct BuiltSegment {
     /// The playable part; `None` if nothing could be built.
-    pub stage: Option<PlayableSegment>,
+    pub playable: Option<PlayableSegment>,
     /// Why the segment differs from what the project asks for.
     pub problem: Option<TransitionProblem>,
 }
@@ -50,10 +50,10 @@ pub struct PlayableSegment {
 #[derive(Clone, Debug)]
 pub struct SegmentSettings {
     /// The two designs of the segment and their settings.
-    pub pair: Project,
+    pub segment_project: Project,
     /// All designs of the project, if the segment depends on them: they share a frame aligned with
     /// the first design, and fields share one grid. Empty otherwise.
-    among: Vec<DesignEntry>,
+    all_designs: Vec<DesignEntry>,
     /// Index of the segment, if it belongs to a path on the map.
     path_leg: Option<usize>,
 }
@@ -70,9 +70,9 @@ impl SegmentSettings {
                 && project.fit == DesignFit::AsDrawn
                 && !whole.designs.iter().any(has_bars));
         Self {
-            pair: project.leg(segment),
+            segment_project: project.segment(segment),
             path_leg: project.follows_path().then_some(segment),
-            among: if stands_alone {
+            all_designs: if stands_alone {
                 Vec::new()
             } else {
                 project.designs.clone()
@@ -82,16 +82,17 @@ impl SegmentSettings {
 
     /// Adopts new file names of unchanged designs, as after saving to another folder.
     pub fn rename(&mut self, whole: &Project, leg: usize) {
-        self.pair.designs = whole.leg(leg).designs;
-        if !self.among.is_empty() {
-            self.among.clone_from(&whole.designs);
+        self.segment_project.designs = whole.segment(leg).designs;
+        if !self.all_designs.is_empty() {
+            self.all_designs.clone_from(&whole.designs);
         }
     }
 
     /// Whether the settings `now` require another transition.
     fn needs_build(&self, now: &Self) -> bool {
-        let context = (&self.among, self.path_leg);
-        needs_build(&self.pair, &now.pair) || context != (&now.among, now.path_leg)
+        let context = (&self.all_designs, self.path_leg);
+        needs_build(&self.segment_project, &now.segment_project)
+            || context != (&now.all_designs, now.path_leg)
     }
 }
 
@@ -114,7 +115,7 @@ pub enum LoadRequest {
     /// Open a project file.
     File(PathBuf),
     /// Open a project recovered from an autosave.
-    Rescued(Box<UnsavedProject>),
+    Recovered(Box<UnsavedProject>),
     /// Open designs, in this order, as a new project.
     Designs(Vec<PathBuf>),
     /// Rebuild the open project with changed settings.
@@ -126,11 +127,11 @@ pub enum LoadRequest {
 pub struct RebuildRequest {
     /// New settings with the old designs. Designs are read again if their file, or the way it is
     /// imported, has changed.
-    pub now: LoadedProject,
+    pub requested: LoadedProject,
     /// Settings of what is on the stage.
     pub staged: Project,
     /// Segments on the stage.
-    pub stages: Vec<PlayableSegment>,
+    pub segments: Vec<PlayableSegment>,
     /// Whether a design file has changed on disk.
     pub must_reread: bool,
 }
@@ -157,16 +158,16 @@ impl RebuildRequest {
                 .with_new_field_blend()
                 .or_else(|| self.with_new_part_times())
         {
-            return Ok(all_built(self.now, stages));
+            return Ok(all_built(self.requested, stages));
         }
-        let (mut project, mut known) = (self.now, self.stages);
+        let (mut project, mut known) = (self.requested, self.segments);
         if self.must_reread {
             project = project.reread()?;
             // Segments built from the old files cannot be reused.
             known.clear();
             choose_cell(&mut project);
         } else if reads_differently(&self.staged, &project.project) {
-            project = project.read_beside(&self.staged)?;
+            project = project.reread_changed(&self.staged)?;
             choose_cell(&mut project);
         }
         Ok(build_in_steps(
@@ -186,13 +187,13 @@ impl RebuildRequest {
         };
         self.reuse_segments(change, |leg, transition| {
             let TransitionOptions { parts, coats, .. } = leg.spec().ok()?.options;
-            Some(transition.with_coats(&coats).with_part_times(&parts))
+            Some(transition.with_paint_layers(&coats).with_part_times(&parts))
         })
     }
 
     /// Reuses the distance transforms if only the blend of the fields changed.
     fn with_new_field_blend(&self) -> Option<Vec<PlayableSegment>> {
-        let blend = self.now.project.options.field.blend;
+        let blend = self.requested.project.options.field.blend;
         let change = |options: &mut TransitionOptions, now: &TransitionOptions| {
             options.field.blend = now.field.blend
         };
@@ -210,14 +211,20 @@ impl RebuildRequest {
         make: impl Fn(&LoadedProject, &Transition) -> Option<Transition>,
     ) -> Option<Vec<PlayableSegment>> {
         // Added designs have not been read yet.
-        if self.now.project.leg_count() != self.stages.len() {
+        if self.requested.project.segment_count() != self.segments.len() {
             return None;
         }
-        let legs = self.now.legs();
-        let pairs = legs.iter().zip(&self.stages).enumerate();
+        let legs = self.requested.segments();
+        let pairs = legs.iter().zip(&self.segments).enumerate();
         let reused = pairs.map(|(k, (leg, stage))| {
-            let (mut was, settings) = (stage.settings.clone(), SegmentSettings::of(&self.now, k));
-            change(&mut was.pair.options, &settings.pair.options);
+            let (mut was, settings) = (
+                stage.settings.clone(),
+                SegmentSettings::of(&self.requested, k),
+            );
+            change(
+                &mut was.segment_project.options,
+                &settings.segment_project.options,
+            );
             if was.needs_build(&settings) {
                 return None;
             }
@@ -248,7 +255,7 @@ impl LoadRequest {
         Some(match self {
             Self::Gallery(name) => ProjectOrigin::Gallery(name.clone()),
             Self::File(path) => ProjectOrigin::File(path.clone()),
-            Self::Rescued(kept) => kept.origin(),
+            Self::Recovered(kept) => kept.origin(),
             Self::Designs(_) => ProjectOrigin::Unsaved,
             Self::Rebuild(_) => return None,
         })
@@ -258,8 +265,8 @@ impl LoadRequest {
     #[must_use]
     pub fn settings(&self) -> Option<&Project> {
         match self {
-            Self::Rebuild(rebuild) => Some(&rebuild.now.project),
-            Self::Gallery(_) | Self::File(_) | Self::Rescued(_) | Self::Designs(_) => None,
+            Self::Rebuild(rebuild) => Some(&rebuild.requested.project),
+            Self::Gallery(_) | Self::File(_) | Self::Recovered(_) | Self::Designs(_) => None,
         }
     }
 
@@ -281,9 +288,9 @@ impl LoadRequest {
         let mut project = match self {
             Self::Gallery(name) => gallery::load(&name)?,
             Self::File(path) => LoadedProject::open(&path)?,
-            Self::Rescued(kept) => kept.load()?,
+            Self::Recovered(kept) => kept.load()?,
             Self::Designs(paths) => {
-                let project = Project::of(paths.iter().map(|path| absolute(path)));
+                let project = Project::from_paths(paths.iter().map(|path| absolute(path)));
                 LoadedProject::load(project, Some(PathBuf::new()))?
             }
             Self::Rebuild(rebuild) => return rebuild.carry_out(progress, &mut meanwhile),
@@ -307,12 +314,12 @@ impl LoadRequest {
 /// Replaces an unspecified or unsupported method by one that suits the designs, so that the panel
 /// names the method that the stage shows.
 fn choose_cell(loaded: &mut LoadedProject) {
-    let legs = loaded.legs();
+    let legs = loaded.segments();
     let suits_all = |cell: &TransitionMethod| {
-        let suits = |leg: &LoadedProject| leg.available(cell.warp(), cell.content()).is_ok();
+        let suits = |leg: &LoadedProject| leg.check_available(cell.warp(), cell.content()).is_ok();
         legs.iter().all(suits)
     };
-    let asked = legs[0].cell().ok().filter(suits_all);
+    let asked = legs[0].method().ok().filter(suits_all);
     // Methods with the strictest requirements come first; the last one suits any designs.
     let suited = asked.or_else(|| TransitionMethod::all().find(suits_all));
     if let Some(cell) = suited {
@@ -324,19 +331,22 @@ fn choose_cell(loaded: &mut LoadedProject) {
 impl BuiltProject {
     /// The playable part of each segment.
     fn stages(&self) -> Vec<Option<PlayableSegment>> {
-        self.legs.iter().map(|leg| leg.stage.clone()).collect()
+        self.segments
+            .iter()
+            .map(|leg| leg.playable.clone())
+            .collect()
     }
 }
 
 /// A project whose segments are all built as requested.
 fn all_built(project: LoadedProject, stages: Vec<PlayableSegment>) -> BuiltProject {
     let leg = |stage| BuiltSegment {
-        stage: Some(stage),
+        playable: Some(stage),
         problem: None,
     };
     BuiltProject {
         settings: project.project.clone(),
-        legs: stages.into_iter().map(leg).collect(),
+        segments: stages.into_iter().map(leg).collect(),
         project,
     }
 }
@@ -355,7 +365,7 @@ fn build_in_steps(
     progress: &dyn Progress,
     meanwhile: &mut dyn FnMut(InterimResult),
 ) -> BuiltProject {
-    let legs = project.legs();
+    let legs = project.segments();
     let known: Vec<Option<PlayableSegment>> = (0..legs.len())
         .map(|leg| find_reusable(known, &SegmentSettings::of(&project, leg)))
         .collect();
@@ -363,13 +373,8 @@ fn build_in_steps(
     let draft = |leg: usize| {
         let part = drafting.part(leg);
         let is_known = known[leg].is_some();
-        let draft = (!is_known).then(|| {
-            draft(
-                &project,
-                (leg, &legs[leg]),
-                &ProgressSpan::new(&part, 0.0, DRAFT_SHARE),
-            )
-        });
+        let span = ProgressSpan::new(&part, 0.0, DRAFT_SHARE);
+        let draft = (!is_known).then(|| draft(&project, leg, &legs[leg], &span));
         draft.flatten()
     };
     let drafts: Vec<Option<PlayableSegment>> = (0..legs.len()).map(draft).collect();
@@ -390,19 +395,20 @@ fn build_in_steps(
     let building = ProgressShares::new(&building, legs.len());
     let built = (0..legs.len()).map(|leg| match &known[leg] {
         Some(stage) => BuiltSegment {
-            stage: Some(stage.clone()),
+            playable: Some(stage.clone()),
             problem: None,
         },
         None => build_segment(
             &project,
-            (leg, &legs[leg]),
+            leg,
+            &legs[leg],
             fallback(leg),
             &building.part(leg),
         ),
     });
     BuiltProject {
         settings: project.project.clone(),
-        legs: built.collect(),
+        segments: built.collect(),
         project,
     }
 }
@@ -410,20 +416,21 @@ fn build_in_steps(
 /// Builds one segment; if that fails, `fallback` takes its place.
 fn build_segment(
     whole: &LoadedProject,
-    (leg, project): (usize, &LoadedProject),
+    leg: usize,
+    project: &LoadedProject,
     fallback: Option<PlayableSegment>,
     progress: &dyn Progress,
 ) -> BuiltSegment {
     match transition_of(project, progress) {
         Ok(transition) => BuiltSegment {
-            stage: Some(PlayableSegment {
+            playable: Some(PlayableSegment {
                 settings: SegmentSettings::of(whole, leg),
                 transition,
             }),
             problem: None,
         },
         Err(problem) => BuiltSegment {
-            stage: fallback,
+            playable: fallback,
             problem: Some(problem),
         },
     }
@@ -444,13 +451,13 @@ fn interim(
     stages: Vec<Option<PlayableSegment>>,
 ) -> BuiltProject {
     let leg = |stage| BuiltSegment {
-        stage,
+        playable: stage,
         problem: None,
     };
     BuiltProject {
         project: project.clone(),
         settings,
-        legs: stages.into_iter().map(leg).collect(),
+        segments: stages.into_iter().map(leg).collect(),
     }
 }
 
@@ -458,12 +465,13 @@ fn interim(
 /// it cannot be built.
 fn draft(
     whole: &LoadedProject,
-    (leg, project): (usize, &LoadedProject),
+    leg: usize,
+    project: &LoadedProject,
     progress: &dyn Progress,
 ) -> Option<PlayableSegment> {
     let (quality, transition) = project.draft(progress)?;
     let mut settings = SegmentSettings::of(whole, leg);
-    settings.pair.options.quality = quality;
+    settings.segment_project.options.quality = quality;
     Some(PlayableSegment {
         settings,
         transition,
@@ -473,8 +481,8 @@ fn draft(
 /// Segments built by the method without a warp, which suits almost any two designs and takes no
 /// time; `None` if the project asks for that method anyway.
 fn build_plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<BuiltProject> {
-    let asked = project.legs()[0].cell().ok()?;
-    let cell = asked.plain();
+    let asked = project.segments()[0].method().ok()?;
+    let cell = asked.fallback();
     if cell == asked {
         return None;
     }
@@ -487,7 +495,7 @@ fn build_plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<Bu
             transition: transition_of(pair, &CancelOnlyProgress(progress)).ok()?,
         })
     };
-    let stages = plain.legs().iter().enumerate().map(stage).collect();
+    let stages = plain.segments().iter().enumerate().map(stage).collect();
     Some(interim(project, plain.project.clone(), stages))
 }
 
@@ -558,7 +566,7 @@ pub fn needs_build(staged: &Project, now: &Project) -> bool {
         map: MapSettings::default(),
         ..project.clone()
     };
-    !staged.map.plays_as(&now.map) || relevant(staged) != relevant(now)
+    !staged.map.has_same_film(&now.map) || relevant(staged) != relevant(now)
 }
 
 /// Whether some design is read from another file or in another way.

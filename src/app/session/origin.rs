@@ -20,5 +20,7 @@ pub enum ProjectOrigin {
 pub fn absolute(path: &Path) -> PathBuf {
     // Not canonicalised: a symbolic link must keep naming whatever it points to later.
     let absolute_file = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    DesignSource::of(path).at(absolute_file).to_path()
+    DesignSource::from_path(path)
+        .map_file(absolute_file)
+        .to_path()
 }

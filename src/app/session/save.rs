@@ -57,10 +57,10 @@ pub fn named_from(
     for entry in &mut project.designs {
         entry.path = match old {
             Some(old) => DesignSource::in_folder(old, &entry.path)
-                .at(|file| relative(folder, file))
+                .map_file(|file| relative(folder, file))
                 .to_path(),
             // Text in the bundled font has no file.
-            None if DesignSource::of(&entry.path).file().is_none() => continue,
+            None if DesignSource::from_path(&entry.path).file().is_none() => continue,
             // A user's file that replaced a bundled design stays where it is.
             None if entry.path.is_absolute() => relative(folder, &entry.path),
             None => write_bundled_design(folder, &entry.path)?,

@@ -22,7 +22,8 @@ use crate::design::{Design, DesignForm};
 use crate::geometry::Bounds;
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::{
-    BuildError, Sequence, Timing, Transition, TransitionStop, TransitionStyle, segment_at, style_of,
+    BuildError, Sequence, SequenceLayout, Timing, Transition, TransitionStop, TransitionStyle,
+    segment_at, style_of,
 };
 use crate::warp::{Arap, WarpKind};
 
@@ -35,7 +36,7 @@ pub enum WorkOutcome {
     Rebuilt,
     /// The settings make no transition and the old one stays; [`Session::problem`] gives the
     /// reason.
-    NotRebuilt,
+    RebuildFailed,
     /// Opening or rebuilding failed.
     Failed(JobError<LoadError>),
 }
@@ -74,18 +75,18 @@ impl Session {
     /// Current settings of the current segment: two designs, out of a project that may have more.
     #[must_use]
     pub fn project(&self) -> Option<&Project> {
-        self.open.as_ref().map(OpenDocument::seen)
+        self.open.as_ref().map(OpenDocument::segment_project)
     }
 
     /// The whole open project.
     #[must_use]
-    pub fn whole(&self) -> Option<&Project> {
+    pub fn whole_project(&self) -> Option<&Project> {
         self.open.as_ref().map(|open| &open.loaded.project)
     }
 
     /// The whole open project with its designs.
     #[must_use]
-    pub fn whole_loaded(&self) -> Option<LoadedProject> {
+    pub fn loaded_project(&self) -> Option<LoadedProject> {
         self.open.as_ref().map(|open| open.loaded.clone())
     }
 
@@ -105,10 +106,10 @@ impl Session {
 
     /// Names of the designs along the film, one for each whole t.
     #[must_use]
-    pub fn names_on_the_way(&self) -> Vec<String> {
+    pub fn names_along_path(&self) -> Vec<String> {
         self.open.as_ref().map_or_else(Vec::new, |open| {
-            let whole = open.whole_on_stage();
-            let names = whole.names_on_the_way().into_iter();
+            let whole = open.staged_project();
+            let names = whole.stop_names().into_iter();
             names.map(str::to_owned).collect()
         })
     }
@@ -133,39 +134,39 @@ impl Session {
 
     /// Index of the current segment, from 0.
     #[must_use]
-    pub fn leg(&self) -> usize {
-        self.open.as_ref().map_or(0, OpenDocument::leg)
+    pub fn segment(&self) -> usize {
+        self.open.as_ref().map_or(0, OpenDocument::segment)
     }
 
     /// Number of segments of the project.
     #[must_use]
-    pub fn leg_count(&self) -> usize {
-        self.whole().map_or(1, Project::leg_count)
+    pub fn segment_count(&self) -> usize {
+        self.whole_project().map_or(1, Project::segment_count)
     }
 
     /// Converts t of the whole film to t within the current segment.
     #[must_use]
-    pub fn within(&self, t: f64) -> f64 {
-        t - self.leg() as f64
+    pub fn segment_t(&self, t: f64) -> f64 {
+        t - self.segment() as f64
     }
 
     /// Converts t within the current segment to t of the whole film.
     #[must_use]
-    pub fn beyond(&self, within: f64) -> f64 {
-        within + self.leg() as f64
+    pub fn whole_t(&self, within: f64) -> f64 {
+        within + self.segment() as f64
     }
 
     /// Index of the segment that is shown at `t`.
     #[must_use]
-    pub fn leg_at(&self, t: f64) -> usize {
-        let legs = self.open.as_ref().map_or(1, OpenDocument::leg_count);
+    pub fn segment_at(&self, t: f64) -> usize {
+        let legs = self.open.as_ref().map_or(1, OpenDocument::segment_count);
         segment_at(legs, t).0
     }
 
     /// Makes another segment the current one.
-    pub fn look_at(&mut self, leg: usize) {
+    pub fn select_segment(&mut self, leg: usize) {
         if let Some(open) = &mut self.open {
-            open.look_at(leg);
+            open.select_segment(leg);
         }
     }
 
@@ -173,15 +174,15 @@ impl Session {
     #[must_use]
     pub fn staged_settings(&self) -> Option<&Project> {
         let stage = self.open.as_ref()?.stage()?;
-        Some(&stage.settings.pair)
+        Some(&stage.settings.segment_project)
     }
 
     /// The current segment with the settings it was built from, and its two designs.
     #[must_use]
-    pub fn staged(&self) -> Option<LoadedProject> {
+    pub fn staged_segment(&self) -> Option<LoadedProject> {
         let open = self.open.as_ref()?;
         open.stage()?;
-        Some(open.leg_on_stage())
+        Some(open.staged_segment())
     }
 
     /// Why the current settings make no transition.
@@ -193,34 +194,38 @@ impl Session {
     /// Timing of the film.
     #[must_use]
     pub fn timing(&self) -> &Timing {
-        self.whole()
+        self.whole_project()
             .map_or(&DEFAULT_TIMING, |project| &project.timing)
     }
 
     /// Colours of the project.
     #[must_use]
     pub fn style(&self) -> TransitionStyle {
-        self.whole()
+        self.whole_project()
             .map_or_else(TransitionStyle::default, |p| p.style)
     }
 
     /// Colours of the current segment.
     #[must_use]
-    pub fn style_here(&self) -> TransitionStyle {
-        style_of(self.leg(), self.way(), &self.style())
+    pub fn segment_style(&self) -> TransitionStyle {
+        style_of(self.segment(), self.sequence_layout(), &self.style())
     }
 
     /// Number of segments, and whether they form a closed loop.
     #[must_use]
-    pub fn way(&self) -> (usize, bool) {
-        let leads_back = self.whole().is_some_and(Project::leads_back);
-        (self.leg_count(), leads_back)
+    pub fn sequence_layout(&self) -> SequenceLayout {
+        SequenceLayout {
+            segment_count: self.segment_count(),
+            is_closed: self
+                .whole_project()
+                .is_some_and(Project::ends_where_it_starts),
+        }
     }
 
     /// Stops of the project.
     #[must_use]
     pub fn stops(&self) -> &[TransitionStop] {
-        self.whole().map_or(&[], |project| &project.stops)
+        self.whole_project().map_or(&[], |project| &project.stops)
     }
 
     /// File that the project is saved to.
@@ -264,8 +269,8 @@ impl Session {
     /// The reason why not, as tooltip of a disabled button.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), MethodUnavailable> {
         let open = self.open.as_ref().ok_or(MethodUnavailable::NothingOpen)?;
-        for leg in open.whole_on_stage().legs() {
-            leg.available(warp, content)?;
+        for leg in open.staged_project().segments() {
+            leg.check_available(warp, content)?;
         }
         Ok(())
     }
@@ -289,7 +294,7 @@ impl Session {
     pub fn has_paints(&self) -> bool {
         let is_painted = |design: &Arc<Design>| match &design.form {
             DesignForm::Truss(truss) => !truss.parts().colours.is_empty(),
-            _ => !design.coats.is_empty(),
+            _ => !design.paint_layers.is_empty(),
         };
         self.all_designs().iter().any(is_painted)
     }
@@ -297,9 +302,9 @@ impl Session {
     /// Whether both designs are outlines, so that the match editor applies. Not on a path over the
     /// map, where all designs are matched together.
     #[must_use]
-    pub fn can_match(&self) -> bool {
+    pub fn has_match_editor(&self) -> bool {
         let pair = self.designs();
-        !self.whole().is_some_and(Project::follows_path)
+        !self.whole_project().is_some_and(Project::follows_path)
             && !pair.is_empty()
             && pair
                 .iter()
@@ -315,10 +320,11 @@ impl Session {
         self.open.as_ref().is_some_and(OpenDocument::is_dirty)
     }
 
-    /// Whether two designs have just been opened together, without changes since.
+    /// Whether several designs have just been opened together, without changes since.
     #[must_use]
-    pub fn is_new_pair(&self) -> bool {
-        self.open.as_ref().is_some_and(OpenDocument::is_new_pair)
+    pub fn has_new_designs(&self) -> bool {
+        let open = self.open.as_ref();
+        open.is_some_and(OpenDocument::has_new_designs)
     }
 
     /// Whether the film on the stage uses the requested method, possibly as a draft.
@@ -331,7 +337,7 @@ impl Session {
     /// Whether the open project was recovered from an autosave.
     #[must_use]
     pub fn is_rescued(&self) -> bool {
-        self.open.as_ref().is_some_and(|open| open.is_rescued)
+        self.open.as_ref().is_some_and(|open| open.is_recovered)
     }
 
     /// Whether another project is being opened.
@@ -346,8 +352,8 @@ impl Session {
     /// # Errors
     /// The project cannot be written as text.
     #[must_use]
-    pub fn kept(&self) -> Option<Result<UnsavedProject, ProjectError>> {
-        self.open.as_ref().map(OpenDocument::kept)
+    pub fn unsaved_project(&self) -> Option<Result<UnsavedProject, ProjectError>> {
+        self.open.as_ref().map(OpenDocument::unsaved_project)
     }
 
     /// Question text about unsaved changes.
@@ -370,10 +376,10 @@ impl Session {
             return;
         };
         // Edits a copy, so that an edit without effect creates no undo step.
-        let mut changed = open.seen().clone();
+        let mut changed = open.segment_project().clone();
         edit(&mut changed);
-        if changed != *open.seen() {
-            open.edit_leg(changed, mark);
+        if changed != *open.segment_project() {
+            open.edit_segment(changed, mark);
             self.check_stale();
         }
     }
@@ -403,7 +409,7 @@ impl Session {
         // If the stage already shows what is requested, the running build is cancelled.
         if let Some(work) = building.filter(|_| self.is_stale) {
             // A build of the very same settings just continues.
-            self.is_stale = work.is_not_of(&open.loaded.project);
+            self.is_stale = work.builds_other_than(&open.loaded.project);
             self.work = Some(work);
         }
     }
@@ -425,7 +431,7 @@ impl Session {
     /// # Errors
     /// A bundled design that it names cannot be written; the project stays as it was.
     pub fn undo(&mut self) -> Result<bool, SaveError> {
-        self.go(UndoHistory::undo)
+        self.step_history(UndoHistory::undo)
     }
 
     /// Redoes the change that was undone last; returns `false` if there is none.
@@ -433,17 +439,17 @@ impl Session {
     /// # Errors
     /// As [`undo`](Self::undo).
     pub fn redo(&mut self) -> Result<bool, SaveError> {
-        self.go(UndoHistory::redo)
+        self.step_history(UndoHistory::redo)
     }
 
-    fn go(
+    fn step_history(
         &mut self,
         step: impl FnOnce(&mut UndoHistory) -> Option<ProjectSnapshot>,
     ) -> Result<bool, SaveError> {
         let Some(open) = &mut self.open else {
             return Ok(false);
         };
-        let has_changed = open.go(step)?;
+        let has_changed = open.step_history(step)?;
         if has_changed {
             self.check_stale();
         }
@@ -474,7 +480,7 @@ impl Session {
 
     /// The same, once the work has taken long enough to be shown.
     #[must_use]
-    pub fn told_work(&self) -> Option<(&'static str, f64)> {
+    pub fn visible_work(&self) -> Option<(&'static str, f64)> {
         let work = self.work.as_ref()?;
         let (stage, share) = work.job.progress();
         let stage = if work.has_draft {
@@ -482,12 +488,12 @@ impl Session {
         } else {
             stage
         };
-        (work.job.lasts() > SHOWN_AFTER).then_some((stage, share))
+        (work.job.elapsed() > SHOWN_AFTER).then_some((stage, share))
     }
 
     /// Builds a transition that was refused for its cost, and lifts the limits for this project
     /// from now on.
-    pub fn insist(&mut self) {
+    pub fn build_anyway(&mut self) {
         if let Some(open) = &mut self.open {
             open.loaded.patient = true;
             // The build is tried again and reports its problems anew.
@@ -518,7 +524,7 @@ impl Session {
         };
         self.is_stale = false;
         if let (None, Some(open)) = (work.origin, &mut self.open) {
-            open.give_up_changes();
+            open.reset_settings();
         }
     }
 
@@ -580,7 +586,7 @@ impl Session {
                 if open.restage(built) {
                     WorkOutcome::Rebuilt
                 } else {
-                    WorkOutcome::NotRebuilt
+                    WorkOutcome::RebuildFailed
                 }
             }
             // Unreachable in practice: an open project is never closed, only replaced by another.
@@ -588,7 +594,7 @@ impl Session {
             (Err(error), origin, open) => {
                 if let (None, Some(open)) = (origin, open) {
                     // A file that cannot be read would make every later build fail.
-                    open.give_up_designs();
+                    open.reset_designs();
                 }
                 WorkOutcome::Failed(error)
             }

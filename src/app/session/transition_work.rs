@@ -62,7 +62,7 @@ impl TransitionWork {
         Self {
             origin: request.origin(),
             wanted: request.settings().cloned(),
-            is_unsaved: matches!(request, LoadRequest::Rescued(_)),
+            is_unsaved: matches!(request, LoadRequest::Recovered(_)),
             job: BackgroundJob::start("the transition", move |progress| {
                 // Sending fails once the work has been abandoned.
                 request.carry_out(progress, |meanwhile| {
@@ -89,12 +89,12 @@ impl TransitionWork {
     /// Whether the work may be abandoned for newer settings.
     #[must_use]
     pub fn can_be_given_up(&self) -> bool {
-        self.origin.is_none() && self.job.lasts() > PATIENCE
+        self.origin.is_none() && self.job.elapsed() > PATIENCE
     }
 
     /// Whether the work builds something else than these settings ask for.
     #[must_use]
-    pub fn is_not_of(&self, project: &Project) -> bool {
+    pub fn builds_other_than(&self, project: &Project) -> bool {
         let wanted = self.wanted.as_ref();
         wanted.is_none_or(|wanted| needs_build(wanted, project))
     }
@@ -106,7 +106,7 @@ impl TransitionWork {
         let receiver = receiver.unwrap_or_else(PoisonError::into_inner);
         // Only the latest: a draft is better than the plainest method.
         self.waiting = receiver.try_iter().last().or(self.waiting.take());
-        let lasts = self.job.lasts();
+        let lasts = self.job.elapsed();
         let is_opening = self.origin.is_some();
         let is_due = |m: &mut InterimResult| lasts >= m.is_shown_after(is_opening);
         let shown = self.waiting.take_if(is_due)?;

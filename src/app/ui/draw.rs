@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use bevy::asset::AssetEventSystems;
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{
     EguiContext, EguiContexts, EguiFullOutput, EguiInputSet, EguiPlugin, EguiPostUpdateSet,
@@ -17,7 +18,7 @@ use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::{file_dialog, frame_times, help, notices, progress, questions};
 use crate::app::ui::panels::inspector;
 use crate::app::ui::stage::{
-    area, checks, comparison, film_frame, map, map_toolbar, onion, presentation,
+    area, checks, comparison, film_frame, invitation, map, map_toolbar, onion, presentation,
 };
 use crate::app::ui::timeline::{panel, plots};
 use crate::app::ui::ui_state::{Intents, UiState};
@@ -64,9 +65,12 @@ impl Plugin for UiPlugin {
     }
 }
 
+/// Window width, in points, from which the gallery fits next to the stage (heuristic).
+const ROOMY: f32 = 880.0;
+
 /// Window widths, in points, from which the gallery fits next to the match editor: without and with
 /// the editor's film pane.
-const ROOMY: [f32; 2] = [1200.0, 1600.0];
+const ROOMY_EDITOR: [f32; 2] = [1200.0, 1600.0];
 
 /// Installs theme and fonts before the first frame: fonts take effect in the next pass, and egui
 /// panics on a font family it does not know.
@@ -107,17 +111,26 @@ fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepain
     repaint.0 = soonest.unwrap_or(Duration::MAX);
 }
 
+/// Resources through which the panels report to the other systems.
+#[derive(SystemParam)]
+struct UiOutputs<'w> {
+    /// Whether a text field, a menu or the file dialog receives all keys.
+    typing: ResMut<'w, KeyboardFocus>,
+    /// Whether text in a panel is selected.
+    marked: ResMut<'w, TextSelected>,
+    /// Rectangle of the stage.
+    area: ResMut<'w, StageArea>,
+    /// Intents that the user triggered.
+    intents: MessageWriter<'w, Intent>,
+}
+
 /// Draws panels, stage overlays and dialogs, and sends the intents that they produce.
 fn draw(
     mut contexts: EguiContexts,
     state: UiState,
-    (mut textures, mut files): (
-        ResMut<gallery::GalleryTextures>,
-        ResMut<file_dialog::FileDialogState>,
-    ),
-    (mut typing, mut marked): (ResMut<KeyboardFocus>, ResMut<TextSelected>),
-    mut area: ResMut<StageArea>,
-    mut writer: MessageWriter<Intent>,
+    mut textures: ResMut<gallery::GalleryTextures>,
+    mut files: ResMut<file_dialog::FileDialogState>,
+    mut outputs: UiOutputs,
 ) -> Result {
     let ctx = contexts.ctx_mut()?.clone();
     theme::apply_theme(&ctx, state.preferences.theme);
@@ -136,15 +149,21 @@ fn draw(
     let visible = middle(&mut root, &state, stage, &mut intents);
     overlays(&ctx, &state, stage, &mut intents);
     file_dialog::show(&ctx, &state, &mut files, &mut intents);
-    area.set_if_neq(StageArea::from_points(visible.left_top(), visible.size()));
-    typing.set_if_neq(KeyboardFocus(
+    outputs
+        .area
+        .set_if_neq(StageArea::from_points(visible.left_top(), visible.size()));
+    outputs.typing.set_if_neq(KeyboardFocus(
         // Menus and the file dialog handle arrow keys and Esc themselves.
-        ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx) || state.dialog.asks().is_some(),
+        ctx.text_edit_focused()
+            || egui::Popup::is_any_open(&ctx)
+            || state.dialog.purpose().is_some(),
     ));
     let selection = ctx.plugin_or_default::<egui::text_selection::LabelSelectionState>();
-    marked.set_if_neq(TextSelected(selection.lock().has_selection()));
+    outputs
+        .marked
+        .set_if_neq(TextSelected(selection.lock().has_selection()));
     // Handled in the next frame, because the panels are drawn after the systems have run.
-    writer.write_batch(intents);
+    outputs.intents.write_batch(intents);
     Ok(())
 }
 
@@ -166,7 +185,7 @@ fn middle(
     if state.map.is_shown {
         return map::show(root, state, stage, intents);
     }
-    if state.twin.is_shown {
+    if state.comparison.is_shown {
         return comparison::show(root, state, stage, intents);
     }
     area::show(root, stage, "stage", intents);
@@ -192,9 +211,12 @@ fn panels(
     if state.preferences.plots {
         plots::show(root, state, intents);
     }
-    // In a small window the match editor needs the gallery's space.
-    let roomy = ROOMY[usize::from(state.editor.shows_film())];
-    if !state.editor.is_open || root.available_width() >= roomy {
+    // In a small window the stage and the match editor need the gallery's space.
+    let roomy = match state.editor.is_open {
+        true => ROOMY_EDITOR[usize::from(state.editor.shows_film())],
+        false => ROOMY,
+    };
+    if root.available_width() >= roomy {
         gallery::show(root, state, textures, intents);
     }
     inspector::show(root, state, intents);
@@ -205,12 +227,13 @@ fn panels(
         if state.map.is_shown {
             map_toolbar::strip(root, state, intents);
         } else {
-            if state.twin.is_shown {
+            if state.comparison.is_shown {
                 comparison::strip(root, state, intents);
             }
             checks::strip(root, state, intents);
         }
     }
+    invitation::show(root, state, textures, intents);
 }
 
 fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &mut Intents) {

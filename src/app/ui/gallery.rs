@@ -40,7 +40,7 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
                 ui.set_width(WIDTH - 32.0);
                 for entry in &state.gallery.0 {
                     if card(ui, state, textures, entry).clicked() {
-                        intents.push(Intent::OpenGallery(entry.name.clone()));
+                        intents.push(Intent::PlayGallery(entry.name.clone()));
                     }
                 }
                 ui.add_space(GRID);
@@ -93,7 +93,7 @@ fn card(
         WidgetInfo::selected(WidgetType::SelectableLabel, true, is_open, &entry.title)
     });
     let (fill, line) = match (is_open, response.hovered()) {
-        (true, _) => (palette.accent_ground, palette.accent),
+        (true, _) => (palette.accent_fill, palette.accent),
         (false, true) => (palette.hover, palette.line),
         (false, false) => (palette.raised, Color32::TRANSPARENT),
     };
@@ -121,7 +121,8 @@ fn show_when_new(ui: &Ui, name: &str, card: &Response) {
     }
 }
 
-fn thumbnail(ui: &Ui, state: &UiState, textures: &mut GalleryTextures, name: &str, rect: Rect) {
+/// Draws a project's film strip as large as it fits into `rect`; an empty box until it is ready.
+pub fn thumbnail(ui: &Ui, state: &UiState, textures: &mut GalleryTextures, name: &str, rect: Rect) {
     ui.painter()
         .rect_filled(rect, RADIUS, ThemePalette::of(ui).panel);
     let Some(image) = state.thumbnails.get(name) else {

@@ -33,8 +33,11 @@ pub fn join(added: On<Add, SpeakerCamera>, mut commands: Commands) {
 /// Draws the window, if it is open.
 pub fn draw(
     mut contexts: Query<&mut EguiContext, Without<PrimaryEguiContext>>,
-    (session, playback): (Res<Session>, Res<Playback>),
-    (presenting, speaker, preferences): (Res<Presentation>, Res<SpeakerWindow>, Res<Preferences>),
+    session: Res<Session>,
+    playback: Res<Playback>,
+    presenting: Res<Presentation>,
+    speaker: Res<SpeakerWindow>,
+    preferences: Res<Preferences>,
 ) {
     let Ok(mut context) = contexts.single_mut() else {
         return;
@@ -50,24 +53,24 @@ pub fn draw(
     );
     let frame = panel_frame(&root, [24, 24, 24, 24]);
     let stops = session.stops();
-    let names = session.names_on_the_way();
+    let names = session.names_along_path();
     let next = playback.next_stop(session.timing(), stops);
     CentralPanel::default().frame(frame).show(&mut root, |ui| {
-        head(ui, presenting.lasts());
+        head(ui, presenting.elapsed());
         let size = vec2(ui.available_width(), ui.available_height());
         let row = Layout::left_to_right(egui::Align::Min);
         ui.allocate_ui_with_layout(size, row, |ui| {
             let half = (ui.available_width() - 3.0 * GRID) / 2.0;
             ui.vertical(|ui| {
                 ui.set_width(half);
-                here(ui, SpeakerMoment::at(playback.t(), stops, &names));
+                here(ui, SpeakerMoment::new(playback.t(), stops, &names));
             });
             ui.add_space(2.0 * GRID);
             ui.vertical(|ui| {
                 ui.set_width(half);
                 upcoming(
                     ui,
-                    next.map(|t| SpeakerMoment::at(t, stops, &names)),
+                    next.map(|t| SpeakerMoment::new(t, stops, &names)),
                     speaker.picture(),
                 );
             });
@@ -85,7 +88,7 @@ struct SpeakerMoment<'a> {
 
 impl<'a> SpeakerMoment<'a> {
     /// Looks up the stop and the design at `t`; `names[k]` is the design at t = k.
-    fn at(t: f64, stops: &'a [TransitionStop], names: &'a [String]) -> Self {
+    fn new(t: f64, stops: &'a [TransitionStop], names: &'a [String]) -> Self {
         let is_here = |place: f64| (place - t).abs() < SAME_T;
         let design = names.iter().enumerate().find(|(k, _)| is_here(*k as f64));
         Self {

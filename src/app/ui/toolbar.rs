@@ -87,13 +87,13 @@ fn buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.add_space(GRID);
     let accent = ThemePalette::of(ui).accent;
     let tip = "Compare with a second method (V)";
-    let icon = icons::COMPARE.inked(state.twin.is_shown.then_some(accent));
-    intent_button(ui, icon, tip, Intent::ToggleTwin, intents);
+    let icon = icons::COMPARE.with_colour(state.comparison.is_shown.then_some(accent));
+    intent_button(ui, icon, tip, Intent::ToggleComparison, intents);
     let tip = "Map of all designs (D)";
-    let icon = icons::MAP.inked(state.map.is_shown.then_some(accent));
+    let icon = icons::MAP.with_colour(state.map.is_shown.then_some(accent));
     intent_button(ui, icon, tip, Intent::ToggleMap, intents);
     let tip = "Graphs over time (P)";
-    let icon = icons::PLOT.inked(state.preferences.plots.then_some(accent));
+    let icon = icons::PLOT.with_colour(state.preferences.plots.then_some(accent));
     intent_button(ui, icon, tip, Intent::TogglePlots, intents);
     match_button(ui, state, intents);
     ui.add_space(GRID);
@@ -120,31 +120,31 @@ fn capture_buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let tip = "Export settings";
     intent_button(
         ui,
-        icons::MORE.inked(ink),
+        icons::MORE.with_colour(ink),
         tip,
-        Intent::Prefer(options),
+        Intent::SetPreferences(options),
         intents,
     );
     let tip = "Present: only the drawing, from the first stop (F5)";
     let talk = Intent::Present { is_all: false };
     intent_button(ui, icons::PRESENT, tip, talk, intents);
     let tip = "Export film in the background (G)";
-    let icon = icons::RECORD.inked(Some(ThemePalette::of(ui).problem));
-    intent_button(ui, icon, tip, Intent::Record, intents);
+    let icon = icons::RECORD.with_colour(Some(ThemePalette::of(ui).problem));
+    intent_button(ui, icon, tip, Intent::ExportFilm, intents);
     let tip = "Save image (S); with panels: Shift S";
     let picture = Intent::Screenshot { with_panels: false };
     intent_button(ui, icons::CAMERA, tip, picture, intents);
 }
 
 fn match_button(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let is_enabled = state.session.can_match();
+    let is_enabled = state.session.has_match_editor();
     let tip = if is_enabled {
         "Edit match: pair points of source and target, side by side (E)"
     } else {
         "Not available: designs with triangles or bars of their own have nothing to match"
     };
     let ink = state.editor.is_open.then_some(ThemePalette::of(ui).accent);
-    let icon = icons::MATCH.inked(ink);
+    let icon = icons::MATCH.with_colour(ink);
     ui.add_enabled_ui(is_enabled, |ui| {
         intent_button(ui, icon, tip, Intent::Editor(EditorAction::Toggle), intents);
     });
@@ -171,5 +171,5 @@ fn theme_button(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         theme,
         ..*state.preferences
     };
-    intent_button(ui, icon, tip, Intent::Prefer(other), intents);
+    intent_button(ui, icon, tip, Intent::SetPreferences(other), intents);
 }

@@ -17,6 +17,7 @@ use crate::app::files::drop::DroppedDesign;
 use crate::app::files::file_dialog::FileDialogRequest;
 use crate::app::files::file_preview::FilePreview;
 use crate::app::files::gallery_thumbnails::GalleryThumbnails;
+use crate::app::files::invitation::Invitation;
 use crate::app::files::project_actions::GalleryEntries;
 use crate::app::input::intent::Intent;
 use crate::app::input::key_map::KeyMap;
@@ -47,10 +48,11 @@ pub struct UiState<'w> {
     pub measured: Res<'w, StageMeasures>,
     pub recording: Res<'w, StageRecording>,
     pub onion: Res<'w, OnionSkins>,
-    pub twin: Res<'w, Comparison>,
+    pub comparison: Res<'w, Comparison>,
     pub map: Res<'w, MapView>,
     pub view: Res<'w, StageView>,
     pub gallery: Res<'w, GalleryEntries>,
+    pub invitation: Res<'w, Invitation>,
     pub playback: Res<'w, Playback>,
     pub presenting: Res<'w, Presentation>,
     pub preferences: Res<'w, Preferences>,
@@ -68,7 +70,7 @@ pub struct UiState<'w> {
     pub preview: Res<'w, FilePreview>,
     pub keys: Res<'w, KeyMap>,
     pub times: Res<'w, FrameTimes>,
-    pub whole: Res<'w, FrameIntervals>,
+    pub frame_intervals: Res<'w, FrameIntervals>,
 }
 
 /// Intents that the user triggered in this frame.

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use bevy::prelude::{DetectChangesMut, Res, ResMut, Resource};
+use bevy::prelude::{DetectChangesMut, Res, ResMut, Resource, UVec2};
 use image::RgbaImage;
 
 use crate::app::analysis::film_measures::StageMeasures;
@@ -23,12 +23,12 @@ const THUMBNAILS_OF_PAIR: usize = 11;
 
 /// Number of thumbnails for a film of several segments: about as many, and one at each design.
 #[must_use]
-pub fn pictures(segments: usize) -> usize {
+pub fn thumbnail_count(segments: usize) -> usize {
     segments * ((THUMBNAILS_OF_PAIR - 1) / segments.max(1)).max(1) + 1
 }
 
 /// Width and height of a thumbnail in pixels: twice its size on screen at scale factor 1.
-pub const PICTURE_PX: (u32, u32) = (144, 80);
+pub const THUMBNAIL_PX: UVec2 = UVec2::new(144, 80);
 
 /// Thumbnails of the film on the stage.
 #[derive(Resource, Debug, Default)]
@@ -63,7 +63,7 @@ impl Filmstrip {
     /// Whether the thumbnails, or the job drawing them, show the wanted film in the wanted colours.
     fn is_of(&self, wanted: Option<&(Sequence, TransitionStyle)>) -> bool {
         match (&self.of, wanted) {
-            (Some((old, before)), Some((new, style))) => old.is(new) && before == style,
+            (Some((old, before)), Some((new, style))) => old.is_same(new) && before == style,
             (None, None) => true,
             _ => false,
         }
@@ -73,7 +73,7 @@ impl Filmstrip {
 /// Names of the designs of a film, segment by segment. They identify the designs, because another
 /// placement creates new design objects.
 fn names(sequence: &Sequence) -> impl Iterator<Item = &str> {
-    let designs = sequence.legs().iter().flat_map(Transition::designs);
+    let designs = sequence.segments().iter().flat_map(Transition::designs);
     designs.map(|design| design.name.as_str())
 }
 
@@ -106,8 +106,12 @@ pub fn follow(
     // Replacing the job cancels the one for the previous film.
     strip.job = strip.of.clone().map(|(sequence, style)| {
         BackgroundJob::start("the filmstrip", move |_| {
-            let times = even_times(0.0, sequence.end(), pictures(sequence.legs().len()));
-            draw_strip(&sequence, &style, &times, PICTURE_PX)
+            let times = even_times(
+                0.0,
+                sequence.end(),
+                thumbnail_count(sequence.segments().len()),
+            );
+            draw_strip(&sequence, &style, &times, THUMBNAIL_PX)
         })
     });
 }
@@ -121,19 +125,19 @@ pub fn draw_strip(
     sequence: &Sequence,
     style: &TransitionStyle,
     times: &[f64],
-    (width, height): (u32, u32),
+    cell_px: UVec2,
 ) -> Result<RgbaImage, PixelSizeError> {
-    let size = PixelSize::new(width.saturating_mul(times.len() as u32), height)?;
+    let size = PixelSize::new(cell_px.x.saturating_mul(times.len() as u32), cell_px.y)?;
     // One common frame for all cells, so that growth is visible.
     let bounds = framing(sequence, times);
-    let cell = DVec2::new(f64::from(width), f64::from(height));
+    let cell = cell_px.as_dvec2();
     let mut drawing = Drawing::new(size, None);
     let mut frame = sequence.frame(0.0);
     for (index, t) in times.iter().enumerate() {
         frame.seek(*t);
         let corner = DVec2::new(index as f64 * cell.x, 0.0);
         let view = PlaneView::fit_cell(bounds, size, corner, cell);
-        drawing.push_frame(frame.now(), &frame.style(style), &view);
+        drawing.push_frame(frame.frame(), &frame.style(style), &view);
     }
     Ok(rasterise(&drawing))
 }

@@ -3,11 +3,11 @@
 
 use bevy::prelude::{Real, Res, ResMut, Resource, Time};
 
-use crate::stage::StageTimes;
+use crate::stage::DurationHistory;
 
 /// Durations from one frame to the next.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct FrameIntervals(pub StageTimes);
+pub struct FrameIntervals(pub DurationHistory);
 
 /// Records the duration of the last frame.
 pub fn record(time: Res<Time<Real>>, mut whole: ResMut<FrameIntervals>) {

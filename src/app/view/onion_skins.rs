@@ -62,7 +62,7 @@ pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: R
     let sequence = preferences.onion.then(|| session.sequence()).flatten();
     let wanted = sequence.map(|sequence| (sequence, times(&session)));
     let is_same = match (&wanted, &onion.bypass_change_detection().of) {
-        (Some((new, now)), Some((old, then))) => now == then && new.is(old),
+        (Some((new, now)), Some((old, then))) => now == then && new.is_same(old),
         (wanted, had) => wanted.is_none() && had.is_none(),
     };
     if is_same {
@@ -80,7 +80,7 @@ fn skins(sequence: &Sequence, times: &[f64]) -> Vec<OnionSkin> {
     let mut frame = sequence.frame(0.0);
     let skin = |&t: &f64| {
         frame.seek(t);
-        let VectorFigure { rings, bars, .. } = frame.now().figure();
+        let VectorFigure { rings, bars, .. } = frame.frame().figure();
         OnionSkin { t, rings, bars }
     };
     times.iter().map(skin).collect()

@@ -9,13 +9,13 @@ use crate::app::input::preferences::Preferences;
 pub fn apply(mut intents: MessageReader<Intent>, mut preferences: ResMut<Preferences>) {
     for intent in intents.read() {
         match intent {
-            Intent::Prefer(chosen) => *preferences = *chosen,
+            Intent::SetPreferences(chosen) => *preferences = *chosen,
             Intent::ToggleGrid => preferences.show.grid = !preferences.show.grid,
             Intent::ToggleOnion => preferences.onion = !preferences.onion,
             Intent::TogglePanels => preferences.panels = !preferences.panels,
             Intent::ToggleHelp => preferences.help = !preferences.help,
             Intent::TogglePlots => preferences.plots = !preferences.plots,
-            Intent::ToggleTimes => preferences.times = !preferences.times,
+            Intent::ToggleFrameTimes => preferences.times = !preferences.times,
             _ => {}
         }
     }

@@ -12,6 +12,7 @@ use crate::app::stage_area::{AutoFit, StageArea};
 use crate::geometry::Bounds;
 use crate::stage::{StageCamera, StageView};
 use bevy::camera::Viewport;
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 
@@ -41,31 +42,40 @@ pub fn apply(
     }
 }
 
+/// State that [`fit`] carries from frame to frame.
+#[derive(SystemParam)]
+pub struct FitState<'s> {
+    /// Bounds, area size and pane view of the last fit.
+    last: Local<'s, Option<(Bounds, Vec2, PaneView)>>,
+    /// View of the stage, while the match editor replaces it.
+    left: Local<'s, Option<StageView>>,
+}
+
 /// Fits the view again when the area, the transition or the export frame changes.
 pub fn fit(
-    (session, editor): (Res<Session>, Res<MatchEditor>),
+    session: Res<Session>,
+    editor: Res<MatchEditor>,
     area: Res<StageArea>,
     auto_fit: Res<AutoFit>,
     film: Res<FilmFraming>,
     mut view: ResMut<StageView>,
-    mut last: Local<Option<(Bounds, Vec2, PaneView)>>,
-    mut left: Local<Option<StageView>>,
+    mut state: FitState,
 ) {
     // The editor's film pane has a view of its own; leaving the editor restores the stage's view.
     let pane = editor
         .shows_film()
         .then(|| editor.panes.view(EditorPane::Film));
-    if pane.is_some() && left.is_none() {
-        *left = Some(view.clone());
+    if pane.is_some() && state.left.is_none() {
+        *state.left = Some(view.clone());
     } else if pane.is_none()
-        && let Some(before) = left.take()
+        && let Some(before) = state.left.take()
     {
         *view = before;
-        *last = None;
+        *state.last = None;
     }
     if !auto_fit.0 && pane.is_none() {
         // Reset, so that the next fit happens even if nothing has changed since the last one.
-        *last = None;
+        *state.last = None;
         return;
     }
     // All segments share one view, so that the drawing does not jump between them.
@@ -79,11 +89,11 @@ pub fn fit(
     let bounds = bounds.padded(MARGIN * bounds.diameter());
     let pane = pane.unwrap_or_default();
     let now = Some((bounds, area.size, pane));
-    if *last != now {
+    if *state.last != now {
         view.fit(bounds, area.size);
         view.zoom_at(0.5 * area.size, f64::from(pane.zoom));
         view.pan_px(pane.pan);
-        *last = now;
+        *state.last = now;
     }
 }
 
@@ -113,7 +123,7 @@ pub struct ComparisonCamera;
 type CameraState<'w> = (&'w Camera, &'w Transform, &'w Projection);
 
 /// Places the comparison's camera to the right of the stage, with the same view.
-pub fn place_twin(
+pub fn place_comparison_camera(
     area: Res<StageArea>,
     comparison: Res<Comparison>,
     editor: Res<MatchEditor>,

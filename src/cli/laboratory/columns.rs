@@ -178,7 +178,7 @@ pub(super) const ALL: [ReportColumn; 61] = [
         Some(
             TransitionMethod::new(r.warp, r.content)
                 .ok()?
-                .words()
+                .labels()
                 .report,
         )
     }),

@@ -297,7 +297,9 @@ impl PairJob<'_> {
     /// The pair by the names of its designs.
     fn name(&self) -> String {
         match self.pair() {
-            Ok(pair) => pair.map(|path| DesignSource::of(path).name()).join(" to "),
+            Ok(pair) => pair
+                .map(|path| DesignSource::from_path(path).name())
+                .join(" to "),
             Err(_) => format!("line {}", self.row.line),
         }
     }
@@ -328,7 +330,7 @@ fn strip(opened: &OpenedPair, report: &PairReport, job: &PairJob<'_>) -> PairStr
     let style: &TransitionStyle = &opened.loaded.project.style;
     let times = even_times(0.0, 1.0, STRIP_FRAMES);
     PairStrip::of(&job.name(), &opened.transition, style, &times)
-        .saying(&report.verdict.words, !report.verdict.findings.is_empty())
+        .with_remark(&report.verdict.words, !report.verdict.findings.is_empty())
 }
 
 /// Writes the sheet; words about strips that had no room.

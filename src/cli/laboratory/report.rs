@@ -169,7 +169,7 @@ impl ProofReport {
 
     /// The first t at which it is not proved.
     pub fn first_t(&self) -> Option<f64> {
-        self.proved.as_ref()?.first_t()
+        self.proved.as_ref()?.first_failure_time()
     }
 }
 
@@ -220,10 +220,10 @@ impl PairReport {
         let (frame, figure) = frame_times(transition);
         let start = Instant::now();
         let mesh = transition.compatible();
-        let mesh_report = mesh.and_then(measure::mesh);
+        let mesh_report = mesh.and_then(measure::mesh_report);
         let [filming, judging] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| ProgressSpan::new(progress, a, b));
-        let film = measure::film(transition, samples, &filming).map_err(CliError::failed)?;
+        let film = measure::film_report(transition, samples, &filming).map_err(CliError::failed)?;
         let verdict = Verdict::of_film(transition, &film, &judging).map_err(CliError::failed)?;
         let seconds = ReportSeconds {
             import: opened.import_time.as_secs_f64(),
@@ -237,14 +237,14 @@ impl PairReport {
         };
         Ok(Self {
             title: opened.title(),
-            warp: transition.cell().warp(),
-            content: transition.cell().content(),
+            warp: transition.method().warp(),
+            content: transition.method().content(),
             designs: transition.designs().iter().map(of_design).collect(),
             vertices: mesh.map(|mesh| mesh.source().len()),
             faces: mesh.map(|mesh| mesh.faces().len()),
             grid: match transition.content() {
                 Content::Field(fields) => {
-                    let grid = fields.first().grid();
+                    let grid = fields.first_pair().grid();
                     Some([grid.width, grid.height])
                 }
                 Content::Solid(_) | Content::Colours(_) => None,

@@ -125,7 +125,7 @@ fn timed(space: &DesignSpace) -> Duration {
     let raster = PictureRaster {
         size: [PICTURE_PX; 2],
         corner: DVec2::new(bounds.min.x, bounds.max.y),
-        pixel: bounds.size().max_element() / f64::from(PICTURE_PX),
+        pixel_size: bounds.size().max_element() / f64::from(PICTURE_PX),
     };
     let mut times: Vec<Duration> = (0..TIMED)
         .map(|k| {

@@ -5,7 +5,7 @@ use super::number::{NumberLines, percent, short};
 use super::report::{DesignReport, PairReport};
 use crate::content::ContentKind;
 use crate::measure::{Distribution, FilmSample, MeshReport, MotionReport, Quantity};
-use crate::settings::choice::Choice;
+use crate::settings::Choice;
 
 /// Room for what stands at the left.
 const NAMES: usize = 12;
@@ -55,7 +55,7 @@ fn method(report: &PairReport, lines: &mut NumberLines) {
         ContentKind::Field => "distance fields",
         ContentKind::Colours => "colours",
     };
-    let warp = (report.warp.words().name, report.warp.name().key);
+    let warp = (report.warp.labels().name, report.warp.name().key);
     // Solids go without saying.
     let said = [warp, (content, report.content.name().key)];
     let said = said.into_iter().filter(|(words, _)| !words.is_empty());
@@ -188,7 +188,9 @@ fn motion(motion: &MotionReport) -> String {
 
 fn samples(samples: &[FilmSample], lines: &mut NumberLines) {
     let known = |(_, quantity): &&(&str, Quantity)| {
-        samples.first().is_some_and(|s| quantity.at(s).is_some())
+        samples
+            .first()
+            .is_some_and(|s| quantity.value_at(s).is_some())
     };
     let columns: Vec<_> = LISTED.iter().filter(known).collect();
     lines.cells(("t", NAMES), columns.iter().map(|(name, _)| name));
@@ -197,7 +199,9 @@ fn samples(samples: &[FilmSample], lines: &mut NumberLines) {
     let last = samples.len() - 1;
     let listed = samples.iter().enumerate();
     for (_, sample) in listed.filter(|(i, _)| i % step == 0 || *i == last) {
-        let cells = columns.iter().map(|(_, quantity)| quantity.at(sample));
+        let cells = columns
+            .iter()
+            .map(|(_, quantity)| quantity.value_at(sample));
         let cells = cells.map(|cell| cell.map(short).unwrap_or_default());
         lines.cells((&short(sample.t), NAMES), cells);
     }

@@ -1,4 +1,4 @@
-//! Flags of what is seen: how designs are read, contents, the film and its look.
+//! Flags for import, distance fields, colour mixing, timing and style.
 
 use clap::Args;
 
@@ -10,47 +10,47 @@ use crate::transition::{
     EasingFunction, FieldBoundary, FieldOptions, NamedEasing, PaintRule, PlayMode, Timing,
 };
 
-use super::super::value_parsers::{one_of, set};
+use super::super::value_parsers::{one_of, set_if_given};
 
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Reading designs")]
+#[command(next_help_heading = "Import")]
 pub(super) struct ImportArgs {
-    /// The tone at which a picture's boundary runs, 1 to 255
+    /// Grey level (or opacity) at which a picture's outline runs, 1 to 255 [default: automatic]
     #[arg(long, value_name = "TONE")]
     image_threshold: Option<u8>,
 
-    /// Take a picture's ground for the figure
+    /// Swap figure and background of pictures
     #[arg(long)]
     invert: bool,
 
-    /// Leave out islands and holes of fewer pixels than this
+    /// Ignore islands and holes with fewer pixels than this
     #[arg(long, value_name = "PIXELS")]
     specks: Option<u32>,
 
-    /// How far an outline may run from the exact one, as a fraction of the longer side
+    /// Maximum deviation of the outline, as a fraction of the longer side
     #[arg(long, value_name = "FRACTION")]
     tolerance: Option<f64>,
 
-    /// Take each flat colour of a picture for a part of its own
+    /// Import each flat colour of a picture as a separate part
     #[arg(long)]
     colours: bool,
 
-    /// Leave a drawing's strokes out of the figure that it makes
+    /// Ignore strokes when a drawing is imported as a silhouette
     #[arg(long)]
     no_strokes: bool,
 }
 
 impl ImportArgs {
-    /// Of all designs: a flag has no way to name one of them.
+    /// Applies the flags to all designs, because a flag cannot name a single one.
     pub(super) fn edit(&self, project: &mut Project) {
         for design in &mut project.designs {
             let import = &mut design.import;
-            set(&mut import.threshold, self.image_threshold.map(Some));
-            set(&mut import.invert, self.invert.then_some(true));
-            set(&mut import.specks_px, self.specks);
-            set(&mut import.tolerance, self.tolerance);
-            set(&mut import.strokes, self.no_strokes.then_some(false));
-            set(&mut import.colours, self.colours.then_some(true));
+            set_if_given(&mut import.threshold, self.image_threshold.map(Some));
+            set_if_given(&mut import.invert, self.invert.then_some(true));
+            set_if_given(&mut import.specks_px, self.specks);
+            set_if_given(&mut import.tolerance, self.tolerance);
+            set_if_given(&mut import.strokes, self.no_strokes.then_some(false));
+            set_if_given(&mut import.colours, self.colours.then_some(true));
         }
     }
 }
@@ -58,23 +58,23 @@ impl ImportArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Distance fields (field)")]
 pub(super) struct FieldArgs {
-    /// How distance is measured
+    /// Distance metric
     #[arg(long, value_parser = one_of::<Metric>())]
     metric: Option<Metric>,
 
-    /// Where the boundary runs: on the outline, or between cells as in the paper
+    /// Position of the boundary: on the outline, or between grid cells as in the paper
     #[arg(long, value_parser = one_of::<FieldBoundary>())]
     boundary: Option<FieldBoundary>,
 
-    /// Whether logarithms of distances are blended, or distances
+    /// Scale on which distances are blended: logarithmic or linear
     #[arg(long, value_parser = one_of::<BlendSpace>())]
     space: Option<BlendSpace>,
 
-    /// Where the logarithm bends, in cells
+    /// ε of the logarithmic scale, in cells
     #[arg(long, value_name = "CELLS")]
     epsilon: Option<f64>,
 
-    /// How deep inside is drawn, in cells; below 0 thickens
+    /// Distance that is drawn as the outline, in cells; values below 0 thicken the shape
     #[arg(long, value_name = "CELLS", allow_negative_numbers = true)]
     threshold: Option<f64>,
 
@@ -82,110 +82,110 @@ pub(super) struct FieldArgs {
     #[arg(long, value_name = "N")]
     cells: Option<u32>,
 
-    /// Room around the designs, as a fraction of the longer side
+    /// Space around the designs, as a fraction of the longer side
     #[arg(long, value_name = "FRACTION")]
     margin: Option<f64>,
 }
 
 impl FieldArgs {
     pub(super) fn edit(&self, field: &mut FieldOptions) {
-        set(&mut field.metric, self.metric);
-        set(&mut field.boundary, self.boundary);
-        set(&mut field.blend.space, self.space);
-        set(&mut field.blend.epsilon, self.epsilon);
-        set(&mut field.blend.threshold, self.threshold);
-        set(&mut field.cells, self.cells);
-        set(&mut field.margin, self.margin);
+        set_if_given(&mut field.metric, self.metric);
+        set_if_given(&mut field.boundary, self.boundary);
+        set_if_given(&mut field.blend.space, self.space);
+        set_if_given(&mut field.blend.epsilon, self.epsilon);
+        set_if_given(&mut field.blend.threshold, self.threshold);
+        set_if_given(&mut field.cells, self.cells);
+        set_if_given(&mut field.margin, self.margin);
     }
 }
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Colours")]
 pub(super) struct ColourArgs {
-    /// How the mix of two pictures runs over t
+    /// Easing of the transition between the colours of two pictures
     #[arg(long, value_parser = one_of::<NamedEasing>())]
     mix: Option<NamedEasing>,
 
-    /// The t at which the source begins to give way
+    /// Value of t at which the target starts to appear
     #[arg(long, value_name = "T")]
     mix_from: Option<f64>,
 
-    /// The t from which on only the target is seen
+    /// Value of t from which only the target is visible
     #[arg(long, value_name = "T")]
     mix_to: Option<f64>,
 }
 
 impl ColourArgs {
     pub(super) fn edit(&self, mix: &mut ColourMix) {
-        set(&mut mix.curve, self.mix);
-        set(&mut mix.from, self.mix_from);
-        set(&mut mix.to, self.mix_to);
+        set_if_given(&mut mix.curve, self.mix);
+        set_if_given(&mut mix.from, self.mix_from);
+        set_if_given(&mut mix.to, self.mix_to);
     }
 }
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Timing")]
 pub(super) struct TimingArgs {
-    /// Where the film begins; below 0 and above 1 extrapolate
+    /// Value of t at which the film starts; below 0 and above 1 the motion is extrapolated
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     from: Option<f64>,
 
-    /// Where the film ends
+    /// Value of t at which the film ends
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     to: Option<f64>,
 
-    /// Seconds of one pass, rests not counted
+    /// Duration from start to end without pauses, in seconds
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
 
-    /// Seconds of rest at each end
+    /// Pause at each end, in seconds
     #[arg(long, value_name = "SECONDS")]
     hold: Option<f64>,
 
-    /// How t runs between stops: linear, smooth, ease-in, ease-out, or a curve with two handles
+    /// Easing between stops: linear, smooth, ease-in, ease-out, or the handles of a Bézier curve
     #[arg(long, value_name = "NAME|X1,Y1,X2,Y2")]
     easing: Option<EasingFunction>,
 
-    /// What happens at the end of a pass
+    /// Behaviour at the end of the film
     #[arg(long, value_parser = one_of::<PlayMode>())]
     play: Option<PlayMode>,
 }
 
 impl TimingArgs {
     pub(super) fn edit(&self, timing: &mut Timing) {
-        set(&mut timing.from, self.from);
-        set(&mut timing.to, self.to);
-        set(&mut timing.duration_secs, self.duration);
-        set(&mut timing.hold_secs, self.hold);
-        set(&mut timing.easing, self.easing);
-        set(&mut timing.play, self.play);
+        set_if_given(&mut timing.from, self.from);
+        set_if_given(&mut timing.to, self.to);
+        set_if_given(&mut timing.duration_secs, self.duration);
+        set_if_given(&mut timing.hold_secs, self.hold);
+        set_if_given(&mut timing.easing, self.easing);
+        set_if_given(&mut timing.play, self.play);
     }
 }
 
 #[derive(Debug, Args)]
-#[command(next_help_heading = "Look")]
+#[command(next_help_heading = "Appearance")]
 pub(super) struct StyleArgs {
-    /// Fill at t = 0
+    /// Fill colour at t = 0
     #[arg(long, value_name = "#RRGGBB")]
     source_colour: Option<Rgb>,
 
-    /// Fill at t = 1
+    /// Fill colour at t = 1
     #[arg(long, value_name = "#RRGGBB")]
     target_colour: Option<Rgb>,
 
-    /// Whose colours drawings are shown in
+    /// Colours of the drawings, or one colour for each design
     #[arg(long, value_parser = one_of::<PaintRule>())]
     paint: Option<PaintRule>,
 
-    /// Let what only one drawing has fade in or out
+    /// Fade parts in or out that exist in only one drawing
     #[arg(long)]
     fade: bool,
 
-    /// The t at which parts change places that lie over each other otherwise
+    /// Value of t at which overlapping parts change their stacking order
     #[arg(long, value_name = "T")]
     reorder_at: Option<f64>,
 
-    /// Leave a truss's joints unmarked
+    /// Do not draw the joints of trusses
     #[arg(long)]
     no_joints: bool,
 }
@@ -193,12 +193,12 @@ pub(super) struct StyleArgs {
 impl StyleArgs {
     pub(super) fn edit(&self, project: &mut Project) {
         let style = &mut project.style;
-        set(&mut style.source, self.source_colour);
-        set(&mut style.target, self.target_colour);
-        set(&mut style.joints, self.no_joints.then_some(false));
+        set_if_given(&mut style.source, self.source_colour);
+        set_if_given(&mut style.target, self.target_colour);
+        set_if_given(&mut style.joints, self.no_joints.then_some(false));
         let options = &mut project.options;
-        set(&mut options.paint, self.paint);
-        set(&mut options.coats.fade, self.fade.then_some(true));
-        set(&mut options.coats.reorder_at, self.reorder_at);
+        set_if_given(&mut options.paint, self.paint);
+        set_if_given(&mut options.coats.fade, self.fade.then_some(true));
+        set_if_given(&mut options.coats.reorder_at, self.reorder_at);
     }
 }

@@ -1,11 +1,12 @@
-//! Flags of what moves: the method, its cell, the warps.
+//! Flags for the method, warp and content, pins and lines, and the options of rigid parts and
+//! boundary paths.
 
 use clap::Args;
 
 use crate::content::ContentKind;
 use crate::correspondence::{LinePair, PointPair};
 use crate::project::Project;
-use crate::settings::choice::named;
+use crate::settings::named;
 use crate::transition::{BuildQuality, CollisionAvoidance, DesignFit};
 use crate::warp::homotopy::Homotopy;
 use crate::warp::{
@@ -13,10 +14,9 @@ use crate::warp::{
 };
 
 use super::super::error::CliError;
-use super::super::value_parsers::{line, one_of, pin, set, weights};
+use super::super::value_parsers::{line, one_of, pin, set_if_given, weights};
 
-/// The paper's two methods, which are cells of the table of warps and contents,
-/// or the one whose film is less trouble.
+/// Value of `--method`: one of the paper's two methods, or the best one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MethodFlag {
     Arap,
@@ -26,12 +26,13 @@ pub(super) enum MethodFlag {
 
 named! { MethodFlag {
     Arap: "arap", "Rigid parts", "Rigid parts: meshes and trusses move as rigidly as possible";
-    Field: "field", "Distance fields", "Distance fields: any two outlines";
-    Auto: "auto", "Auto", "Both, and fields that parts carry: the film with the least trouble";
+    Field: "field", "Distance fields", "Distance fields: blends any two outlines";
+    Auto: "auto", "Auto",
+        "Rigid parts, fields carried by them, or plain fields: the one with the fewest defects";
 } }
 
 impl MethodFlag {
-    /// None of what is chosen once the films are known.
+    /// Returns warp and content; `None` if they are chosen by rating the films.
     fn kinds(self) -> Option<(WarpKind, ContentKind)> {
         match self {
             Self::Arap => Some((WarpKind::Arap, ContentKind::Solid)),
@@ -44,90 +45,90 @@ impl MethodFlag {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Method")]
 pub(super) struct PlacingArgs {
-    /// How the designs are blended [default: what suits them]
+    /// Method of blending [default: the one that suits the designs]
     #[arg(long, value_parser = one_of::<MethodFlag>())]
     method: Option<MethodFlag>,
 
-    /// How the target is laid over the source
+    /// Alignment of the designs
     #[arg(long, value_parser = one_of::<DesignFit>())]
     fit: Option<DesignFit>,
 
-    /// How much is tried for a film of outlines as rigid parts [default: best]
+    /// Number of matches tried for rigid parts: only the first, or several [default: best]
     #[arg(long, value_parser = one_of::<BuildQuality>())]
     quality: Option<BuildQuality>,
 
-    /// What is done where that film folds or its outlines meet [default: guarded]
+    /// Collision avoidance where rigid parts would fold or outlines would meet [default: guarded]
     #[arg(long, value_parser = one_of::<CollisionAvoidance>())]
     guard: Option<CollisionAvoidance>,
 
-    /// Width of a truss's bars, as a fraction of the design's diameter
+    /// Width of truss bars, as a fraction of the larger design's diameter
     #[arg(long, value_name = "FRACTION")]
     bar_width: Option<f64>,
 }
 
 impl PlacingArgs {
-    /// Whether the films decide on the method.
+    /// Returns whether the method is chosen by rating the films.
     pub(super) fn is_auto(&self) -> bool {
         self.method == Some(MethodFlag::Auto)
     }
 
     pub(super) fn edit(&self, project: &mut Project) {
         let kinds = self.method.map(MethodFlag::kinds);
-        set(
+        set_if_given(
             &mut project.warp,
             kinds.map(|kinds| kinds.map(|(warp, _)| warp)),
         );
-        set(
+        set_if_given(
             &mut project.content,
             kinds.map(|kinds| kinds.map(|(_, content)| content)),
         );
-        set(&mut project.fit, self.fit);
-        set(&mut project.options.quality, self.quality);
-        set(&mut project.options.guard, self.guard);
-        set(&mut project.options.bar_width, self.bar_width);
+        set_if_given(&mut project.fit, self.fit);
+        set_if_given(&mut project.options.quality, self.quality);
+        set_if_given(&mut project.options.guard, self.guard);
+        set_if_given(&mut project.options.bar_width, self.bar_width);
     }
 }
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Warp and content")]
 pub(super) struct CellArgs {
-    /// What moves: a row of the table
+    /// Warp: a row of the table of methods
     #[arg(long, conflicts_with = "method", value_parser = one_of::<WarpKind>())]
     warp: Option<WarpKind>,
 
-    /// What is seen: a column of the table
+    /// Content: a column of the table of methods
     #[arg(long, conflicts_with = "method", value_parser = one_of::<ContentKind>())]
     content: Option<ContentKind>,
 
-    /// A point of the source and the same point of the target, in their own
-    /// units, y up; may be given many times
+    /// Corresponding points of source and target, in their own coordinates, y up;
+    /// can be repeated
     #[arg(long, value_name = "X,Y:X,Y", value_parser = pin, allow_hyphen_values = true)]
     pin: Vec<PointPair>,
 
-    /// A line of the source, from end to end, and the same line of the target;
-    /// may be given many times
+    /// Corresponding lines of source and target, each given by its two ends; can be
+    /// repeated
     #[arg(long, value_name = "X,Y,X,Y:X,Y,X,Y", value_parser = line, allow_hyphen_values = true)]
     line: Vec<LinePair>,
 
-    /// How pins and lines travel: turning as a whole, or each straight; auto
-    /// is whole for fields
+    /// Motion of pins and lines: together as a rotation, or each straight; auto
+    /// rotates for fields
     #[arg(long, value_parser = one_of::<FeatureTravel>())]
     travel: Option<FeatureTravel>,
 }
 
 impl CellArgs {
-    /// Adds to the project's pins and lines, as a flag that is given twice adds to itself.
+    /// Applies the flags; pins and lines are added to those of the project.
     pub(super) fn edit(&self, project: &mut Project) -> Result<(), CliError> {
         if project.is_sequence() && !(self.pin.is_empty() && self.line.is_empty()) {
             return Err(CliError::Usage(
-                "--pin and --line are of two designs, and here are more: set them in the window, \
-                 for each two of them"
+                "--pin and --line need exactly two designs: with more, set pins and lines in the \
+                 window"
                     .to_owned(),
             ));
         }
-        set(&mut project.warp, self.warp.map(Some));
-        set(&mut project.content, self.content.map(Some));
-        set(&mut project.options.travel, self.travel);
+        set_if_given(&mut project.warp, self.warp.map(Some));
+        set_if_given(&mut project.content, self.content.map(Some));
+        set_if_given(&mut project.options.travel, self.travel);
         project.options.matching.pins.extend(&self.pin);
         project.options.matching.lines.extend(&self.line);
         Ok(())
@@ -137,23 +138,23 @@ impl CellArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Rigid parts (arap)")]
 pub(super) struct ArapArgs {
-    /// The path of each face's local map
+    /// Interpolation of each face's map from source to target
     #[arg(long, value_parser = one_of::<Homotopy>())]
     homotopy: Option<Homotopy>,
 
-    /// What each face weighs: area, uniform, or numbers, one a face
+    /// Weight of each face: area, uniform, or one number for each face
     #[arg(long, value_name = "area|uniform|W,W,...", value_parser = weights)]
     weights: Option<FaceWeights>,
 
-    /// The symmetric energy: swapped designs give the film backwards
+    /// Use the symmetric energy: swapping the designs gives the same film backwards
     #[arg(long, overrides_with = "one_sided")]
     symmetric: bool,
 
-    /// The paper's energy, on the source alone
+    /// Use the energy of the paper, in which only the source counts
     #[arg(long)]
     one_sided: bool,
 
-    /// Whole extra turns of each part, in order
+    /// Extra full turns of each part, in order
     #[arg(
         long,
         value_name = "N,N,...",
@@ -162,48 +163,48 @@ pub(super) struct ArapArgs {
     )]
     extra_turns: Option<Vec<i32>>,
 
-    /// Let the centroid run straight from source to target
+    /// Move the centroid straight from source to target
     #[arg(long, conflicts_with_all = ["anchor", "pole"])]
     centroid: bool,
 
-    /// Let the whole turn about its pole, the point that stays where it is, on an arc
+    /// Rotate the whole shape about its pole, the point that stays in place
     #[arg(long, conflicts_with = "anchor")]
     pole: bool,
 
-    /// Let this vertex (counted from 0) run straight instead of the centroid
+    /// Move this vertex (counted from 0) straight instead of the centroid
     #[arg(long, value_name = "VERTEX")]
     anchor: Option<u32>,
 
-    /// How often every triangle is split into four
+    /// Number of times that each triangle is split into four
     #[arg(long, value_name = "N")]
     subdivisions: Option<u32>,
 }
 
 impl ArapArgs {
     pub(super) fn edit(&self, arap: &mut ArapOptions) {
-        set(&mut arap.homotopy, self.homotopy);
-        set(&mut arap.weights, self.weights.clone());
-        set(&mut arap.symmetric, self.symmetric.then_some(true));
-        set(&mut arap.symmetric, self.one_sided.then_some(false));
-        set(&mut arap.extra_turns, self.extra_turns.clone());
-        set(&mut arap.path, self.centroid.then_some(ArapPath::Centroid));
-        set(&mut arap.path, self.pole.then_some(ArapPath::Pole));
-        set(&mut arap.path, self.anchor.map(ArapPath::Anchor));
-        set(&mut arap.subdivisions, self.subdivisions);
+        set_if_given(&mut arap.homotopy, self.homotopy);
+        set_if_given(&mut arap.weights, self.weights.clone());
+        set_if_given(&mut arap.symmetric, self.symmetric.then_some(true));
+        set_if_given(&mut arap.symmetric, self.one_sided.then_some(false));
+        set_if_given(&mut arap.extra_turns, self.extra_turns.clone());
+        set_if_given(&mut arap.path, self.centroid.then_some(ArapPath::Centroid));
+        set_if_given(&mut arap.path, self.pole.then_some(ArapPath::Pole));
+        set_if_given(&mut arap.path, self.anchor.map(ArapPath::Anchor));
+        set_if_given(&mut arap.subdivisions, self.subdivisions);
     }
 }
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Boundary paths (paths)")]
 pub(super) struct PathArgs {
-    /// The paths of boundary points: straight lines, or those that lengths and
-    /// directions of the edges leave
+    /// Paths of boundary points: straight, or by interpolating lengths and directions of the
+    /// edges
     #[arg(long, value_parser = one_of::<VertexPath>())]
     path: Option<VertexPath>,
 }
 
 impl PathArgs {
     pub(super) fn edit(&self, paths: &mut PathOptions) {
-        set(&mut paths.course, self.path);
+        set_if_given(&mut paths.course, self.path);
     }
 }

@@ -1,3 +1,5 @@
+//! Tests that each flag changes its option in the project, and that invalid values are refused.
+
 use super::*;
 use crate::colour::Rgb;
 use crate::content::{BlendSpace, ContentKind};
@@ -15,16 +17,17 @@ struct ParsedMethodArgs {
     method: MethodArgs,
 }
 
+/// Returns a default project with the flags applied.
 fn edited(flags: &str) -> Result<Project, CliError> {
-    let words = std::iter::once("x").chain(flags.split_whitespace());
-    let alone = ParsedMethodArgs::try_parse_from(words).map_err(CliError::usage)?;
-    let mut project = Project::pair("a.svg", "b.svg");
-    alone.method.edit(&mut project)?;
+    let arguments = std::iter::once("x").chain(flags.split_whitespace());
+    let parsed = ParsedMethodArgs::try_parse_from(arguments).map_err(CliError::usage)?;
+    let mut project = Project::from_pair("a.svg", "b.svg");
+    parsed.method.edit(&mut project)?;
     Ok(project)
 }
 
 #[test]
-fn every_listed_name_is_one_of_the_project_file() {
+fn every_listed_value_is_accepted() {
     for argument in ParsedMethodArgs::command().get_arguments() {
         let flag = argument.get_long().unwrap_or_default();
         for value in argument.get_possible_values() {
@@ -36,13 +39,13 @@ fn every_listed_name_is_one_of_the_project_file() {
 }
 
 #[test]
-fn no_flag_changes_nothing() {
-    let project = Project::pair("a.svg", "b.svg");
+fn without_flags_nothing_changes() {
+    let project = Project::from_pair("a.svg", "b.svg");
     assert_eq!(edited("").expect("edited"), project);
 }
 
 #[test]
-fn flags_reach_their_options() {
+fn method_flags_change_their_options() {
     let project = edited(
         "--method field --fit same-area --quality draft --guard plain --bar-width 0.02 --homotopy exponential \
          --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
@@ -59,7 +62,7 @@ fn flags_reach_their_options() {
         (DesignFit::SameArea, 0.02)
     );
     assert_eq!(project.options.quality, BuildQuality::Draft);
-    assert_eq!(project.options.guard, CollisionAvoidance::Plain);
+    assert_eq!(project.options.guard, CollisionAvoidance::Off);
     assert_eq!(project.options.arap.homotopy, Homotopy::Exponential);
     assert_eq!(
         project.options.arap.weights,
@@ -92,7 +95,7 @@ fn flags_reach_their_options() {
 }
 
 #[test]
-fn flags_reach_import_timing_and_style() {
+fn import_timing_and_style_flags_change_their_options() {
     let project = edited(
         "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --no-strokes --colours \
          --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
@@ -124,7 +127,7 @@ fn flags_reach_import_timing_and_style() {
 }
 
 #[test]
-fn nonsense_is_wrong_use() {
+fn invalid_values_are_usage_errors() {
     for flags in [
         "--homotopy cubic",
         "--weights 1,x",

@@ -5,7 +5,7 @@ use super::boundary_rings::BoundaryRings;
 use super::edge_grid::EdgeGrid;
 use super::face_cost;
 use crate::geometry::{DVec2, orient2d, ring_edges, segments_touch};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::HashSet;
 
 /// Numbers of edges of the stretches tried, longest first; each is replaced by two edges, so three
@@ -121,7 +121,7 @@ impl<'a> FrontRing<'a> {
         let mut at = turn % 3;
         let end = at + len;
         while at < end {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             at += self.step(at % self.len()).unwrap_or(1);
         }
         Ok(())

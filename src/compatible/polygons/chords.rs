@@ -11,7 +11,7 @@ use super::error::PieceMeshError;
 use crate::geometry::{DVec2, Side, orient2d, segments_touch};
 use crate::mesh::sides;
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
 /// Maximum number of vertices for which crossings are minimised (resource limit: the search is
 /// O(n³), with 10 million triangles per turn at this size). Larger polygons take their Delaunay
@@ -104,7 +104,7 @@ impl InteriorChords {
         let n = points.len();
         let mut inside = vec![false; n * n];
         for i in 0..n {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             for j in i + 1..n {
                 inside[i * n + j] = j == i + 1 || (i == 0 && j == n - 1) || is_inside(points, i, j);
             }
@@ -184,7 +184,7 @@ fn cheapest(
     }
     // From short chords to long ones, so that the parts behind a chord are already solved.
     for length in 2..n {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         for i in 0..n - length {
             let j = i + length;
             if chords.inside(i, j) {

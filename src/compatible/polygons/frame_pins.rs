@@ -2,7 +2,7 @@
 //!
 //! The border of the frame stays where it is. The space between border and pins is filled evenly
 //! with points, which are triangulated (Delaunay) in the source. The mesh is then moved to the
-//! target in steps, and folds are removed after each step (see [`super::transfer`]).
+//! target in steps, and folds are removed after each step (see [`crate::compatible::polygons::transfer`]).
 //!
 //! Guaranteed: pins are met bit by bit, and faces are positive in both designs. Not guaranteed:
 //! that every set of pins can be met. Pins that cross have no such mesh and are named in the error.
@@ -15,7 +15,7 @@ use crate::compatible::{CompatibleError, CompatibleMesh};
 use crate::correspondence::PointPair;
 use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{TriangulationError, delaunay};
-use crate::work::progress::{Cancelled, Progress, ProgressSpan, checkpoint, still_wanted};
+use crate::work::progress::{Cancelled, Progress, ProgressSpan, check_cancelled, checkpoint};
 
 /// Number of points along the longer side of the frame: about 700 in a square frame (heuristic).
 const POINTS_ALONG: f64 = 24.0;
@@ -233,7 +233,7 @@ fn filling(
         let step = widest / f64::from(1u32 << level);
         let is_last = level + 1 == LEVELS;
         for p in rows(frame, step) {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             // Each place is filled by the one level whose spacing fits. Spacings beyond the range
             // are left to the widest or the narrowest level.
             let size = wanted_spacing(p);

@@ -16,7 +16,7 @@ use super::two_designs::{mean_cost, triangulate_pair};
 use super::untangle::untangle;
 use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{RefinementOptions, refined_delaunay};
-use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
 /// Faces, and the vertices of each design.
@@ -83,7 +83,7 @@ fn best_triangulation(
         let Some(start) = refined_mesh(&designs[from], options, progress)? else {
             continue;
         };
-        candidates.extend(transfer_to_all(&start, (from, None), designs, progress)?);
+        candidates.extend(transfer_to_all(&start, from, None, designs, progress)?);
         if candidates.len() * count >= ENOUGH_TRANSFERS {
             break;
         }
@@ -95,14 +95,14 @@ fn best_triangulation(
             break;
         }
         let pair = triangulate_pair(&designs[first], &designs[hard], options, progress);
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let Ok(pair) = pair else {
             continue;
         };
         let (faces, [own, theirs]) = pair.compacted();
         let start = PairMesh::new(pair.fixed, [own.clone(), own], faces);
         let known = Some((hard, theirs));
-        candidates.extend(transfer_to_all(&start, (first, known), designs, progress)?);
+        candidates.extend(transfer_to_all(&start, first, known, designs, progress)?);
     }
     let best = candidates.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     Ok(best.map(|(_, mesh)| mesh))
@@ -127,7 +127,7 @@ fn refined_mesh(
         max_points: options.max_inner_points(n),
     };
     let start = refined_delaunay(&rings.loops(), &refinement, progress);
-    still_wanted(progress)?;
+    check_cancelled(progress)?;
     let Ok(start) = start else {
         return Ok(None);
     };
@@ -153,13 +153,14 @@ fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
     }
 }
 
-/// Transfers a triangulation of one design to all others. Returns its total cost and the result;
-/// `None` if it folds in one of them.
+/// Transfers a triangulation of the design `from` to all others. Returns its total cost and the
+/// result; `None` if it folds in one of them.
 ///
 /// `known` is a further design in which the vertices are already known.
 fn transfer_to_all(
     base: &PairMesh,
-    (from, known): (usize, Option<(usize, Vec<DVec2>)>),
+    from: usize,
+    known: Option<(usize, Vec<DVec2>)>,
     designs: &[BoundaryRings],
     progress: &dyn Progress,
 ) -> Result<Option<(f64, SharedTriangulation)>, Cancelled> {

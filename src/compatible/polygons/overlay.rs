@@ -14,7 +14,7 @@ use super::chords::{diagonals, interleave};
 use super::pair_mesh::PairMesh;
 use crate::geometry::DVec2;
 use crate::mesh::{sides, undirected};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::HashMap;
 
 /// Chord between two polygon vertices, the smaller first.
@@ -47,7 +47,7 @@ pub(super) fn overlay(
     // Two triangles of a convex polygon share a cell, a side, a corner or nothing, and the cells
     // together fill the polygon.
     for &s in &triangulations[0] {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         for &t in &triangulations[1] {
             if let Some(cell) = vertices.cell(s, t) {
                 vertices.fill(&cell, &mut faces);
@@ -84,7 +84,7 @@ impl OverlayVertices {
         let n = self.points[0].len() as u32;
         for design in 0..2 {
             for &chord in &chords[design] {
-                still_wanted(progress)?;
+                check_cancelled(progress)?;
                 let crossed = crossing_chords(chord, &chords[1 - design], n);
                 // Crossings divide the chord into equal sections, one more than there are
                 // crossings.

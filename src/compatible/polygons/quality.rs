@@ -9,7 +9,7 @@ use super::relax::relax;
 use super::transfer::split_chords;
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::sides;
-use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use std::collections::HashSet;
 
 /// Rounds of flips, splits and moves (heuristic).
@@ -59,7 +59,7 @@ pub(super) fn improve(
         };
         relax(mesh, steps.min(max_steps), progress);
     }
-    still_wanted(progress)
+    check_cancelled(progress)
 }
 
 /// Adapts the mesh to vertices that have moved: flips edges and splits costly faces.
@@ -78,7 +78,7 @@ pub(super) fn refit(
 pub(super) fn settle(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     flip_all(mesh, progress)?;
     relax(mesh, FIRST_STEPS, progress);
-    still_wanted(progress)
+    check_cancelled(progress)
 }
 
 /// Splits the costliest faces, to add freedom where it is needed.
@@ -102,7 +102,7 @@ fn split_costly(
     let mut touched = HashSet::new();
     let mut splits = 0;
     for (face, _) in costly {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         // Only a few in each round, because costs change after every split.
         if splits >= room.min(1 + n / 8) {
             break;
@@ -160,7 +160,7 @@ fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelle
     for _ in 0..MAX_PASSES {
         let mut flipped = 0;
         for edge in mesh.inner_edges() {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             // A flip removes no other listed edge.
             flipped += usize::from(mesh.flip_if_better(edge));
         }
@@ -176,7 +176,7 @@ fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelle
 fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, Cancelled> {
     let mut removed = 0;
     for v in mesh.steiner() {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let current_cost = mesh
             .faces_at(v)
             .map(|face| mesh.cost(face))
@@ -212,7 +212,7 @@ fn split_long(
     let max_count = options.max_inner_points(n);
     let mut count = mesh.steiner().len();
     for [a, b] in mesh.inner_edges() {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let is_long = (0..2)
             .any(|d| mesh.points[d][a as usize].distance(mesh.points[d][b as usize]) > longest[d]);
         if is_long && count < max_count && mesh.split([a, b]).is_some() {
@@ -228,7 +228,7 @@ fn nudge_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancell
     const PASSES: usize = 3;
     for _ in 0..PASSES {
         for v in mesh.steiner() {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             nudge(mesh, v);
         }
     }

@@ -11,7 +11,7 @@ use super::untangle::untangle;
 use crate::geometry::{Bounds, DVec2, SimilarityFit};
 use crate::mesh::triangulation::{RefinementOptions, refined_delaunay};
 use crate::numerics::{Cholesky, SymmetricMatrix};
-use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 
 /// Maximum number of untangling rounds; [`PATIENCE`] usually ends earlier (resource limit).
 pub(super) const MAX_ROUNDS: usize = 60;
@@ -47,7 +47,7 @@ impl Transfer {
         };
         // The guaranteed base uses the same rings and reports what is wrong with them.
         let start = refined_delaunay(&from.loops(), &refinement, progress);
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let Ok(start) = start else {
             return Ok(None);
         };
@@ -104,7 +104,7 @@ fn laid_over(
         return Ok(true);
     }
     let Some(harmonic) = harmonic(mesh, to, progress) else {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         return Ok(false);
     };
     mesh.points[1] = harmonic;
@@ -150,7 +150,7 @@ impl FoldHistory {
             self.fewest.push(fewest);
             self.is_given_up = self.is_stalled() || !untangle(mesh, progress);
         }
-        still_wanted(progress)
+        check_cancelled(progress)
     }
 
     /// Returns whether the last [`PATIENCE`] rounds removed too few folds.

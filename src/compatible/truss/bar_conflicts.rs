@@ -3,7 +3,7 @@
 use super::error::TrussError;
 use crate::geometry::{DVec2, SourceTarget, orient2d, segments_touch};
 use crate::work::budget::WorkloadKind;
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
 /// Two bars that cannot both be edges. Kept small, because every bar may cross every other.
 pub(super) type BarConflict = [u32; 2];
@@ -37,7 +37,7 @@ fn conflicts_in(
     order.sort_by(|&i, &j| range(i).0.total_cmp(&range(j).0));
     let mut conflicts = Vec::new();
     for (place, &i) in order.iter().enumerate() {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         // All pairs may conflict, so the list is checked against the resource limit.
         WorkloadKind::CrossingBars.check(conflicts.len(), progress)?;
         let right = range(i).1;
@@ -82,7 +82,7 @@ pub(super) fn remove_greedily(
     while let Some(worst) = (0..bars).max_by_key(|&bar| (open_conflicts[bar], bar))
         && open_conflicts[worst] > 0
     {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         kept[worst] = false;
         open_conflicts[worst] = 0;
         for &other in &opponents[worst] {

@@ -1,7 +1,7 @@
 //! Triangulates one polygon in two embeddings at once with the largest possible smallest angle.
 
 use crate::geometry::{DVec2, SourceTarget, orient2d};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
 /// Marks a part of the polygon without a triangulation: less than the sine of any angle.
 const NO_TRIANGULATION: f64 = -1.0;
@@ -55,7 +55,7 @@ impl ChordTable {
             cells: vec![(f64::INFINITY, 0); size * size],
         };
         for length in 2..size {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             for i in 0..size - length {
                 let j = i + length;
                 let cell = table.cell(i, j);

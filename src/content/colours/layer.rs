@@ -1,7 +1,7 @@
 //! A picture in linear light with a mipmap pyramid, sampled bilinearly anywhere in the plane.
 
 use super::super::placement_scan::AffinePlane;
-use super::linear_light::{LinearLight, coded_premultiplied, decoded, mean, mixed};
+use super::linear_light::{LinearLight, decode, encode_premultiplied, mean, mixed};
 use crate::design::Picture;
 use crate::geometry::{Bounds, DMat2, DVec2};
 use glam::DAffine2;
@@ -73,7 +73,7 @@ impl PictureLayer {
     #[must_use]
     pub fn texture(&self) -> (Vec<u8>, u32) {
         let lights = self.levels.iter().flat_map(MipLevel::pixels);
-        let bytes = lights.flat_map(|&light| coded_premultiplied(light));
+        let bytes = lights.flat_map(|&light| encode_premultiplied(light));
         (bytes.collect(), self.levels.len() as u32)
     }
 
@@ -255,7 +255,7 @@ impl MipLevel {
     fn of(pixels: &RgbaImage) -> Self {
         let (width, height) = (pixels.width() as usize, pixels.height() as usize);
         let raw = pixels.as_raw().par_chunks_exact(4);
-        let light = raw.map(|p| decoded(image::Rgba([p[0], p[1], p[2], p[3]])));
+        let light = raw.map(|p| decode(image::Rgba([p[0], p[1], p[2], p[3]])));
         Self::new(width, height, light.collect())
     }
 

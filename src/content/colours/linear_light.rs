@@ -35,7 +35,7 @@ static ENCODED: LazyLock<Box<[u8; TABLE_SIZE]>> = LazyLock::new(|| {
 });
 
 /// Converts an sRGB pixel with straight alpha to premultiplied linear light.
-pub(super) fn decoded(pixel: Rgba<u8>) -> LinearLight {
+pub(super) fn decode(pixel: Rgba<u8>) -> LinearLight {
     let [r, g, b, a] = pixel.0;
     let alpha = f32::from(a) / 255.0;
     let light = |channel: u8| LINEAR[usize::from(channel)] * alpha;
@@ -73,7 +73,7 @@ impl SrgbEncoder {
 }
 
 /// Encodes light as sRGB bytes without dividing by alpha, for textures with premultiplied alpha.
-pub(super) fn coded_premultiplied(light: LinearLight) -> [u8; 4] {
+pub(super) fn encode_premultiplied(light: LinearLight) -> [u8; 4] {
     // Treated as opaque, so that nothing is divided by alpha.
     let Rgba([r, g, b, _]) = SrgbEncoder::new().encode(light.with_w(1.0));
     [r, g, b, (light.w * 255.0 + 0.5) as u8]
@@ -103,15 +103,15 @@ mod tests {
         for value in 0..=255 {
             for alpha in [1, 7, 128, 254, 255] {
                 let pixel = Rgba([value, 255 - value, value / 2, alpha]);
-                assert_eq!(encoded(decoded(pixel)), pixel);
+                assert_eq!(encoded(decode(pixel)), pixel);
             }
         }
-        assert_eq!(encoded(decoded(Rgba([9, 9, 9, 0]))), Rgba([0; 4]));
+        assert_eq!(encoded(decode(Rgba([9, 9, 9, 0]))), Rgba([0; 4]));
     }
 
     #[test]
     fn black_and_white_mix_to_half_the_light() {
-        let [black, white] = [0, 255].map(|v| decoded(Rgba([v, v, v, 255])));
+        let [black, white] = [0, 255].map(|v| decode(Rgba([v, v, v, 255])));
         assert_eq!(encoded(mixed(black, white, 0.5)).0, [188, 188, 188, 255]);
     }
 }

@@ -7,7 +7,7 @@
 
 use super::layer::PictureLayer;
 use super::linear_light::{LinearLight, SrgbEncoder};
-use super::{ColourMix, ColourMixError, PictureRaster, shown};
+use super::{ColourMix, ColourMixError, PictureRaster, coverage};
 use crate::content::placement_scan::{SourceFacet, scan};
 use crate::design::Picture;
 use crate::geometry::{Bounds, DVec2};
@@ -129,7 +129,7 @@ impl PictureSet {
             let sums = lights.par_iter_mut().zip(&picture_lights);
             sums.for_each(|(sum, light)| *sum += *light);
         }
-        let [columns, rows] = shown(self.window(weights), raster);
+        let [columns, rows] = coverage(self.window(weights), raster);
         let mut out = RgbaImage::new(width, height);
         let (pixels, _) = out.as_chunks_mut::<4>();
         let encoder = SrgbEncoder::new();

@@ -3,7 +3,7 @@
 //! Guaranteed: with all weight on one design the contour is its own; for two designs with weights
 //! (1 − t, t) it is that of a [`super::FieldPair`] at t.
 
-use super::{FieldBlend, FieldPairError};
+use super::{FieldBlend, FieldBlendError};
 use crate::field::{DistanceField, Grid, contour};
 use crate::geometry::DVec2;
 use rayon::prelude::*;
@@ -24,14 +24,14 @@ impl FieldSet {
     pub fn new(
         fields: Vec<DistanceField>,
         blend: FieldBlend,
-    ) -> Result<Option<Self>, FieldPairError> {
+    ) -> Result<Option<Self>, FieldBlendError> {
         blend.check()?;
         let Some(first) = fields.first() else {
             return Ok(None);
         };
         // Distances are in cells, so fields of different grids have different units.
         if let Some(other) = fields.iter().find(|field| field.grid() != first.grid()) {
-            return Err(FieldPairError::Grids {
+            return Err(FieldBlendError::Grids {
                 source_grid: *first.grid(),
                 target_grid: *other.grid(),
             });
@@ -124,7 +124,7 @@ impl FieldSet {
             (is_between && sides.all(|side| side == first)).then_some(first)
         };
         let mut rings =
-            contour::trace_knowing(grid.width, grid.height, known_side, value, blend.level());
+            contour::trace_with_known(grid.width, grid.height, known_side, value, blend.level());
         for p in rings.iter_mut().flatten() {
             *p = grid.plane_from_lattice(*p);
         }
@@ -200,7 +200,7 @@ mod tests {
         let grid = Grid::new(4, 4, DVec2::ZERO, 1.0).expect("a grid");
         let other = DistanceField::uniform(grid, 1.0);
         let refused = FieldSet::new(vec![field(2..4), other], FieldBlend::default());
-        assert!(matches!(refused, Err(FieldPairError::Grids { .. })));
+        assert!(matches!(refused, Err(FieldBlendError::Grids { .. })));
         assert_eq!(FieldSet::new(vec![], FieldBlend::default()), Ok(None));
     }
 }

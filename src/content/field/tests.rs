@@ -241,18 +241,18 @@ fn invalid_blends_and_pairs_are_refused() {
     for epsilon in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(
             legal.with_blend(log(epsilon)),
-            Err(FieldPairError::Epsilon(_))
+            Err(FieldBlendError::Epsilon(_))
         ));
     }
     for threshold in [f64::NAN, f64::NEG_INFINITY] {
         assert!(matches!(
             legal.with_blend(FieldBlend { threshold, ..REAL }),
-            Err(FieldPairError::Threshold(_))
+            Err(FieldBlendError::Threshold(_))
         ));
     }
     let other = pair(&disc, &disc, 17, REAL);
     let mixed = FieldPair::new(legal.source.clone(), other.target.clone(), REAL);
-    assert!(matches!(mixed, Err(FieldPairError::Grids { .. })));
+    assert!(matches!(mixed, Err(FieldBlendError::Grids { .. })));
 }
 
 #[test]

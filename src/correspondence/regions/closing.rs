@@ -60,7 +60,7 @@ impl<'a> FreeSpace<'a> {
         outer: &RingVertices,
         rotation: f64,
     ) -> Vec<DVec2> {
-        let mapped = mapped_by_mean_values(outer, centre(hole));
+        let mapped = map_by_mean_values(outer, centre(hole));
         let mapped_point = mapped.map(|p| (p, boundary_distance(self.part, p)));
         let target = mapped.unwrap_or_else(|| self.part.outer.bounds().centre());
         let nearest = |points: &mut dyn Iterator<Item = (DVec2, f64)>| {
@@ -69,7 +69,7 @@ impl<'a> FreeSpace<'a> {
         };
         let points = self.places.iter().copied().chain(mapped_point);
         let nearest_point = nearest(&mut points.clone().filter(|place| place.1 > 0.0));
-        let shifted = nearest_point.and_then(|place| self.point_next_to(place));
+        let shifted = nearest_point.and_then(|(p, to_boundary)| self.point_next_to(p, to_boundary));
         let with_clearance = |(p, to_boundary): (DVec2, f64)| (p, self.clearance(p, to_boundary));
         let clearances: Vec<(DVec2, f64)> = points.chain(shifted).map(with_clearance).collect();
         let best_clearance = clearances.iter().map(|place| place.1).fold(0.0, f64::max);
@@ -93,7 +93,7 @@ impl<'a> FreeSpace<'a> {
 
     /// If another hole already closes at a point, returns a point next to it, halfway to the
     /// nearest obstacle. Otherwise returns `None`.
-    fn point_next_to(&self, (p, to_boundary): (DVec2, f64)) -> Option<(DVec2, f64)> {
+    fn point_next_to(&self, p: DVec2, to_boundary: f64) -> Option<(DVec2, f64)> {
         if self.clearance(p, to_boundary) > 0.0 {
             return None;
         }
@@ -129,7 +129,7 @@ pub(super) fn centre(ring: &Ring) -> DVec2 {
 
 /// Maps `p` by the mean value coordinates of the boundary. Returns `None` if `p` lies on the
 /// boundary.
-fn mapped_by_mean_values(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
+fn map_by_mean_values(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
     let n = outer.from.len();
     // tan(α/2) from sine and cosine of α, times both lengths, which cancel.
     let half_tangent = |k: usize| {
@@ -162,7 +162,7 @@ fn interior_points(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
             .rings()
             .flat_map(Ring::edges)
             .filter(|edge| *edge != (a, b))
-            .filter_map(|edge| ray_hit_parameter(from, inwards, edge))
+            .filter_map(|(p, q)| ray_hit_parameter(from, inwards, [p, q]))
             .fold(f64::INFINITY, f64::min);
         let place = from + 0.5 * depth * inwards;
         (depth.is_finite() && depth > 0.0 && place.is_finite()).then_some(place)

@@ -28,7 +28,7 @@ impl PartGroup {
     }
 
     /// Returns side and index of the part if the group is a single unmatched part.
-    pub(super) fn alone(&self) -> Option<(Side, usize)> {
+    pub(super) fn unmatched_part(&self) -> Option<(Side, usize)> {
         match [&self.parts[0][..], &self.parts[1][..]] {
             [&[part], []] => Some((Side::Source, part)),
             [[], &[part]] => Some((Side::Target, part)),
@@ -94,7 +94,7 @@ pub(super) fn grouped(
             });
         }
     }
-    assign_unmatched(&mut groups, (designs, looks), settings.parts, &pairing);
+    assign_unmatched(&mut groups, designs, looks, settings.parts, &pairing);
     groups.extend(unmatched);
     for part in groups.iter_mut().flat_map(|g| &mut g.parts) {
         part.sort_unstable();
@@ -121,8 +121,8 @@ fn without_text_mismatches(pairing: Pairing, looks: &PartLooks, fixed: &[[usize;
         unmatched
     };
     Pairing {
-        dying: with_mixed(pairing.dying, Side::Source),
-        born: with_mixed(pairing.born, Side::Target),
+        source_only: with_mixed(pairing.source_only, Side::Source),
+        target_only: with_mixed(pairing.target_only, Side::Target),
         pairs,
     }
 }
@@ -174,7 +174,7 @@ fn user_groups(
         }
         let has_several_on_both = group.parts.iter().all(|parts| parts.len() > 1);
         let needs_split = group.parts.iter().any(|parts| parts.len() > 1);
-        if has_several_on_both || (needs_split && settings.parts == PartRule::Alone) {
+        if has_several_on_both || (needs_split && settings.parts == PartRule::Transient) {
             let side = usize::from(group.parts[1].len() == 1 || has_several_on_both);
             return Err(PairError::Twice(pair[1 - side]).into());
         }
@@ -205,14 +205,15 @@ fn declared_unmatched(
 /// gives it a group of its own.
 fn assign_unmatched(
     groups: &mut Vec<PartGroup>,
-    (designs, looks): ([&Regions; 2], &PartLooks),
+    designs: [&Regions; 2],
+    looks: &PartLooks,
     rule: PartRule,
     pairing: &Pairing,
 ) {
     let may_split = match rule {
         PartRule::Auto => designs.iter().any(|design| design.len() == 1),
         PartRule::Split => true,
-        PartRule::Alone => false,
+        PartRule::Transient => false,
     };
     let centres = designs.map(relative_centres);
     let areas = designs.map(|design| design.iter().map(Region::area).collect::<Vec<f64>>());
@@ -221,13 +222,12 @@ fn assign_unmatched(
         rule == PartRule::Auto && areas[side][part] < MIN_SPLIT_AREA * total_areas[side]
     };
     for (side, unmatched) in [
-        (Side::Source, &pairing.dying),
-        (Side::Target, &pairing.born),
+        (Side::Source, &pairing.source_only),
+        (Side::Target, &pairing.target_only),
     ] {
         for &part in unmatched {
             let may_split_for = may_split && !is_too_small(side, part);
-            let nearest =
-                may_split_for.then(|| nearest_group(groups, (&centres, looks), side, part));
+            let nearest = may_split_for.then(|| nearest_group(groups, &centres, looks, side, part));
             match nearest.flatten() {
                 Some(group) => groups[group].parts[side].push(part),
                 None => {
@@ -244,12 +244,13 @@ fn assign_unmatched(
 /// part's paint layer whose single part may be cut are considered.
 pub(super) fn nearest_group(
     groups: &[PartGroup],
-    (centres, looks): (&[Vec<DVec2>; 2], &PartLooks),
+    centres: &[Vec<DVec2>; 2],
+    looks: &PartLooks,
     side: Side,
     part: usize,
 ) -> Option<usize> {
     let here = centres[side][part];
-    let layer = |part: usize| looks.coat(side, part);
+    let layer = |part: usize| looks.paint_layer(side, part);
     let is_same_layer = |g: &PartGroup| {
         g.parts[side]
             .iter()

@@ -20,14 +20,14 @@ impl MatchPlan<'_> {
     /// if there are no such parts, if no part can be cut for them, or if the user chose a rule for
     /// parts.
     pub(crate) fn shared_out(&self, progress: &dyn Progress) -> Option<Self> {
-        if self.wanted.parts != PartRule::Auto || self.is_crowd() {
+        if self.settings.parts != PartRule::Auto || self.has_many_rings() {
             return None;
         }
         let centres = self.designs.map(relative_centres);
         let mut changed = self.clone();
         let mut has_changed = false;
         for (side, part) in self.large_unmatched() {
-            has_changed |= changed.assign_to_nearest((side, part), &centres, progress);
+            has_changed |= changed.assign_to_nearest(side, part, &centres, progress);
         }
         has_changed.then_some(changed)
     }
@@ -36,7 +36,7 @@ impl MatchPlan<'_> {
     /// unmatched.
     fn large_unmatched(&self) -> Vec<(Side, usize)> {
         let declared: Vec<(Side, usize)> = self
-            .wanted
+            .settings
             .lone
             .iter()
             .map(|lone| (lone.side, part_at(self.designs[lone.side], lone.at)))
@@ -48,7 +48,7 @@ impl MatchPlan<'_> {
             let part = self.designs[side].iter().nth(part);
             part.map_or(0.0, |part| part.area() / total_areas[side])
         };
-        let unmatched = self.groups().iter().filter_map(PartGroup::alone);
+        let unmatched = self.groups().iter().filter_map(PartGroup::unmatched_part);
         let mut large: Vec<(Side, usize)> = unmatched
             .filter(|part| area_fraction(part) >= MIN_AREA && !declared.contains(part))
             .collect();
@@ -60,13 +60,14 @@ impl MatchPlan<'_> {
     /// design can be cut for it.
     fn assign_to_nearest(
         &mut self,
-        (side, part): (Side, usize),
+        side: Side,
+        part: usize,
         centres: &[Vec<DVec2>; 2],
         progress: &dyn Progress,
     ) -> bool {
         let is_paired = |group: &&PartGroup| group.parts.iter().all(|parts| !parts.is_empty());
         let paired: Vec<PartGroup> = self.groups.iter().filter(is_paired).cloned().collect();
-        let nearest = nearest_group(&paired, (centres, self.looks()), side, part);
+        let nearest = nearest_group(&paired, centres, self.looks(), side, part);
         let Some(nearest) = nearest.map(|k| &paired[k]) else {
             return false;
         };
@@ -79,7 +80,7 @@ impl MatchPlan<'_> {
         let groups = std::mem::take(&mut self.groups);
         let pieces = std::mem::take(&mut self.pieces);
         let is_unchanged =
-            |group: &PartGroup| group != nearest && group.alone() != Some((side, part));
+            |group: &PartGroup| group != nearest && group.unmatched_part() != Some((side, part));
         let unchanged = groups.into_iter().zip(pieces);
         let mut groups: Vec<_> = unchanged.filter(|(group, _)| is_unchanged(group)).collect();
         groups.push((extended, Some(cut)));
@@ -119,7 +120,10 @@ mod tests {
         let groups = plan.groups().iter();
         let count = |group: &PartGroup| group.parts.iter().map(Vec::len).sum::<usize>();
         let largest = groups.clone().map(count).max().expect("a group");
-        (largest, groups.filter_map(PartGroup::alone).count())
+        (
+            largest,
+            groups.filter_map(PartGroup::unmatched_part).count(),
+        )
     }
 
     #[test]

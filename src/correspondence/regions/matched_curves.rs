@@ -65,7 +65,7 @@ impl MatchedCurves {
 
     /// Returns the pair with its vertices at other places, one for each vertex and close to the
     /// previous ones. Vertices that would break monotonicity are omitted, except pins.
-    pub(super) fn moved(&self, places: &[[f64; 2]]) -> (Self, SharedPolygons) {
+    pub(super) fn with_places(&self, places: &[[f64; 2]]) -> (Self, SharedPolygons) {
         let wrapped = |place: &[f64; 2]| [0, 1].map(|side| self.curves[side].wrapped(place[side]));
         let places: Vec<[f64; 2]> = places.iter().map(wrapped).collect();
         let mut matched = self.matched.clone();

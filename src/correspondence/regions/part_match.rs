@@ -8,7 +8,7 @@ use super::matched_curves::MatchedCurves;
 use super::part_matcher::{PartMatchTask, PartMatcher, PartPin};
 use super::region_match::{PieceMatch, RegionMatchError, RingMatch};
 use crate::geometry::{DVec2, Ring, Side};
-use crate::work::progress::{Cancelled, still_wanted};
+use crate::work::progress::{Cancelled, check_cancelled};
 use rayon::prelude::*;
 
 /// Maximum edge length of shared outlines, in fractions of the outer ring's length: 80 edges
@@ -36,7 +36,7 @@ pub(super) fn match_part(task: &PartMatchTask) -> Result<PieceMatch, RegionMatch
     };
     let mut rings = vec![matcher.outer_ring(&outer)?];
     let holes = pairing.pairs.par_iter().map(|&pair| {
-        still_wanted(task.progress)?;
+        check_cancelled(task.progress)?;
         matcher.hole_ring(pair, outer.rotation())
     });
     // Collected first, so that the reported error does not depend on the order of completion.
@@ -45,7 +45,7 @@ pub(super) fn match_part(task: &PartMatchTask) -> Result<PieceMatch, RegionMatch
         rings.push(hole?);
     }
     let closing = matcher.closing_rings(&rings[0], &pairing.pairs, outer.rotation())?;
-    let transient = if task.holes.leaves_alone() {
+    let transient = if task.holes.leaves_transient() {
         closing
     } else {
         rings.extend(closing);
@@ -67,9 +67,9 @@ impl PartMatcher<'_> {
     /// Returns the matched outer ring with shared vertices.
     fn outer_ring(&self, matched: &BoundaryMatch) -> Result<RingMatch, RegionMatchError> {
         let curves = self.curves()?;
-        let slits = Side::BOTH.map(|side| self.walks[side].slits.clone());
-        let course = MatchedCurves::new(curves, matched.clone(), spacing(1.0), slits);
-        Ok(RingMatch::along(course))
+        let slits = Side::BOTH.map(|side| self.boundaries[side].slits.clone());
+        let (curves, polygons) = MatchedCurves::new(curves, matched.clone(), spacing(1.0), slits);
+        Ok(RingMatch::from_curves(curves, polygons))
     }
 
     /// Matches two paired holes. They are rotated like their parts, which decides the rotation of
@@ -93,10 +93,10 @@ impl PartMatcher<'_> {
         let is_here = |pin: &PartPin| pin.rings == [a + 1, b + 1];
         let matched = self.matched(is_here, &curves, &posed)?;
         let [a, b] =
-            Side::BOTH.map(|side| holes[side].perimeter() / self.walks[side].ring.perimeter());
+            Side::BOTH.map(|side| holes[side].perimeter() / self.boundaries[side].ring.perimeter());
         let spacing = spacing(0.5 * (a + b));
-        let course = MatchedCurves::new(curves, matched, spacing, [vec![], vec![]]);
-        Ok(RingMatch::along(course))
+        let (curves, polygons) = MatchedCurves::new(curves, matched, spacing, [vec![], vec![]]);
+        Ok(RingMatch::from_curves(curves, polygons))
     }
 
     /// Returns a ring for each unmatched hole that was not cut open: it closes to a point, or opens
@@ -124,19 +124,19 @@ impl PartMatcher<'_> {
                     Side::Source => (RingVertices { from, to }, rotation),
                     Side::Target => (RingVertices { from: to, to: from }, -rotation),
                 };
-                let hole = self.divided(side, hole);
+                let hole = self.subdivide_ring(side, hole);
                 let point = room.point_ring(&hole, &outer, turn);
                 let whole = hole.points().to_vec();
-                rings.push(RingMatch::alone(side, whole, point));
-                still_wanted(self.task.progress)?;
+                rings.push(RingMatch::transient(side, whole, point));
+                check_cancelled(self.task.progress)?;
             }
         }
         Ok(rings)
     }
 
     /// Returns the ring with its long edges divided.
-    fn divided(&self, side: Side, ring: &Ring) -> Ring {
-        let outer = self.walks[side].ring.perimeter();
+    fn subdivide_ring(&self, side: Side, ring: &Ring) -> Ring {
+        let outer = self.boundaries[side].ring.perimeter();
         let longest = (MAX_EDGE * outer).min(ring.perimeter() / MIN_VERTICES);
         let mut points = Vec::new();
         for (a, b) in ring.edges() {

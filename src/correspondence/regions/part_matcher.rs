@@ -15,7 +15,7 @@ use super::region_match::{MatchNote, RegionMatchError};
 use super::ring_cut;
 use super::slit_boundary::SlitBoundary;
 use crate::geometry::{DVec2, Region, Ring, Side};
-use crate::work::progress::{Progress, still_wanted};
+use crate::work::progress::{Progress, check_cancelled};
 
 /// Cost of closing a hole, times the ratio of its length to that of the outer boundary. For a hole
 /// as long as the outer boundary it lies between the match costs of two poses of one shape (up to
@@ -26,7 +26,7 @@ const CLOSING_COST: f64 = 0.35;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum HolePolicy {
     /// Holes are paired; unmatched ones follow a rule.
-    By(HoleRule),
+    Paired(HoleRule),
     /// No holes are paired, except by pins; all others are unmatched and excluded from the piece.
     Unpaired,
 }
@@ -34,12 +34,12 @@ pub(crate) enum HolePolicy {
 impl HolePolicy {
     /// Returns whether rings may be cut open.
     fn cuts(self) -> bool {
-        matches!(self, Self::By(HoleRule::Auto | HoleRule::Cut))
+        matches!(self, Self::Paired(HoleRule::Auto | HoleRule::Cut))
     }
 
     /// Returns whether unmatched holes are excluded from the piece.
-    pub(super) fn leaves_alone(self) -> bool {
-        matches!(self, Self::By(HoleRule::Alone) | Self::Unpaired)
+    pub(super) fn leaves_transient(self) -> bool {
+        matches!(self, Self::Paired(HoleRule::Transient) | Self::Unpaired)
     }
 }
 
@@ -70,7 +70,7 @@ pub(super) struct PartPin {
 /// Working state of the match of two parts.
 pub(super) struct PartMatcher<'a> {
     /// Outer boundary loops of both parts, including the slits cut so far.
-    pub(super) walks: [SlitBoundary; 2],
+    pub(super) boundaries: [SlitBoundary; 2],
     /// Holes of each side that its boundary loop runs around, because they were cut open.
     opened: [Vec<usize>; 2],
     pub(super) pins: Vec<PartPin>,
@@ -102,7 +102,7 @@ impl<'a> PartMatcher<'a> {
             points,
         };
         Self {
-            walks: task.regions.map(SlitBoundary::around),
+            boundaries: task.regions.map(SlitBoundary::of_region),
             opened: [Vec::new(), Vec::new()],
             pins: task.pins.iter().map(located).collect(),
             notes: Vec::new(),
@@ -120,7 +120,7 @@ impl<'a> PartMatcher<'a> {
             let Some(side) = Side::BOTH.into_iter().find(|&side| pin.is_across(side)) else {
                 continue;
             };
-            if self.task.holes == HolePolicy::By(HoleRule::Close) {
+            if self.task.holes == HolePolicy::Paired(HoleRule::Close) {
                 return Err(RegionMatchError::PinAcross(pin.index));
             }
             across[side].push(pin.rings[side] - 1);
@@ -175,7 +175,7 @@ impl<'a> PartMatcher<'a> {
         let fixed = self.pinned_holes(&taken);
         let taken = [&taken[0][..], &taken[1]];
         let pairing = match self.task.holes {
-            HolePolicy::By(_) => pair_holes(source, target, rotation, &fixed, taken)?,
+            HolePolicy::Paired(_) => pair_holes(source, target, rotation, &fixed, taken)?,
             // Only holes that pins tie together are paired.
             HolePolicy::Unpaired => Pairing {
                 pairs: fixed,
@@ -188,18 +188,18 @@ impl<'a> PartMatcher<'a> {
                 let slit = self.open_requested(side, hole, ends);
                 cuts.push((side, slit.ok_or(RegionMatchError::Cut(number))?));
             }
-            let unmatched = [&pairing.dying, &pairing.born][side];
+            let unmatched = [&pairing.source_only, &pairing.target_only][side];
             // Each cut changes the boundary loop, so the largest hole, which matters most, is cut
             // first.
-            for hole in self.largest_first(side, unmatched) {
+            for hole in self.sorted_by_area(side, unmatched) {
                 let slit = self.open_if_better(side, hole, false);
-                still_wanted(self.task.progress)?;
+                check_cancelled(self.task.progress)?;
                 cuts.extend(slit.map(|ends| (side, ends)));
             }
             for &hole in &across[side] {
                 if !self.opened[side].contains(&hole) {
                     let slit = self.open_if_better(side, hole, true);
-                    still_wanted(self.task.progress)?;
+                    check_cancelled(self.task.progress)?;
                     cuts.extend(slit.map(|ends| (side, ends)));
                 }
             }
@@ -223,7 +223,7 @@ impl<'a> PartMatcher<'a> {
     }
 
     /// Returns the holes sorted by area, largest first.
-    fn largest_first(&self, side: Side, holes: &[usize]) -> Vec<usize> {
+    fn sorted_by_area(&self, side: Side, holes: &[usize]) -> Vec<usize> {
         let area = |hole: usize| self.task.regions[side].holes[hole].signed_area();
         let mut holes = holes.to_vec();
         // Holes are clockwise, so their areas are negative.
@@ -243,8 +243,8 @@ impl<'a> PartMatcher<'a> {
     fn open_requested(&mut self, side: Side, hole: usize, ends: [DVec2; 2]) -> Option<[DVec2; 2]> {
         let (numbers, holes) = self.closed_holes(side);
         let index = numbers.iter().position(|&k| k == hole)?;
-        let slit = self.walks[side].slit(&holes, index, ends[0], ends[1])?;
-        self.walks[side] = self.walks[side].opened(holes[index], &slit)?;
+        let slit = self.boundaries[side].slit(&holes, index, ends[0], ends[1])?;
+        self.boundaries[side] = self.boundaries[side].cut_open(holes[index], &slit)?;
         self.opened[side].push(hole);
         Some(slit.ends)
     }
@@ -259,22 +259,29 @@ impl<'a> PartMatcher<'a> {
         let (numbers, holes) = self.closed_holes(side);
         let index = numbers.iter().position(|&k| k == hole)?;
         // Lengths were already checked when the boundaries were matched, so this succeeds.
-        let other = self.walks[side.other()].curve().ok()?;
+        let other = self.boundaries[side.other()].curve().ok()?;
         let (options, progress) = (&self.along_boundary(), self.task.progress);
-        let found = ring_cut::best_cut(&self.walks[side], &holes, index, &other, options, progress);
+        let found = ring_cut::best_cut(
+            &self.boundaries[side],
+            &holes,
+            index,
+            &other,
+            options,
+            progress,
+        );
         let Some(candidate) = found else {
             self.note_uncut(side, hole, forced);
             return None;
         };
         // Both costs are of coarse matches and therefore comparable.
-        if rule == HolePolicy::By(HoleRule::Auto) && !forced {
+        if rule == HolePolicy::Paired(HoleRule::Auto) && !forced {
             let closed_cost = self.coarse_cost(side, &other)?;
-            let length_ratio = holes[index].perimeter() / self.walks[side].ring.perimeter();
+            let length_ratio = holes[index].perimeter() / self.boundaries[side].ring.perimeter();
             if closed_cost + CLOSING_COST * length_ratio <= candidate.cost {
                 return None;
             }
         }
-        self.walks[side] = candidate.walk;
+        self.boundaries[side] = candidate.walk;
         self.opened[side].push(hole);
         Some(candidate.slit.ends)
     }
@@ -283,7 +290,7 @@ impl<'a> PartMatcher<'a> {
     /// for that reason.
     fn note_uncut(&mut self, side: Side, hole: usize, forced: bool) {
         let part = self.task.parts[side];
-        if forced || self.task.holes == HolePolicy::By(HoleRule::Cut) {
+        if forced || self.task.holes == HolePolicy::Paired(HoleRule::Cut) {
             self.notes.push(MatchNote::Uncut { side, part, hole });
         }
         let is_lost = |pin: &&PartPin| forced && pin.is_across(side) && pin.rings[side] == hole + 1;
@@ -301,7 +308,7 @@ impl<'a> PartMatcher<'a> {
 
     /// Returns the cost of a coarse match of one side's boundary with the other curve.
     fn coarse_cost(&self, side: Side, other: &BoundaryCurve) -> Option<f64> {
-        let curve = self.walks[side].curve().ok()?;
+        let curve = self.boundaries[side].curve().ok()?;
         let coarse = ring_cut::coarse_options(&self.along_boundary());
         let matched = match_curves(&curve, other, &[], &coarse).ok()?;
         Some(matched.cost())
@@ -309,7 +316,7 @@ impl<'a> PartMatcher<'a> {
 
     /// Returns the curves along both boundary loops.
     pub(super) fn curves(&self) -> Result<[BoundaryCurve; 2], RegionMatchError> {
-        let curve = |side: Side| self.walks[side].curve().map_err(MatchError::from);
+        let curve = |side: Side| self.boundaries[side].curve().map_err(MatchError::from);
         Ok([curve(Side::Source)?, curve(Side::Target)?])
     }
 
@@ -332,19 +339,19 @@ impl<'a> PartMatcher<'a> {
         [source, target]: &[BoundaryCurve; 2],
     ) -> Result<BoundaryMatch, RegionMatchError> {
         let pins: Vec<&PartPin> = self.pins.iter().filter(|pin| is_here(pin)).collect();
-        let place = |pin: &&PartPin| Pin::of(|side| located[side].nearest(pin.points[side]));
+        let place = |pin: &&PartPin| Pin::from_fn(|side| located[side].nearest(pin.points[side]));
         let places: Vec<Pin> = pins.iter().map(place).collect();
         let index_of = |k: usize| pins.get(k).map_or(k, |pin| pin.index);
         let matched = match_curves(source, target, &places, &self.task.options);
         matched.map_err(|error| match error {
-            MatchError::Pins(error) => RegionMatchError::Pins(renumbered(error, index_of)),
+            MatchError::Pins(error) => RegionMatchError::Pins(renumber_pins(error, index_of)),
             error => RegionMatchError::Match(error),
         })
     }
 }
 
 /// Replaces local pin indices in an error with indices among all pins.
-fn renumbered(error: PinError, index_of: impl Fn(usize) -> usize) -> PinError {
+fn renumber_pins(error: PinError, index_of: impl Fn(usize) -> usize) -> PinError {
     match error {
         PinError::NotFinite(k) => PinError::NotFinite(index_of(k)),
         PinError::SamePoint(a, b) => PinError::SamePoint(index_of(a), index_of(b)),

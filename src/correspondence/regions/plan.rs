@@ -15,7 +15,7 @@ use super::region_match::{
 use super::split::split;
 use crate::correspondence::looks::PartLooks;
 use crate::geometry::{DVec2, Region, Regions, Ring, Side, SourceTarget};
-use crate::work::progress::{Progress, ProgressShares, ProgressSpan, checkpoint, still_wanted};
+use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
 /// Fraction of the progress bar reached once parts are paired and split.
@@ -27,9 +27,9 @@ pub(crate) struct MatchPlan<'a> {
     pub(super) designs: [&'a Regions; 2],
     /// Looks of the parts.
     looks: &'a PartLooks,
-    pub(super) wanted: &'a MatchSettings,
+    pub(super) settings: &'a MatchSettings,
     /// Pairs of parts that the user linked or pinned.
-    pub(super) said: Vec<[usize; 2]>,
+    pub(super) fixed_pairs: Vec<[usize; 2]>,
     /// Pins with the rings that they lie on.
     pins: Vec<LocatedPin>,
     parts: [DesignParts<'a>; 2],
@@ -72,18 +72,18 @@ impl<'a> MatchPlan<'a> {
         let pins = locate::pins(wanted, designs);
         let mut plan = Self {
             groups: grouped(designs, looks, wanted, &pins)?,
-            said: fixed_pairs(designs, wanted, &pins),
+            fixed_pairs: fixed_pairs(designs, wanted, &pins),
             parts: designs.map(DesignParts::of),
             is_crowd: many_rings::has_many_rings(designs),
             designs,
             looks,
-            wanted,
+            settings: wanted,
             pins,
             pieces: Vec::new(),
         };
         let groups = plan.groups.par_iter();
         plan.pieces = groups.map(|group| plan.split(group, progress)).collect();
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         Ok(plan)
     }
 
@@ -107,7 +107,7 @@ impl<'a> MatchPlan<'a> {
     }
 
     /// Returns whether a design has so many rings that only one match is tried.
-    pub(crate) fn is_crowd(&self) -> bool {
+    pub(crate) fn has_many_rings(&self) -> bool {
         self.is_crowd
     }
 
@@ -155,7 +155,7 @@ impl<'a> MatchPlan<'a> {
         let remaining = ProgressSpan::new(progress, PREPARED, 1.0);
         let shares = ProgressShares::new(&remaining, self.groups.len());
         let groups = (0..self.groups.len()).into_par_iter();
-        let holes = HolePolicy::By(many_rings::hole_rule(self.wanted.holes, self.is_crowd));
+        let holes = HolePolicy::Paired(many_rings::hole_rule(self.settings.holes, self.is_crowd));
         let pieces =
             groups.map(|group| self.matched_group(group, options, holes, &shares.part(group)));
         // Collected first, so that the reported error does not depend on the order of completion.
@@ -181,7 +181,7 @@ impl<'a> MatchPlan<'a> {
         let options = many_rings::options(options, self.designs);
         let cut = self.pieces[group].as_deref();
         let group = &self.groups[group];
-        let pieces = self.match_group_pieces(group, cut, (&options, holes), progress)?;
+        let pieces = self.match_group_pieces(group, cut, &options, holes, progress)?;
         checkpoint(progress, "matching", 1.0)?;
         Ok(pieces)
     }
@@ -191,10 +191,11 @@ impl<'a> MatchPlan<'a> {
         &self,
         group: &PartGroup,
         cut: Option<&[Region]>,
-        (options, holes): (&MatchOptions, HolePolicy),
+        options: &MatchOptions,
+        holes: HolePolicy,
         progress: &dyn Progress,
     ) -> Result<Vec<PieceMatch>, RegionMatchError> {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let regions = self.regions(group);
         let task = |regions: [&Region; 2], parts: [usize; 2]| {
             match_part(&PartMatchTask {
@@ -218,8 +219,8 @@ impl<'a> MatchPlan<'a> {
         // The pieces are in the order of the parts that they match.
         let others = &group.parts[side.other()];
         let match_piece = |k: usize, piece: &Region| {
-            let regions = SourceTarget::on(side, piece, several[k]);
-            let parts = SourceTarget::on(side, group.parts[side][0], others[k]);
+            let regions = SourceTarget::with_side(side, piece, several[k]);
+            let parts = SourceTarget::with_side(side, group.parts[side][0], others[k]);
             task(regions.to_array(), parts.to_array())
         };
         let Some(cut) = cut else {
@@ -252,7 +253,7 @@ impl<'a> MatchPlan<'a> {
     fn cuts_of(&self, parts: [usize; 2]) -> Vec<(usize, RingCut)> {
         let here =
             |cut: &RingCut| nearest_ring(self.designs[cut.side], cut.hole).part == parts[cut.side];
-        let cuts = self.wanted.cuts.iter().copied().enumerate();
+        let cuts = self.settings.cuts.iter().copied().enumerate();
         cuts.filter(|(_, cut)| here(cut)).collect()
     }
 
@@ -273,7 +274,7 @@ impl<'a> MatchPlan<'a> {
             }
         }
         let region = self.parts[side].regions[part];
-        let parts = SourceTarget::on(side, Some(part), None);
+        let parts = SourceTarget::with_side(side, Some(part), None);
         PieceMatch {
             rings: transient_rings(region, side, here, nearest.1),
             source_part: parts.source,
@@ -295,7 +296,7 @@ fn transient_rings(
         let whole = ring.points().to_vec();
         let size = POINT_SIZE * ring.bounds().diameter();
         let point = shrunk(&whole, here, here + displacement, size, 0.0);
-        RingMatch::alone(side, whole, point)
+        RingMatch::transient(side, whole, point)
     };
     region.rings().map(ring).collect()
 }

@@ -27,7 +27,7 @@ pub struct RegionMatch {
 pub struct PieceMatch {
     /// Outer ring first, counter-clockwise, then holes, clockwise.
     pub rings: Vec<RingMatch>,
-    /// Holes that exist in only one design and are excluded from the piece ([`HoleRule::Alone`]):
+    /// Holes that exist in only one design and are excluded from the piece ([`HoleRule::Transient`]):
     /// clockwise in that design, a point in the other.
     pub lone: Vec<RingMatch>,
     /// Part of the source that the piece is, or is cut from; `None` if the piece appears.
@@ -148,11 +148,11 @@ impl PieceMatch {
     /// Returns whether the piece exists in both designs.
     #[must_use]
     pub fn is_in_both(&self) -> bool {
-        self.alone().is_none()
+        self.only_side().is_none()
     }
 
     /// Returns the design that contains the piece, if only one does.
-    pub(crate) fn alone(&self) -> Option<Side> {
+    pub(crate) fn only_side(&self) -> Option<Side> {
         match (self.source_part, self.target_part) {
             (Some(_), Some(_)) => None,
             (Some(_), None) => Some(Side::Source),
@@ -162,11 +162,12 @@ impl PieceMatch {
 
     /// Returns the piece with the vertices of its rings moved to other places. `places` holds a
     /// list for each ring, as returned by [`MatchedCurves::places`].
-    pub(crate) fn moved(&self, places: &[Vec<[f64; 2]>]) -> Self {
+    pub(crate) fn with_ring_places(&self, places: &[Vec<[f64; 2]>]) -> Self {
         let mut moved = self.clone();
         for (ring, places) in moved.rings.iter_mut().zip(places) {
             if let Some(course) = &ring.course {
-                *ring = RingMatch::along(course.moved(places));
+                let (curves, polygons) = course.with_places(places);
+                *ring = RingMatch::from_curves(curves, polygons);
             }
         }
         moved
@@ -176,7 +177,7 @@ impl PieceMatch {
 impl RingMatch {
     /// If the ring exists in only one design, returns that design and the ring's vertices there.
     #[must_use]
-    pub fn whole(&self) -> Option<(Side, &[DVec2])> {
+    pub fn transient_side(&self) -> Option<(Side, &[DVec2])> {
         match self.kind {
             RingKind::Matched => None,
             RingKind::Closes => Some((Side::Source, &self.source)),
@@ -192,23 +193,23 @@ impl RingMatch {
             && points.all(|point| point.is_finite())
     }
 
-    /// Creates a ring along two matched curves.
-    pub(super) fn along((course, shared): (MatchedCurves, SharedPolygons)) -> Self {
+    /// Creates a ring along two matched curves, with the polygons that share their vertices.
+    pub(super) fn from_curves(curves: MatchedCurves, polygons: SharedPolygons) -> Self {
         Self {
-            source: shared.source,
-            target: shared.target,
+            source: polygons.source,
+            target: polygons.target,
             kind: RingKind::Matched,
-            course: Some(course),
+            course: Some(curves),
         }
     }
 
     /// Creates a ring of one design that is a point in the other.
-    pub(super) fn alone(side: Side, whole: Vec<DVec2>, point: Vec<DVec2>) -> Self {
+    pub(super) fn transient(side: Side, whole: Vec<DVec2>, point: Vec<DVec2>) -> Self {
         let kind = match side {
             Side::Source => RingKind::Closes,
             Side::Target => RingKind::Opens,
         };
-        let SourceTarget { source, target } = SourceTarget::on(side, whole, point);
+        let SourceTarget { source, target } = SourceTarget::with_side(side, whole, point);
         Self {
             source,
             target,

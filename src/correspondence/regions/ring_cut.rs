@@ -9,7 +9,7 @@ use super::super::curve::BoundaryCurve;
 use super::super::options::MatchOptions;
 use super::slit_boundary::{Slit, SlitBoundary};
 use crate::geometry::Ring;
-use crate::work::progress::{Progress, still_wanted};
+use crate::work::progress::{Progress, check_cancelled};
 use rayon::prelude::*;
 
 /// Number of places in the first round (resource limit: each needs a match of its own).
@@ -47,7 +47,7 @@ pub(super) fn best_cut(
     let curve = walk.curve().ok()?;
     let trials = |places: Vec<f64>| {
         let candidates = places.into_par_iter().filter_map(|place| {
-            still_wanted(progress).ok()?;
+            check_cancelled(progress).ok()?;
             let slit = walk.slit_from(holes, cut, curve.point_at(place))?;
             let cost = cost(walk, holes[cut], &slit, other, options)?;
             Some((cost, place, slit))
@@ -61,7 +61,7 @@ pub(super) fn best_cut(
     let near = (0..SECOND_PLACES).map(|k| coarse.1 + offset(k) * spacing);
     let fine = trials(near.collect());
     let (cost, _, slit) = fine.filter(|fine| fine.0 < coarse.0).unwrap_or(coarse);
-    let walk = walk.opened(holes[cut], &slit)?;
+    let walk = walk.cut_open(holes[cut], &slit)?;
     Some(CutCandidate { walk, slit, cost })
 }
 
@@ -73,7 +73,7 @@ fn cost(
     other: &BoundaryCurve,
     options: &MatchOptions,
 ) -> Option<f64> {
-    let open = walk.opened(hole, slit)?;
+    let open = walk.cut_open(hole, slit)?;
     let matched = match_curves(&open.curve().ok()?, other, &[], &coarse_options(options)).ok()?;
     let length = slit.ends[0].distance(slit.ends[1]) / open.ring.perimeter();
     Some(matched.cost() + LENGTH_WEIGHT * length)

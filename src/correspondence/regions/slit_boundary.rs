@@ -37,7 +37,7 @@ const MIN_CLEARANCE: f64 = 0.1;
 
 impl SlitBoundary {
     /// Returns the outer boundary of a region, without slits.
-    pub(super) fn around(region: &Region) -> Self {
+    pub(super) fn of_region(region: &Region) -> Self {
         Self {
             ring: region.outer.clone(),
             slits: Vec::new(),
@@ -62,8 +62,8 @@ impl SlitBoundary {
         outer: DVec2,
         hole: DVec2,
     ) -> Option<Slit> {
-        let (outer_edge, a) = nearest(&self.ring, outer, |edge| !self.is_slit(edge))?;
-        let (hole_edge, b) = nearest(holes[cut], hole, |_| true)?;
+        let (outer_edge, a) = nearest_edge(&self.ring, outer, |(p, q)| !self.is_slit([p, q]))?;
+        let (hole_edge, b) = nearest_edge(holes[cut], hole, |_| true)?;
         let slit = Slit {
             outer_edge,
             hole_edge,
@@ -78,7 +78,7 @@ impl SlitBoundary {
     }
 
     /// Returns whether an edge of the loop runs along a slit.
-    fn is_slit(&self, (a, b): (DVec2, DVec2)) -> bool {
+    fn is_slit(&self, [a, b]: [DVec2; 2]) -> bool {
         let along = |s: &[DVec2; 2]| *s == [a, b] || *s == [b, a];
         self.slits.iter().any(along)
     }
@@ -110,10 +110,10 @@ impl SlitBoundary {
     }
 
     /// Returns the loop that also follows the slit and runs around the hole.
-    pub(super) fn opened(&self, hole: &Ring, slit: &Slit) -> Option<Self> {
+    pub(super) fn cut_open(&self, hole: &Ring, slit: &Slit) -> Option<Self> {
         let [a, b] = slit.ends;
-        let mut points = around_from(&self.ring, slit.outer_edge, a);
-        points.extend(around_from(hole, slit.hole_edge, b));
+        let mut points = ring_from(&self.ring, slit.outer_edge, a);
+        points.extend(ring_from(hole, slit.hole_edge, b));
         let ring = Ring::new(points).ok()?;
         let mut slits = self.slits.clone();
         slits.push(slit.ends);
@@ -123,7 +123,7 @@ impl SlitBoundary {
 
 /// Returns the points once around a ring from a point on an edge; that point is both first and
 /// last.
-fn around_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
+fn ring_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
     let points = ring.points();
     let n = points.len();
     let mut loop_points = vec![from];
@@ -135,7 +135,7 @@ fn around_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
 }
 
 /// Returns the edge nearest to a point, among those allowed, and the nearest point on it.
-fn nearest(
+fn nearest_edge(
     ring: &Ring,
     p: DVec2,
     allowed: impl Fn((DVec2, DVec2)) -> bool,
@@ -178,11 +178,11 @@ mod tests {
             holes: vec![square(1.0, false)],
         };
         let holes: Vec<&Ring> = region.holes.iter().collect();
-        let walk = SlitBoundary::around(&region);
-        let slit = walk.slit_from(&holes, 0, DVec2::new(0.5, -2.0));
+        let boundary = SlitBoundary::of_region(&region);
+        let slit = boundary.slit_from(&holes, 0, DVec2::new(0.5, -2.0));
         let slit = slit.expect("free");
         assert_eq!(slit.ends, [DVec2::new(0.5, -2.0), DVec2::new(0.5, -1.0)]);
-        let open = walk.opened(holes[0], &slit).expect("a walk");
+        let open = boundary.cut_open(holes[0], &slit).expect("a walk");
         assert_eq!(open.ring.points().len(), 12);
         assert!((open.ring.signed_area() - 12.0).abs() < 1e-12);
         let curve = open.curve().expect("length");
@@ -201,9 +201,9 @@ mod tests {
             holes: vec![moved(-0.5), moved(0.5)],
         };
         let holes: Vec<&Ring> = region.holes.iter().collect();
-        let walk = SlitBoundary::around(&region);
-        assert!(walk.slit_from(&holes, 0, DVec2::new(2.0, 0.0)).is_none());
-        assert!(walk.slit_from(&holes, 1, DVec2::new(2.0, 0.0)).is_some());
+        let boundary = SlitBoundary::of_region(&region);
+        assert!(boundary.slit_from(&holes, 0, DVec2::new(2.0, 0.0)).is_none());
+        assert!(boundary.slit_from(&holes, 1, DVec2::new(2.0, 0.0)).is_some());
     }
 
     #[test]
@@ -222,8 +222,8 @@ mod tests {
         };
         let hole = [(1e-15, 6.0), (1e-15, 8.0), (2.0, 8.0), (2.0, 6.0)];
         let hole = Ring::new(hole.map(DVec2::from).to_vec()).expect("a ring");
-        let walk = SlitBoundary::around(&region);
-        assert!(walk.slit_from(&[&hole], 0, DVec2::new(0.0, 2.0)).is_none());
-        assert!(walk.slit_from(&[&hole], 0, DVec2::new(4.0, 7.0)).is_some());
+        let boundary = SlitBoundary::of_region(&region);
+        assert!(boundary.slit_from(&[&hole], 0, DVec2::new(0.0, 2.0)).is_none());
+        assert!(boundary.slit_from(&[&hole], 0, DVec2::new(4.0, 7.0)).is_some());
     }
 }

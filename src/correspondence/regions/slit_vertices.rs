@@ -66,7 +66,7 @@ pub(super) fn mirror_slit_vertices(
         is_back,
         span: spans[usize::from(is_back)],
     });
-    let vertices = spread(merged(&[
+    let vertices = separate_positions(merge_passages(&[
         passages[0].existing_vertices(shared),
         passages[1].existing_vertices(shared),
     ]));
@@ -90,7 +90,7 @@ fn passages(curve: &BoundaryCurve, [a, b]: [DVec2; 2]) -> Option<[[f64; 2]; 2]> 
 }
 
 /// Merges the vertices of both passages into one ascending list; close pairs become one.
-fn merged([outward, back]: &[Vec<PassageVertex>; 2]) -> Vec<SlitVertex> {
+fn merge_passages([outward, back]: &[Vec<PassageVertex>; 2]) -> Vec<SlitVertex> {
     let near = MERGE_DISTANCE / (outward.len().max(back.len()) + 1) as f64;
     let (mut i, mut j) = (0, 0);
     let mut vertices = Vec::new();
@@ -120,7 +120,7 @@ fn merged([outward, back]: &[Vec<PassageVertex>; 2]) -> Vec<SlitVertex> {
 
 /// Makes the positions strictly ascending, with space between neighbours. Inner vertices of a slit
 /// may move along it, because no outline runs there.
-fn spread(mut vertices: Vec<SlitVertex>) -> Vec<SlitVertex> {
+fn separate_positions(mut vertices: Vec<SlitVertex>) -> Vec<SlitVertex> {
     let count = vertices.len() as f64 + 1.0;
     let mut positions: Vec<f64> = vertices.iter().map(|vertex| vertex.along).collect();
     positions.sort_by(f64::total_cmp);
@@ -193,14 +193,14 @@ impl SlitPassage<'_> {
             let point = a.lerp(b, vertex.along);
             let own = from + self.outer_fraction(vertex.along) * (to - from);
             if let Some(index) = self.existing_index(vertex) {
-                points_of(shared, self.side)[index] = point;
+                points_mut(shared, self.side)[index] = point;
                 shared.places[index][self.side] = own;
             } else {
                 let across = self
                     .other
                     .wrapped(interpolated(&anchors, vertex.along, [0, 1]));
-                let here = SourceTarget::on(self.side, own, across);
-                let points = SourceTarget::on(self.side, point, self.other.point_at(across));
+                let here = SourceTarget::with_side(self.side, own, across);
+                let points = SourceTarget::with_side(self.side, point, self.other.point_at(across));
                 missing.push(NewVertexPair {
                     places: here.to_array(),
                     points: points.to_array(),
@@ -244,7 +244,7 @@ impl SlitPassage<'_> {
 }
 
 /// Returns the shared vertices on one side.
-fn points_of(shared: &mut SharedPolygons, side: Side) -> &mut Vec<DVec2> {
+fn points_mut(shared: &mut SharedPolygons, side: Side) -> &mut Vec<DVec2> {
     match side {
         Side::Source => &mut shared.source,
         Side::Target => &mut shared.target,

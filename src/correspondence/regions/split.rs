@@ -34,32 +34,32 @@ const RANK_WEIGHT: f64 = 0.15;
 /// are bisected (resource limit: 100 pieces would take 40 s).
 const MAX_SEQUENTIAL_PIECES: usize = 8;
 
-/// Splits a region into pieces in the order of `wanted`. Returns `None` if no straight cut is
+/// Splits a region into pieces in the order of `parts`. Returns `None` if no straight cut is
 /// found, or if the work is cancelled.
 pub(super) fn split(
     region: &Region,
-    wanted: &[&Region],
+    parts: &[&Region],
     progress: &dyn Progress,
 ) -> Option<Vec<Region>> {
-    let mut order: Vec<usize> = (0..wanted.len()).collect();
-    let line = main_direction(wanted);
-    let position = |k: usize| middle(wanted[k]).dot(line);
+    let mut order: Vec<usize> = (0..parts.len()).collect();
+    let line = main_direction(parts);
+    let position = |k: usize| centre(parts[k]).dot(line);
     order.sort_by(|&a, &b| position(a).total_cmp(&position(b)));
-    let mut pieces = vec![None; wanted.len()];
-    if wanted.len() > MAX_SEQUENTIAL_PIECES {
-        bisect(region.clone(), wanted, &order, &mut pieces, progress)?;
+    let mut pieces = vec![None; parts.len()];
+    if parts.len() > MAX_SEQUENTIAL_PIECES {
+        bisect(region.clone(), parts, &order, &mut pieces, progress)?;
         return pieces.into_iter().collect();
     }
     let mut rest = region.clone();
     for step in 0..order.len() - 1 {
-        let others: Vec<&Region> = order[step + 1..].iter().map(|&k| wanted[k]).collect();
-        let first = [wanted[order[step]]];
+        let others: Vec<&Region> = order[step + 1..].iter().map(|&k| parts[k]).collect();
+        let first = [parts[order[step]]];
         let goal = SplitGoal::of(&first, &others);
         let [first, remainder] = cut_in_two(&rest, &goal, MATCHED_CUTS, progress)?;
         pieces[order[step]] = Some(first);
         rest = remainder;
     }
-    // `wanted` has at least two parts.
+    // `parts` has at least two parts.
     pieces[order[order.len() - 1]] = Some(rest);
     pieces.into_iter().collect()
 }
@@ -67,7 +67,7 @@ pub(super) fn split(
 /// Bisects a region recursively into pieces for the parts in `order`.
 fn bisect(
     region: Region,
-    wanted: &[&Region],
+    parts: &[&Region],
     order: &[usize],
     pieces: &mut [Option<Region>],
     progress: &dyn Progress,
@@ -77,13 +77,13 @@ fn bisect(
         return Some(());
     }
     let (first_half, second_half) = order.split_at(order.len() / 2);
-    let parts = |order: &[usize]| order.iter().map(|&k| wanted[k]).collect::<Vec<_>>();
+    let parts = |order: &[usize]| order.iter().map(|&k| parts[k]).collect::<Vec<_>>();
     let (first_parts, other_parts) = (parts(first_half), parts(second_half));
     // A single candidate: the best-ranked cut is taken without matching.
     let goal = SplitGoal::of(&first_parts, &other_parts);
     let [first, rest] = cut_in_two(&region, &goal, 1, progress)?;
-    bisect(first, wanted, first_half, pieces, progress)?;
-    bisect(rest, wanted, second_half, pieces, progress)
+    bisect(first, parts, first_half, pieces, progress)?;
+    bisect(rest, parts, second_half, pieces, progress)
 }
 
 /// Returns the direction along which parts lie: that between the two parts farthest apart, pointing
@@ -93,7 +93,7 @@ fn main_direction(parts: &[&Region]) -> DVec2 {
     let mut max_squared = 0.0;
     for (k, a) in parts.iter().enumerate() {
         for b in &parts[k + 1..] {
-            let apart = middle(b) - middle(a);
+            let apart = centre(b) - centre(a);
             if apart.length_squared() > max_squared {
                 max_squared = apart.length_squared();
                 best = if apart.x < 0.0 { -apart } else { apart };
@@ -104,7 +104,7 @@ fn main_direction(parts: &[&Region]) -> DVec2 {
 }
 
 /// Returns the centre of a region's bounding box.
-fn middle(region: &Region) -> DVec2 {
+fn centre(region: &Region) -> DVec2 {
     region.outer.bounds().centre()
 }
 
@@ -126,7 +126,7 @@ impl<'a> SplitGoal<'a> {
         let area = |parts: &[&Region]| parts.iter().map(|r| r.area()).sum::<f64>();
         let [first_area, other_area] = [area(first), area(others)];
         let middle_of = |parts: &[&Region], area: f64| -> DVec2 {
-            parts.iter().map(|r| middle(r) * (r.area() / area)).sum()
+            parts.iter().map(|r| centre(r) * (r.area() / area)).sum()
         };
         let total = first_area + other_area;
         let apart = middle_of(others, other_area) - middle_of(first, first_area);
@@ -183,20 +183,20 @@ fn rank(goal: &SplitGoal, first: &Region, rest: &Region) -> f64 {
     let fraction = first.area() / total;
     let area_error =
         (fraction / goal.share).ln().abs() + ((1.0 - fraction) / (1.0 - goal.share)).ln().abs();
-    let apart = (middle(rest) - middle(first)) / total.sqrt();
+    let apart = (centre(rest) - centre(first)) / total.sqrt();
     AREA_WEIGHT * area_error + POSITION_WEIGHT * apart.distance(goal.apart)
 }
 
 /// Returns the match cost of the pieces with the wanted parts, weighted by area. Only pieces for a
 /// single part are matched.
 fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Progress) -> f64 {
-    let cost = |piece: &Region, wanted: &Region| {
+    let cost = |piece: &Region, parts: &Region| {
         if progress.is_cancelled() {
             return f64::INFINITY;
         }
         let curves = [
             BoundaryCurve::closed(&piece.outer),
-            BoundaryCurve::closed(&wanted.outer),
+            BoundaryCurve::closed(&parts.outer),
         ];
         let [Ok(a), Ok(b)] = curves else {
             return f64::INFINITY;
@@ -204,8 +204,8 @@ fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Prog
         let options = coarse_options(&MatchOptions::default());
         match_curves(&a, &b, &[], &options).map_or(f64::INFINITY, |m| m.cost())
     };
-    let single_cost = |weight: f64, piece: &Region, wanted: &[&Region]| match wanted {
-        [wanted] => weight * cost(piece, wanted),
+    let single_cost = |weight: f64, piece: &Region, parts: &[&Region]| match parts {
+        [parts] => weight * cost(piece, parts),
         _ => 0.0,
     };
     single_cost(goal.share, first, goal.first) + single_cost(1.0 - goal.share, rest, goal.others)
@@ -216,22 +216,36 @@ fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
     let Ok(curve) = BoundaryCurve::closed(&region.outer) else {
         return Vec::new();
     };
-    let place_of = |k: u32| f64::from(k) / f64::from(CUT_PLACES);
-    let ends: Vec<(f64, DVec2)> = (0..CUT_PLACES)
-        .map(|k| (place_of(k), curve.point_at(place_of(k))))
-        .collect();
-    let from = |(k, &a): (usize, &(f64, DVec2))| -> Vec<(f64, [Region; 2])> {
+    let place = |k: u32| {
+        let fraction = f64::from(k) / f64::from(CUT_PLACES);
+        BoundaryPlace {
+            fraction,
+            point: curve.point_at(fraction),
+        }
+    };
+    let ends: Vec<BoundaryPlace> = (0..CUT_PLACES).map(place).collect();
+    let cuts_from = |(k, from): (usize, &BoundaryPlace)| -> Vec<(f64, [Region; 2])> {
         let others = match progress.is_cancelled() {
             true => &[],
             false => &ends[k + 1..],
         };
-        let cut = |&b: &(f64, DVec2)| {
-            let pieces = cut_between(region, &curve, a, b)?;
-            Some((a.1.distance(b.1), pieces))
+        let cut = |to: &BoundaryPlace| {
+            let pieces = cut_between(region, &curve, from, to)?;
+            Some((from.point.distance(to.point), pieces))
         };
         others.iter().filter_map(cut).collect()
     };
-    ends.par_iter().enumerate().flat_map_iter(from).collect()
+    ends.par_iter()
+        .enumerate()
+        .flat_map_iter(cuts_from)
+        .collect()
+}
+
+/// A place on the outer boundary at which a cut may end.
+struct BoundaryPlace {
+    /// Length along the boundary to the place, as a fraction of the whole.
+    fraction: f64,
+    point: DVec2,
 }
 
 /// Cuts a region along the segment between two places of its outer boundary. Returns `None` if the
@@ -239,9 +253,10 @@ fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
 fn cut_between(
     region: &Region,
     curve: &BoundaryCurve,
-    (from, a): (f64, DVec2),
-    (to, b): (f64, DVec2),
+    from: &BoundaryPlace,
+    to: &BoundaryPlace,
 ) -> Option<[Region; 2]> {
+    let (a, b) = (from.point, to.point);
     if !is_free(region, a, b) {
         return None;
     }
@@ -250,11 +265,11 @@ fn cut_between(
         inner.filter(move |(place, _)| from < **place && **place < to)
     };
     let mut first_side = vec![a];
-    first_side.extend(between(from, to).map(|(_, p)| *p));
+    first_side.extend(between(from.fraction, to.fraction).map(|(_, p)| *p));
     first_side.push(b);
     let mut second_side = vec![b];
-    second_side.extend(between(to, 2.0).map(|(_, p)| *p));
-    second_side.extend(between(-1.0, from).map(|(_, p)| *p));
+    second_side.extend(between(to.fraction, 2.0).map(|(_, p)| *p));
+    second_side.extend(between(-1.0, from.fraction).map(|(_, p)| *p));
     second_side.push(a);
     let [Ok(first_side), Ok(second_side)] = [first_side, second_side].map(Ring::new) else {
         return None;

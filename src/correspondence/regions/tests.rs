@@ -171,7 +171,7 @@ fn a_single_part_is_split_and_an_extra_part_among_several_appears() {
         .collect();
     assert_eq!((with_extra.pieces.len(), appearing.len()), (3, 1));
     let settings = MatchSettings {
-        parts: PartRule::Alone,
+        parts: PartRule::Transient,
         ..MatchSettings::default()
     };
     assert_eq!(run(&one, &three, &settings).pieces.len(), 3);
@@ -330,7 +330,7 @@ fn a_hole_that_no_straight_cut_reaches_closes_and_is_reported() {
 fn transient_holes_are_excluded_from_the_piece() {
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
     let settings = MatchSettings {
-        holes: HoleRule::Alone,
+        holes: HoleRule::Transient,
         ..MatchSettings::default()
     };
     for (matched, side) in [
@@ -342,7 +342,7 @@ fn transient_holes_are_excluded_from_the_piece() {
         let [lone] = &piece.lone[..] else {
             panic!("{:?}", piece.lone);
         };
-        let (whole, points) = lone.whole().expect("not matched");
+        let (whole, points) = lone.transient_side().expect("not matched");
         assert_eq!(whole, side);
         assert!((area(points) + 2.25).abs() < 1e-9, "clockwise");
         assert!(points.iter().all(|p| (7.0..=8.5).contains(&p.x)));

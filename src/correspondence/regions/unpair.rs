@@ -20,7 +20,7 @@ impl MatchPlan<'_> {
         unpaired: &[usize],
         progress: &dyn Progress,
     ) -> bool {
-        if unpaired.is_empty() || self.wanted.parts == PartRule::Split {
+        if unpaired.is_empty() || self.settings.parts == PartRule::Split {
             return false;
         }
         let unpaired = |group: &PartGroup| parts_of_pieces(matched, unpaired, group);
@@ -33,7 +33,7 @@ impl MatchPlan<'_> {
                 groups.push((group, cut));
                 continue;
             }
-            let (remaining, released) = self.separated(&group, &unpaired);
+            let (remaining, released) = self.split_group(&group, &unpaired);
             has_changed |= remaining != group;
             if remaining != PartGroup::default() {
                 let pieces = self.split(&remaining, progress);
@@ -52,12 +52,12 @@ impl MatchPlan<'_> {
                 .into_iter()
                 .any(|side| group.parts[side].contains(&pair[side]))
         };
-        self.said.iter().any(is_in)
+        self.fixed_pairs.iter().any(is_in)
     }
 
     /// Splits a group into the parts that stay together and those that become unmatched. `unpaired`
     /// holds the parts of the pieces to unpair.
-    fn separated(&self, group: &PartGroup, unpaired: &PartGroup) -> (PartGroup, PartGroup) {
+    fn split_group(&self, group: &PartGroup, unpaired: &PartGroup) -> (PartGroup, PartGroup) {
         if group.parts.iter().all(|parts| parts.len() == 1) {
             return (PartGroup::default(), group.clone());
         }

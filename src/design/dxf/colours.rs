@@ -50,7 +50,7 @@ impl ColourSource {
 
 impl EntityStyle {
     /// Resolves layer and colour in a block reference with the style `outer`.
-    pub fn within(&self, outer: Option<&Self>) -> Self {
+    pub fn inherited_from(&self, outer: Option<&Self>) -> Self {
         let Some(outer) = outer else {
             return self.clone();
         };

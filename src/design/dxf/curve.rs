@@ -53,7 +53,7 @@ pub(super) struct NurbsCurve {
 impl DxfCurve {
     /// Creates the circular arc from `p` to `q` with a DXF bulge: the tangent of a quarter of
     /// the arc's angle, positive for counter-clockwise arcs.
-    pub fn bulging(p: DVec2, q: DVec2, bulge: f64) -> Self {
+    pub fn from_bulge(p: DVec2, q: DVec2, bulge: f64) -> Self {
         let chord = q - p;
         // Distance of the centre from the chord, in units of the chord.
         let to_centre = (1.0 - bulge * bulge) / (4.0 * bulge);
@@ -75,7 +75,7 @@ impl DxfCurve {
     }
 
     /// Returns the curve transformed by an affine map.
-    pub fn moved(&self, by: &DAffine2) -> Self {
+    pub fn transformed(&self, by: &DAffine2) -> Self {
         match self {
             Self::Line(ends) => Self::Line(ends.map(|p| by.transform_point2(p))),
             Self::Arc(arc) => Self::Arc(EllipseArc {
@@ -97,7 +97,7 @@ impl DxfCurve {
     }
 
     /// Returns the number of control points; lines and arcs count as one.
-    pub fn size(&self) -> usize {
+    pub fn point_count(&self) -> usize {
         match self {
             Self::Line(_) | Self::Arc(_) => 1,
             Self::Spline(spline) => spline.control.len(),
@@ -112,7 +112,7 @@ impl DxfCurve {
                 let reach = arc.u.abs() + arc.v.abs();
                 vec![arc.centre - reach, arc.centre + reach]
             }
-            Self::Spline(spline) => spline.control.iter().map(|&c| projected(c)).collect(),
+            Self::Spline(spline) => spline.control.iter().map(|&c| point_from_homogeneous(c)).collect(),
         }
     }
 
@@ -161,7 +161,7 @@ fn transformed_control(control: DVec3, by: &DAffine2) -> DVec3 {
 }
 
 /// Converts a homogeneous control point to the plane.
-fn projected(control: DVec3) -> DVec2 {
+fn point_from_homogeneous(control: DVec3) -> DVec2 {
     control.truncate() / control.z
 }
 
@@ -211,7 +211,7 @@ impl NurbsCurve {
                 points[j] = points[j - 1].lerp(points[j], share);
             }
         }
-        projected(points[self.degree])
+        point_from_homogeneous(points[self.degree])
     }
 
     fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {

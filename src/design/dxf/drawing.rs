@@ -33,7 +33,7 @@ pub(super) struct DxfPath {
     /// Whether the last curve ends at the start of the first.
     pub is_closed: bool,
     /// Name of the layer, and the colour if any.
-    pub drawn: (Rc<[u8]>, Option<Rgb>),
+    pub layer_and_colour: (Rc<[u8]>, Option<Rgb>),
 }
 
 /// Block definition.
@@ -78,7 +78,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<DxfDrawing, DxfError> {
             }
             (b"ENDSEC", _) => is_section_read = None,
             (b"EOF", Some(_)) => return Err(DxfError::Truncated(record.at)),
-            (b"EOF", None) => return reader.expanded(),
+            (b"EOF", None) => return reader.expand_blocks(),
             (_, Some(true)) => reader.take(&record, &mut records)?,
             _ => {}
         }
@@ -207,7 +207,7 @@ impl DxfReader {
     }
 
     /// Expands all block references.
-    fn expanded(self) -> Result<DxfDrawing, DxfError> {
+    fn expand_blocks(self) -> Result<DxfDrawing, DxfError> {
         let mut expansion = BlockExpansion {
             blocks: &self.blocks,
             layers: &self.layers,
@@ -257,16 +257,16 @@ impl BlockExpansion<'_> {
         depth: usize,
     ) -> Result<(), DxfError> {
         for DxfEntity { shape, ink } in entities {
-            let ink = ink.within(outer);
+            let ink = ink.inherited_from(outer);
             match shape {
                 EntityShape::Path { curves, is_closed } => {
-                    self.count(curves.iter().map(DxfCurve::size).sum())?;
-                    let curves = curves.iter().map(|curve| curve.moved(by)).collect();
+                    self.count(curves.iter().map(DxfCurve::point_count).sum())?;
+                    let curves = curves.iter().map(|curve| curve.transformed(by)).collect();
                     let rgb = ink.rgb(self.layers);
                     self.drawing.paths.push(DxfPath {
                         curves,
                         is_closed: *is_closed,
-                        drawn: (ink.layer, rgb),
+                        layer_and_colour: (ink.layer, rgb),
                     });
                 }
                 EntityShape::Insert { block, places } => match self.blocks.get(block) {

@@ -102,7 +102,7 @@ impl<'a> DxfRecord<'a> {
     fn points(&self, code: i32) -> Result<Vec<DVec2>, DxfError> {
         let (xs, ys) = (self.reals(code)?, self.reals(code + 10)?);
         if xs.len() != ys.len() {
-            return Err(self.broken("a point lacks its x or y coordinate"));
+            return Err(self.inconsistency_error("a point lacks its x or y coordinate"));
         }
         Ok(xs.into_iter().zip(ys).map(DVec2::from).collect())
     }
@@ -133,7 +133,7 @@ impl<'a> DxfRecord<'a> {
     }
 
     /// Returns the error for an entity with inconsistent data.
-    fn broken(&self, what: &'static str) -> DxfError {
+    fn inconsistency_error(&self, what: &'static str) -> DxfError {
         DxfError::Broken {
             at: self.at,
             kind: String::from_utf8_lossy(self.kind).into_owned(),
@@ -146,7 +146,7 @@ impl<'a> DxfRecord<'a> {
     /// POLYLINE is converted by [`Self::polyline`] because its vertices are separate records.
     pub fn shape(&self) -> Result<Option<EntityShape>, DxfError> {
         Ok(Some(match self.kind {
-            b"LINE" => open(DxfCurve::Line([
+            b"LINE" => open_path(DxfCurve::Line([
                 self.point(10)?.truncate(),
                 self.point(11)?.truncate(),
             ])),
@@ -154,7 +154,7 @@ impl<'a> DxfRecord<'a> {
             b"CIRCLE" => self.arc(0.0, TAU)?,
             b"ARC" => {
                 let [from, to] = [self.real(50, 0.0)?, self.real(51, 360.0)?].map(f64::to_radians);
-                self.arc(from, turn(from, to))?
+                self.arc(from, positive_angle(from, to))?
             }
             b"ELLIPSE" => self.ellipse()?,
             b"SPLINE" => return self.spline(),
@@ -177,7 +177,7 @@ impl<'a> DxfRecord<'a> {
                 _ => {}
             }
         }
-        let plan = self.plan(self.real(38, 0.0)?)?;
+        let plan = self.plane_map(self.real(38, 0.0)?)?;
         Ok(polyline(&corners, self.whole(70)? & 1 != 0, &plan))
     }
 
@@ -202,7 +202,7 @@ impl<'a> DxfRecord<'a> {
         }
         let plan = match is_in_space {
             true => DAffine2::IDENTITY,
-            false => self.plan(self.real(30, 0.0)?)?,
+            false => self.plane_map(self.real(30, 0.0)?)?,
         };
         Ok(Some(polyline(&corners, flags & 1 != 0, &plan)))
     }
@@ -218,7 +218,7 @@ impl<'a> DxfRecord<'a> {
             from,
             sweep,
         };
-        Ok(arc_shape(arc, &self.plan(centre.z)?))
+        Ok(arc_shape(arc, &self.plane_map(centre.z)?))
     }
 
     /// Converts an ELLIPSE.
@@ -232,7 +232,7 @@ impl<'a> DxfRecord<'a> {
             u: major.truncate(),
             v: minor.truncate(),
             from,
-            sweep: turn(from, to),
+            sweep: positive_angle(from, to),
         };
         Ok(arc_shape(arc, &DAffine2::IDENTITY))
     }
@@ -246,21 +246,21 @@ impl<'a> DxfRecord<'a> {
         let degree = usize::try_from(self.whole(71)?).unwrap_or(0);
         let (knots, weights) = (self.reals(40)?, self.reals(41)?);
         let spline = NurbsCurve::new(degree, knots, &points, &weights).ok_or_else(|| {
-            self.broken("its degree, knots, control points and weights are inconsistent")
+            self.inconsistency_error("its degree, knots, control points and weights are inconsistent")
         })?;
-        Ok(Some(open(DxfCurve::Spline(spline))))
+        Ok(Some(open_path(DxfCurve::Spline(spline))))
     }
 
     /// Converts an INSERT, a grid of block copies.
     fn insert(&self) -> Result<EntityShape, DxfError> {
         let at = self.point(10)?;
-        let plan = self.plan(at.z)?;
+        let plan = self.plane_map(at.z)?;
         let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
         let rotation = DMat2::from_angle(self.real(50, 0.0)?.to_radians());
         // A count of 0 means 1.
         let counts = [self.whole(70)?, self.whole(71)?].map(|n| n.max(1));
         if counts[0].saturating_mul(counts[1]) > MAX_COPIES {
-            return Err(self.broken("it makes too many copies"));
+            return Err(self.inconsistency_error("it makes too many copies"));
         }
         let spacing = DVec2::new(self.real(44, 0.0)?, self.real(45, 0.0)?);
         let mut places = Vec::new();
@@ -283,14 +283,14 @@ impl<'a> DxfRecord<'a> {
 }
 
 /// Returns the counter-clockwise angle from one direction to another, in (0, 2π].
-fn turn(from: f64, to: f64) -> f64 {
+fn positive_angle(from: f64, to: f64) -> f64 {
     let sweep = (to - from).rem_euclid(TAU);
     // Equal directions, up to rounding, mean a full turn.
     if sweep <= 1e-12 { TAU } else { sweep }
 }
 
 /// Returns an open path of one curve.
-fn open(curve: DxfCurve) -> EntityShape {
+fn open_path(curve: DxfCurve) -> EntityShape {
     EntityShape::Path {
         curves: vec![curve],
         is_closed: false,
@@ -301,7 +301,7 @@ fn open(curve: DxfCurve) -> EntityShape {
 fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
     EntityShape::Path {
         is_closed: arc.is_whole(),
-        curves: vec![DxfCurve::Arc(arc).moved(plan)],
+        curves: vec![DxfCurve::Arc(arc).transformed(plan)],
     }
 }
 
@@ -319,7 +319,7 @@ fn polyline(corners: &[PolylineVertex], is_closed: bool, plan: &DAffine2) -> Ent
     let sides = if is_closed { corners.len() } else { last };
     let side = |i: usize| {
         let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
-        DxfCurve::bulging(a.point, b.point, a.bulge).moved(plan)
+        DxfCurve::from_bulge(a.point, b.point, a.bulge).transformed(plan)
     };
     EntityShape::Path {
         curves: (0..sides).map(side).collect(),

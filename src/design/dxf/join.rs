@@ -15,9 +15,9 @@ pub(super) struct JoinedCurves {
     /// Closed rings.
     pub rings: Vec<Vec<DVec2>>,
     /// Indices of the joined curves for each ring.
-    pub of_rings: Vec<Vec<usize>>,
+    pub ring_curves: Vec<Vec<usize>>,
     /// One free end of each curve that belongs to no ring.
-    pub loose: Vec<DVec2>,
+    pub loose_ends: Vec<DVec2>,
     /// Number of duplicate curves that were ignored.
     pub duplicates: usize,
 }
@@ -28,11 +28,11 @@ pub(super) fn join_curves(curves: Vec<Vec<DVec2>>, within: f64) -> JoinedCurves 
     let mut result = JoinedCurves::default();
     let (curves, indices) = result.without_duplicates(curves);
     let mut graph = EndpointGraph::of(&curves, within);
-    result.loose = graph.remove_loose(&curves);
+    result.loose_ends = graph.remove_loose(&curves);
     for start in 0..curves.len() {
         graph.trace(start, &curves, &mut result);
     }
-    for curve in result.of_rings.iter_mut().flatten() {
+    for curve in result.ring_curves.iter_mut().flatten() {
         *curve = indices[*curve];
     }
     result
@@ -148,7 +148,7 @@ impl EndpointGraph {
                     }
                     let steps: Vec<TrailStep> = trail.drain(closed..).collect();
                     let of_ring = steps.iter().map(|step| step.curve);
-                    result.of_rings.push(of_ring.collect());
+                    result.ring_curves.push(of_ring.collect());
                     let ring = steps.iter().flat_map(|step| step.points(curves));
                     result.rings.push(ring.collect());
                 }
@@ -159,7 +159,7 @@ impl EndpointGraph {
             next = self.unused_at(here);
         }
         let open_ends = trail.iter().flat_map(|step| step.points(curves).next());
-        result.loose.extend(open_ends);
+        result.loose_ends.extend(open_ends);
     }
 }
 
@@ -249,7 +249,7 @@ mod tests {
         let found = join_curves(lines.iter().map(|l| curve(l)).collect(), 0.1);
         assert_eq!(found.rings.len(), 1);
         assert_eq!(found.rings[0].len(), 4);
-        assert_eq!((found.duplicates, found.loose.len()), (1, 0));
+        assert_eq!((found.duplicates, found.loose_ends.len()), (1, 0));
     }
 
     #[test]
@@ -261,7 +261,7 @@ mod tests {
             curve(&[(4, 4), (0, 0)]),
         ];
         let found = join_curves(lines.to_vec(), 0.1);
-        assert_eq!((found.rings.len(), found.loose.len()), (1, 2));
+        assert_eq!((found.rings.len(), found.loose_ends.len()), (1, 2));
     }
 
     #[test]
@@ -274,7 +274,7 @@ mod tests {
             curve(&[(1, 5), (0, 0), (0, 0)]),
         ];
         let found = join_curves(lines, 0.1);
-        assert_eq!((found.rings.len(), found.loose.len()), (3, 0));
+        assert_eq!((found.rings.len(), found.loose_ends.len()), (3, 0));
     }
 
     #[test]
@@ -285,6 +285,6 @@ mod tests {
         ];
         assert_eq!(join_curves(lines.clone(), 2.0).rings.len(), 1);
         let apart = join_curves(lines, 0.5);
-        assert_eq!((apart.rings.len(), apart.loose.len()), (0, 2));
+        assert_eq!((apart.rings.len(), apart.loose_ends.len()), (0, 2));
     }
 }

@@ -257,7 +257,7 @@ fn painted(sections: &[(&str, &str)]) -> Vec<(Option<Rgb>, String, f64)> {
         let colour = coat.paint.map(|paint| paint.colour);
         (colour, coat.name.clone(), coat.regions.area().round())
     };
-    outlines.coats.iter().map(summary).collect()
+    outlines.paint_layers.iter().map(summary).collect()
 }
 
 const LAYERS: &str = "0 TABLE 2 LAYER 0 LAYER 2 walls 70 0 62 1 0 LAYER 2 sea 70 0 62 5 420 255

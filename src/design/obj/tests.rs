@@ -29,7 +29,7 @@ fn a_bad_vertex_line_is_reported() {
     assert_eq!(fault("v 1\n", 1), ObjFault::Vertex(1));
     for bad in ["NaN", "inf", "-inf", "1e999", "1.1e18"] {
         let text = format!("v 0 0 0\nv {bad} 0 0\n");
-        assert_eq!(fault(&text, 2), ObjFault::Place(2));
+        assert_eq!(fault(&text, 2), ObjFault::CoordinateRange(2));
     }
     assert!(matches!(
         fault("v 0 0 0\nv 1 0 0.1\n", 2),

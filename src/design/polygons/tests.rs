@@ -132,7 +132,7 @@ fn features_keep_their_fill_colour() {
         feature(HOLE, "{\"fill\": \"ff0000\", \"fill-opacity\": 0.5}"),
     ])
     .expect("a map");
-    let coats = painted.coats.iter().map(|coat| {
+    let coats = painted.paint_layers.iter().map(|coat| {
         let paint = coat.paint.expect("a paint");
         (
             paint.colour.0,
@@ -145,5 +145,5 @@ fn features_keep_their_fill_colour() {
     assert!(coats.eq(expected));
     let transparent = "{\"fill\": \"#00f\", \"fill-opacity\": 0}";
     let plain = map(&[feature(SQUARE, transparent), feature(HOLE, "{\"fill\": 7}")]);
-    assert_eq!(plain.expect("a map").coats, []);
+    assert_eq!(plain.expect("a map").paint_layers, []);
 }

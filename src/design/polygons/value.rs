@@ -58,7 +58,7 @@ pub enum PolygonsFault {
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("{RANGE_MESSAGE}")]
-    Place,
+    CoordinateRange,
     /// The object has a type that GeoJSON does not define.
     #[error("has the type \"{0}\", which GeoJSON does not define; correct it")]
     Type(String),
@@ -142,7 +142,7 @@ fn point(value: &Value) -> PolygonsResult<DVec2> {
         Some([x, y, ..]) => {
             let point = DVec2::new(number(x)?, number(y)?);
             let valid = is_in_range(point).then_some(point);
-            valid.ok_or_else(|| PolygonsFault::Place.into())
+            valid.ok_or_else(|| PolygonsFault::CoordinateRange.into())
         }
         _ => Err(type_mismatch(POINT, value)),
     }

@@ -154,7 +154,7 @@ impl FlatColours {
         let inks: Vec<PixelColour> = rows.flatten().map(PixelColour::of).collect();
         let (width, count) = (picture.width() as usize, inks.len());
         let is_flat =
-            |i: usize| around(i, width, count, 1).all(|j| inks[i].distance(inks[j]) < SAME_COLOUR);
+            |i: usize| neighbourhood(i, width, count, 1).all(|j| inks[i].distance(inks[j]) < SAME_COLOUR);
         let is_flat: Vec<bool> = (0..count).into_par_iter().map(is_flat).collect();
         let flat = flat_colours(&inks, &is_flat)?;
         let ground = background(&flat, &inks, &is_flat, width)?;
@@ -164,7 +164,7 @@ impl FlatColours {
         };
         let own_bits: Vec<u32> = (0..count).into_par_iter().map(own_bit).collect();
         let pixel = |i: usize| {
-            let neighbours = around(i, width, count, NEIGHBOURHOOD);
+            let neighbours = neighbourhood(i, width, count, NEIGHBOURHOOD);
             let candidates = match neighbours.fold(0, |bits, j| bits | own_bits[j]) {
                 0 if is_near_border(i, width, count) => 1 << ground,
                 // A line too thin to contain a flat pixel may have any colour.
@@ -294,7 +294,7 @@ fn is_near_border(i: usize, width: usize, count: usize) -> bool {
 }
 
 /// Returns the pixels within `reach` rows and columns of a pixel, itself included.
-fn around(i: usize, width: usize, count: usize, reach: usize) -> impl Iterator<Item = usize> {
+fn neighbourhood(i: usize, width: usize, count: usize, reach: usize) -> impl Iterator<Item = usize> {
     let (x, y) = (i % width, i / width);
     let rows = y.saturating_sub(reach)..(y + reach + 1).min(count / width);
     let columns = x.saturating_sub(reach)..(x + reach + 1).min(width);

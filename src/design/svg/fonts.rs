@@ -40,7 +40,7 @@ impl FontLookup {
         FontResolver {
             select_font: Box::new(move |font, fonts| {
                 self.note_fonts(font.families(), fonts);
-                select(font, fonts).or_else(|| bundled(fonts))
+                select(font, fonts).or_else(|| bundled_font(fonts))
             }),
             select_fallback: Box::new(move |character, tried, fonts| {
                 let searches = self.searches.fetch_add(1, Ordering::Relaxed);
@@ -89,7 +89,7 @@ fn is_installed(fonts: &Database, family: Family) -> bool {
 }
 
 /// Returns the bundled font, the only one in memory.
-fn bundled(fonts: &Database) -> Option<ID> {
+fn bundled_font(fonts: &Database) -> Option<ID> {
     let mut faces = fonts.faces();
     faces
         .find(|face| matches!(face.source, Source::Binary(_)))

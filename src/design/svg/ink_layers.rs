@@ -37,7 +37,7 @@ impl InkLayers {
     }
 
     /// Adds a shape on top of all earlier shapes.
-    pub(super) fn lay(&mut self, rings: WindingRings, is_paper: bool) {
+    pub(super) fn add(&mut self, rings: WindingRings, is_paper: bool) {
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             // A shape without area creates the layer, so that the drawing is not empty.
             return self.grow_to(0);
@@ -140,12 +140,12 @@ mod tests {
     #[test]
     fn later_shapes_cover_earlier_ones() {
         let mut layers = InkLayers::of_page(DVec2::splat(100.0));
-        layers.lay(square(50.0, 50.0, 10.0), true); // paper on an empty page
-        layers.lay(square(0.0, 0.0, 100.0), false);
-        layers.lay(square(10.0, 10.0, 40.0), true);
-        layers.lay(square(20.0, 20.0, 20.0), false);
-        layers.lay(square(25.0, 25.0, 10.0), true);
-        layers.lay(square(-50.0, 90.0, 60.0), true);
+        layers.add(square(50.0, 50.0, 10.0), true); // paper on an empty page
+        layers.add(square(0.0, 0.0, 100.0), false);
+        layers.add(square(10.0, 10.0, 40.0), true);
+        layers.add(square(20.0, 20.0, 20.0), false);
+        layers.add(square(25.0, 25.0, 10.0), true);
+        layers.add(square(-50.0, 90.0, 60.0), true);
         assert_eq!(layers.layers.len(), 6);
         let expected = 10_000.0 - 1600.0 + 400.0 - 100.0 - 100.0;
         assert!((area(layers) - expected).abs() < 1e-6);
@@ -158,7 +158,7 @@ mod tests {
             let at = |step: i32| f64::from(step % 20) * 5.0;
             let (x, y) = (at(k / 2), at(k / 40));
             let is_paper = k % 2 == 1;
-            layers.lay(square(x, y, if is_paper { 2.0 } else { 4.0 }), is_paper);
+            layers.add(square(x, y, if is_paper { 2.0 } else { 4.0 }), is_paper);
         }
         assert_eq!(layers.layers.len(), 2);
         assert!((area(layers) - 400.0 * 12.0).abs() < 1e-6);

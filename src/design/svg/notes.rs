@@ -22,7 +22,7 @@ impl SvgReport<'_> {
     /// Returns the notes on an element and its descendants.
     pub(super) fn notes(self, top: Xml) -> Vec<ImportNote> {
         let repairs = self.painted.repairs.iter();
-        let repairs = repairs.flat_map(|(rule, found)| ImportNote::of_repairs(found, *rule));
+        let repairs = repairs.flat_map(|(rule, found)| ImportNote::from_repairs(found, *rule));
         let ignored_strokes = if self.strokes {
             0
         } else {
@@ -32,18 +32,18 @@ impl SvgReport<'_> {
         let texts = self
             .absent
             .as_ref()
-            .map_or_else(|| elements(top, "text"), |_| 0);
+            .map_or_else(|| count_elements(top, "text"), |_| 0);
         let absent = self.absent.unwrap_or_default();
         let characters = left_out.glyphs + absent.characters.len();
         let counted = [
             counted_note(ignored_strokes, ImportNote::Strokes),
             counted_note(texts, ImportNote::Texts),
             counted_note(characters, ImportNote::Characters),
-            counted_note(elements(top, "image"), ImportNote::Pictures),
-            counted_note(left_out.shades, ImportNote::Shades),
+            counted_note(count_elements(top, "image"), ImportNote::Pictures),
+            counted_note(left_out.shades, ImportNote::MeanColours),
             counted_note(left_out.masks, ImportNote::Masks),
-            counted_note(filtered(top), ImportNote::Filters),
-            counted_note(left_out.blends, ImportNote::Blends),
+            counted_note(count_filtered(top), ImportNote::Filters),
+            counted_note(left_out.blends, ImportNote::GroupBlending),
         ];
         let nonzero = counted.into_iter().filter(|&(count, _)| count > 0);
         let fonts = absent.fonts.into_iter().map(ImportNote::Font);
@@ -60,20 +60,20 @@ fn counted_note(count: usize, note: fn(usize) -> ImportNote) -> (usize, ImportNo
 }
 
 /// Returns the number of drawn elements with a tag name.
-fn elements(top: Xml, name: &str) -> usize {
-    let nodes = drawn(top);
+fn count_elements(top: Xml, name: &str) -> usize {
+    let nodes = drawn_elements(top);
     nodes.filter(|node| node.tag_name().name() == name).count()
 }
 
 /// Returns the number of drawn elements with a filter.
-fn filtered(top: Xml) -> usize {
-    drawn(top)
+fn count_filtered(top: Xml) -> usize {
+    drawn_elements(top)
         .filter(|node| node.has_attribute("filter"))
         .count()
 }
 
 /// Returns all descendants that are drawn in place.
-fn drawn<'d, 'a: 'd>(top: Xml<'d, 'a>) -> impl Iterator<Item = Xml<'d, 'a>> {
+fn drawn_elements<'d, 'a: 'd>(top: Xml<'d, 'a>) -> impl Iterator<Item = Xml<'d, 'a>> {
     let is_hidden = |node: Xml| HIDDEN.contains(&node.tag_name().name());
     let nodes = top.descendants();
     nodes.filter(move |node| !node.ancestors().any(is_hidden))

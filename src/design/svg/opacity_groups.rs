@@ -23,7 +23,10 @@ pub(super) fn apply_group_opacity(
     opacity: f64,
     page: DVec2,
 ) -> (Vec<SvgShape>, bool) {
-    let shapes = shapes.into_iter().flat_map(SvgShape::apart).collect();
+    let shapes = shapes
+        .into_iter()
+        .flat_map(SvgShape::split_stroke)
+        .collect();
     // Shapes of equal paint are united, because overlaps and seams would become visible.
     let mut shapes = merge_shapes(shapes, page);
     let boxes: Vec<Option<Bounds>> = shapes.iter().map(SvgShape::bounds).collect();
@@ -54,7 +57,7 @@ pub(super) fn apply_group_opacity(
         shape.gradient = shape
             .gradient
             .take()
-            .map(|gradient| gradient.repainted(fade));
+            .map(|gradient| gradient.map_paints(fade));
     }
     (shapes, is_exact)
 }

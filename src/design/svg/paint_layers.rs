@@ -20,7 +20,7 @@ pub(super) fn paint_layers(shapes: Vec<SvgShape>, page: DVec2) -> Vec<PaintLayer
             regions,
             paint: Some(shape.paint),
             gradient: shape.gradient,
-            line: shape.edge.map(|edge| edge.line),
+            line: shape.stroke.map(|edge| edge.line),
             name: shape.name,
             is_text: shape.is_text,
         })
@@ -67,7 +67,7 @@ impl LayerKey {
     /// Returns the key of a shape.
     fn of(shape: &SvgShape) -> Self {
         let bits = |paint: Paint| (paint.colour.0, paint.opacity.to_bits());
-        let line = shape.edge.as_ref().map(|edge| {
+        let line = shape.stroke.as_ref().map(|edge| {
             let join = match edge.line.join {
                 StrokeJoin::Mitre(limit) => (0, limit.to_bits()),
                 StrokeJoin::Round => (1, 0),
@@ -86,13 +86,13 @@ impl LayerKey {
 
 /// Returns all parameters of a gradient as comparable bits.
 fn gradient_bits(gradient: &Gradient) -> Vec<u64> {
-    let course = match gradient.course {
-        GradientGeometry::Straight => [0.0; 3],
-        GradientGeometry::Round { focus, inner } => [focus.x, focus.y, 1.0 + inner],
+    let course = match gradient.geometry {
+        GradientGeometry::Linear => [0.0; 3],
+        GradientGeometry::Radial { focus, inner } => [focus.x, focus.y, 1.0 + inner],
     };
     let stops = gradient.stops.iter().flat_map(|stop| {
         let [r, g, b] = stop.paint.colour.0.map(f64::from);
-        [stop.at, r, g, b, stop.paint.opacity]
+        [stop.offset, r, g, b, stop.paint.opacity]
     });
     let spread = [gradient.spread as u8].map(f64::from);
     let frame = gradient.frame.to_cols_array();
@@ -119,7 +119,7 @@ impl PaintStack {
         let above = self.heights.highest(&bounds);
         // May join a layer that it overlaps, unless it is translucent, where the overlap would
         // be darker, or has a stroke, which would be visible inside.
-        let may_unite = shape.paint.is_opaque() && shape.edge.is_none();
+        let may_unite = shape.paint.is_opaque() && shape.stroke.is_none();
         let lowest = above.saturating_sub(usize::from(may_unite));
         let same_key = self.layers_by_key.entry(LayerKey::of(&shape)).or_default();
         let first_allowed = same_key.partition_point(|&layer| layer < lowest);
@@ -131,7 +131,7 @@ impl PaintStack {
         self.heights.raise(&bounds, index + 1);
         let (first, others) = &mut self.layers[index];
         others.push(shape.rings);
-        if let Some((all, more)) = first.edge.as_mut().zip(shape.edge) {
+        if let Some((all, more)) = first.stroke.as_mut().zip(shape.stroke) {
             all.rings.extend(more.rings);
         }
     }

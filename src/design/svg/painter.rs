@@ -174,10 +174,10 @@ impl SvgPainter<'_> {
         self.painted.left_out.shades += usize::from(fill.as_ref().is_some_and(is_mean));
         self.painted.left_out.shades += usize::from(stroke.as_ref().is_some_and(is_approximated));
         let gradient = fill.as_mut().and_then(|resolved| resolved.gradient.take());
-        let gradient = gradient.map(|gradient| gradient.moved(self.page_from_path(path)));
+        let gradient = gradient.map(|gradient| gradient.transformed(self.page_from_path(path)));
         let [fill, stroke] = [fill, stroke].map(|resolved| resolved.map(|resolved| resolved.paint));
         let first = self.painted.shapes.len();
-        self.add_shapes(path, (name, clip), (fill, stroke))?;
+        self.add_shapes(path, name, clip, fill, stroke)?;
         // The paint order decides whether the fill is the first or second new shape.
         let added = &mut self.painted.shapes[first..];
         if let Some(shape) = added.iter_mut().find(|shape| !shape.is_stroke) {
@@ -196,34 +196,37 @@ impl SvgPainter<'_> {
     fn add_shapes(
         &mut self,
         path: &Path,
-        (name, clip): (&str, Option<&WindingRings>),
-        (fill, stroke): (Option<Paint>, Option<Paint>),
+        name: &str,
+        clip: Option<&WindingRings>,
+        fill: Option<Paint>,
+        stroke: Option<Paint>,
     ) -> Result<(), SvgError> {
         let fills_first = path.paint_order() == PaintOrder::FillAndStroke;
         if let Some(stroke) = stroke
             && fills_first
             && clip.is_none()
-            && self.add_stroked_fill(path, name, (fill, stroke))?
+            && self.add_stroked_fill(path, name, fill, stroke)?
         {
             return Ok(());
         }
         for is_fill in [fills_first, !fills_first] {
             if is_fill && let Some(paint) = fill {
-                let rings = self.filled(path, Transform::identity())?;
-                self.lay(name, (rings, clip), paint, false);
+                let rings = self.filled_area(path, Transform::identity())?;
+                self.add_clipped(name, rings, clip, paint, false);
             } else if !is_fill && let Some(paint) = stroke {
-                let rings = self.stroked(path)?;
-                self.lay(name, (rings, clip), paint, true);
+                let rings = self.stroked_area(path)?;
+                self.add_clipped(name, rings, clip, paint, true);
             }
         }
         Ok(())
     }
 
     /// Adds a shape, clipped.
-    fn lay(
+    fn add_clipped(
         &mut self,
         name: &str,
-        (rings, clip): (WindingRings, Option<&WindingRings>),
+        rings: WindingRings,
+        clip: Option<&WindingRings>,
         paint: Paint,
         is_stroke: bool,
     ) {
@@ -233,7 +236,7 @@ impl SvgPainter<'_> {
             gradient: None,
             is_stroke,
             is_text: self.is_in_text,
-            edge: None,
+            stroke: None,
             name: name.to_owned(),
         });
     }
@@ -244,7 +247,8 @@ impl SvgPainter<'_> {
         &mut self,
         path: &Path,
         name: &str,
-        (fill, stroke): (Option<Paint>, Paint),
+        fill: Option<Paint>,
+        stroke: Paint,
     ) -> Result<bool, SvgError> {
         let Some(line) = stroke::uniform_stroke(path, stroke).filter(|_| stroke::is_closed(path))
         else {
@@ -257,8 +261,8 @@ impl SvgPainter<'_> {
             // Without a fill, the even-odd rule preserves all outlines.
             Some(usvg::FillRule::EvenOdd) | None => FillRule::EvenOdd,
         };
-        let crossings = Repairs::between(&rings).crossings;
-        let cleaned = cleaned(&rings, rule)?;
+        let crossings = Repairs::count_contacts(&rings).crossings;
+        let cleaned = resolve_overlaps(&rings, rule)?;
         if crossings > 0 || cleaned.len() != rings.len() {
             self.flattener = before; // the caller flattens the path again
             return Ok(false);
@@ -269,7 +273,7 @@ impl SvgPainter<'_> {
         };
         let edge = ShapeStroke {
             line,
-            rings: self.stroked(path)?,
+            rings: self.stroked_area(path)?,
         };
         self.painted.shapes.push(SvgShape {
             rings: cleaned,
@@ -277,7 +281,7 @@ impl SvgPainter<'_> {
             gradient: None,
             is_stroke: false,
             is_text: self.is_in_text,
-            edge: Some(edge),
+            stroke: Some(edge),
             name: name.to_owned(),
         });
         Ok(true)
@@ -301,7 +305,7 @@ impl SvgPainter<'_> {
     ) -> Result<(), SvgError> {
         for node in group.children() {
             match node {
-                Node::Path(path) if is_filled(path) => rings.extend(self.filled(path, base)?),
+                Node::Path(path) if is_filled(path) => rings.extend(self.filled_area(path, base)?),
                 Node::Group(inner) => {
                     let mut own = Vec::new();
                     self.clip_group(inner, base, &mut own)?;
@@ -316,7 +320,7 @@ impl SvgPainter<'_> {
     }
 
     /// Returns the filled area of a path on the page, y up, by its own fill rule.
-    fn filled(&mut self, path: &Path, base: Transform) -> Result<WindingRings, SvgError> {
+    fn filled_area(&mut self, path: &Path, base: Transform) -> Result<WindingRings, SvgError> {
         let rings = self.rings(path.data(), base.pre_concat(path.abs_transform()))?;
         let index = match path.fill().map(usvg::Fill::rule) {
             Some(usvg::FillRule::EvenOdd) => 1,
@@ -326,24 +330,24 @@ impl SvgPainter<'_> {
         // Overlapping contours are normal in fonts and not reported.
         if !self.is_in_text {
             // Counted before the union, which removes all crossings.
-            let found = Repairs::between(&rings);
+            let found = Repairs::count_contacts(&rings);
             repairs.crossings += found.crossings;
             repairs.at_least |= found.at_least;
         }
-        cleaned(&rings, *rule)
+        resolve_overlaps(&rings, *rule)
     }
 
     /// Returns the area of a path's stroke, including dashes, joins and caps.
-    fn stroked(&mut self, path: &Path) -> Result<WindingRings, SvgError> {
-        let Some(outline) = path.stroke().and_then(|stroke| self.outlined(path, stroke)) else {
+    fn stroked_area(&mut self, path: &Path) -> Result<WindingRings, SvgError> {
+        let Some(outline) = path.stroke().and_then(|stroke| self.stroke_outline(path, stroke)) else {
             return Ok(Vec::new()); // no width or no length
         };
         let rings = self.rings(&outline, path.abs_transform())?;
-        cleaned(&rings, FillRule::NonZero)
+        resolve_overlaps(&rings, FillRule::NonZero)
     }
 
     /// Returns the outline of a stroke in the coordinates of the path.
-    fn outlined(&self, path: &Path, stroke: &Stroke) -> Option<tiny_skia_path::Path> {
+    fn stroke_outline(&self, path: &Path, stroke: &Stroke) -> Option<tiny_skia_path::Path> {
         let stroke = stroke.to_tiny_skia();
         // The stroker approximates curves to a quarter of a pixel at this resolution.
         let (sx, sy) = path.abs_transform().get_scale();
@@ -380,7 +384,7 @@ impl SvgPainter<'_> {
 const MAX_RESOLUTION: f64 = 1e6;
 
 /// Resolves crossings and overlaps; returns no rings if the area is empty.
-fn cleaned(rings: &WindingRings, rule: FillRule) -> Result<WindingRings, SvgError> {
+fn resolve_overlaps(rings: &WindingRings, rule: FillRule) -> Result<WindingRings, SvgError> {
     match Regions::from_rings(rings, rule) {
         Ok(regions) => Ok(regions.rings().map(|r| r.points().to_vec()).collect()),
         Err(RegionsError::Empty | RegionsError::Size(_)) => Ok(Vec::new()), // no area

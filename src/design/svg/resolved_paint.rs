@@ -19,26 +19,23 @@ pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<Res
     let (mean, gradient, is_mean) = match paint {
         usvg::Paint::Color(colour) => (rgb(*colour).into(), None, false),
         usvg::Paint::LinearGradient(gradient) => {
-            let [from, to] = [
-                (gradient.x1(), gradient.y1()),
-                (gradient.x2(), gradient.y2()),
-            ];
-            let along = point(to) - point(from);
+            let from = point(gradient.x1(), gradient.y1());
+            let along = point(gradient.x2(), gradient.y2()) - from;
             let frame =
-                DAffine2::from_mat2_translation(DMat2::from_cols(along, along.perp()), point(from));
-            let gradient = converted(gradient, GradientGeometry::Straight, frame);
+                DAffine2::from_mat2_translation(DMat2::from_cols(along, along.perp()), from);
+            let gradient = convert_gradient(gradient, GradientGeometry::Linear, frame);
             (gradient.mean(), Some(gradient), false)
         }
         usvg::Paint::RadialGradient(gradient) => {
             let radius = f64::from(gradient.r().get());
-            let centre = point((gradient.cx(), gradient.cy()));
-            let focus = (point((gradient.fx(), gradient.fy())) - centre) / radius;
-            let course = GradientGeometry::Round {
+            let centre = point(gradient.cx(), gradient.cy());
+            let focus = (point(gradient.fx(), gradient.fy()) - centre) / radius;
+            let geometry = GradientGeometry::Radial {
                 focus,
                 inner: f64::from(gradient.fr().get()) / radius,
             };
             let frame = DAffine2::from_scale_angle_translation(DVec2::splat(radius), 0.0, centre);
-            let gradient = converted(gradient, course, frame);
+            let gradient = convert_gradient(gradient, geometry, frame);
             (gradient.mean(), Some(gradient), false)
         }
         usvg::Paint::Pattern(pattern) => (pattern_mean(pattern)?, None, true),
@@ -61,22 +58,26 @@ pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<Res
     let gradient = gradient.filter(is_invertible);
     (paint.opacity > 0.0).then(|| ResolvedPaint {
         paint,
-        gradient: gradient.map(|gradient| gradient.repainted(fade)),
+        gradient: gradient.map(|gradient| gradient.map_paints(fade)),
         is_mean,
     })
 }
 
 /// Converts the stops, spread and transform of a gradient with the given geometry and frame.
-fn converted(gradient: &BaseGradient, course: GradientGeometry, frame: DAffine2) -> Gradient {
+fn convert_gradient(
+    gradient: &BaseGradient,
+    geometry: GradientGeometry,
+    frame: DAffine2,
+) -> Gradient {
     let stop = |stop: &usvg::Stop| GradientStop {
-        at: stop.offset().get().into(),
+        offset: stop.offset().get().into(),
         paint: Paint {
             colour: rgb(stop.color()),
             opacity: stop.opacity().get().into(),
         },
     };
     Gradient {
-        course,
+        geometry,
         frame: affine(gradient.transform()) * frame,
         stops: gradient.stops().iter().map(stop).collect(),
         spread: match gradient.spread_method() {
@@ -88,7 +89,7 @@ fn converted(gradient: &BaseGradient, course: GradientGeometry, frame: DAffine2)
 }
 
 /// Converts a point to double precision.
-fn point((x, y): (f32, f32)) -> DVec2 {
+fn point(x: f32, y: f32) -> DVec2 {
     DVec2::new(x.into(), y.into())
 }
 

@@ -18,7 +18,7 @@ pub(super) struct SvgShape {
     /// Whether the shape belongs to a text element.
     pub is_text: bool,
     /// Stroke along the rings, if it stays attached to them.
-    pub edge: Option<ShapeStroke>,
+    pub stroke: Option<ShapeStroke>,
     /// Id of the element; may be empty.
     pub name: String,
 }
@@ -26,7 +26,7 @@ pub(super) struct SvgShape {
 impl SvgShape {
     /// Returns the bounding box including the stroke, or `None` without points.
     pub(super) fn bounds(&self) -> Option<Bounds> {
-        let edge = self.edge.iter().flat_map(|edge| &edge.rings);
+        let edge = self.stroke.iter().flat_map(|edge| &edge.rings);
         Bounds::of(self.rings.iter().chain(edge).flatten().copied())
     }
 
@@ -36,15 +36,15 @@ impl SvgShape {
     }
 
     /// Splits the shape into its visible fill and its stroke.
-    pub(super) fn apart(mut self) -> impl Iterator<Item = Self> {
-        let (edge, fill) = (self.edge.take(), self);
+    pub(super) fn split_stroke(mut self) -> impl Iterator<Item = Self> {
+        let (edge, fill) = (self.stroke.take(), self);
         let stroke = edge.map(|edge| Self {
             rings: edge.rings,
             paint: edge.line.paint,
             gradient: None,
             is_stroke: true,
             is_text: fill.is_text,
-            edge: None,
+            stroke: None,
             name: fill.name.clone(),
         });
         let fill = (fill.paint.opacity > 0.0).then_some(fill);

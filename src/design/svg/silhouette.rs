@@ -24,7 +24,7 @@ pub(super) fn silhouette(
     let white_is_paper = shapes().any(|(_, paint)| !is_white(paint));
     let mut layers = InkLayers::of_page(page);
     for (rings, paint) in shapes() {
-        layers.lay(rings.clone(), white_is_paper && is_white(paint));
+        layers.add(rings.clone(), white_is_paper && is_white(paint));
     }
     if layers.is_empty() {
         let strokes = !strokes && painted.bare_strokes > 0;
@@ -38,7 +38,7 @@ pub(super) fn silhouette(
 fn visible_areas(shape: &SvgShape, strokes: bool) -> impl Iterator<Item = (&WindingRings, &Paint)> {
     let is_visible = (strokes || !shape.is_stroke) && shape.paint.opacity > 0.0;
     let fill = is_visible.then_some((&shape.rings, &shape.paint));
-    let edge = shape.edge.as_ref().filter(|_| strokes);
+    let edge = shape.stroke.as_ref().filter(|_| strokes);
     fill.into_iter()
         .chain(edge.map(|edge| (&edge.rings, &edge.line.paint)))
 }

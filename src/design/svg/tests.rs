@@ -413,8 +413,8 @@ fn text_is_drawn_in_its_font_and_its_colour() {
     let body =
         r#"<text id="word" x="10" y="60" font-family="Roboto" font-size="40" fill="red">DI</text>"#;
     let found = stroked(body, None).expect("letters");
-    let [word] = found.coats.as_slice() else {
-        panic!("{:?}", found.coats);
+    let [word] = found.paint_layers.as_slice() else {
+        panic!("{:?}", found.paint_layers);
     };
     assert_eq!((word.name.as_str(), word.regions.len()), ("word", 2));
     assert_eq!(word.paint, Some(Rgb([255, 0, 0]).into()));
@@ -468,7 +468,7 @@ fn nothing_outside_the_file_is_opened() {
 /// Returns the paint and area of each layer.
 fn layers(body: &str) -> Vec<(Paint, f64)> {
     let found = stroked(body, None).expect("a drawing");
-    let layers = found.coats.into_iter();
+    let layers = found.paint_layers.into_iter();
     let summaries = layers.map(|layer| (layer.paint.expect("a paint"), layer.regions.area()));
     summaries.collect()
 }
@@ -519,7 +519,7 @@ fn layers_keep_strokes_opacity_and_order() {
     // Shapes of one paint in a translucent group merge, so that no overlap shows.
     let cloud = r##"<g opacity="0.5" fill="#fff"><circle cx="30" cy="30" r="9"/>
         <circle cx="40" cy="30" r="9"/></g>"##;
-    let cloud = stroked(cloud, None).expect("a cloud").coats;
+    let cloud = stroked(cloud, None).expect("a cloud").paint_layers;
     assert_eq!((cloud.len(), cloud[0].regions.len()), (1, 1));
     // Covered parts of shapes in a translucent group are removed.
     assert_near(found[0].1, 200.0);
@@ -540,14 +540,14 @@ fn patterns_become_their_mean_colour_and_gradients_stay() {
     let mean = paint([99; 3], 1.0);
     assert_eq!(paints, [mean, paint([0, 255, 0], 1.0), mean]);
     let found = stroked(body, None).expect("a drawing");
-    assert_eq!(found.notes, [ImportNote::Shades(2)]);
-    let gradient = found.coats[0].gradient.as_ref().expect("a gradient");
+    assert_eq!(found.notes, [ImportNote::MeanColours(2)]);
+    let gradient = found.paint_layers[0].gradient.as_ref().expect("a gradient");
     assert_eq!(gradient.stops.len(), 2);
     // From the left to the right edge of the square, in page coordinates.
     let [left, right] = [DVec2::ZERO, DVec2::X].map(|p| gradient.frame.transform_point2(p));
     assert!(left.distance(DVec2::new(0.0, 100.0)) < 1e-5, "{left}");
     assert!(right.distance(DVec2::new(20.0, 100.0)) < 1e-5, "{right}");
-    assert_eq!(found.coats[1].gradient, None);
+    assert_eq!(found.paint_layers[1].gradient, None);
 }
 
 #[test]
@@ -570,7 +570,7 @@ fn a_drawing_without_colours_has_no_layers() {
         ),
     ] {
         assert_eq!(
-            stroked(body, None).expect(body).coats.len(),
+            stroked(body, None).expect(body).paint_layers.len(),
             count,
             "{body}"
         );

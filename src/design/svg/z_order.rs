@@ -25,20 +25,20 @@ impl ZOrderGrid {
 
     /// Returns the maximum height below a box.
     pub(super) fn highest(&self, bounds: &Bounds) -> usize {
-        let heights = self.covered(bounds).map(|cell| self.cells[cell]);
+        let heights = self.covered_cells(bounds).map(|cell| self.cells[cell]);
         heights.max().unwrap_or(0)
     }
 
     /// Raises all cells of a box to at least `to`.
     pub(super) fn raise(&mut self, bounds: &Bounds, to: usize) {
-        for cell in self.covered(bounds) {
+        for cell in self.covered_cells(bounds) {
             self.cells[cell] = self.cells[cell].max(to);
         }
     }
 
     /// Returns the indices of the cells that a box touches; positions outside of the page count
     /// for the cells at its border.
-    fn covered(&self, bounds: &Bounds) -> impl Iterator<Item = usize> + use<> {
+    fn covered_cells(&self, bounds: &Bounds) -> impl Iterator<Item = usize> + use<> {
         let cell = |p: DVec2| {
             let along = p / self.page * CELLS as f64;
             // The cast turns negative numbers and NaN into 0.

@@ -85,7 +85,7 @@ pub enum TrussInputError {
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("node {0} {RANGE_MESSAGE}")]
-    Place(usize),
+    CoordinateRange(usize),
     /// All nodes coincide, or nearly so.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
@@ -133,7 +133,7 @@ pub enum TrussInputError {
     },
     /// A node belongs to no bar.
     #[error("node {0} belongs to no bar; add a bar to it or remove it")]
-    Loose(usize),
+    UnusedNode(usize),
     /// A list has neither one entry per bar nor no entries.
     #[error("\"{list}\" has {found} entries for {bars} bars; use one per bar or remove the list")]
     PerBar {
@@ -160,11 +160,12 @@ fn check_items<T>(
 }
 
 /// Returns an error for the first of the given (entry index, referenced index) pairs whose
-/// reference is not below `count`.
+/// reference is not below `count`, the number of entries of the referenced `kind`.
 fn check_references(
     what: &'static str,
     mut references: impl Iterator<Item = (usize, u32)>,
-    (kind, count): (&'static str, usize),
+    kind: &'static str,
+    count: usize,
 ) -> Result<(), TrussInputError> {
     match references.find(|&(_, named)| named as usize >= count) {
         Some((index, named)) => Err(TrussInputError::OutOfRange {
@@ -202,7 +203,7 @@ impl TrussParts {
         const POSITIVE: &str = "use finite numbers above zero";
         let is_positive = |&x: &f64| x.is_finite() && x > 0.0;
         if let Some(node) = self.nodes.iter().position(|&p| !is_in_range(p)) {
-            return Err(TrussInputError::Place(node));
+            return Err(TrussInputError::CoordinateRange(node));
         }
         check_items("load", FINITE, &self.loads, |l| l.force.is_finite())?;
         check_items("area", POSITIVE, &self.areas, is_positive)?;
@@ -226,16 +227,17 @@ impl TrussParts {
                 return Err(TrussInputError::PerBar { list, found, bars });
             }
         }
-        let nodes = ("node", self.nodes.len());
-        let ends = self.bars.iter().enumerate();
-        check_references("bar", ends.flat_map(|(i, bar)| bar.map(|n| (i, n))), nodes)?;
+        let nodes = self.nodes.len();
+        let bars = self.bars.iter().enumerate();
+        let ends = bars.flat_map(|(i, bar)| bar.map(|n| (i, n)));
+        check_references("bar", ends, "node", nodes)?;
         let supports = self.supports.iter().map(|s| s.node);
-        check_references("support", supports.enumerate(), nodes)?;
+        check_references("support", supports.enumerate(), "node", nodes)?;
         let loads = self.loads.iter().map(|l| l.node);
-        check_references("load", loads.enumerate(), nodes)?;
+        check_references("load", loads.enumerate(), "node", nodes)?;
         let of_bars = self.bar_materials.iter().copied().enumerate();
-        let materials = ("material", self.materials.len());
-        check_references("the material of bar", of_bars, materials)
+        let materials = self.materials.len();
+        check_references("the material of bar", of_bars, "material", materials)
     }
 
     /// Checks that bars have a length and are unique.
@@ -263,7 +265,7 @@ impl TrussParts {
             is_used[node as usize] = true;
         }
         match is_used.iter().position(|&used| !used) {
-            Some(node) => Err(TrussInputError::Loose(node)),
+            Some(node) => Err(TrussInputError::UnusedNode(node)),
             None => Ok(()),
         }
     }

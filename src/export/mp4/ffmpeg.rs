@@ -32,7 +32,7 @@ pub(super) struct FfmpegMessages {
     /// Last informative line.
     pub last: String,
     /// Whether any line, not just the last, reports a full disk.
-    pub tell_of_full_disk: bool,
+    pub report_full_disk: bool,
 }
 
 /// Returns whether ffmpeg can be started.
@@ -140,7 +140,7 @@ fn collect_messages(stderr: impl Read) -> FfmpegMessages {
     for line in lines {
         let line = String::from_utf8_lossy(&line);
         let line: String = line.chars().filter(|c| !c.is_control()).collect();
-        words.tell_of_full_disk |= line.contains(DISK_FULL);
+        words.report_full_disk |= line.contains(DISK_FULL);
         // ffmpeg 6 and later end with this uninformative line after the actual reason.
         if !line.trim().is_empty() && line.trim() != "Conversion failed!" {
             line.trim().clone_into(&mut words.last);

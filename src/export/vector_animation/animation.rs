@@ -20,8 +20,8 @@ use super::{record, simplify};
 /// use morphospace::work::progress::Silent;
 /// use morphospace::{Design, Transition};
 ///
-/// let kite = Design::of_rings("kite", [[[2.0, 0.0], [4.0, 3.0], [2.0, 4.0], [0.0, 3.0]]])?;
-/// let box_ = Design::of_rings("box", [[[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]]])?;
+/// let kite = Design::from_rings("kite", [[[2.0, 0.0], [4.0, 3.0], [2.0, 4.0], [0.0, 3.0]]])?;
+/// let box_ = Design::from_rings("box", [[[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]]])?;
 /// let camera = Camera::around(Transition::between(kite, box_)?, 480);
 /// let film = FilmSpec::evenly(0.0, 1.0, 25, 25.0)?;
 /// let motion = VectorAnimation::record(&camera, &film, &Silent)?;
@@ -68,7 +68,7 @@ impl VectorAnimation {
     pub fn at(&self, t: f64) -> Drawing {
         let mut drawing = Drawing::new(self.size, self.ground);
         let posed = self.pieces[self.piece_at(t)].at(t);
-        drawing.items = posed.iter().map(PosedShape::item).collect();
+        drawing.items = posed.iter().map(PosedShape::to_item).collect();
         drawing
     }
 
@@ -79,7 +79,7 @@ impl VectorAnimation {
     }
 
     /// First and last t.
-    pub(super) fn ends(&self) -> [f64; 2] {
+    pub(super) fn time_range(&self) -> [f64; 2] {
         let first = self.pieces.first().map_or(0.0, |piece| piece.from);
         [first, self.pieces.last().map_or(first, |piece| piece.to)]
     }

@@ -27,12 +27,12 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let (width, height) = (animation.size.width(), animation.size.height());
     // Players interpret a remapped time equal to the number of frames as the end, so the
     // precomposition of such a film is one frame longer.
-    let length = if course.pass == frames {
+    let length = if course.pass_frames == frames {
         frames + 1
     } else {
-        course.pass
+        course.pass_frames
     } as f64;
-    let [from, to] = animation.ends();
+    let [from, to] = animation.time_range();
     let at = |t: f64| length * (t - from) / (to - from).max(f64::MIN_POSITIVE);
     let mut times: Vec<f64> = (0..=KEYFRAME_INTERVALS)
         .map(|k| k as f64 / KEYFRAME_INTERVALS as f64)
@@ -114,7 +114,7 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
         return json!({"ty": "gr", "it": []});
     };
     let mut items = match &*first.form {
-        ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => {
+        ShapeForm::Fill { verbs, .. } | ShapeForm::Stroke { verbs, .. } => {
             outlines(layer, poses, verbs)
         }
         ShapeForm::Bars => (0..first.points.len() / 2)
@@ -144,7 +144,7 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
             let width = layer.width(poses, PosedShape::width);
             stroke["w"] = animated(&width, |w| vec![rounded(*w, 3)]);
             let (join, cap) = match form {
-                ShapeForm::Line { join, .. } => (*join, 1),
+                ShapeForm::Stroke { join, .. } => (*join, 1),
                 _ => (StrokeJoin::Round, 2),
             };
             stroke["lc"] = json!(cap);
@@ -179,7 +179,7 @@ fn outlines(layer: &SceneLayer, poses: &[PosedShape], verbs: &[PathVerb]) -> Vec
     rings
         .map(|ring| {
             let path = outline(layer, poses, first, ring, true);
-            first += ring.iter().map(|verb| verb.points()).sum::<usize>();
+            first += ring.iter().map(|verb| verb.point_count()).sum::<usize>();
             path
         })
         .collect()
@@ -193,7 +193,7 @@ fn outline(
     verbs: &[PathVerb],
     closed: bool,
 ) -> Value {
-    let count = verbs.iter().map(|verb| verb.points()).sum::<usize>();
+    let count = verbs.iter().map(|verb| verb.point_count()).sum::<usize>();
     let range = first..first + count;
     let bezier = |posed: &PosedShape| bezier(verbs, &posed.points[range.clone()], closed);
     let keyed = layer.points(poses, range.clone(), bezier);
@@ -216,7 +216,7 @@ fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
     let mut corners: Vec<[DVec2; 3]> = Vec::new();
     let mut rest = points;
     for verb in verbs {
-        let (verb_points, after) = rest.split_at(verb.points());
+        let (verb_points, after) = rest.split_at(verb.point_count());
         rest = after;
         let Some(&end) = verb_points.last() else {
             continue;
@@ -288,19 +288,22 @@ fn gradient_fill(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
         animated(&keyed, |p| vec![rounded(p.x, 2), rounded(p.y, 2)])
     };
     let start = point(|plain| match *plain {
-        TwoPointGradient::Straight { from, .. } => from,
-        TwoPointGradient::Round { middle, .. } => middle,
+        TwoPointGradient::Linear { from, .. } => from,
+        TwoPointGradient::Radial { middle, .. } => middle,
     });
     let end = point(|plain| match *plain {
-        TwoPointGradient::Straight { to, .. } => to,
-        TwoPointGradient::Round { middle, radius, .. } => middle + DVec2::X * radius,
+        TwoPointGradient::Linear { to, .. } => to,
+        TwoPointGradient::Radial { middle, radius, .. } => middle + DVec2::X * radius,
     });
     let stops = |posed: &PosedShape| posed.gradient().map(|g| stops(&g)).unwrap_or_default();
     let keyed = layer.keyed(poses, 0.004, stops, stops);
     let values = animated(&keyed, |stops| {
         stops.iter().map(|x| rounded(*x, 4)).collect()
     });
-    let is_round = matches!(TwoPointGradient::of(&first), TwoPointGradient::Round { .. });
+    let is_round = matches!(
+        TwoPointGradient::of(&first),
+        TwoPointGradient::Radial { .. }
+    );
     json!({
         "ty": "gf", "t": if is_round { 2 } else { 1 }, "s": start, "e": end, "r": 1,
         "o": {"a": 0, "k": 100}, "g": {"p": first.stops.len(), "k": values},
@@ -312,12 +315,12 @@ fn gradient_fill(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
 fn stops(gradient: &Gradient) -> Vec<f64> {
     let colours = gradient.stops.iter().flat_map(|stop| {
         let [r, g, b] = stop.paint.colour.0.map(|c| f64::from(c) / 255.0);
-        [stop.at, r, g, b]
+        [stop.offset, r, g, b]
     });
     let opacities = gradient
         .stops
         .iter()
-        .flat_map(|stop| [stop.at, stop.paint.opacity]);
+        .flat_map(|stop| [stop.offset, stop.paint.opacity]);
     colours.chain(opacities).collect()
 }
 

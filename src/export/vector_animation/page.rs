@@ -71,7 +71,7 @@ pub(super) fn html_page(animation: &VectorAnimation, title: &str) -> String {
 /// deflate (RFC 1951) and encoded in base64.
 fn packed(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
     let mut series = Vec::new();
-    let mut bytes = film(animation, title, (still_px, &mut series))
+    let mut bytes = film(animation, title, still_px, &mut series)
         .to_string()
         .into_bytes();
     bytes.push(b'\n');
@@ -86,7 +86,7 @@ fn packed(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
 }
 
 /// JSON description of the film without the series, which are appended to `bytes`.
-fn film(animation: &VectorAnimation, title: &str, (still_px, bytes): (f64, &mut Vec<u8>)) -> Value {
+fn film(animation: &VectorAnimation, title: &str, still_px: f64, bytes: &mut Vec<u8>) -> Value {
     let mut forms = FormTable::default();
     let pieces: Vec<Value> = (animation.pieces.iter())
         .map(|piece| {
@@ -99,12 +99,12 @@ fn film(animation: &VectorAnimation, title: &str, (still_px, bytes): (f64, &mut 
         })
         .collect();
     let course = &animation.course;
-    let [from, to] = animation.ends();
+    let [from, to] = animation.time_range();
     json!({
         "title": title, "size": [animation.size.width(), animation.size.height()],
         "ground": animation.ground.map(|ground| ground.to_string()),
         "ends": [from, to], "fps": course.fps, "frames": course.frames(),
-        "repeats": course.repeats, "knots": course.knots(), "stops": animation.stops,
+        "repeats": course.repeats, "knots": course.linear_knots(), "stops": animation.stops,
         "steps": [STEP_PX, still_px], "forms": forms.all, "pieces": pieces,
     })
 }
@@ -146,7 +146,7 @@ fn form_json(form: &ShapeForm, points: usize) -> Value {
             }
             fill
         }
-        ShapeForm::Line { verbs, join } => {
+        ShapeForm::Stroke { verbs, join } => {
             let join = match join {
                 StrokeJoin::Mitre(limit) => json!(["miter", limit]),
                 StrokeJoin::Round => json!(["round", 4]),

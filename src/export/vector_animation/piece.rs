@@ -16,7 +16,7 @@ pub(super) struct AnimationPiece {
     /// Shapes in painting order, the lowest first.
     pub shapes: Vec<MovingShape>,
     /// Whether its shapes continue those of the previous piece without a jump.
-    pub goes_on: bool,
+    pub is_continuation: bool,
 }
 
 /// A shape over the time of a piece.

@@ -66,7 +66,7 @@ pub(super) fn record(
         pieces: Vec::new(),
     };
     let mut has_correspondence = true;
-    for transition in camera.sequence.legs() {
+    for transition in camera.sequence.segments() {
         match transition.content() {
             Content::Colours(_) => return Err(ExportError::NoOutlines),
             Content::Field(_) => has_correspondence = false,
@@ -83,7 +83,7 @@ pub(super) fn record(
     }
     let mut pieces = recorder.pieces;
     for k in 1..pieces.len() {
-        pieces[k].goes_on = continues(&pieces[k - 1], &pieces[k]);
+        pieces[k].is_continuation = continues(&pieces[k - 1], &pieces[k]);
     }
     Ok(pieces)
 }
@@ -100,7 +100,7 @@ impl AnimationRecorder<'_> {
     /// Evaluates the drawing at `t` and takes its shapes apart.
     fn moment(&mut self, t: f64) -> ShapeSnapshot {
         self.frame.seek(t);
-        let items = self.camera.drawn(&self.frame).items;
+        let items = self.camera.draw_frame(&self.frame).items;
         items.iter().filter_map(PosedShape::of).collect()
     }
 
@@ -124,7 +124,7 @@ impl AnimationRecorder<'_> {
         let (mut changes, mut before) = (0, None);
         for &t in times.iter().step_by(PREVIEW_STRIDE) {
             checkpoint(self.progress, DRAWING_STAGE, 0.0)?;
-            let outlines: usize = self.moment(t).iter().map(PosedShape::outlines).sum();
+            let outlines: usize = self.moment(t).iter().map(PosedShape::contour_count).sum();
             changes += before.map_or(0, |before| outlines.abs_diff(before));
             before = Some(outlines);
         }
@@ -136,7 +136,7 @@ impl AnimationRecorder<'_> {
         let (Some(&from), Some(&to)) = (times.first(), times.last()) else {
             return Ok(true);
         };
-        let mut cuts = self.camera.sequence.breaks();
+        let mut cuts = self.camera.sequence.break_times();
         // Colours are constant beyond the first and the last design, so their course has a kink
         // there.
         cuts.extend([0.0, self.camera.sequence.end()]);
@@ -256,7 +256,7 @@ impl AnimationRecorder<'_> {
             from,
             to,
             shapes,
-            goes_on: false,
+            is_continuation: false,
         });
     }
 }
@@ -272,7 +272,7 @@ fn static_shape(posed: PosedShape) -> MovingShape {
 
 /// Returns whether two moments have the same shapes, apart from positions and colours.
 fn have_same_shapes(a: &ShapeSnapshot, b: &ShapeSnapshot) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.is_like(b))
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.has_form_of(b))
 }
 
 /// Fits series through every second moment; `None` if the other moments deviate too much, unless

@@ -21,7 +21,7 @@ pub(super) enum ShapeForm {
         ramp: Option<GradientForm>,
     },
     /// A stroke along closed outlines.
-    Line {
+    Stroke {
         verbs: Vec<PathVerb>,
         join: StrokeJoin,
     },
@@ -43,7 +43,7 @@ pub(super) enum PathVerb {
 
 impl PathVerb {
     /// Number of points that the command takes.
-    pub(super) fn points(self) -> usize {
+    pub(super) fn point_count(self) -> usize {
         match self {
             Self::Move | Self::Line => 1,
             Self::Quad => 2,
@@ -95,11 +95,11 @@ impl PosedShape {
                 let form = Arc::new(ShapeForm::Fill { verbs, label, ramp });
                 Self { form, points, look }
             }
-            DrawingItem::Line { outline, line } => {
+            DrawingItem::Stroke { outline, line } => {
                 let (verbs, points) = split_outline(outline);
                 let look = plain(line.paint, line.width);
                 let join = line.join;
-                let form = Arc::new(ShapeForm::Line { verbs, join });
+                let form = Arc::new(ShapeForm::Stroke { verbs, join });
                 Self { form, points, look }
             }
             DrawingItem::Bars {
@@ -125,9 +125,9 @@ impl PosedShape {
     }
 
     /// Number of contours of an outline, or of points of bars and discs.
-    pub(super) fn outlines(&self) -> usize {
+    pub(super) fn contour_count(&self) -> usize {
         match &*self.form {
-            ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => {
+            ShapeForm::Fill { verbs, .. } | ShapeForm::Stroke { verbs, .. } => {
                 let starts = verbs.iter().filter(|&&verb| verb == PathVerb::Move);
                 starts.count()
             }
@@ -136,12 +136,12 @@ impl PosedShape {
     }
 
     /// Returns whether the other can be the same shape at another moment.
-    pub(super) fn is_like(&self, other: &Self) -> bool {
+    pub(super) fn has_form_of(&self, other: &Self) -> bool {
         self.form == other.form && self.points.len() == other.points.len()
     }
 
     /// Converts the shape back to an item of a drawing.
-    pub(super) fn item(&self) -> DrawingItem {
+    pub(super) fn to_item(&self) -> DrawingItem {
         let (paint, width) = (self.paint(), self.width());
         match &*self.form {
             ShapeForm::Fill { verbs, label, .. } => DrawingItem::Fill {
@@ -150,7 +150,7 @@ impl PosedShape {
                 gradient: self.gradient(),
                 label: label.clone(),
             },
-            ShapeForm::Line { verbs, join } => DrawingItem::Line {
+            ShapeForm::Stroke { verbs, join } => DrawingItem::Stroke {
                 outline: join_outline(verbs, &self.points),
                 line: StrokeStyle {
                     paint,
@@ -192,16 +192,16 @@ impl PosedShape {
         let (frame, rest) = self.look[PLAIN_NUMBERS..].split_at(6);
         let (focus, stops) = rest.split_at(if ramp.is_round { 3 } else { 0 });
         let stop = |stop: &[f64]| GradientStop {
-            at: stop[0],
+            offset: stop[0],
             paint: paint(&stop[1..]),
         };
         Some(Gradient {
-            course: match focus {
-                [x, y, inner] => GradientGeometry::Round {
+            geometry: match focus {
+                [x, y, inner] => GradientGeometry::Radial {
                     focus: DVec2::new(*x, *y),
                     inner: *inner,
                 },
-                _ => GradientGeometry::Straight,
+                _ => GradientGeometry::Linear,
             },
             frame: DAffine2::from_cols_slice(frame),
             stops: stops.chunks_exact(PLAIN_NUMBERS).map(stop).collect(),
@@ -228,7 +228,7 @@ fn paint(numbers: &[f64]) -> Paint {
 /// Constant data of a gradient.
 fn ramp(gradient: &Gradient) -> GradientForm {
     GradientForm {
-        is_round: gradient.course != GradientGeometry::Straight,
+        is_round: gradient.geometry != GradientGeometry::Linear,
         stops: gradient.stops.len(),
         spread: gradient.spread,
     }
@@ -237,12 +237,12 @@ fn ramp(gradient: &Gradient) -> GradientForm {
 /// Numbers of a gradient.
 fn shading(gradient: &Gradient) -> Vec<f64> {
     let mut numbers = gradient.frame.to_cols_array().to_vec();
-    if let GradientGeometry::Round { focus, inner } = gradient.course {
+    if let GradientGeometry::Radial { focus, inner } = gradient.geometry {
         numbers.extend([focus.x, focus.y, inner]);
     }
     for stop in &gradient.stops {
         let [r, g, b] = stop.paint.colour.0.map(f64::from);
-        numbers.extend([stop.at, r, g, b, stop.paint.opacity]);
+        numbers.extend([stop.offset, r, g, b, stop.paint.opacity]);
     }
     numbers
 }
@@ -269,7 +269,7 @@ fn split_outline(outline: &OutlinePath) -> (Vec<PathVerb>, Vec<DVec2>) {
         }
         PathCommand::Close => PathVerb::Close,
     };
-    let verbs = outline.steps.iter().map(verb).collect();
+    let verbs = outline.commands.iter().map(verb).collect();
     (verbs, points)
 }
 
@@ -277,7 +277,7 @@ fn split_outline(outline: &OutlinePath) -> (Vec<PathVerb>, Vec<DVec2>) {
 fn join_outline(verbs: &[PathVerb], points: &[DVec2]) -> OutlinePath {
     let mut rest = points;
     let step = |verb: &PathVerb| {
-        let (verb_points, after) = rest.split_at(verb.points());
+        let (verb_points, after) = rest.split_at(verb.point_count());
         rest = after;
         match (verb, verb_points) {
             (PathVerb::Move, &[p]) => PathCommand::Move(p),
@@ -288,7 +288,7 @@ fn join_outline(verbs: &[PathVerb], points: &[DVec2]) -> OutlinePath {
         }
     };
     OutlinePath {
-        steps: verbs.iter().map(step).collect(),
+        commands: verbs.iter().map(step).collect(),
     }
 }
 
@@ -308,13 +308,13 @@ mod tests {
             PathCommand::Cubic(p(4.0), p(5.0), p(6.0)),
             PathCommand::Close,
         ];
-        OutlinePath { steps }
+        OutlinePath { commands: steps }
     }
 
     fn gradient(paint: Paint) -> Gradient {
-        let stop = |at| GradientStop { at, paint };
+        let stop = |at| GradientStop { offset: at, paint };
         Gradient {
-            course: GradientGeometry::Round {
+            geometry: GradientGeometry::Radial {
                 focus: p(0.25),
                 inner: 0.125,
             },
@@ -343,7 +343,7 @@ mod tests {
                 gradient: Some(gradient(paint)),
                 label: Some("words".to_owned()),
             },
-            DrawingItem::Line {
+            DrawingItem::Stroke {
                 outline: outline(),
                 line,
             },
@@ -359,7 +359,7 @@ mod tests {
             },
         ] {
             let posed = PosedShape::of(&item).expect("a shape");
-            assert_eq!(posed.item(), item);
+            assert_eq!(posed.to_item(), item);
         }
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn simplify(pieces: &mut [AnimationPiece], still_px: f64) {
     let mut from = 0;
     while from < pieces.len() {
         let rest = pieces[from + 1..].iter();
-        let to = from + 1 + rest.take_while(|piece| piece.goes_on).count();
+        let to = from + 1 + rest.take_while(|piece| piece.is_continuation).count();
         let scene = &mut pieces[from..to];
         for k in 0..scene[0].shapes.len() {
             simplify_shape(scene, k, still_px);
@@ -43,7 +43,7 @@ pub(super) fn simplify(pieces: &mut [AnimationPiece], still_px: f64) {
 /// Simplifies one shape over all pieces of a scene.
 fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
     let verbs = match &*scene[0].shapes[k].first.form {
-        ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => verbs,
+        ShapeForm::Fill { verbs, .. } | ShapeForm::Stroke { verbs, .. } => verbs,
         ShapeForm::Bars | ShapeForm::Discs => return,
     };
     let moments = moments(scene, k);
@@ -56,7 +56,7 @@ fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
     let mut kept: Vec<usize> = Vec::new();
     let mut first = 0;
     for ring in verbs.split_inclusive(|verb| *verb == PathVerb::Close) {
-        let count = ring.iter().map(|verb| verb.points()).sum::<usize>();
+        let count = ring.iter().map(|verb| verb.point_count()).sum::<usize>();
         let points = first..first + count;
         first += count;
         let inner = ring
@@ -80,7 +80,7 @@ fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
             label: label.clone(),
             ramp: *ramp,
         },
-        ShapeForm::Line { join, .. } => ShapeForm::Line {
+        ShapeForm::Stroke { join, .. } => ShapeForm::Stroke {
             verbs: kept_verbs,
             join: *join,
         },

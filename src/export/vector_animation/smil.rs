@@ -199,8 +199,8 @@ impl SmilClock {
             self.attribute(name, &keyed, number)
         };
         let coordinates: &[(&str, GradientCoordinate)] = match TwoPointGradient::of(&first) {
-            TwoPointGradient::Straight { .. } => &STRAIGHT,
-            TwoPointGradient::Round { .. } => &ROUND,
+            TwoPointGradient::Linear { .. } => &STRAIGHT,
+            TwoPointGradient::Radial { .. } => &ROUND,
         };
         let geometry = coordinates.iter().map(|(name, value)| {
             let value = |gradient: &Gradient| value(&TwoPointGradient::of(gradient));
@@ -208,7 +208,7 @@ impl SmilClock {
         });
         let (geometry, mut moving): (String, String) = geometry.unzip();
         for k in 0..first.stops.len() {
-            let at = part("offset", &|g| g.stops[k].at, 0.002);
+            let at = part("offset", &|g| g.stops[k].offset, 0.002);
             let colour = |posed: &PosedShape| {
                 let gradient = posed.gradient();
                 gradient.map_or(Rgb([0; 3]), |g| g.stops[k].paint.colour)
@@ -223,8 +223,8 @@ impl SmilClock {
             );
         }
         let kind = match TwoPointGradient::of(&first) {
-            TwoPointGradient::Straight { .. } => "linear",
-            TwoPointGradient::Round { .. } => "radial",
+            TwoPointGradient::Linear { .. } => "linear",
+            TwoPointGradient::Radial { .. } => "radial",
         };
         let spread = match first.spread {
             GradientSpread::Pad => "",
@@ -261,16 +261,16 @@ const ROUND: [(&str, GradientCoordinate); 6] = [
 /// Start and end of a linear gradient.
 fn straight(plain: &TwoPointGradient) -> [f64; 4] {
     match *plain {
-        TwoPointGradient::Straight { from, to } => [from.x, from.y, to.x, to.y],
-        TwoPointGradient::Round { .. } => [0.0; 4],
+        TwoPointGradient::Linear { from, to } => [from.x, from.y, to.x, to.y],
+        TwoPointGradient::Radial { .. } => [0.0; 4],
     }
 }
 
 /// Centre, radius, focus and inner radius of a radial gradient.
 fn round(plain: &TwoPointGradient) -> [f64; 6] {
     match *plain {
-        TwoPointGradient::Straight { .. } => [0.0; 6],
-        TwoPointGradient::Round {
+        TwoPointGradient::Linear { .. } => [0.0; 6],
+        TwoPointGradient::Radial {
             middle,
             radius,
             focus,
@@ -286,7 +286,7 @@ fn number(x: &f64) -> String {
 /// Path data of a shape, with relative commands.
 fn path(posed: &PosedShape) -> String {
     let verbs = match &*posed.form {
-        ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => verbs.clone(),
+        ShapeForm::Fill { verbs, .. } | ShapeForm::Stroke { verbs, .. } => verbs.clone(),
         ShapeForm::Bars => [PathVerb::Move, PathVerb::Line].repeat(posed.points.len() / 2),
         // A zero-length line with round caps draws a disc.
         ShapeForm::Discs => [PathVerb::Move, PathVerb::Close].repeat(posed.points.len()),
@@ -297,7 +297,7 @@ fn path(posed: &PosedShape) -> String {
     let mut at = DVec2::ZERO;
     let mut start = at;
     for verb in verbs {
-        let (verb_points, after) = rest.split_at(verb.points());
+        let (verb_points, after) = rest.split_at(verb.point_count());
         rest = after;
         text.push(match verb {
             PathVerb::Move => 'm',
@@ -333,7 +333,7 @@ fn pair(p: DVec2, is_next: bool) -> String {
 /// Constant stroke attributes of a shape.
 fn outlined(form: &ShapeForm) -> String {
     let join = match form {
-        ShapeForm::Line { join, .. } => match join {
+        ShapeForm::Stroke { join, .. } => match join {
             StrokeJoin::Mitre(limit) => {
                 format!(
                     " stroke-linejoin=\"miter\" stroke-miterlimit=\"{}\"",

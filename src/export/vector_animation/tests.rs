@@ -42,7 +42,7 @@ fn recorded_points_match_the_camera_at_every_t() {
     let (camera, animation) = animation();
     for k in 0..=100 {
         let t = f64::from(k) / 100.0;
-        let off = max_distance(&animation.at(t), &camera.shoot(t));
+        let off = max_distance(&animation.at(t), &camera.draw(t));
         assert!(off < 0.05, "{off} px off at {t}");
     }
 }
@@ -64,7 +64,7 @@ fn linear_interpolation_between_keys_stays_within_the_tolerance() {
         let after = keys.partition_point(|key| key.0 < x).max(1);
         let [(a, from), (b, to)] = [&keys[after - 1], &keys[after]];
         let share = (x - a) / (b - a);
-        let Some(exact) = PosedShape::of(&camera.shoot(t).items[0]) else {
+        let Some(exact) = PosedShape::of(&camera.draw(t).items[0]) else {
             panic!("a shape");
         };
         for ((p, q), expected) in from.iter().zip(to).zip(&exact.points) {
@@ -99,7 +99,7 @@ fn a_film_of_one_frame_can_be_exported() {
     let camera = camera(40, 30, None);
     let film = FilmSpec::evenly(0.5, 0.5, 1, 10.0).expect("a film");
     let animation = VectorAnimation::record(&camera, &film, &Silent).expect("an animation");
-    assert!(max_distance(&animation.at(0.5), &camera.shoot(0.5)) < 0.05);
+    assert!(max_distance(&animation.at(0.5), &camera.draw(0.5)) < 0.05);
     let all = [
         animation.svg(),
         animation.page("one"),

@@ -19,7 +19,7 @@ pub(super) struct FilmTimeline {
     /// Whether the film loops.
     pub repeats: bool,
     /// Number of frames of one pass from the first design to the last.
-    pub pass: usize,
+    pub pass_frames: usize,
 }
 
 impl FilmTimeline {
@@ -34,7 +34,7 @@ impl FilmTimeline {
             times,
             fps: film.fps(),
             repeats: film.repeats(),
-            pass: if comes_back { n / 2 } else { (n - 1).max(1) },
+            pass_frames: if comes_back { n / 2 } else { (n - 1).max(1) },
         }
     }
 
@@ -49,7 +49,7 @@ impl FilmTimeline {
     }
 
     /// Frame numbers with their t, between which linear interpolation is accurate enough.
-    pub(super) fn knots(&self) -> Vec<(usize, f64)> {
+    pub(super) fn linear_knots(&self) -> Vec<(usize, f64)> {
         let places: Vec<f64> = (0..self.times.len()).map(|k| k as f64).collect();
         let rows: Vec<Vec<f64>> = self.times.iter().map(|&t| vec![t]).collect();
         let keys = fewest_keys(&places, &rows, TIME_TOLERANCE * self.span());
@@ -174,7 +174,7 @@ mod tests {
     fn few_knots_reproduce_every_frame() {
         let film = FilmSpec::of_timing(&Timing::default(), &[], 30.0).expect("a film");
         let course = FilmTimeline::of(&film);
-        let knots = course.knots();
+        let knots = course.linear_knots();
         assert!(knots.len() < 200, "{}", knots.len());
         // Two pauses and two passes.
         assert!(course.curves().len() <= 6, "{:?}", course.curves());
@@ -192,10 +192,10 @@ mod tests {
     fn the_way_back_of_a_ping_pong_film_is_recognised() {
         let once = FilmSpec::evenly(0.0, 1.0, 5, 10.0).expect("a film");
         let course = FilmTimeline::of(&once);
-        assert_eq!((course.pass, course.frames()), (4, 5));
+        assert_eq!((course.pass_frames, course.frames()), (4, 5));
         assert_eq!(course.times[5], 1.0);
-        let back = FilmTimeline::of(&once.playing(PlayMode::PingPong));
-        assert_eq!((back.pass, back.frames()), (4, 8));
+        let back = FilmTimeline::of(&once.with_play_mode(PlayMode::PingPong));
+        assert_eq!((back.pass_frames, back.frames()), (4, 8));
         assert_eq!(back.times[8], 0.0);
     }
 }

@@ -160,7 +160,7 @@ fn scenes(animation: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
     let mut scenes: Vec<(f64, std::ops::Range<usize>)> = Vec::new();
     for (k, piece) in animation.pieces.iter().enumerate() {
         match scenes.last_mut() {
-            Some((_, pieces)) if piece.goes_on => pieces.end = k + 1,
+            Some((_, pieces)) if piece.is_continuation => pieces.end = k + 1,
             _ => scenes.push((piece.from, k..k + 1)),
         }
     }

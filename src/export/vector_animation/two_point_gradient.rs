@@ -11,9 +11,9 @@ use crate::geometry::DVec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum TwoPointGradient {
     /// Linear gradient from one point to another.
-    Straight { from: DVec2, to: DVec2 },
+    Linear { from: DVec2, to: DVec2 },
     /// Radial gradient from a focus to a circle.
-    Round {
+    Radial {
         middle: DVec2,
         radius: f64,
         focus: DVec2,
@@ -27,8 +27,8 @@ impl TwoPointGradient {
     pub(super) fn of(gradient: &Gradient) -> Self {
         let frame = gradient.frame;
         let [x, y] = [frame.matrix2.x_axis, frame.matrix2.y_axis];
-        match gradient.course {
-            GradientGeometry::Straight => {
+        match gradient.geometry {
+            GradientGeometry::Linear => {
                 // Lines of equal colour run along the mapped y axis. The gradient vector is the
                 // part of the mapped x axis perpendicular to them.
                 let across = DVec2::new(y.y, -y.x);
@@ -38,14 +38,14 @@ impl TwoPointGradient {
                 } else {
                     x
                 };
-                Self::Straight {
+                Self::Linear {
                     from: frame.translation,
                     to: frame.translation + vector,
                 }
             }
-            GradientGeometry::Round { focus, inner } => {
+            GradientGeometry::Radial { focus, inner } => {
                 let radius = frame.matrix2.determinant().abs().sqrt();
-                Self::Round {
+                Self::Radial {
                     middle: frame.translation,
                     radius,
                     focus: frame.transform_point2(focus),
@@ -69,12 +69,12 @@ mod tests {
             translation: DVec2::new(3.0, 5.0),
         };
         let gradient = Gradient {
-            course: GradientGeometry::Straight,
+            geometry: GradientGeometry::Linear,
             frame,
             stops: Vec::new(),
             spread: GradientSpread::Pad,
         };
-        let TwoPointGradient::Straight { from, to } = TwoPointGradient::of(&gradient) else {
+        let TwoPointGradient::Linear { from, to } = TwoPointGradient::of(&gradient) else {
             panic!("expected a linear gradient");
         };
         let vector = to - from;

@@ -1,55 +1,54 @@
-//! Why a file could not be written, in words that end in a way out.
+//! Messages for files that could not be written: the reason and what to do.
 
 use std::io::{self, ErrorKind};
 
-/// What the system refused, and what to do; no path, which the caller knows
-/// better.
-pub(crate) fn refusal(error: &io::Error) -> String {
-    match words(error.kind()) {
-        Some((reason, way_out)) => format!("{reason}; {way_out}"),
+/// Returns the reason and what to do about it; the caller adds the path.
+pub(crate) fn write_error_message(error: &io::Error) -> String {
+    match reason_and_remedy(error.kind()) {
+        Some((reason, remedy)) => format!("{reason}; {remedy}"),
         None => format!("{error}; choose another folder or name"),
     }
 }
 
-/// What the system refused alone, where nobody is asked for another place.
+/// Returns the reason only, for cases in which the user cannot choose another place.
 #[cfg(feature = "app")]
-pub(crate) fn reason(error: &io::Error) -> String {
-    words(error.kind()).map_or_else(|| error.to_string(), |(reason, _)| reason.to_owned())
+pub(crate) fn write_error_reason(error: &io::Error) -> String {
+    reason_and_remedy(error.kind())
+        .map_or_else(|| error.to_string(), |(reason, _)| reason.to_owned())
 }
 
-/// Why, and what to do.
-fn words(kind: ErrorKind) -> Option<(&'static str, &'static str)> {
+/// Returns the reason and the remedy for the kinds of error that a user can act on.
+fn reason_and_remedy(kind: ErrorKind) -> Option<(&'static str, &'static str)> {
     Some(match kind {
         ErrorKind::StorageFull => (
             "the disk is full",
-            "make room on it, or choose a folder on another one",
+            "free some space, or choose a folder on another disk",
         ),
         ErrorKind::QuotaExceeded => (
-            "your share of the disk is full",
-            "make room in it, or choose a folder on another disk",
+            "your disk quota is used up",
+            "free some space, or choose a folder on another disk",
         ),
         ErrorKind::FileTooLarge => (
             "the file is larger than the system allows",
-            "choose a folder on another disk, or fewer or smaller pictures",
+            "choose a folder on another disk, or fewer or smaller images",
         ),
-        ErrorKind::ReadOnlyFilesystem => (
-            "the disk can only be read",
-            "choose a folder on another one",
-        ),
+        ErrorKind::ReadOnlyFilesystem => {
+            ("the disk is read-only", "choose a folder on another disk")
+        }
         ErrorKind::PermissionDenied => (
-            "the system does not let you write there",
+            "you do not have permission to write there",
             "choose another folder, or change its permissions",
         ),
         ErrorKind::NotFound => (
             "its folder does not exist",
-            "make the folder, or choose one that exists",
+            "create the folder, or choose an existing one",
         ),
         ErrorKind::NotADirectory => (
-            "a part of its path is no folder",
-            "choose a folder that exists",
+            "a part of its path is not a folder",
+            "choose an existing folder",
         ),
-        // Of a folder that was to be made.
-        ErrorKind::AlreadyExists => ("something of that name is there", "choose another name"),
+        // Occurs when a folder is created.
+        ErrorKind::AlreadyExists => ("the name is already in use", "choose another name"),
         ErrorKind::IsADirectory => ("it is a folder", "choose another name"),
         _ => return None,
     })

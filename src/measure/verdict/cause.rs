@@ -1,4 +1,4 @@
-//! What is measured where the trouble of rigid parts is worst.
+//! Finds the cause of a defect of rigid parts from measurements at its place.
 
 use super::finding::FindingCause;
 use crate::content::SolidContent;
@@ -11,27 +11,29 @@ use crate::warp::Arap;
 use crate::warp::homotopy::Homotopy;
 use std::f64::consts::{FRAC_PI_3, PI};
 
-/// A stretch of the boundary that is longer or shorter than this many times
-/// its mean is named as a cause. Good matches of animals of one kind stay
-/// below 2 nearly everywhere.
+/// Unevenness of the boundary stretch above which the match is named as the cause (heuristic).
 const UNEVEN: f64 = 3.0;
 
-/// A face of which less than this share of the area is left by its own path
-/// is flattened by it, whatever its neighbours do.
+/// A face counts as flattened by its own homotopy if less than this fraction of its area under the
+/// polar homotopy remains (heuristic).
 const FLATTENED: f64 = 0.1;
 
-/// A transition of rigid parts at the t of a trouble.
+/// A transition of rigid parts, evaluated at the t of a defect.
 pub(super) struct CauseSearch<'a> {
     pub transition: &'a Transition,
     pub arap: &'a Arap,
     pub solid: &'a SolidContent,
     pub t: f64,
+    /// Vertex positions at `t`.
     pub places: Vec<DVec2>,
+    /// Rotation of each face from source to target, in radians.
     pub angles: Vec<f64>,
+    /// Index of the part to which each face belongs.
     pub part_of: Vec<u32>,
 }
 
 impl<'a> CauseSearch<'a> {
+    /// Evaluates the transition at `t`.
     pub fn new(
         transition: &'a Transition,
         arap: &'a Arap,
@@ -49,32 +51,38 @@ impl<'a> CauseSearch<'a> {
         }
     }
 
+    /// Returns the centroid of a face with the given vertex positions.
     pub fn centroid(&self, face: usize, points: &[DVec2]) -> DVec2 {
         let corners = self.arap.mesh().faces()[face].map(|v| points[v as usize]);
         corners.iter().sum::<DVec2>() / 3.0
     }
 
-    /// The determinant of a face against the source.
+    /// Returns the determinant of a face at `t`, relative to the source.
     pub fn det(&self, face: usize) -> f64 {
         let mesh = self.arap.mesh();
         let corners = &mesh.faces()[face];
         FaceStrain::of(edges(&self.places, corners) * edges(mesh.source(), corners).inverse()).det
     }
 
-    /// The face at an edge of the boundary.
+    /// Returns the face at a boundary edge.
     pub fn face_at(&self, edge: RingEdge) -> Option<usize> {
-        let corners = self.solid.corners_at(edge, &self.places, self.t)?;
+        let corners = self.solid.face_vertices_at(edge, &self.places, self.t)?;
         let faces = self.arap.mesh().faces();
         faces
             .iter()
             .position(|face| corners.iter().all(|v| face.contains(v)))
     }
 
-    /// The area-weighted mean angle of the faces that are chosen.
-    pub fn mean_angle(&self, is: impl Fn(usize) -> bool) -> Option<f64> {
+    /// Returns the area-weighted mean rotation of the selected faces.
+    pub fn mean_angle(&self, is_selected: impl Fn(usize) -> bool) -> Option<f64> {
         let mesh = self.arap.mesh();
         let (mut sum, mut total) = (0.0, 0.0);
-        for (f, face) in mesh.faces().iter().enumerate().filter(|(f, _)| is(*f)) {
+        for (f, face) in mesh
+            .faces()
+            .iter()
+            .enumerate()
+            .filter(|(f, _)| is_selected(*f))
+        {
             let [a, b, c] = face.map(|v| mesh.source()[v as usize]);
             let area = twice_signed_area(a, b, c);
             (sum, total) = (sum + area * self.angles[f], total + area);
@@ -82,7 +90,7 @@ impl<'a> CauseSearch<'a> {
         (total > 0.0).then(|| sum / total)
     }
 
-    /// The parts that share a vertex with one.
+    /// Returns the parts that share a vertex with `part`.
     pub fn neighbouring_parts(&self, part: u32) -> Vec<u32> {
         let faces = self.arap.mesh().faces();
         let mut on_part = vec![false; self.arap.mesh().source().len()];
@@ -101,32 +109,36 @@ impl<'a> CauseSearch<'a> {
     }
 }
 
-/// Its own path flattens a face, before any neighbour has its say.
-pub(super) fn straight_paths(scene: &CauseSearch<'_>, face: usize, t: f64) -> Option<FindingCause> {
-    let homotopy = scene.arap.options().homotopy;
+/// Names a linear homotopy that flattens the face by itself, regardless of its neighbours.
+pub(super) fn straight_paths(
+    search: &CauseSearch<'_>,
+    face: usize,
+    t: f64,
+) -> Option<FindingCause> {
+    let homotopy = search.arap.options().homotopy;
     if homotopy.keeps_orientation() {
         return None;
     }
-    let map = scene.arap.local_map(face);
-    let t = scene
+    let map = search.arap.local_map(face);
+    let t = search
         .transition
-        .time_of(scene.arap.mesh().faces()[face][0], t);
-    // Against the polar path, whose area only runs from end to end.
-    let left = homotopy.at(&map, t).determinant();
-    let kept = Homotopy::Polar.at(&map, t).determinant();
-    (left < FLATTENED * kept).then_some(FindingCause::StraightPaths {
+        .part_time_at(search.arap.mesh().faces()[face][0], t);
+    // Compared with the polar homotopy, whose area runs monotonically between the ends.
+    let area = homotopy.at(&map, t).determinant();
+    let polar_area = Homotopy::Polar.at(&map, t).determinant();
+    (area < FLATTENED * polar_area).then_some(FindingCause::StraightPaths {
         homotopy,
         turn: map.angle,
     })
 }
 
-/// The part of a face and one that it hangs on turn by more than half a turn
-/// against each other; named is that which turns further.
-pub(super) fn far_turn_of_part(scene: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
-    let part = scene.part_of[face];
-    let mean = |p: u32| scene.mean_angle(|f| scene.part_of[f] == p);
+/// Names the part of the face, or its neighbour, if they rotate by more than half a turn relative
+/// to each other; of the two, the one that rotates further.
+pub(super) fn far_turn_of_part(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
+    let part = search.part_of[face];
+    let mean = |p: u32| search.mean_angle(|f| search.part_of[f] == p);
     let own = mean(part)?;
-    let others = scene.neighbouring_parts(part).into_iter();
+    let others = search.neighbouring_parts(part).into_iter();
     let (other, angle) = others
         .filter_map(|other| Some((other, mean(other)?)))
         .max_by(|a, b| (a.1 - own).abs().total_cmp(&(b.1 - own).abs()))?;
@@ -141,24 +153,24 @@ pub(super) fn far_turn_of_part(scene: &CauseSearch<'_>, face: usize) -> Option<F
     })
 }
 
-/// A face turns by more than half a turn against the whole.
-pub(super) fn far_turn(scene: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
-    let turn = scene.angles[face] - scene.mean_angle(|_| true)?;
+/// Names the rotation of a face by more than half a turn relative to the whole shape.
+pub(super) fn far_turn(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
+    let turn = search.angles[face] - search.mean_angle(|_| true)?;
     (turn.abs() > PI).then_some(FindingCause::FarTurn { part: None, turn })
 }
 
-/// The boundary near a face is stretched unevenly.
-pub(super) fn uneven_match(scene: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
-    /// How far from the face the boundary may be, by its diameter.
+/// Names an uneven match of the boundary near a face.
+pub(super) fn uneven_match(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
+    /// Maximum distance of the boundary from the face, in design diameters (heuristic).
     const NEAR: f64 = 0.1;
-    let mesh = scene.arap.mesh();
+    let mesh = search.arap.mesh();
     let (source, target) = (mesh.source(), mesh.target());
-    let about = scene.centroid(face, source);
-    // In the source: at t the place is bent by the trouble itself.
-    let near = NEAR * mesh.diameter();
-    let worst = stretch::boundary(mesh)
+    // Measured in the source, because at t the defect itself distorts the shape.
+    let centre = search.centroid(face, source);
+    let max_distance = NEAR * mesh.diameter();
+    let worst = stretch::boundary_stretch(mesh)
         .into_iter()
-        .filter(|s| source[s.vertex as usize].distance(about) < near)
+        .filter(|s| source[s.vertex as usize].distance(centre) < max_distance)
         .max_by(|a, b| a.unevenness().total_cmp(&b.unevenness()))?;
     (worst.unevenness() > UNEVEN).then(|| FindingCause::UnevenMatch {
         ratio: worst.ratio,
@@ -167,22 +179,22 @@ pub(super) fn uneven_match(scene: &CauseSearch<'_>, face: usize) -> Option<Findi
     })
 }
 
-/// The largest difference of angles across an edge of one of the faces.
-pub(super) fn unlike_neighbours(scene: &CauseSearch<'_>, faces: &[usize]) -> Option<FindingCause> {
-    let connectivity = scene.arap.mesh().connectivity();
+/// Names the largest difference of rotation across an edge of the given faces, if above 60°.
+pub(super) fn unlike_neighbours(search: &CauseSearch<'_>, faces: &[usize]) -> Option<FindingCause> {
+    let connectivity = search.arap.mesh().connectivity();
     let across = |f: usize| (0..3).filter_map(move |k| Some((f, connectivity.neighbour(f, k)?)));
     let turn = faces
         .iter()
         .flat_map(|&f| across(f))
-        .map(|(a, b)| (scene.angles[a] - scene.angles[b]).abs())
+        .map(|(a, b)| (search.angles[a] - search.angles[b]).abs())
         .reduce(f64::max)?;
     (turn > FRAC_PI_3).then_some(FindingCause::UnlikeNeighbours { turn })
 }
 
-/// Whether two edges of one ring are less than a tenth of it apart.
-pub(super) fn near_each_other(scene: &CauseSearch<'_>, crossing: &EdgeCrossing) -> bool {
+/// Returns whether both edges lie on one ring, less than a tenth of its points apart.
+pub(super) fn near_each_other(search: &CauseSearch<'_>, crossing: &EdgeCrossing) -> bool {
     let [a, b] = crossing.edges;
-    let n = scene.solid.loops.get(a.ring).map_or(0, Vec::len);
+    let n = search.solid.loops.get(a.ring).map_or(0, Vec::len);
     let between = a.point.abs_diff(b.point);
     a.ring == b.ring && between < n && 10 * between.min(n - between) < n
 }

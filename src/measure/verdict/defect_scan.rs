@@ -1,14 +1,14 @@
-//! How much is wrong at each t, as cheaply as it can be known.
+//! Counts the defects of a film at each sampled t, without the more expensive measures.
 
 use crate::content::{Content, SolidContent};
 use crate::geometry::{DVec2, signed_area};
 use crate::measure::distortion::is_folded;
-use crate::measure::film_report::{FilmSample, crossings_at, even_steps};
+use crate::measure::film_report::{FilmSample, crossings_at, evenly_spaced_times};
 use crate::transition::Transition;
 use crate::warp::Arap;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// What is wrong at one t.
+/// Numbers of defects, pieces and holes at one t.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct MomentCounts {
     pub t: f64,
@@ -18,10 +18,11 @@ pub(super) struct MomentCounts {
     pub holes: usize,
 }
 
-/// A count of a [`MomentCounts`].
+/// Selects one count of a [`MomentCounts`].
 pub(super) type DefectCounts = fn(&MomentCounts) -> usize;
 
 impl MomentCounts {
+    /// Takes the counts from a sample of a measured film.
     pub fn of_sample(sample: &FilmSample) -> Self {
         Self {
             t: sample.t,
@@ -33,37 +34,39 @@ impl MomentCounts {
     }
 }
 
-/// A look at each of so many t.
-fn looks(
+/// Counts at each of `steps` evenly spaced t, reporting progress as `stage`.
+fn scan(
     steps: usize,
-    what: &'static str,
+    stage: &'static str,
     progress: &dyn Progress,
-    mut look: impl FnMut(f64) -> MomentCounts,
+    mut count_at: impl FnMut(f64) -> MomentCounts,
 ) -> Result<Vec<MomentCounts>, Cancelled> {
-    let glance = |t| {
-        checkpoint(progress, what, t)?;
-        Ok(MomentCounts { t, ..look(t) })
+    let moment = |t| {
+        checkpoint(progress, stage, t)?;
+        Ok(MomentCounts { t, ..count_at(t) })
     };
-    even_steps(steps).map(glance).collect()
+    evenly_spaced_times(steps).map(moment).collect()
 }
 
-pub(super) fn transition(
+/// Scans a transition; returns nothing for pictures.
+
+pub(super) fn scan_transition(
     transition: &Transition,
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Vec<MomentCounts>, Cancelled> {
     match (transition.content(), transition.arap()) {
         (Content::Solid(solid), Some(arap)) => {
-            rigid_parts(transition, arap, solid, steps, progress)
+            scan_rigid_parts(transition, arap, solid, steps, progress)
         }
-        (Content::Field(_), _) => fields(transition, steps, progress),
+        (Content::Field(_), _) => scan_fields(transition, steps, progress),
         (Content::Solid(solid), None) => {
             let mut frame = transition.frame(0.0);
-            looks(steps, "looking for crossings", progress, |t| {
+            scan(steps, "looking for crossings", progress, |t| {
                 frame.seek(t);
                 let placement = frame.placement();
                 MomentCounts {
-                    folds: folded(&placement.faces, &placement.in_frame).count(),
+                    folds: folded_faces(&placement.faces, &placement.in_frame).count(),
                     crossings: crossings_at(t, solid, &placement.in_frame),
                     ..MomentCounts::default()
                 }
@@ -73,28 +76,28 @@ pub(super) fn transition(
     }
 }
 
-/// Of a film of the mesh of `transition`, in whose times its parts move.
-pub(super) fn rigid_parts(
+/// Scans the motion `arap` of the transition's mesh, with the part timing of the transition.
+pub(super) fn scan_rigid_parts(
     transition: &Transition,
     arap: &Arap,
     solid: &SolidContent,
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Vec<MomentCounts>, Cancelled> {
-    let mut placer = transition.placer_of(arap);
-    looks(steps, "looking for folds", progress, |t| {
+    let mut placer = transition.placer_for(arap);
+    scan(steps, "looking for folds", progress, |t| {
         placer.place(t);
         let places = &placer.placement().in_frame;
         MomentCounts {
-            folds: folded(arap.mesh().faces(), places).count(),
+            folds: folded_faces(arap.mesh().faces(), places).count(),
             crossings: crossings_at(t, solid, places),
             ..MomentCounts::default()
         }
     })
 }
 
-/// The faces that are folded at the given places.
-pub(super) fn folded<'a>(
+/// Returns the indices of the faces that are folded at the given vertex positions.
+pub(super) fn folded_faces<'a>(
     faces: &'a [[u32; 3]],
     places: &'a [DVec2],
 ) -> impl Iterator<Item = usize> + 'a {
@@ -104,13 +107,14 @@ pub(super) fn folded<'a>(
         .map(|(f, _)| f)
 }
 
-pub(super) fn fields(
+/// Scans a transition of distance fields.
+pub(super) fn scan_fields(
     transition: &Transition,
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Vec<MomentCounts>, Cancelled> {
     let mut frame = transition.frame(0.0);
-    looks(steps, "looking for tears", progress, |t| {
+    scan(steps, "looking for tears", progress, |t| {
         frame.seek(t);
         let rings = frame.figure().rings;
         let holes = rings.iter().filter(|ring| signed_area(ring) < 0.0).count();
@@ -122,26 +126,30 @@ pub(super) fn fields(
     })
 }
 
-/// The most of a count.
-pub(super) fn most(glances: &[MomentCounts], of: DefectCounts) -> usize {
-    glances.iter().map(of).max().unwrap_or(0)
+/// Returns the maximum of a count over all moments.
+pub(super) fn max_count(moments: &[MomentCounts], of: DefectCounts) -> usize {
+    moments.iter().map(of).max().unwrap_or(0)
 }
 
-/// Where a count is beyond `allowed`: the t at which it is largest, the middle
-/// one of several, and the first and last at which it is beyond.
-pub(super) fn worst(
-    glances: &[MomentCounts],
+/// Returns where a count exceeds `allowed`: the t of its maximum (the middle one of several), and
+/// the first and last t at which it exceeds it.
+pub(super) fn worst_moment(
+    moments: &[MomentCounts],
     of: DefectCounts,
     allowed: usize,
 ) -> Option<(f64, [f64; 2])> {
-    let top = most(glances, of);
-    let beyond: Vec<f64> = times(glances, |g| of(g) > allowed);
-    // Halfway through a trouble it is seen best.
-    let at_top = times(glances, |g| of(g) == top);
+    let max = max_count(moments, of);
+    let beyond: Vec<f64> = times_where(moments, |g| of(g) > allowed);
+    let at_max = times_where(moments, |g| of(g) == max);
     let span = [*beyond.first()?, *beyond.last()?];
-    Some((at_top[at_top.len() / 2], span))
+    // A defect is most visible halfway through.
+    Some((at_max[at_max.len() / 2], span))
 }
 
-pub(super) fn times(glances: &[MomentCounts], is: impl Fn(&MomentCounts) -> bool) -> Vec<f64> {
-    glances.iter().filter(|g| is(g)).map(|g| g.t).collect()
+/// Returns the t of the moments that satisfy a condition.
+pub(super) fn times_where(
+    moments: &[MomentCounts],
+    is: impl Fn(&MomentCounts) -> bool,
+) -> Vec<f64> {
+    moments.iter().filter(|g| is(g)).map(|g| g.t).collect()
 }

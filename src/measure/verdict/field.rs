@@ -1,4 +1,4 @@
-//! What is found in fields.
+//! Defects of distance fields: extra pieces, extra holes, and shapes that disappear in between.
 
 use super::defect_scan;
 use super::defect_scan::MomentCounts;
@@ -9,30 +9,30 @@ use crate::geometry::{DVec2, signed_area};
 use crate::transition::Transition;
 use crate::work::progress::{Cancelled, Progress};
 
-/// Designs that share less than this have little to do with each other.
-/// Half: below, more of the smaller design appears than moves.
+/// Overlap below which it is named as the cause, as a fraction of the smaller design (heuristic).
 const LITTLE_OVERLAP: f64 = 0.5;
 
-/// A trouble by its count, and by the count at the larger end.
+/// Makes a defect from a count and the count at the larger end.
 type FieldFinding = fn(usize, usize) -> FindingKind;
 
-pub(super) fn findings(
+/// Finds where a field disappears or has extra pieces or holes, and tests the other blend space.
+pub(super) fn field_findings(
     transition: &Transition,
     pair: &FieldPair,
-    glances: &[MomentCounts],
+    moments: &[MomentCounts],
     progress: &dyn Progress,
 ) -> Result<Vec<Finding>, Cancelled> {
-    let (Some(first), Some(last)) = (glances.first(), glances.last()) else {
+    let (Some(first), Some(last)) = (moments.first(), moments.last()) else {
         return Ok(Vec::new());
     };
     let ends = |of: defect_scan::DefectCounts| of(first).max(of(last));
-    let mut troubles = Vec::new();
-    // Not `worst`: what is wrong here is that a count is too small.
-    let gone = defect_scan::times(glances, |g| g.pieces == 0);
+    let mut defects = Vec::new();
+    // `worst` does not apply: here the count is too small, not too large.
+    let gone = defect_scan::times_where(moments, |g| g.pieces == 0);
     if let (Some(&begin), Some(&end)) = (gone.first(), gone.last())
         && ends(|g| g.pieces) > 0
     {
-        troubles.push((FindingKind::Gone, (gone[gone.len() / 2], [begin, end])));
+        defects.push((FindingKind::Gone, (gone[gone.len() / 2], [begin, end])));
     }
     let counted: [(defect_scan::DefectCounts, FieldFinding); 2] = [
         (
@@ -44,18 +44,19 @@ pub(super) fn findings(
             |count, at_ends| FindingKind::Holes { count, at_ends },
         ),
     ];
-    for (of, trouble) in counted {
+    for (of, kind) in counted {
         let at_ends = ends(of);
-        if let Some(worst) = defect_scan::worst(glances, of, at_ends) {
-            troubles.push((trouble(defect_scan::most(glances, of), at_ends), worst));
+        if let Some(worst) = defect_scan::worst_moment(moments, of, at_ends) {
+            defects.push((kind(defect_scan::max_count(moments, of), at_ends), worst));
         }
     }
-    let told = |(trouble, (t, span))| finding(transition, pair, trouble, t, span);
-    let mut found: Vec<Finding> = troubles.into_iter().map(told).collect();
-    remedy::for_fields(transition, pair, glances.len(), &mut found, progress)?;
+    let described = |(trouble, (t, span))| finding(transition, pair, trouble, t, span);
+    let mut found: Vec<Finding> = defects.into_iter().map(described).collect();
+    remedy::try_other_blend_space(transition, pair, moments.len(), &mut found, progress)?;
     Ok(found)
 }
 
+/// Describes a defect of a field with its place, cause and remedy.
 fn finding(
     transition: &Transition,
     pair: &FieldPair,
@@ -64,7 +65,7 @@ fn finding(
     span: [f64; 2],
 ) -> Finding {
     let share = overlap(pair);
-    // Fields that do not overlap vanish and appear whatever the space.
+    // Without overlap, shapes disappear and appear in any blend space.
     let (cause, remedy) = if share < LITTLE_OVERLAP {
         (FindingCause::LittleOverlap { share }, Remedy::LayOver)
     } else {
@@ -80,15 +81,15 @@ fn finding(
     }
 }
 
-/// The middle of the smallest piece or hole, or of the frame.
+/// Returns the centre of the smallest piece or hole, or of the frame if there is none.
 fn place_of(transition: &Transition, pair: &FieldPair, trouble: &FindingKind, t: f64) -> DVec2 {
-    let wanted = if matches!(trouble, FindingKind::Holes { .. }) {
+    let orientation = if matches!(trouble, FindingKind::Holes { .. }) {
         -1.0
     } else {
         1.0
     };
     let rings = transition.frame(t).figure().rings.into_iter();
-    let sized = rings.map(|ring| (wanted * signed_area(&ring), ring));
+    let sized = rings.map(|ring| (orientation * signed_area(&ring), ring));
     let smallest = sized
         .filter(|(area, _)| *area > 0.0)
         .min_by(|a, b| a.0.total_cmp(&b.0));
@@ -98,7 +99,7 @@ fn place_of(transition: &Transition, pair: &FieldPair, trouble: &FindingKind, t:
     )
 }
 
-/// The share of the smaller design that lies on the other, in cells.
+/// Returns the fraction of the smaller design that overlaps the other, in grid cells.
 fn overlap(pair: &FieldPair) -> f64 {
     let level = pair.blend().threshold;
     let is_inside = |value: &f32| f64::from(*value) >= level;

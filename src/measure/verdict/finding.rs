@@ -1,4 +1,4 @@
-//! What can be found in a film: trouble, its cause and what helps.
+//! Data of a finding of the check: the kind of defect, its place, cause and remedy.
 
 use crate::content::BlendSpace;
 use crate::geometry::DVec2;
@@ -7,191 +7,189 @@ use crate::transition::TransitionOptions;
 use crate::warp::homotopy::Homotopy;
 use serde::Serialize;
 
-/// One kind of trouble, where it is worst.
+/// One kind of defect, at the t where it is worst.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Finding {
-    /// What is seen.
+    /// Kind and extent of the defect.
     pub trouble: FindingKind,
-    /// Where there is most of it: the t to go to.
+    /// Sampled t at which the defect is worst.
     pub t: f64,
-    /// The first and the last t at which it is seen.
+    /// First and last sampled t with this defect.
     pub span: [f64; 2],
-    /// Where in the frame at `t`.
+    /// Position of the defect in the frame at `t`.
     pub place: DVec2,
-    /// What is measured there.
+    /// Measured cause.
     pub cause: FindingCause,
-    /// What to do.
+    /// Suggested remedy.
     pub remedy: Remedy,
 }
 
-/// What is seen.
+/// Kind of defect.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FindingKind {
-    /// Faces are turned over or flat.
+    /// Faces are folded or flat.
     Folds {
-        /// Their numbers, from 0.
+        /// Indices of the faces, from 0.
         faces: Vec<usize>,
     },
     /// The boundary crosses itself.
     Crossings {
-        /// Where.
+        /// All crossings at that t.
         crossings: Vec<EdgeCrossing>,
     },
     /// A contour has more pieces than at either end.
     Pieces {
-        /// How many.
+        /// Number of pieces.
         count: usize,
-        /// How many at the larger end.
+        /// Number of pieces at the larger end.
         at_ends: usize,
     },
     /// A contour has more holes than at either end.
     Holes {
-        /// How many.
+        /// Number of holes.
         count: usize,
-        /// How many at the larger end.
+        /// Number of holes at the larger end.
         at_ends: usize,
     },
-    /// Nothing is left of a contour.
+    /// A contour disappears completely.
     Gone,
-    /// The plane is turned over.
+    /// A warp of the plane folds.
     PlaneFolds {
-        /// In which share of the frame.
+        /// Fraction of the frame covered by folds.
         share: f64,
     },
-    /// Pins are not where they belong.
+    /// Pins or lines are not at their intended positions.
     Missed {
-        /// How many.
+        /// Number of missed features.
         count: usize,
-        /// By how much the worst one, as a share of the frame's diameter.
+        /// Distance by which the worst one is missed, as a fraction of the frame's diameter.
         by: f64,
     },
 }
 
-/// What is measured where the trouble is. Angles are radians.
+/// Measured cause of a defect. Angles are radians.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FindingCause {
-    /// The local maps run straight, and flatten what turns.
+    /// The homotopy moves points straight, which flattens rotating faces.
     StraightPaths {
-        /// How they run.
+        /// Homotopy of the local maps.
         homotopy: Homotopy,
-        /// By how much the worst face turns.
+        /// Rotation of the worst face.
         turn: f64,
     },
-    /// A part turns by more than half a turn against what it hangs on.
+    /// A part rotates by more than half a turn relative to its neighbour or to the whole.
     FarTurn {
-        /// Its number from 0, as [`crate::warp::ArapOptions::extra_turns`] counts, where
-        /// there are several.
+        /// Index of the part, from 0, as in [`crate::warp::ArapOptions::extra_turns`]; `None` if
+        /// the rotation is relative to the whole shape.
         part: Option<usize>,
-        /// By how much.
+        /// Relative rotation.
         turn: f64,
     },
-    /// The boundary is stretched or squeezed more than three times against
-    /// its mean.
+    /// The boundary is locally stretched or squeezed more than three times relative to its mean.
     UnevenMatch {
-        /// Its share of the target by its share of the source.
+        /// Fraction of the target loop divided by fraction of the source loop.
         ratio: f64,
-        /// Where in the source.
+        /// Position in the source.
         source: DVec2,
-        /// Where in the target.
+        /// Position in the target.
         target: DVec2,
     },
-    /// Neighbouring faces turn by very different angles.
+    /// Neighbouring faces rotate by very different angles.
     UnlikeNeighbours {
-        /// The difference.
+        /// Difference of the angles.
         turn: f64,
     },
-    /// Two places of the boundary run into each other.
+    /// Two places of the boundary collide.
     PlacesMeet {
-        /// By how much each of them turns.
+        /// Rotation of each place.
         turns: [f64; 2],
-        /// Where in the source.
+        /// Position of each place in the source.
         source: [DVec2; 2],
     },
-    /// The designs hardly lie over each other.
+    /// The designs hardly overlap.
     LittleOverlap {
-        /// The share of the smaller that lies on the other.
+        /// Fraction of the smaller design that overlaps the other.
         share: f64,
     },
-    /// Fields do not know which part becomes which.
+    /// Plain distance fields do not match parts with each other.
     BlindFields,
-    /// Some of a design is seen more than once, in turned over faces.
+    /// Folded faces show parts of a design more than once.
     SeenTwice,
     /// No map without folds was found that reaches a pin.
     OutOfReach,
-    /// Pins come so near each other on their way that one map cannot meet both.
+    /// Pins come so close to each other that one map cannot meet both.
     FeaturesMeet,
-    /// Points of the boundary move on their own; nothing inside keeps them
-    /// apart.
+    /// Boundary points move independently; there is no mesh inside that keeps them apart.
     NothingInside,
     /// None of the above.
     Unclear,
 }
 
-/// What to do.
+/// Suggested remedy for a defect.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Remedy {
-    /// An option. It was tried.
+    /// Change an option; the change was tested.
     Change {
-        /// Which.
+        /// Tested change.
         change: SettingChange,
-        /// How many faces, crossings, pieces or holes too many it leaves at
-        /// the worst t.
+        /// Number of folded faces, crossings, extra pieces or extra holes that remain at the worst
+        /// t.
         left: usize,
-        /// How many there are now.
+        /// Number of them without the change.
         of: usize,
     },
-    /// A pair of points to be pinned together.
+    /// Pin a pair of points to each other.
     Pin {
-        /// Where in the source.
+        /// Position in the source.
         source: DVec2,
-        /// Where in the target.
+        /// Position in the target.
         target: DVec2,
     },
-    /// Vertices to be moved in one of the designs.
+    /// Move vertices of one of the designs.
     MoveVertices {
-        /// Where in the source.
+        /// Position in the source.
         source: DVec2,
-        /// Where in the target.
+        /// Position in the target.
         target: DVec2,
     },
-    /// The target to be laid over the source.
+    /// Make the target overlap the source.
     LayOver,
-    /// Rigid parts instead of fields or of boundary paths.
+    /// Use rigid parts instead of distance fields or boundary paths.
     RigidParts,
-    /// Lattices that never fold instead of the warp at hand, or other pins.
+    /// Use fold-free lattices, or move pins or lines.
     Lattices,
-    /// Lattices that may fold, or other pins.
+    /// Allow the lattices to fold, or move pins.
     LetFold,
-    /// Other pins.
+    /// Move pins.
     MovePins,
-    /// Another way through the blends of many designs.
+    /// Lead the path over the map through other blends.
     AnotherWay,
 }
 
-/// A change of options.
+/// Change of one option.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum SettingChange {
-    /// Of how the local maps move.
+    /// Sets the homotopy of the local maps.
     Homotopy(Homotopy),
-    /// To the symmetric energy.
+    /// Turns on the symmetric energy.
     Symmetric,
-    /// Of the whole turns of each part.
+    /// Sets the extra full turns of each part.
     ExtraTurns(Vec<i32>),
-    /// Of the space in which distances are mixed.
+    /// Sets the space in which distances are blended.
     Space(BlendSpace),
 }
 
 impl SettingChange {
-    /// Makes the change in the options of a transition or project.
+    /// Applies the change to the options of a transition or project.
     pub fn apply(&self, options: &mut TransitionOptions) {
         match self {
             Self::Homotopy(homotopy) => options.arap.homotopy = *homotopy,

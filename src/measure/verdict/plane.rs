@@ -1,51 +1,51 @@
-//! What goes wrong with warps of the plane: places that are seen twice, and
-//! features that are missed.
+//! Defects of warps of the plane: folds, and pins or lines that the warp misses.
 
 use super::finding::{Finding, FindingCause, FindingKind, Remedy};
 use crate::content::Content;
 use crate::geometry::{Bounds, DVec2, twice_signed_area};
-use crate::measure::film_report::even_steps;
+use crate::measure::film_report::evenly_spaced_times;
 use crate::transition::{Frame, Transition};
 use crate::warp::{MissedFeatures, WarpKind};
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Folds over less than this share of the frame are not seen.
-/// On a window of 1000 by 1000 a spot of some 22 pixels across.
-const SEEN: f64 = 5e-4;
+/// Folds covering a smaller fraction of the frame are ignored. In a window of 1000 by 1000 pixels,
+/// this is a spot 22 pixels across (heuristic).
+const MIN_FOLD_FRACTION: f64 = 5e-4;
 
-/// The worst of one kind so far, how bad it is, and the span of all.
+/// Worst finding of one kind so far, with its size; the finding's span covers all of that kind.
 type WorstFold = Option<(f64, Finding)>;
 
-/// Keeps the worse of two, and the span of both.
-fn keep(worst: &mut WorstFold, size: f64, mut finding: Finding) {
-    if let Some((before, known)) = worst {
-        known.span[1] = finding.t;
-        finding.span = known.span;
-        // The earlier of equals stays; its span was carried on already.
-        if size <= *before {
+/// Keeps the larger of two findings and joins their spans.
+fn keep_worse(worst: &mut WorstFold, size: f64, mut finding: Finding) {
+    if let Some((largest_size, largest)) = worst {
+        largest.span[1] = finding.t;
+        finding.span = largest.span;
+        // Of equal findings the earlier stays; its span is already extended.
+        if size <= *largest_size {
             return;
         }
     }
     *worst = Some((size, finding));
 }
 
-pub(super) fn findings(
+/// Finds folds and missed features of a warp of the plane; nothing for other warps.
+pub(super) fn plane_findings(
     transition: &Transition,
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Vec<Finding>, Cancelled> {
     let is_solid = matches!(transition.content(), Content::Solid(_));
-    if is_solid || transition.cell().warp() == WarpKind::None {
+    if is_solid || transition.method().warp() == WarpKind::None {
         return Ok(Vec::new());
     }
     let bounds = transition.bounds();
     let mut frame = transition.frame(0.0);
     let (mut folds, mut missed) = (WorstFold::None, WorstFold::None);
-    for t in even_steps(steps) {
+    for t in evenly_spaced_times(steps) {
         checkpoint(progress, "looking for folds of the plane", t)?;
         frame.seek(t);
         let (share, place) = folded(&frame, &bounds);
-        if share > SEEN {
+        if share > MIN_FOLD_FRACTION {
             let finding = Finding {
                 trouble: FindingKind::PlaneFolds { share },
                 t,
@@ -54,10 +54,14 @@ pub(super) fn findings(
                 cause: FindingCause::SeenTwice,
                 remedy: Remedy::Lattices,
             };
-            keep(&mut folds, share, finding);
+            keep_worse(&mut folds, share, finding);
         }
-        if let Some(now) = transition.missed(t) {
-            keep(&mut missed, now.by, of_missed(&now, t, bounds.diameter()));
+        if let Some(now) = transition.missed_features(t) {
+            keep_worse(
+                &mut missed,
+                now.distance,
+                missed_finding(&now, t, bounds.diameter()),
+            );
         }
     }
     Ok([folds, missed]
@@ -67,8 +71,9 @@ pub(super) fn findings(
         .collect())
 }
 
-fn of_missed(missed: &MissedFeatures, t: f64, diameter: f64) -> Finding {
-    let (cause, remedy) = if missed.unfolded {
+/// Describes features missed at `t`; `diameter` is that of the frame.
+fn missed_finding(missed: &MissedFeatures, t: f64, diameter: f64) -> Finding {
+    let (cause, remedy) = if missed.fold_free {
         (FindingCause::OutOfReach, Remedy::LetFold)
     } else {
         (FindingCause::FeaturesMeet, Remedy::MovePins)
@@ -76,7 +81,7 @@ fn of_missed(missed: &MissedFeatures, t: f64, diameter: f64) -> Finding {
     Finding {
         trouble: FindingKind::Missed {
             count: missed.count,
-            by: missed.by / diameter,
+            by: missed.distance / diameter,
         },
         t,
         span: [t, t],
@@ -86,43 +91,42 @@ fn of_missed(missed: &MissedFeatures, t: f64, diameter: f64) -> Finding {
     }
 }
 
-/// Whether something is drawn at `t` where the designs are looked at in these
-/// places: of fields only what is inside.
-fn is_seen(content: &Content, t: f64, looks: [DVec2; 2]) -> bool {
+/// Returns whether something is drawn at `t` where the source and target are sampled at the given
+/// points; a field draws only its inside.
+fn is_visible(content: &Content, t: f64, samples: [DVec2; 2]) -> bool {
     let Content::Field(fields) = content else {
         return true;
     };
-    let (pair, t) = fields.place(t);
+    let (pair, t) = fields.pair_at(t);
     let pair = &fields.pairs()[pair];
-    let [a, b] = [(pair.source(), looks[0]), (pair.target(), looks[1])].map(|(field, p)| {
+    let [a, b] = [(pair.source(), samples[0]), (pair.target(), samples[1])].map(|(field, p)| {
         let at = pair.grid().lattice_from_plane(p);
         field.samples().bilinear(at.x, at.y)
     });
     pair.blend().value(a, b, t) >= pair.blend().level()
 }
 
-/// The share of the frame in which the plane is turned over, in the frame or
-/// in either design, and the middle of the largest such face.
+/// Returns the fraction of the frame covered by faces that are folded in the frame or in either
+/// design, and the centre of the largest such face.
 fn folded(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
     let placement = frame.placement();
     let (mut sum, mut largest, mut place) = (0.0, 0.0, bounds.centre());
     for face in placement.faces.iter() {
         let corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
-        let middle = |points: &[DVec2]| corners(points).iter().sum::<DVec2>() / 3.0;
-        let seen = corners(&placement.in_frame);
-        let at = middle(&placement.in_frame);
-        let shows = [&placement.in_source, &placement.in_target].map(|p| middle(p));
-        if !bounds.contains(at) || !is_seen(frame.transition().content(), frame.t(), shows) {
+        let centroid = |points: &[DVec2]| corners(points).iter().sum::<DVec2>() / 3.0;
+        let at = centroid(&placement.in_frame);
+        let samples = [&placement.in_source, &placement.in_target].map(|p| centroid(p));
+        if !bounds.contains(at) || !is_visible(frame.transition().content(), frame.t(), samples) {
             continue;
         }
         let area = |[a, b, c]: [DVec2; 3]| twice_signed_area(a, b, c);
-        let own = area(seen);
-        let looks = [&placement.in_source, &placement.in_target].map(|p| area(corners(p)));
-        // What is seen the right way round is so in both designs.
-        if own < 0.0 || looks.iter().any(|look| *look < 0.0) {
-            sum += own.abs();
-            if own.abs() > largest {
-                (largest, place) = (own.abs(), at);
+        let in_frame = area(corners(&placement.in_frame));
+        let in_designs = [&placement.in_source, &placement.in_target].map(|p| area(corners(p)));
+        // A face drawn correctly has positive area in the frame and in both designs.
+        if in_frame < 0.0 || in_designs.iter().any(|area| *area < 0.0) {
+            sum += in_frame.abs();
+            if in_frame.abs() > largest {
+                (largest, place) = (in_frame.abs(), at);
             }
         }
     }
@@ -138,7 +142,7 @@ mod tests {
     use crate::project::gallery;
     use crate::work::progress::Silent;
 
-    /// Two pins that change places between four that stay, by a warp.
+    /// Two pins that exchange their positions between four fixed pins.
     fn crossed(warp: WarpKind, fold_free: bool) -> Verdict {
         let mut loaded = gallery::load("portraits-points").expect("a project");
         let pair = |from: (f64, f64), to: (f64, f64)| PointPair {
@@ -159,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn pins_that_change_places_fold_the_plane() {
+    fn pins_that_exchange_positions_fold_the_plane() {
         let verdict = crossed(WarpKind::Scattered, false);
         let [finding] = verdict.findings.as_slice() else {
             panic!("{}", verdict.headline());
@@ -169,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn lattices_without_folds_miss_them_instead() {
+    fn fold_free_lattices_miss_the_pins_instead() {
         let verdict = crossed(WarpKind::Lattice, true);
         let [finding] = verdict.findings.as_slice() else {
             panic!("{}", verdict.headline());

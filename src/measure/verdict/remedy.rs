@@ -1,4 +1,4 @@
-//! What helps: options are tried, the rest is named.
+//! Remedies for defects: changed options are tested on the same film, edits are only suggested.
 
 use super::cause::CauseSearch;
 use super::defect_scan;
@@ -11,61 +11,59 @@ use crate::warp::homotopy::Homotopy;
 use crate::warp::{Arap, ArapError};
 use crate::work::progress::{Cancelled, Progress, ProgressShares};
 
-/// Meshes with more faces than this are not built again to try an option: a
-/// trial of so many takes about a quarter of a second.
-const MOST_FACES: usize = 20_000;
+/// Maximum number of faces of a mesh for which changed options are tested (resource limit: one
+/// test of this size takes about a quarter of a second).
+const MAX_TESTED_FACES: usize = 20_000;
 
-/// What a person can do about a face, where no option helps: pins belong to
-/// matched outlines, meshes and trusses have vertices.
-pub(super) fn by_hand(scene: &CauseSearch<'_>, face: usize) -> Remedy {
-    let mesh = scene.arap.mesh();
-    let [source, target] = [mesh.source(), mesh.target()].map(|p| scene.centroid(face, p));
+/// Suggests moving the vertices near a face, for defects that no option removes.
+pub(super) fn move_vertices_at(search: &CauseSearch<'_>, face: usize) -> Remedy {
+    let mesh = search.arap.mesh();
+    let [source, target] = [mesh.source(), mesh.target()].map(|p| search.centroid(face, p));
     Remedy::MoveVertices { source, target }
 }
 
-/// Tries options, and turns what is done to vertices into pins where the
-/// designs are outlines.
-pub(super) fn for_rigid_parts(
+/// Tests changed options, and suggests pins instead of vertex edits if a design is an outline.
+pub(super) fn try_rigid_part_options(
     transition: &Transition,
     arap: &Arap,
     solid: &SolidContent,
-    glances: &[MomentCounts],
-    found: &mut [Finding],
+    moments: &[MomentCounts],
+    findings: &mut [Finding],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
-    if found.is_empty() {
+    if findings.is_empty() {
         return Ok(());
     }
     let designs = transition.designs();
     let has_pins = designs
         .iter()
         .any(|d| matches!(d.form, DesignForm::Outline(_)));
-    for finding in &mut *found {
+    for finding in &mut *findings {
         if has_pins {
-            finding.remedy = pin(finding);
+            finding.remedy = with_pin(finding);
         }
     }
-    // After the pins: naming them costs nothing.
-    if arap.mesh().faces().len() > MOST_FACES {
+    // Pins are suggested for meshes of any size, because that costs nothing.
+    if arap.mesh().faces().len() > MAX_TESTED_FACES {
         return Ok(());
     }
-    let now = glances;
-    let changes = changes(arap, found);
+    let now = moments;
+    let changes = changes(arap, findings);
     let shares = ProgressShares::new(progress, changes.len());
     for (k, change) in changes.iter().enumerate() {
-        let film = (transition, arap, solid);
-        let Some(then) = tried(change, film, now.len(), &shares.part(k))? else {
+        let (steps, share) = (now.len(), shares.part(k));
+        let Some(then) = scan_with(change, transition, arap, solid, steps, &share)? else {
             continue;
         };
-        for finding in &mut *found {
+        for finding in &mut *findings {
             take_if_better(finding, change, now, &then);
         }
     }
     Ok(())
 }
 
-/// A pin where the match is uneven, or else where the trouble is.
-fn pin(finding: &Finding) -> Remedy {
+/// Returns the remedy with a pin in place of vertex edits, at the uneven match or at the defect.
+fn with_pin(finding: &Finding) -> Remedy {
     match (&finding.cause, &finding.remedy) {
         (&FindingCause::UnevenMatch { source, target, .. }, _)
         | (_, &Remedy::MoveVertices { source, target }) => Remedy::Pin { source, target },
@@ -73,17 +71,17 @@ fn pin(finding: &Finding) -> Remedy {
     }
 }
 
-/// The options that are worth a trial, the likeliest first.
-fn changes(arap: &Arap, found: &[Finding]) -> Vec<SettingChange> {
+/// Returns the changes to test, the most promising first.
+fn changes(arap: &Arap, findings: &[Finding]) -> Vec<SettingChange> {
     let options = arap.options();
     let mut changes = Vec::new();
-    for finding in found {
+    for finding in findings {
         if let &FindingCause::FarTurn {
             part: Some(part),
             turn,
         } = &finding.cause
         {
-            changes.push(the_other_way(arap, part, turn));
+            changes.push(turn_other_way(arap, part, turn));
         }
     }
     for homotopy in [Homotopy::Polar, Homotopy::Exponential] {
@@ -97,25 +95,27 @@ fn changes(arap: &Arap, found: &[Finding]) -> Vec<SettingChange> {
     changes
 }
 
-/// A whole turn less for a part, so that it turns the other way.
-fn the_other_way(arap: &Arap, part: usize, turn: f64) -> SettingChange {
+/// Changes the extra turns of a part by one, so that it rotates in the other direction.
+fn turn_other_way(arap: &Arap, part: usize, turn: f64) -> SettingChange {
     let given = &arap.options().extra_turns;
     let each = |p: usize| match given.as_slice() {
         [all] => *all,
         each => each.get(p).copied().unwrap_or(0),
     };
-    // Written out for each part: a single number would turn all of them.
+    // One number per part, because a single number would apply to all parts.
     let mut turns: Vec<i32> = (0..arap.part_count()).map(each).collect();
-    if let Some(own) = turns.get_mut(part) {
-        *own -= if turn > 0.0 { 1 } else { -1 };
+    if let Some(part_turns) = turns.get_mut(part) {
+        *part_turns -= if turn > 0.0 { 1 } else { -1 };
     }
     SettingChange::ExtraTurns(turns)
 }
 
-/// What is wrong with the change made; `None` where it cannot be made.
-fn tried(
+/// Scans the film with a change applied; returns `None` if it cannot be built.
+fn scan_with(
     change: &SettingChange,
-    (transition, arap, solid): (&Transition, &Arap, &SolidContent),
+    transition: &Transition,
+    arap: &Arap,
+    solid: &SolidContent,
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<MomentCounts>>, Cancelled> {
@@ -125,14 +125,16 @@ fn tried(
     };
     change.apply(&mut options);
     match arap.rebuilt(&options.arap, progress) {
-        Ok(other) => defect_scan::rigid_parts(transition, &other, solid, steps, progress).map(Some),
+        Ok(changed) => {
+            defect_scan::scan_rigid_parts(transition, &changed, solid, steps, progress).map(Some)
+        }
         Err(ArapError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),
     }
 }
 
-/// Takes a change that leaves less of the trouble, and no more of the other,
-/// than what was found before.
+/// Adopts a change as the remedy if it leaves fewer defects of the finding's kind than the best
+/// change so far, and no more of the other kind than without it.
 fn take_if_better(
     finding: &mut Finding,
     change: &SettingChange,
@@ -144,28 +146,28 @@ fn take_if_better(
         FindingKind::Folds { .. } => (|g| g.folds, |g| g.crossings),
         _ => (|g| g.crossings, |g| g.folds),
     };
-    let of = defect_scan::most(now, own);
+    let of = defect_scan::max_count(now, own);
     let best = match finding.remedy {
         Remedy::Change { left, .. } => left,
         _ => of,
     };
-    let left = defect_scan::most(then, own);
-    // Folds undone at the price of new crossings are no remedy.
-    if left < best && defect_scan::most(then, other) <= defect_scan::most(now, other) {
+    let left = defect_scan::max_count(then, own);
+    // Removing folds at the cost of new crossings is not a remedy.
+    if left < best && defect_scan::max_count(then, other) <= defect_scan::max_count(now, other) {
         let change = change.clone();
         finding.remedy = Remedy::Change { change, left, of };
     }
 }
 
-/// Tries the other space.
-pub(super) fn for_fields(
+/// Tests the other blend space: distances or their logarithms.
+pub(super) fn try_other_blend_space(
     transition: &Transition,
     pair: &FieldPair,
     steps: usize,
-    found: &mut [Finding],
+    findings: &mut [Finding],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
-    if found.is_empty() {
+    if findings.is_empty() {
         return Ok(());
     }
     let mut blend = *pair.blend();
@@ -176,16 +178,16 @@ pub(super) fn for_fields(
     let Ok(Some(other)) = transition.with_blend(blend) else {
         return Ok(());
     };
-    let then = defect_scan::fields(&other, steps, progress)?;
-    for finding in found {
+    let then = defect_scan::scan_fields(&other, steps, progress)?;
+    for finding in findings {
         let (of, left) = match finding.trouble {
             FindingKind::Pieces { count, at_ends } => (
                 count - at_ends,
-                defect_scan::most(&then, |g| g.pieces).saturating_sub(at_ends),
+                defect_scan::max_count(&then, |g| g.pieces).saturating_sub(at_ends),
             ),
             FindingKind::Holes { count, at_ends } => (
                 count - at_ends,
-                defect_scan::most(&then, |g| g.holes).saturating_sub(at_ends),
+                defect_scan::max_count(&then, |g| g.holes).saturating_sub(at_ends),
             ),
             _ => (1, usize::from(then.iter().any(|g| g.pieces == 0))),
         };

@@ -1,4 +1,4 @@
-//! How it is said.
+//! Texts of findings: headline, cause and remedy in plain English.
 
 use super::finding::{Finding, FindingCause, FindingKind, Remedy, SettingChange};
 use crate::content::BlendSpace;
@@ -6,10 +6,10 @@ use crate::geometry::DVec2;
 use std::fmt;
 
 impl Finding {
-    /// What is seen, and where on the way: "7 faces fold at t = 0.43".
+    /// Returns the defect and its moment: "7 faces fold near t = 0.43".
     #[must_use]
     pub fn headline(&self) -> String {
-        format!("{} at t = {:.2}", self.trouble, self.t)
+        format!("{} near t = {:.2}", self.trouble, self.t)
     }
 }
 
@@ -23,16 +23,14 @@ impl fmt::Display for FindingKind {
                 2 => write!(f, "the boundary crosses itself twice"),
                 n => write!(f, "the boundary crosses itself {n} times"),
             },
-            Self::Pieces { count, at_ends } => {
-                write!(f, "{count} pieces instead of {at_ends}")
-            }
+            Self::Pieces { count, .. } => write!(f, "breaks into {count} pieces"),
             Self::Holes { count, at_ends } => match count {
                 1 => write!(f, "1 hole instead of none"),
                 count => write!(f, "{count} holes instead of {at_ends}"),
             },
-            Self::Gone => write!(f, "nothing is left"),
+            Self::Gone => write!(f, "the shape disappears"),
             Self::PlaneFolds { share } => {
-                write!(f, "the plane folds over {} of the frame", percent(*share))
+                write!(f, "the plane folds in {} of the frame", percent(*share))
             }
             Self::Missed { count, by } => {
                 let pins = if *count == 1 { "pin is" } else { "pins are" };
@@ -46,10 +44,9 @@ impl fmt::Display for FindingKind {
     }
 }
 
-/// A share, with as many digits as tell it from nothing.
-fn percent(share: f64) -> String {
-    // A share of 0.0 % would read as no trouble at all.
-    let percent = 100.0 * share;
+/// Formats a fraction as a percentage with enough digits to tell it from zero.
+fn percent(fraction: f64) -> String {
+    let percent = 100.0 * fraction;
     if percent >= 10.0 {
         format!("{percent:.0} %")
     } else if percent >= 0.1 {
@@ -59,22 +56,23 @@ fn percent(share: f64) -> String {
     }
 }
 
-/// Radians in whole degrees.
+/// Formats an angle in radians as whole degrees.
 fn degrees(angle: f64) -> String {
     format!("{:.0}°", angle.to_degrees())
 }
 
-fn near(place: &DVec2) -> String {
+/// Formats a position with about three digits per coordinate.
+fn position(place: &DVec2) -> String {
     format!("({}, {})", VerdictNumber(place.x), VerdictNumber(place.y))
 }
 
-/// A number with three digits, so that designs of any size can be read.
+/// A number formatted with about three significant digits.
 struct VerdictNumber(f64);
 
 impl fmt::Display for VerdictNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let size = self.0.abs();
-        let decimals = match size {
+        let magnitude = self.0.abs();
+        let decimals = match magnitude {
             s if s >= 100.0 => 0,
             s if s >= 10.0 => 1,
             s if s >= 1.0 => 2,
@@ -84,7 +82,7 @@ impl fmt::Display for VerdictNumber {
     }
 }
 
-/// "3.2 times longer" or "shorter" than the mean.
+/// Formats a ratio to the mean as "3.2 times longer" or "3.2 times shorter".
 fn stretched(ratio: f64) -> String {
     if ratio >= 1.0 {
         format!("{ratio:.1} times longer")
@@ -98,52 +96,52 @@ impl fmt::Display for FindingCause {
         match self {
             Self::StraightPaths { turn, .. } => write!(
                 f,
-                "straight paths flatten what turns, here by {}",
+                "straight paths flatten rotating parts, here rotating by {}",
                 degrees(turn.abs())
             ),
             Self::FarTurn { part, turn } => {
                 let (what, other) = match part {
                     Some(part) => (format!("part {}", part + 1), "its neighbour"),
-                    None => ("this place".to_owned(), "the whole"),
+                    None => ("this place".to_owned(), "the whole shape"),
                 };
                 let by = degrees(turn.abs());
                 write!(
                     f,
-                    "{what} turns by {by} against {other}, more than half a turn"
+                    "{what} rotates by {by} relative to {other}, more than half a turn"
                 )
             }
             Self::UnevenMatch { ratio, source, .. } => write!(
                 f,
-                "near {} of the source the boundary becomes {} than elsewhere",
-                near(source),
+                "near {} in the source, the boundary becomes {} than elsewhere",
+                position(source),
                 stretched(*ratio)
             ),
             Self::UnlikeNeighbours { turn } => write!(
                 f,
-                "neighbouring faces turn by angles that are {} apart",
+                "neighbouring faces rotate by angles that differ by {}",
                 degrees(*turn)
             ),
             Self::PlacesMeet { turns: [a, b], .. } => write!(
                 f,
-                "two places that turn by {} and {} run into each other",
+                "two places that rotate by {} and {} collide",
                 degrees(*a),
                 degrees(*b)
             ),
             Self::LittleOverlap { share } => write!(
                 f,
-                "only {:.0} % of the smaller design lies on the other",
+                "only {:.0} % of the smaller design overlaps the other",
                 100.0 * share
             ),
-            Self::BlindFields => f.write_str("fields do not know which part becomes which"),
+            Self::BlindFields => f.write_str("distance fields do not match parts with each other"),
             Self::SeenTwice => f.write_str(
-                "pins or lines near it pass each other, and the plane is turned over between them",
+                "pins or lines near it pass each other, so the plane folds between them",
             ),
-            Self::FeaturesMeet => f.write_str("pins come too near each other on their way"),
-            Self::OutOfReach => f.write_str("the plane would have to fold to bring it there"),
+            Self::FeaturesMeet => f.write_str("pins come too close to each other in between"),
+            Self::OutOfReach => f.write_str("the plane would have to fold to reach it"),
             Self::NothingInside => f.write_str(
-                "points of the boundary move on their own, nothing inside keeps them apart",
+                "boundary points move independently, and no mesh inside keeps them apart",
             ),
-            Self::Unclear => f.write_str("no single cause stands out"),
+            Self::Unclear => f.write_str("no single cause was found"),
         }
     }
 }
@@ -153,34 +151,37 @@ impl fmt::Display for Remedy {
         match self {
             Self::Change {
                 change, left: 0, ..
-            } => write!(f, "{change}: then there is none"),
+            } => write!(f, "{change}: no defects remain"),
             Self::Change { change, left, of } => {
-                write!(f, "{change}: then {left} of {of} are left")
+                write!(f, "{change}: {left} of {of} defects remain")
             }
             Self::Pin { source, target } => write!(
                 f,
-                "pin {} of the source to its place in the target, now {}",
-                near(source),
-                near(target)
+                "pin {} in the source to the same point of the target, now at {}",
+                position(source),
+                position(target)
             ),
             Self::MoveVertices { source, target } => write!(
                 f,
-                "move the vertices about {} of the source or {} of the target",
-                near(source),
-                near(target)
+                "move the vertices near {} in the source or {} in the target",
+                position(source),
+                position(target)
             ),
             Self::LayOver => write!(
                 f,
-                "lay the designs over each other (fit centred or same-area, or a placement)"
+                "make the designs overlap (fit centred or same-area, or move one of them)"
             ),
-            Self::RigidParts => write!(f, "blend them as rigid parts"),
+            Self::RigidParts => write!(f, "choose rigid parts as the method"),
             Self::Lattices => write!(
                 f,
-                "move or delete some about it, or warp by lattices without folds"
+                "move or delete pins or lines near it, or choose lattices without folds"
             ),
-            Self::AnotherWay => write!(f, "lead the path past it on the map"),
-            Self::MovePins => write!(f, "move or delete pins about it"),
-            Self::LetFold => write!(f, "move or delete pins about it, or let the lattices fold"),
+            Self::AnotherWay => write!(f, "move the path on the map away from it"),
+            Self::MovePins => write!(f, "move or delete pins near it"),
+            Self::LetFold => write!(
+                f,
+                "move or delete pins near it, or allow the lattices to fold"
+            ),
         }
     }
 }
@@ -188,18 +189,18 @@ impl fmt::Display for Remedy {
 impl fmt::Display for SettingChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Homotopy(homotopy) => write!(f, "choose the {homotopy} homotopy"),
-            Self::Symmetric => write!(f, "choose the symmetric energy"),
+            Self::Homotopy(homotopy) => write!(f, "use {homotopy} interpolation"),
+            Self::Symmetric => write!(f, "use the symmetric energy"),
             Self::ExtraTurns(turns) => {
                 let turns: Vec<_> = turns.iter().map(i32::to_string).collect();
                 write!(
                     f,
-                    "turn it the other way (extra turns {})",
+                    "rotate it the other way (extra turns {})",
                     turns.join(", ")
                 )
             }
-            Self::Space(BlendSpace::Real) => write!(f, "mix distances, not their logarithms"),
-            Self::Space(BlendSpace::Log) => write!(f, "mix the logarithms of distances"),
+            Self::Space(BlendSpace::Real) => write!(f, "use linear distances"),
+            Self::Space(BlendSpace::Log) => write!(f, "use logarithmic distances"),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What is found in rigid parts and in boundaries.
+//! Defects of solids: folded faces and crossing boundaries, with their causes.
 
 use super::cause;
 use super::cause::CauseSearch;
@@ -12,41 +12,42 @@ use crate::geometry::DVec2;
 use crate::transition::Transition;
 use crate::work::progress::{Cancelled, Progress};
 
-pub(super) fn findings(
+/// Finds the folds and crossings of a solid, and tests remedies if it consists of rigid parts.
+pub(super) fn solid_findings(
     transition: &Transition,
     solid: &SolidContent,
-    glances: &[MomentCounts],
+    moments: &[MomentCounts],
     progress: &dyn Progress,
 ) -> Result<Vec<Finding>, Cancelled> {
     let Some(arap) = transition.arap() else {
-        let found = match transition.compatible() {
-            Some(mesh) => of_blends(transition, mesh, solid, glances),
-            None => of_boundaries(transition, solid, glances)
+        let findings = match transition.compatible() {
+            Some(mesh) => path_findings(transition, mesh, solid, moments),
+            None => boundary_crossings(transition, solid, moments)
                 .into_iter()
                 .collect(),
         };
-        return Ok(found);
+        return Ok(findings);
     };
-    let mut found = Vec::new();
-    if let Some((t, span)) = defect_scan::worst(glances, |g| g.folds, 0) {
-        let scene = CauseSearch::new(transition, arap, solid, t);
-        found.extend(of_folds(&scene, t, span));
+    let mut findings = Vec::new();
+    if let Some((t, span)) = defect_scan::worst_moment(moments, |g| g.folds, 0) {
+        let search = CauseSearch::new(transition, arap, solid, t);
+        findings.extend(fold_finding(&search, t, span));
     }
-    if let Some((t, span)) = defect_scan::worst(glances, |g| g.crossings, 0) {
-        let scene = CauseSearch::new(transition, arap, solid, t);
-        found.extend(of_crossings(&scene, t, span));
+    if let Some((t, span)) = defect_scan::worst_moment(moments, |g| g.crossings, 0) {
+        let search = CauseSearch::new(transition, arap, solid, t);
+        findings.extend(crossing_finding(&search, t, span));
     }
-    remedy::for_rigid_parts(transition, arap, solid, glances, &mut found, progress)?;
-    Ok(found)
+    remedy::try_rigid_part_options(transition, arap, solid, moments, &mut findings, progress)?;
+    Ok(findings)
 }
 
-/// Crossings of a boundary that has nothing inside.
-fn of_boundaries(
+/// Finds crossings of boundaries without a mesh inside.
+fn boundary_crossings(
     transition: &Transition,
     solid: &SolidContent,
-    glances: &[MomentCounts],
+    moments: &[MomentCounts],
 ) -> Option<Finding> {
-    let (t, span) = defect_scan::worst(glances, |g| g.crossings, 0)?;
+    let (t, span) = defect_scan::worst_moment(moments, |g| g.crossings, 0)?;
     let frame = transition.frame(t);
     let crossings = solid.crossings_at(&frame.placement().in_frame, t);
     Some(Finding {
@@ -59,12 +60,12 @@ fn of_boundaries(
     })
 }
 
-/// What is found on the way through the blends of many designs.
-fn of_blends(
+/// Finds folds and crossings of a film along a path through the blends of many designs.
+fn path_findings(
     transition: &Transition,
     mesh: &CompatibleMesh,
     solid: &SolidContent,
-    glances: &[MomentCounts],
+    moments: &[MomentCounts],
 ) -> Vec<Finding> {
     let finding = |(t, span), place, trouble| Finding {
         trouble,
@@ -74,15 +75,15 @@ fn of_blends(
         cause: FindingCause::Unclear,
         remedy: Remedy::AnotherWay,
     };
-    let folds = defect_scan::worst(glances, |g| g.folds, 0).and_then(|at| {
+    let folds = defect_scan::worst_moment(moments, |g| g.folds, 0).and_then(|at| {
         let frame = transition.frame(at.0);
         let places = &frame.placement().in_frame;
-        let faces: Vec<usize> = defect_scan::folded(mesh.faces(), places).collect();
+        let faces: Vec<usize> = defect_scan::folded_faces(mesh.faces(), places).collect();
         let corners = mesh.faces()[*faces.first()?].map(|v| places[v as usize]);
         let middle = corners.iter().sum::<DVec2>() / 3.0;
         Some(finding(at, middle, FindingKind::Folds { faces }))
     });
-    let crossings = defect_scan::worst(glances, |g| g.crossings, 0).and_then(|at| {
+    let crossings = defect_scan::worst_moment(moments, |g| g.crossings, 0).and_then(|at| {
         let frame = transition.frame(at.0);
         let crossings = solid.crossings_at(&frame.placement().in_frame, at.0);
         let place = crossings.first()?.place;
@@ -91,56 +92,59 @@ fn of_blends(
     folds.into_iter().chain(crossings).collect()
 }
 
-fn of_folds(scene: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
-    let faces: Vec<usize> = defect_scan::folded(scene.arap.mesh().faces(), &scene.places).collect();
-    let by_det = |a: &&usize, b: &&usize| scene.det(**a).total_cmp(&scene.det(**b));
+/// Describes the folds at `t`; place and cause are those of the worst face.
+fn fold_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
+    let faces: Vec<usize> =
+        defect_scan::folded_faces(search.arap.mesh().faces(), &search.places).collect();
+    let by_det = |a: &&usize, b: &&usize| search.det(**a).total_cmp(&search.det(**b));
     let worst = *faces.iter().min_by(by_det)?;
-    // What an option can change comes first, then what a pin can, and last what
-    // only tells where to look.
-    let cause = cause::straight_paths(scene, worst, t)
-        .or_else(|| cause::far_turn_of_part(scene, worst))
-        .or_else(|| cause::uneven_match(scene, worst))
-        .or_else(|| cause::unlike_neighbours(scene, &faces))
-        .or_else(|| cause::far_turn(scene, worst));
+    // Causes that an option can fix come first, then those that a pin can fix, and last those
+    // that only describe the place.
+    let cause = cause::straight_paths(search, worst, t)
+        .or_else(|| cause::far_turn_of_part(search, worst))
+        .or_else(|| cause::uneven_match(search, worst))
+        .or_else(|| cause::unlike_neighbours(search, &faces))
+        .or_else(|| cause::far_turn(search, worst));
     Some(Finding {
-        place: scene.centroid(worst, &scene.places),
+        place: search.centroid(worst, &search.places),
         trouble: FindingKind::Folds { faces },
         t,
         span,
         cause: cause.unwrap_or(FindingCause::Unclear),
-        remedy: remedy::by_hand(scene, worst),
+        remedy: remedy::move_vertices_at(search, worst),
     })
 }
 
-fn of_crossings(scene: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
-    let found = scene.solid.crossings_at(&scene.places, t);
-    let first = *found.first()?;
+/// Describes the crossings at `t`; place and cause are those of the first one.
+fn crossing_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
+    let crossings = search.solid.crossings_at(&search.places, t);
+    let first = *crossings.first()?;
     let faces: Vec<usize> = first
         .edges
         .iter()
-        .filter_map(|&e| scene.face_at(e))
+        .filter_map(|&e| search.face_at(e))
         .collect();
     let &[a, b] = faces.as_slice() else {
         return None;
     };
-    let cause = cause::straight_paths(scene, a, t)
-        .or_else(|| cause::straight_paths(scene, b, t))
-        .or_else(|| cause::far_turn_of_part(scene, a))
-        .or_else(|| cause::far_turn_of_part(scene, b))
+    let cause = cause::straight_paths(search, a, t)
+        .or_else(|| cause::straight_paths(search, b, t))
+        .or_else(|| cause::far_turn_of_part(search, a))
+        .or_else(|| cause::far_turn_of_part(search, b))
         .or_else(|| {
-            let near = cause::near_each_other(scene, &first);
-            near.then(|| cause::uneven_match(scene, a)).flatten()
+            let near = cause::near_each_other(search, &first);
+            near.then(|| cause::uneven_match(search, a)).flatten()
         });
     let meet = || FindingCause::PlacesMeet {
-        turns: [a, b].map(|f| scene.angles[f]),
-        source: [a, b].map(|f| scene.centroid(f, scene.arap.mesh().source())),
+        turns: [a, b].map(|f| search.angles[f]),
+        source: [a, b].map(|f| search.centroid(f, search.arap.mesh().source())),
     };
     Some(Finding {
         place: first.place,
-        trouble: FindingKind::Crossings { crossings: found },
+        trouble: FindingKind::Crossings { crossings },
         t,
         span,
         cause: cause.unwrap_or_else(meet),
-        remedy: remedy::by_hand(scene, a),
+        remedy: remedy::move_vertices_at(search, a),
     })
 }

@@ -1,4 +1,4 @@
-//! Films that go wrong by construction, and one cause after the other.
+//! Tests of the check on films with known defects, one for each cause.
 
 use super::cause;
 use super::cause::CauseSearch;
@@ -8,7 +8,7 @@ use crate::content::Content;
 use crate::design::{ImportOptions, import};
 use crate::field::Metric;
 use crate::geometry::{DMat2, DVec2};
-use crate::measure::film;
+use crate::measure::film_report;
 use crate::measure::tests::{sheet, transition};
 use crate::transition::{Transition, TransitionNote, TransitionOptions, TransitionSpec};
 use crate::warp::ArapOptions;
@@ -17,14 +17,17 @@ use crate::work::progress::Silent;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// Number of sampled t.
 const STEPS: usize = 65;
+
+/// Distance between two sampled t.
 const STEP: f64 = 1.0 / 64.0;
 
 fn verdict(transition: &Transition) -> Verdict {
     let verdict = Verdict::of(transition, STEPS, &Silent).expect("not cancelled");
-    let report = film(transition, STEPS, &Silent).expect("not cancelled");
+    let report = film_report(transition, STEPS, &Silent).expect("not cancelled");
     let of_film = Verdict::of_film(transition, &report, &Silent).expect("not cancelled");
-    assert_eq!(verdict, of_film, "two ways to one verdict");
+    assert_eq!(verdict, of_film, "both constructors agree");
     verdict
 }
 
@@ -35,7 +38,7 @@ fn with(homotopy: Homotopy) -> ArapOptions {
     }
 }
 
-/// Half a turn with a stretch: on straight paths det M(t) = (1−2t)(1−4t).
+/// Half a turn with a stretch: with the linear homotopy det M(t) = (1−2t)(1−4t).
 fn half_turn(homotopy: Homotopy) -> Transition {
     let (faces, source) = sheet(4, 2);
     let map = DMat2::from_angle(PI) * DMat2::from_diagonal(DVec2::new(1.0, 3.0));
@@ -63,14 +66,14 @@ fn straight_paths_fold_where_the_determinant_is_negative() {
         panic!("{:?}", finding.remedy);
     };
     assert_eq!(*change, SettingChange::Homotopy(Homotopy::Polar));
-    assert_eq!(finding.headline(), "16 faces fold at t = 0.38");
-    assert!(found.headline().starts_with("16 faces fold at t = 0.38"));
+    assert_eq!(finding.headline(), "16 faces fold near t = 0.38");
+    assert!(found.headline().starts_with("16 faces fold near t = 0.38"));
     assert!(finding.cause.to_string().contains("180°"));
-    // What was tried is what then happens.
+    // Applying the suggested change really removes the defects.
     assert!(verdict(&half_turn(Homotopy::Polar)).is_clear());
 }
 
-/// Two triangles on a hinge, at rest but for whole turns.
+/// Two triangles joined at a hinge, equal in both designs except for extra full turns.
 fn hinge(extra_turns: Vec<i32>) -> Transition {
     let points = [
         (0.0, 0.0),
@@ -88,7 +91,7 @@ fn hinge(extra_turns: Vec<i32>) -> Transition {
 }
 
 #[test]
-fn a_part_that_turns_too_far_is_turned_the_other_way() {
+fn a_part_that_rotates_too_far_is_rotated_the_other_way() {
     assert!(verdict(&hinge(vec![])).is_clear());
     for turns in [1, -1] {
         let found = verdict(&hinge(vec![0, turns]));
@@ -117,7 +120,7 @@ fn a_part_that_turns_too_far_is_turned_the_other_way() {
     }
 }
 
-/// A band whose curvature runs evenly from `begin` to `end` turns a length.
+/// A thin band of length 1 whose curvature changes linearly from `begin` to `end` full turns.
 fn band(begin: f64, end: f64) -> Vec<DVec2> {
     const N: u32 = 60;
     let (mut angle, mut at) = (0.0_f64, DVec2::ZERO);
@@ -133,8 +136,8 @@ fn band(begin: f64, end: f64) -> Vec<DVec2> {
     rows.concat()
 }
 
-/// A spiral that is coiled up from its other end: in between it is a circle
-/// run through more than once.
+/// A spiral that becomes one coiled at the other end; in between it is a circle traced more than
+/// once.
 fn recoiled() -> Transition {
     let (faces, _) = sheet(60, 1);
     let (source, target) = (band(0.2, 2.6), band(2.6, 0.2));
@@ -142,7 +145,7 @@ fn recoiled() -> Transition {
 }
 
 #[test]
-fn limbs_that_run_into_each_other_are_seen_from_both_sides() {
+fn colliding_places_are_reported_with_both_rotations() {
     let transition = recoiled();
     let found = verdict(&transition);
     let finding = &found.findings[0];
@@ -161,7 +164,8 @@ fn limbs_that_run_into_each_other_are_seen_from_both_sides() {
     ));
 }
 
-fn scene(transition: &Transition, test: impl FnOnce(&CauseSearch<'_>)) {
+/// Runs `test` on the transition at t = 0.5.
+fn with_search(transition: &Transition, test: impl FnOnce(&CauseSearch<'_>)) {
     let (Some(arap), Content::Solid(solid)) = (transition.arap(), transition.content()) else {
         panic!("rigid parts");
     };
@@ -169,7 +173,7 @@ fn scene(transition: &Transition, test: impl FnOnce(&CauseSearch<'_>)) {
 }
 
 #[test]
-fn a_far_turn_within_one_part_is_measured_against_the_whole() {
+fn a_large_rotation_within_one_part_is_measured_relative_to_the_whole() {
     let (faces, _) = sheet(60, 1);
     let uncoiled = transition(
         &faces,
@@ -177,18 +181,18 @@ fn a_far_turn_within_one_part_is_measured_against_the_whole() {
         &band(0.0, 0.0),
         with(Homotopy::Polar),
     );
-    scene(&uncoiled, |scene| {
-        // The faces at the ends turn by about a whole turn against the middle.
-        let Some(FindingCause::FarTurn { part: None, turn }) = cause::far_turn(scene, 0) else {
-            panic!("{:?}", cause::far_turn(scene, 0));
+    with_search(&uncoiled, |search| {
+        // The faces at the ends rotate by about a full turn relative to the middle.
+        let Some(FindingCause::FarTurn { part: None, turn }) = cause::far_turn(search, 0) else {
+            panic!("{:?}", cause::far_turn(search, 0));
         };
         assert!(turn.abs() > PI);
-        assert_eq!(cause::far_turn(scene, 60), None);
+        assert_eq!(cause::far_turn(search, 60), None);
     });
 }
 
 #[test]
-fn a_squeezed_boundary_is_named_where_it_is() {
+fn a_squeezed_boundary_is_located() {
     let (faces, source) = sheet(40, 1);
     // The middle tenth of the lower side becomes five times shorter.
     let squeeze = |x: f64| match x {
@@ -205,42 +209,42 @@ fn a_squeezed_boundary_is_named_where_it_is() {
     };
     let target: Vec<_> = source.iter().map(moved).collect();
     let squeezed = transition(&faces, &source, &target, ArapOptions::default());
-    scene(&squeezed, |scene| {
+    with_search(&squeezed, |search| {
         let Some(FindingCause::UnevenMatch {
             ratio,
             source,
             target,
-        }) = cause::uneven_match(scene, 40)
+        }) = cause::uneven_match(search, 40)
         else {
             panic!("no cause");
         };
         assert!(ratio < 1.0 / 3.0, "{ratio}");
         assert!((source - DVec2::new(20.0, 0.0)).abs().max_element() <= 2.0);
         assert!((target - DVec2::new(20.0, 0.0)).abs().max_element() <= 0.4);
-        assert_eq!(cause::uneven_match(scene, 0), None, "far from it");
-        let words = FindingCause::UnevenMatch {
+        assert_eq!(cause::uneven_match(search, 0), None, "far from it");
+        let text = FindingCause::UnevenMatch {
             ratio: 0.25,
             source,
             target,
         }
         .to_string();
-        assert!(words.contains("4.0 times shorter"), "{words}");
+        assert!(text.contains("4.0 times shorter"), "{text}");
     });
 }
 
 #[test]
-fn neighbours_that_turn_apart_are_named() {
-    // A square that is sheared far to one side above and to the other below.
+fn neighbours_that_rotate_differently_are_reported() {
+    // Two squares, sheared far in opposite directions.
     let (faces, source) = sheet(1, 2);
     let shear = |p: &DVec2| DVec2::new(p.x + 6.0 * (p.y - 1.0).abs(), p.y);
     let target: Vec<_> = source.iter().map(shear).collect();
     let sheared = transition(&faces, &source, &target, ArapOptions::default());
-    scene(&sheared, |scene| {
-        let Some(FindingCause::UnlikeNeighbours { turn }) = cause::unlike_neighbours(scene, &[1])
+    with_search(&sheared, |search| {
+        let Some(FindingCause::UnlikeNeighbours { turn }) = cause::unlike_neighbours(search, &[1])
         else {
             panic!("no cause");
         };
-        // A shear by s turns by atan(s / 2), here both ways.
+        // A shear by s rotates by atan(s / 2), here in both directions.
         assert!((turn - 2.0 * 3f64.atan()).abs() < 1e-9, "{turn}");
     });
 }
@@ -257,7 +261,7 @@ fn fields_by(source: &str, target: &str, metric: Metric) -> Transition {
         Arc::new(import("drawing", svg.as_bytes(), &ImportOptions::default()).expect("a drawing"))
     };
     let mut spec = TransitionSpec::new(read(source), read(target));
-    spec.cell = crate::transition::TransitionMethod::FIELD_BLEND;
+    spec.method = crate::transition::TransitionMethod::FIELD_BLEND;
     spec.options.field.cells = 96;
     spec.options.field.metric = metric;
     Transition::build(&spec, &Silent).expect("a transition")
@@ -268,7 +272,7 @@ fn rect(x: u32, y: u32, width: u32, height: u32) -> String {
 }
 
 #[test]
-fn fields_that_do_not_overlap_leave_nothing() {
+fn fields_without_overlap_disappear_in_between() {
     let found = verdict(&fields(&rect(5, 20, 20, 20), &rect(75, 20, 20, 20)));
     let finding = &found.findings[0];
     assert_eq!(finding.trouble, FindingKind::Gone);
@@ -276,12 +280,12 @@ fn fields_that_do_not_overlap_leave_nothing() {
     assert_eq!(finding.remedy, Remedy::LayOver);
     assert_eq!(
         found.headline(),
-        format!("nothing is left at t = {:.2}", finding.t)
+        format!("the shape disappears near t = {:.2}", finding.t)
     );
 }
 
 #[test]
-fn fields_that_lose_a_bridge_fall_apart() {
+fn fields_that_lose_a_bridge_break_apart() {
     let blobs = rect(5, 10, 30, 40) + &rect(65, 10, 30, 40);
     let above = blobs.clone() + &rect(30, 12, 40, 6);
     let below = blobs + &rect(30, 42, 40, 6);
@@ -300,27 +304,27 @@ fn fields_that_lose_a_bridge_fall_apart() {
     assert!(
         found
             .headline()
-            .starts_with("2 pieces instead of 1 at t = 0.")
+            .starts_with("breaks into 2 pieces near t = 0.")
     );
 }
 
 #[test]
 fn fields_that_keep_their_pieces_are_clear() {
     let found = verdict(&fields(&rect(10, 10, 40, 40), &rect(15, 10, 50, 40)));
-    assert_eq!(found.headline(), "no more pieces or holes than at the ends");
+    assert_eq!(found.headline(), "no extra pieces or holes");
 }
 
 #[test]
-fn a_verdict_tells_how_the_film_was_made() {
+fn a_check_includes_the_notes_of_the_transition() {
     let (a, b) = (rect(10, 10, 40, 40), rect(15, 10, 50, 40));
     assert_eq!(verdict(&fields(&a, &b)).notes, []);
     let found = verdict(&fields_by(&a, &b, Metric::Chessboard));
     assert_eq!(found.notes, [TransitionNote::BinaryBoundary]);
-    assert!(found.is_clear(), "a note is no trouble");
+    assert!(found.is_clear(), "a note is not a defect");
 }
 
 #[test]
-fn a_change_is_made_in_the_options() {
+fn a_change_is_applied_to_the_options() {
     let mut options = TransitionOptions::default();
     options.arap.symmetric = false;
     for change in [

@@ -4,7 +4,7 @@
 
 use super::domain::{ConstrainedDelaunay, TriangulationDomain};
 use crate::geometry::{Bounds, DVec2, orient2d};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{Point2, Triangulation as _};
 use std::cmp::Reverse;
@@ -68,7 +68,7 @@ impl TriangulationDomain {
         while added < refinement.max_points
             && let Some(((_, Reverse(vertices)), centre)) = bad.pop_last()
         {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             // Faces that cannot be improved are dropped: only faces at new vertices enter the
             // queue.
             let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {

@@ -141,8 +141,8 @@ impl BernsteinPolynomial {
         let last = self.degree;
         let end = |known: EndSign, c: f64| match known {
             EndSign::Positive => true,
-            EndSign::Not => false,
-            EndSign::No => c > self.error,
+            EndSign::NotPositive => false,
+            EndSign::Unknown => c > self.error,
         };
         // Comparisons with NaN are false: not proved.
         end(ends[0], c[0]) && end(ends[1], c[last]) && c[1..last].iter().all(|&c| c > self.error)
@@ -153,11 +153,11 @@ impl BernsteinPolynomial {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum EndSign {
     /// Only the coefficient is known.
-    No,
+    Unknown,
     /// Strictly positive.
     Positive,
     /// Zero or negative.
-    Not,
+    NotPositive,
 }
 
 impl EndSign {
@@ -166,7 +166,7 @@ impl EndSign {
         if exact > 0.0 {
             Self::Positive
         } else {
-            Self::Not
+            Self::NotPositive
         }
     }
 }

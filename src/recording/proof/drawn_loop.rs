@@ -6,7 +6,7 @@ pub struct DrawnLoop {
     /// Vertex indices in order along the loop.
     pub vertices: Vec<u32>,
     /// Paint layer; loops on different layers may cross.
-    pub level: usize,
+    pub layer: usize,
     /// First and last t at which the loop is drawn.
-    pub drawn: [f64; 2],
+    pub visible_interval: [f64; 2],
 }

@@ -3,7 +3,7 @@
 use super::bernstein::{BernsteinPolynomial, BernsteinProducts, EPS, EndSign};
 use super::vertex_curve::{IntervalCurves, VertexCurve};
 use crate::geometry::{DVec2, orient2d};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -22,12 +22,12 @@ pub(super) fn first_fold(
     let products = BernsteinProducts::of_degree(curves.degree());
     let earliest = EarliestFailure::default();
     let of_face = |(face, corners): (usize, &[u32; 3])| {
-        let corners = corners.map(|v| curves.way(v as usize));
+        let corners = corners.map(|v| curves.curve(v as usize));
         let known = |end: usize, k: usize| {
-            let [a, b, c] = corners.each_ref().map(|way| way.at[k]);
+            let [a, b, c] = corners.each_ref().map(|way| way.control_points[k]);
             match at_ends[end] {
                 true => EndSign::of(orient2d(a, b, c)),
-                false => EndSign::No,
+                false => EndSign::Unknown,
             }
         };
         let ends = [known(0, 0), known(1, curves.degree())];
@@ -40,7 +40,7 @@ pub(super) fn first_fold(
     };
     let failures = faces.par_iter().enumerate().filter_map(of_face);
     let first = failures.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    still_wanted(progress)?;
+    check_cancelled(progress)?;
     Ok(first)
 }
 
@@ -62,7 +62,7 @@ impl EarliestFailure {
     }
 
     /// Records a failure at `s` and returns `s`.
-    pub(super) fn told(&self, s: f64) -> f64 {
+    pub(super) fn report(&self, s: f64) -> f64 {
         self.0.fetch_min(s.to_bits(), Ordering::Relaxed);
         s
     }
@@ -85,7 +85,9 @@ pub(super) fn product(
     of: impl Fn(DVec2, DVec2) -> f64,
 ) -> BernsteinPolynomial {
     let between = |[from, to]: [&VertexCurve; 2]| -> (Vec<DVec2>, f64, f64) {
-        let vectors: Vec<DVec2> = (to.at.iter().zip(&from.at)).map(|(b, a)| *b - *a).collect();
+        let vectors: Vec<DVec2> = (to.control_points.iter().zip(&from.control_points))
+            .map(|(b, a)| *b - *a)
+            .collect();
         let largest = vectors.iter().map(|d| d.abs().max_element());
         let largest = largest.fold(0.0, f64::max);
         let error = from.error + to.error + EPS * largest;
@@ -113,14 +115,14 @@ pub(super) fn not_positive(
     if earliest.is_before(from) || of.is_positive(ends) {
         return None;
     }
-    if ends[0] == EndSign::Not || halvings == 0 {
-        return Some(earliest.told(from));
+    if ends[0] == EndSign::NotPositive || halvings == 0 {
+        return Some(earliest.report(from));
     }
     let middle = from.midpoint(to);
     let [left, right] = of.halves();
     let in_half = |of: &BernsteinPolynomial, ends: [EndSign; 2], times: [f64; 2]| {
         not_positive(of, ends, times, halvings - 1, earliest)
     };
-    in_half(&left, [ends[0], EndSign::No], [from, middle])
-        .or_else(|| in_half(&right, [EndSign::No, ends[1]], [middle, to]))
+    in_half(&left, [ends[0], EndSign::Unknown], [from, middle])
+        .or_else(|| in_half(&right, [EndSign::Unknown, ends[1]], [middle, to]))
 }

@@ -10,7 +10,7 @@ use super::drawn_loop::DrawnLoop;
 use super::folds::{EarliestFailure, MAX_HALVINGS, product, twice_area};
 use super::vertex_curve::{IntervalCurves, VertexCurve};
 use crate::geometry::{DVec2, EdgeCrossing, crossings, orient2d};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -66,7 +66,7 @@ pub(super) fn first_meeting(
     let vertices = &search.vertices;
     let mut remaining: Vec<VertexCurve> = vertices
         .par_iter()
-        .map(|&v| curves.way(v as usize))
+        .map(|&v| curves.curve(v as usize))
         .collect();
     let mut found = IntervalMeetings::default();
     let mut from = 0.0;
@@ -134,7 +134,7 @@ impl<'a> MeetingSearch<'a> {
             let ends = boundary_loop.vertices.iter().zip(next);
             ends.map(|(a, b)| LoopEdge {
                 ends: [numbers[a], numbers[b]],
-                level: boundary_loop.level,
+                level: boundary_loop.layer,
             })
         });
         Self {
@@ -158,12 +158,12 @@ impl<'a> MeetingSearch<'a> {
         };
         let ring = |boundary_loop: &&DrawnLoop| -> Vec<DVec2> {
             let indices = (0..boundary_loop.vertices.len()).map(|k| index_at(boundary_loop, k));
-            indices.map(|v| curves[v].at[0]).collect()
+            indices.map(|v| curves[v].control_points[0]).collect()
         };
         let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).collect();
         let all = crossings(&rings);
         let is_same_layer = |crossing: &&EdgeCrossing| {
-            let [a, b] = crossing.edges.map(|edge| loops[edge.ring].level);
+            let [a, b] = crossing.edges.map(|edge| loops[edge.ring].layer);
             a == b
         };
         let crossing = all.iter().find(is_same_layer)?;
@@ -184,7 +184,7 @@ impl<'a> MeetingSearch<'a> {
         [from, to]: [f64; 2],
         halvings: u32,
     ) -> Result<IntervalMeetings, Cancelled> {
-        still_wanted(self.progress)?;
+        check_cancelled(self.progress)?;
         let max_pairs = MAX_PAIRS_PER_EDGE * self.edges.len() + 1000;
         let max_pairs = if halvings > 0 { max_pairs } else { usize::MAX };
         let Some(pairs) = self.near_pairs(curves, max_pairs) else {
@@ -210,15 +210,15 @@ impl<'a> MeetingSearch<'a> {
             if self.progress.is_cancelled() {
                 return None;
             }
-            let s = self.first_contact(triple, at_ends, [from, to], (MAX_HALVINGS, &earliest))?;
+            let s = self.first_contact(triple, at_ends, [from, to], MAX_HALVINGS, &earliest)?;
             let edge = [a as u32, b as u32];
             // The position at the beginning of the part is accurate enough for display.
-            Some((s, v as u32, edge, curves[v].at[0]))
+            Some((s, v as u32, edge, curves[v].control_points[0]))
         };
         let found = apart.par_iter().filter_map(meets);
         let key = |m: &VertexEdgeMeeting| (m.1, m.2);
         let first = found.min_by(|a, b| a.0.total_cmp(&b.0).then(key(a).cmp(&key(b))));
-        still_wanted(self.progress)?;
+        check_cancelled(self.progress)?;
         Ok(IntervalMeetings {
             first,
             touching: touching.len(),
@@ -267,9 +267,9 @@ impl<'a> MeetingSearch<'a> {
         at_ends: [bool; 2],
         &(v, edge): &VertexEdgePair,
     ) -> bool {
-        let last = curves[v].at.len() - 1;
+        let last = curves[v].control_points.len() - 1;
         let touches_at = |k: usize| {
-            let [a, b, p] = [edge[0], edge[1], v].map(|v| curves[v].at[k]);
+            let [a, b, p] = [edge[0], edge[1], v].map(|v| curves[v].control_points[k]);
             let tolerance = curves[v].error + curves[edge[0]].error + curves[edge[1]].error;
             let along = b - a;
             let fraction = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
@@ -286,13 +286,14 @@ impl<'a> MeetingSearch<'a> {
         curves: [VertexCurve; 3],
         at_ends: [bool; 2],
         [from, to]: [f64; 2],
-        (halvings, earliest): (u32, &EarliestFailure),
+        halvings: u32,
+        earliest: &EarliestFailure,
     ) -> Option<f64> {
         if earliest.is_before(from) {
             return None;
         }
         let [a, b, p] = curves.each_ref();
-        let last = p.at.len() - 1;
+        let last = p.control_points.len() - 1;
         let [low, high] = p.bounds();
         let [of_a, of_b] = [a, b].map(VertexCurve::bounds);
         let (edge_low, edge_high) = (of_a[0].min(of_b[0]), of_a[1].max(of_b[1]));
@@ -300,15 +301,21 @@ impl<'a> MeetingSearch<'a> {
             return None;
         }
         let side = twice_area(&self.products, [a, b, p]);
-        let exact = [0, last].map(|k| orient2d(a.at[k], b.at[k], p.at[k]));
+        let exact = [0, last].map(|k| {
+            orient2d(
+                a.control_points[k],
+                b.control_points[k],
+                p.control_points[k],
+            )
+        });
         let known_signs = |sign: f64| {
             let at = |end: usize| match at_ends[end] {
                 true => EndSign::of(sign * exact[end]),
-                false => EndSign::No,
+                false => EndSign::Unknown,
             };
             [at(0), at(1)]
         };
-        let none = [EndSign::No; 2];
+        let none = [EndSign::Unknown; 2];
         let behind = || product(&self.products, [a, p], [a, b], DVec2::dot).negated();
         let ahead = || product(&self.products, [b, p], [a, b], DVec2::dot);
         if side.is_positive(known_signs(1.0))
@@ -319,13 +326,21 @@ impl<'a> MeetingSearch<'a> {
             return None;
         }
         if halvings == 0 {
-            return Some(earliest.told(from));
+            return Some(earliest.report(from));
         }
         let middle = from.midpoint(to);
-        let next = (halvings - 1, earliest);
+        let halvings = halvings - 1;
         let [[a0, a1], [b0, b1], [p0, p1]] = [a, b, p].map(VertexCurve::halves);
         let (left, right) = ([a0, b0, p0], [a1, b1, p1]);
-        self.first_contact(left, [at_ends[0], false], [from, middle], next)
-            .or_else(|| self.first_contact(right, [false, at_ends[1]], [middle, to], next))
+        self.first_contact(
+            left,
+            [at_ends[0], false],
+            [from, middle],
+            halvings,
+            earliest,
+        )
+        .or_else(|| {
+            self.first_contact(right, [false, at_ends[1]], [middle, to], halvings, earliest)
+        })
     }
 }

@@ -39,8 +39,8 @@ where
 fn drawn_loop(vertices: &[u32]) -> DrawnLoop {
     DrawnLoop {
         vertices: vertices.to_vec(),
-        level: 0,
-        drawn: [0.0, 1.0],
+        layer: 0,
+        visible_interval: [0.0, 1.0],
     }
 }
 
@@ -114,7 +114,7 @@ fn loops_on_different_layers_may_cross() {
             .meeting
             .is_some()
     );
-    loops[1].level = 1;
+    loops[1].layer = 1;
     assert_eq!(
         through().prove(&loops, &Silent).expect("an answer").meeting,
         None

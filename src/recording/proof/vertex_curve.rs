@@ -8,7 +8,7 @@ use crate::recording::interval::RecordingInterval;
 #[derive(Clone, Debug)]
 pub(super) struct VertexCurve {
     /// Bernstein coefficients: the control points.
-    pub(super) at: Vec<DVec2>,
+    pub(super) control_points: Vec<DVec2>,
     /// Bound on the error of each coordinate, both of the recording as played and of the control
     /// points.
     pub(super) error: f64,
@@ -45,7 +45,7 @@ impl<'a> IntervalCurves<'a> {
     }
 
     /// Returns the curve of a vertex, by its index in the recording.
-    pub(super) fn way(&self, vertex: usize) -> VertexCurve {
+    pub(super) fn curve(&self, vertex: usize) -> VertexCurve {
         let degree = self.degree();
         let [begin, end] = self.interval.ends(vertex);
         let straight = |i: usize| begin.lerp(end, i as f64 / degree as f64);
@@ -60,7 +60,10 @@ impl<'a> IntervalCurves<'a> {
         // One rounding per term of each sum, some for the straight line and the basis; and the same
         // again for the recording as it is played.
         let error = (4 * degree + 16) as f64 * EPS * scale;
-        VertexCurve { at, error }
+        VertexCurve {
+            control_points: at,
+            error,
+        }
     }
 }
 
@@ -73,14 +76,15 @@ impl VertexCurve {
     /// Splits the curve at `s` by de Casteljau's algorithm.
     pub(super) fn cut(&self, s: f64) -> [Self; 2] {
         let (mut left, mut right) = (self.clone(), self.clone());
-        let last = self.at.len() - 1;
+        let last = self.control_points.len() - 1;
         for k in 1..=last {
             for i in 0..=last - k {
-                right.at[i] = right.at[i] * (1.0 - s) + right.at[i + 1] * s;
+                right.control_points[i] =
+                    right.control_points[i] * (1.0 - s) + right.control_points[i + 1] * s;
             }
-            left.at[k] = right.at[0];
+            left.control_points[k] = right.control_points[0];
         }
-        let scale = self.at.iter().map(|p| p.abs().max_element());
+        let scale = self.control_points.iter().map(|p| p.abs().max_element());
         // At most three roundings per step.
         let error = self.error + (3 * last) as f64 * EPS * scale.fold(0.0, f64::max);
         [left.error, right.error] = [error; 2];
@@ -89,8 +93,9 @@ impl VertexCurve {
 
     /// Returns the lower left and upper right corner of a box around the curve.
     pub(super) fn bounds(&self) -> [DVec2; 2] {
-        let first = [self.at[0]; 2];
-        let [min, max] = (self.at.iter()).fold(first, |[a, b], p| [a.min(*p), b.max(*p)]);
+        let first = [self.control_points[0]; 2];
+        let [min, max] =
+            (self.control_points.iter()).fold(first, |[a, b], p| [a.min(*p), b.max(*p)]);
         [min - self.error, max + self.error]
     }
 }

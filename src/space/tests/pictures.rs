@@ -1,4 +1,4 @@
-//! Pictures of many designs.
+//! Tests of design spaces of pictures.
 
 use super::*;
 use crate::content::{PicturePair, PictureRaster};
@@ -7,9 +7,10 @@ use crate::design::Picture;
 use crate::warp::{ManyFeatures, WarpKind};
 use image::{Rgba, RgbaImage};
 
+/// Side length of the test pictures, in pixels.
 const SIDE: u32 = 64;
 
-/// A ball before a wall, the ball in the middle of its features.
+/// A picture of a ball at `at` in front of a background with colour gradients.
 fn ball(name: &str, at: [f64; 2], colour: [u8; 3]) -> Arc<Design> {
     let pixel = |x: u32, y: u32| {
         // The plane has y up.
@@ -23,11 +24,12 @@ fn ball(name: &str, at: [f64; 2], colour: [u8; 3]) -> Arc<Design> {
     };
     let side = f64::from(SIDE);
     let ring = [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]];
-    let mut design = Design::of_rings(name, [ring]).expect("a design");
+    let mut design = Design::from_rings(name, [ring]).expect("a design");
     design.picture = Some(Picture::new(RgbaImage::from_fn(SIDE, SIDE, pixel)));
     Arc::new(design)
 }
 
+/// Centres of the balls in three pictures, in pixels, y up.
 const PLACES: [[f64; 2]; 3] = [[20.0, 20.0], [44.0, 26.0], [30.0, 46.0]];
 
 fn line(at: [f64; 2]) -> [DVec2; 2] {
@@ -35,7 +37,7 @@ fn line(at: [f64; 2]) -> [DVec2; 2] {
     [at - DVec2::X * 9.0, at + DVec2::X * 9.0]
 }
 
-/// Some of three balls, in this order.
+/// Specification with the balls of the given indices, in this order.
 fn spec(order: &[usize], warp: WarpKind) -> SpaceSpec {
     let colours = [[250, 40, 40], [40, 220, 60], [60, 80, 250]];
     let designs = order.iter().map(|&k| ball("ball", PLACES[k], colours[k]));
@@ -53,22 +55,23 @@ fn raster() -> PictureRaster {
     PictureRaster {
         size: [SIDE; 2],
         corner: DVec2::new(0.0, f64::from(SIDE)),
-        pixel: 1.0,
+        pixel_size: 1.0,
     }
 }
 
-fn seen(space: &DesignSpace, weights: &[f64]) -> RgbaImage {
+fn render(space: &DesignSpace, weights: &[f64]) -> RgbaImage {
     let mut frame = space.frame();
     frame.seek(weights);
     frame.picture(&raster()).expect("pictures")
 }
 
-/// The largest difference in a channel.
-fn off(a: &RgbaImage, b: &RgbaImage) -> u8 {
+/// Returns the largest difference of two images in a channel.
+fn max_difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
     let each = a.iter().zip(b.iter()).map(|(a, b)| a.abs_diff(*b));
     each.max().expect("pixels")
 }
 
+/// Warps that can align pictures, and none.
 const KINDS: [WarpKind; 4] = [
     WarpKind::None,
     WarpKind::Lines,
@@ -77,43 +80,43 @@ const KINDS: [WarpKind; 4] = [
 ];
 
 #[test]
-fn each_picture_is_at_its_corner_and_their_order_does_not_matter() {
+fn weight_one_reproduces_each_picture_in_any_order() {
     for kind in KINDS {
         let space = DesignSpace::build(&spec(&[0, 1, 2], kind), &Silent).expect("a space");
         for (k, design) in space.designs().iter().enumerate() {
             let own = design.picture.as_ref().expect("a picture");
-            assert_eq!(&seen(&space, &corner(3, k)), own.pixels().as_ref());
+            assert_eq!(&render(&space, &corner(3, k)), own.pixels().as_ref());
         }
         let turned = DesignSpace::build(&spec(&[2, 0, 1], kind), &Silent).expect("a space");
-        let there = seen(&space, &[0.5, 0.2, 0.3]);
+        let there = render(&space, &[0.5, 0.2, 0.3]);
         assert!(
-            off(&there, &seen(&turned, &[0.3, 0.5, 0.2])) <= 1,
+            max_difference(&there, &render(&turned, &[0.3, 0.5, 0.2])) <= 1,
             "{kind:?}"
         );
     }
 }
 
 #[test]
-fn two_pictures_are_a_pair() {
+fn a_space_of_two_pictures_equals_their_transition() {
     for kind in [WarpKind::None, WarpKind::Lines, WarpKind::Scattered] {
         let spec = spec(&[0, 1], kind);
         let space = DesignSpace::build(&spec, &Silent).expect("a space");
         let [a, b] = [0, 1].map(|k| Arc::clone(&spec.designs[k]));
         let pictures = [&a, &b].map(|design| design.picture.clone().expect("a picture"));
         let mut pair = TransitionSpec::new(a, b);
-        pair.cell = TransitionMethod::new(kind, ContentKind::Colours).expect("a cell");
+        pair.method = TransitionMethod::new(kind, ContentKind::Colours).expect("a cell");
         pair.options.matching.lines = vec![LinePair {
             source: line(PLACES[0]),
             target: line(PLACES[1]),
         }];
         let pair = Transition::build(&pair, &Silent).expect("a transition");
         for t in [0.0, 0.3, 0.5, 0.8, 1.0] {
-            let wanted = pair.frame(t).picture(&raster()).expect("pictures");
-            let found = seen(&space, &[1.0 - t, t]);
-            // Their grids differ: what is warped is a little off at the ball's edge.
-            let far = found.pixels().zip(wanted.pixels());
-            let far = far.filter(|(a, b)| (0..3).any(|k| a.0[k].abs_diff(b.0[k]) > 2));
-            assert!(far.count() < 12, "{kind:?} at {t}");
+            let expected = pair.frame(t).picture(&raster()).expect("pictures");
+            let found = render(&space, &[1.0 - t, t]);
+            // The warp grids differ, so a few pixels at the edge of the ball differ.
+            let pairs = found.pixels().zip(expected.pixels());
+            let different = pairs.filter(|(a, b)| (0..3).any(|k| a.0[k].abs_diff(b.0[k]) > 2));
+            assert!(different.count() < 12, "{kind:?} at {t}");
         }
         let mix = PicturePair::new(&pictures[0], &pictures[1], spec.options.colours);
         assert_eq!(mix.expect("a pair").window(0.4), space.bounds());
@@ -121,11 +124,11 @@ fn two_pictures_are_a_pair() {
 }
 
 #[test]
-fn what_has_a_line_in_all_is_led_between_them() {
+fn lines_in_all_pictures_align_the_balls() {
     let weights = [1.0 / 3.0; 3];
     let middle = PLACES.iter().map(|p| DVec2::from(*p)).sum::<DVec2>() / 3.0;
     let space = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
-    let picture = seen(&space, &weights);
+    let picture = render(&space, &weights);
     let at = |p: DVec2| *picture.get_pixel(p.x as u32, (f64::from(SIDE) - p.y) as u32);
     // Red, green and blue in equal parts, in linear light.
     let Rgba([r, g, b, _]) = at(middle);
@@ -133,40 +136,40 @@ fn what_has_a_line_in_all_is_led_between_them() {
         r.abs_diff(154) < 12 && g.abs_diff(136) < 12 && b.abs_diff(158) < 12,
         "{r} {g} {b}"
     );
-    // In place each would shine through where it was.
+    // Without a warp, each ball remains visible at its original place.
     let still = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::None), &Silent).expect("a space");
-    let there = seen(&still, &weights);
+    let there = render(&still, &weights);
     let ghost = DVec2::from(PLACES[0]) - DVec2::splat(4.0);
     let ghost = *there.get_pixel(ghost.x as u32, (f64::from(SIDE) - ghost.y) as u32);
     assert!(ghost.0[0] > ghost.0[1] + 30, "{ghost:?}");
 }
 
 #[test]
-fn a_blend_is_a_picture_of_its_own_and_a_way_leads_from_one_to_the_next() {
+fn a_blend_becomes_a_design_and_a_path_connects_blends() {
     let space = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
     let weights = [0.25, 0.25, 0.5];
     let design = space.design(&weights, "mixed");
     let picture = design.picture.as_ref().expect("a picture");
     assert_eq!(picture.bounds(), space.bounds());
-    assert!(off(picture.pixels(), &seen(&space, &weights)) <= 1);
+    assert!(max_difference(picture.pixels(), &render(&space, &weights)) <= 1);
 
-    let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+    let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances())).expect("sites");
     let mut path = MapPath::default();
     let sites = map.sites().to_vec();
     for at in [sites[0], DVec2::ZERO, sites[2]] {
         path.places.push(Waypoint::stop(at));
     }
-    let film = space.film(&map, &path, &Silent).expect("a film");
+    let film = space.path_sequence(&map, &path, &Silent).expect("a film");
     let own = space.designs()[0].picture.as_ref().expect("a picture");
-    let at = |t: f64| film.frame(t).now().picture(&raster()).expect("pictures");
+    let at = |t: f64| film.frame(t).frame().picture(&raster()).expect("pictures");
     assert_eq!(&at(0.0), own.pixels().as_ref());
     let mut middle = vec![0.0; 3];
     map.weights(DVec2::ZERO, &mut middle);
-    assert!(off(&at(1.0), &seen(&space, &middle)) <= 1);
+    assert!(max_difference(&at(1.0), &render(&space, &middle)) <= 1);
 }
 
 #[test]
-fn what_has_no_picture_is_said() {
+fn a_design_without_a_picture_is_an_error() {
     let mut spec = spec(&[0, 1, 2], WarpKind::None);
     spec.designs[1] = star("star", 5, 1.0);
     let error = DesignSpace::build(&spec, &Silent).expect_err("an outline");
@@ -174,13 +177,13 @@ fn what_has_no_picture_is_said() {
 }
 
 #[test]
-fn more_than_memory_has_room_for_is_said_before_it_is_begun() {
+fn too_many_pixels_are_refused_before_the_work_starts() {
     let large = Picture::new(RgbaImage::new(4096, 4096));
-    let mut design = Design::of_rings("large", [ring(2048.0)]).expect("a design");
+    let mut design = Design::from_rings("large", [ring(2048.0)]).expect("a design");
     design.picture = Some(large);
     let design = Arc::new(design);
     let mut spec = SpaceSpec::new(vec![design; 5]);
     spec.content = Some(ContentKind::Colours);
     let error = DesignSpace::build(&spec, &Silent).expect_err("too much");
-    assert!(error.to_string().contains("pixels of pictures"), "{error}");
+    assert!(error.to_string().contains("picture pixels"), "{error}");
 }

@@ -27,7 +27,7 @@ pub(super) struct MeshCompliance {
 
 impl MeshCompliance {
     pub(super) fn of(film: &Arap) -> Result<Self, FactorError> {
-        let living = film.lives().iter().map(Option::is_some).collect();
+        let living = film.time_windows().iter().map(Option::is_some).collect();
         let masses = film.masses().to_vec();
         let mut matrix = film.free_system();
         for (v, &mass) in masses.iter().enumerate() {

@@ -35,12 +35,12 @@ impl DrawnPieces {
         let walk = |vertices: Vec<u32>| {
             let piece = vertices.first().map_or(0, |&v| parts[v as usize] as usize);
             let DrawnPiece { level, swells, .. } = *self.pieces.get(piece)?;
-            let life = film.lives().get(piece).copied().flatten();
-            let drawn = life.map_or([0.0, 1.0], |life| life.there(|t| t));
+            let life = film.time_windows().get(piece).copied().flatten();
+            let drawn = life.map_or([0.0, 1.0], |life| life.visible_interval(|t| t));
             (!swells).then_some(DrawnLoop {
                 vertices,
-                level,
-                drawn,
+                layer: level,
+                visible_interval: drawn,
             })
         };
         walks.filter_map(walk).collect()

@@ -43,7 +43,7 @@ impl GuardedOutlines {
     pub(super) fn of(film: &Arap, drawn: &[DrawnLoop]) -> Option<Self> {
         let mut placer = film.placer();
         let mut ends = BTreeMap::new();
-        for t in drawn.iter().flat_map(|walk| walk.drawn) {
+        for t in drawn.iter().flat_map(|walk| walk.visible_interval) {
             ends.entry(t.to_bits()).or_insert_with(|| {
                 placer.place(t);
                 placer.placement().in_frame.clone()
@@ -61,7 +61,7 @@ impl GuardedOutlines {
         let parts = film.mesh().components();
         let living = |walk: &DrawnLoop| {
             let part = *parts.get(*walk.vertices.first()? as usize)?;
-            let life = film.lives().get(part as usize).copied().flatten();
+            let life = film.time_windows().get(part as usize).copied().flatten();
             life.map(|_| part)
         };
         (!drawn.is_empty()).then(|| Self {
@@ -96,7 +96,10 @@ impl GuardedOutlines {
     fn drawn(&self, pair: GuardedPair) -> [f64; 2] {
         let [a, b] = [self.points[pair.0].1, self.edges[pair.1].walk];
         let [a, b] = [&self.walks[a], &self.walks[b]];
-        [a.drawn[0].max(b.drawn[0]), a.drawn[1].min(b.drawn[1])]
+        [
+            a.visible_interval[0].max(b.visible_interval[0]),
+            a.visible_interval[1].min(b.visible_interval[1]),
+        ]
     }
 
     fn may_meet(&self, pair: GuardedPair, t: f64) -> bool {
@@ -104,7 +107,7 @@ impl GuardedOutlines {
         let [from, to] = self.drawn(pair);
         let both = [a, edge.walk].map(|walk| &self.walks[walk]);
         let living = self.living[a];
-        both[0].level == both[1].level
+        both[0].layer == both[1].layer
             // What comes or goes keeps its form.
             && (living.is_none() || living != self.living[edge.walk])
             && from < t

@@ -10,7 +10,7 @@ use super::outlines::{GuardedOutlines, GuardedPair};
 use super::push::{ContactConstraint, smallest};
 use crate::geometry::{DVec2, twice_signed_area};
 use crate::warp::{Arap, Placer, Warp};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::BTreeMap;
 
 /// How often a step is corrected: faces are straight only to first order, and a
@@ -55,7 +55,7 @@ pub(super) fn through(
     let plain = stepper.plain(*first);
     let mut moments = vec![GuardMoment::of(*first, plain)];
     for &t in steps {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         let plain = stepper.plain(t);
         let Some(next) = moments
             .last()
@@ -214,7 +214,12 @@ impl GuardStepper<'_> {
         for face in mesh.faces().iter() {
             // What comes or goes keeps its form.
             let part = self.parts[face[0] as usize] as usize;
-            if self.film.lives().get(part).is_some_and(Option::is_some) {
+            if self
+                .film
+                .time_windows()
+                .get(part)
+                .is_some_and(Option::is_some)
+            {
                 continue;
             }
             let at = |points: &[DVec2]| face.map(|v| points[v as usize]);

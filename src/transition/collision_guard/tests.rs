@@ -81,7 +81,7 @@ fn what_would_graze_is_moved_aside_and_no_more() {
         assert_eq!(at(&guarded, t), at(&plain, t), "{t}");
     }
     // Both give way, by half of what they overlap and of what they are kept apart.
-    let farthest = guarded.moved_aside().expect("a guard") * plain.mesh().diameter();
+    let farthest = guarded.max_guard_displacement().expect("a guard") * plain.mesh().diameter();
     assert!((0.05..0.5).contains(&farthest), "{farthest}");
     let [was, is] = [&plain, &guarded].map(|film| at(film, 0.5));
     assert!(was[..4] == is[..4], "the bar is in nobody's way");
@@ -148,7 +148,7 @@ fn what_is_born_on_the_way_of_another_waits() {
     );
     let guarded = unproved.kept_apart(&Silent).expect("a film");
     assert!(is_proved(&guarded, &drawn) && guarded.guard().is_none());
-    let life = guarded.lives()[2].expect("a birth");
+    let life = guarded.time_windows()[2].expect("a birth");
     assert!(
         (0.15..0.25).contains(&life.from) && life.to == 1.0,
         "{life:?}"

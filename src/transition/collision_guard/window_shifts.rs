@@ -21,18 +21,18 @@ pub(super) enum WindowShift {
     /// It has no time left.
     TooShort,
     /// No part of one design alone is in it.
-    OfOthers,
+    NotTransient,
 }
 
 /// What can be done about a trouble by shifting lives.
 pub(super) fn shifted(film: &Arap, trouble: &FirstDefect) -> WindowShift {
     let Some(meeting) = trouble.meeting else {
-        return WindowShift::OfOthers;
+        return WindowShift::NotTransient;
     };
     let parts = film.mesh().components();
     let both = [meeting.vertex, meeting.edge[0]].map(|v| parts[v as usize] as usize);
     let shifted = |&piece: &usize| {
-        let life = film.lives().get(piece).copied().flatten()?;
+        let life = film.time_windows().get(piece).copied().flatten()?;
         let next = match life.side {
             Side::Source => TimeWindow {
                 to: life.to.min(trouble.t) - SHIFT,
@@ -50,10 +50,10 @@ pub(super) fn shifted(film: &Arap, trouble: &FirstDefect) -> WindowShift {
     let longer =
         |a: &(usize, TimeWindow), b: &(usize, TimeWindow)| long(&a.1).total_cmp(&long(&b.1));
     match both.iter().filter_map(shifted).max_by(longer) {
-        None => WindowShift::OfOthers,
+        None => WindowShift::NotTransient,
         Some((_, life)) if long(&life) < SHORTEST => WindowShift::TooShort,
         Some((piece, life)) => {
-            let mut lives = film.lives().to_vec();
+            let mut lives = film.time_windows().to_vec();
             lives[piece] = Some(life);
             WindowShift::To(lives)
         }

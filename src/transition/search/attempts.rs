@@ -1,30 +1,34 @@
 //! Searches for the best match of each piece.
 //!
 //! Boundary features cannot predict how the interior deforms, so each candidate match is rated by
-//! its motion. Pieces move independently and are therefore chosen independently. Attempts, in this
-//! order:
+//! its motion. Pieces move independently and are therefore chosen independently. The search starts
+//! with the requested match and then makes the attempts of [`ATTEMPTS`] in their order:
 //!
-//! - the requested costs, with unmatched holes appearing or disappearing on their own
-//! - the same with unmatched holes cut open or closed
-//! - the drawn orientation, for pieces that turn far
-//! - other stretch costs and a high cost of inner distances, for dissimilar shapes
-//! - stretch costs without thickness, if the best candidate folds or distorts much
-//! - if the requested match folds with its holes: all of the above with all holes unmatched
+//! | attempt | pieces that it includes | match options | unmatched holes |
+//! |---|---|---|---|
+//! | [`CUT_HOLES`] | with unmatched holes, not stroked | requested | cut open or closed |
+//! | [`UPRIGHT`] | that turn far | drawn orientation | as before |
+//! | [`OTHER_COSTS`] | with dissimilar shapes | other stretch and inner costs | as before |
+//! | [`WITHOUT_THICKNESS`] | that fold or distort much | no thickness | as before |
+//! | [`UNPAIR_HOLES`] | that fold and have matched holes | requested | all holes |
+//! | [`UPRIGHT`] to [`WITHOUT_THICKNESS`] again | of the previous attempt | as above | all holes |
+//!
+//! "As before" means as in the piece's best candidate so far. The last four attempts improve a
+//! second result, which starts from that of [`CUT_HOLES`]. An attempt that would override a setting
+//! of the user includes no piece. Designs with many rings keep the requested match, and a draft
+//! only makes the attempt [`DRAFT`].
 //!
 //! Candidates are compared by folded faces over all steps, then by crossings of their outlines,
 //! then by misfit: distortion, increased by excess turning, rotation and excess area. The earlier
-//! one of equal candidates stays. Finally the boundary correspondence of the best candidate slides
-//! along the outlines as long as that improves it; if holes were also tried unmatched, both results
-//! slide before one is chosen. A draft only tries the requested match and the drawn orientation.
+//! one of equal candidates stays. Finally the correspondence of both results slides along the
+//! outlines (see [`sliding`](super::sliding)), and the better result is chosen.
 
 use super::candidate::MatchCandidate;
-use super::group::{GroupSearch, MatchVariant, PieceResult, piece, take_better};
-use crate::compatible::slide_outlines;
+use super::group::{GroupSearch, MatchVariant, PieceResult, piece};
+use super::sliding::{LOW_DISTORTION, slide_and_choose};
 use crate::correspondence::{HolePolicy, HoleRule, MatchOptions, MatchSettings};
 use crate::transition::error::BuildError;
-use crate::transition::spec::TransitionSpec;
-use crate::work::progress::{Progress, ProgressShares, ProgressSpan, still_wanted};
-use rayon::prelude::*;
+use crate::work::progress::{Progress, ProgressSpan};
 
 /// Match cost above which shapes count as dissimilar, so that other costs are tried (heuristic: two
 /// poses of one shape cost up to 0.3, dissimilar shapes 0.4 and more).
@@ -33,7 +37,7 @@ const SIMILAR_COST: f64 = 0.34;
 /// Stretch costs tried for dissimilar shapes, after the default (heuristic).
 const OTHER_STRETCH_COSTS: [f64; 2] = [0.6, 1.2];
 
-/// Cost of inner distances in one attempt for dissimilar shapes: with it, limbs and strokes
+/// Cost of inner distances in one variant for dissimilar shapes: with it, limbs and strokes
 /// dominate the match (heuristic).
 const INNER_DISTANCE_COST: f64 = 8.0;
 
@@ -45,32 +49,193 @@ const COSTS_WITHOUT_THICKNESS: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 /// (heuristic).
 const HIGH_DISTORTION: f64 = 3.0;
 
-/// Maximum work of one round for a group: number of candidates times the square of a piece's number
-/// of boundary vertices (resource limit: a candidate of 700 vertices takes about 0.3 s).
+/// Maximum work of one attempt for a group: number of candidates times the square of a piece's
+/// number of boundary vertices (resource limit: a candidate of 700 vertices takes about 0.3 s).
 const MAX_WORK: usize = 2_500_000;
 
 /// The same for drafts, for which the user is waiting (resource limit).
 const MAX_DRAFT_WORK: usize = 100_000;
 
 /// Unmatched holes are cut open or closed, whichever matches better.
-const CUT_HOLES: HolePolicy = HolePolicy::By(HoleRule::Auto);
+const CUT_OR_CLOSE: HolePolicy = HolePolicy::Paired(HoleRule::Auto);
 
 /// Fraction of the progress after the requested match (heuristic).
 const REQUESTED_PROGRESS: f64 = 0.2;
-/// Fraction of the progress after the attempt with cut holes (heuristic).
-const CUT_PROGRESS: f64 = 0.3;
-/// Fraction of the progress after the other costs (heuristic).
-const OTHER_COSTS_PROGRESS: f64 = 0.5;
-/// Fraction of the progress after the requested match with all holes unmatched (heuristic).
-const UNMATCHED_PROGRESS: f64 = 0.6;
-/// Fraction of the progress after the other costs with all holes unmatched (heuristic).
-const UNMATCHED_COSTS_PROGRESS: f64 = 0.7;
+/// Fraction of the progress after the requested match in a draft (heuristic).
+const REQUESTED_DRAFT_PROGRESS: f64 = 0.7;
+/// Fraction of the progress after all attempts (heuristic).
+const ATTEMPTS_PROGRESS: f64 = 0.7;
 
-/// Maximum number of times that a piece slides (resource limit).
-const MAX_SLIDES: u32 = 3;
+/// An attempt to find better matches for some pieces of a group.
+struct Attempt {
+    /// Result that the attempt improves.
+    branch: SearchBranch,
+    /// Conditions that a piece must meet, all of them, to be included.
+    conditions: &'static [PieceCondition],
+    /// Match options that are tried.
+    options: TriedOptions,
+    /// Treatment of unmatched holes; `None` stands for that of each piece's best candidate so far.
+    holes: Option<HolePolicy>,
+    /// Limit of the work, measured as for [`MAX_WORK`]; the smallest pieces come first.
+    max_work: usize,
+    /// Fractions of the whole progress at the beginning and at the end (heuristic).
+    progress: [f64; 2],
+}
 
-/// Distortion below which a map is not improved further: two drawings of one shape (heuristic).
-const LOW_DISTORTION: f64 = 1.02;
+/// Result of the search that an attempt improves. There are two, which share their beginning.
+enum SearchBranch {
+    /// Both results.
+    Common,
+    /// The result in which holes may be matched.
+    PairedHoles,
+    /// The result in which all holes are unmatched.
+    UnpairedHoles,
+}
+
+/// Condition under which an attempt includes a piece: a property of the user's settings, of the
+/// group, or of the piece's result so far.
+#[derive(Clone, Copy)]
+enum PieceCondition {
+    /// The user has not chosen a treatment of unmatched holes.
+    FreeHoles,
+    /// The user has not asked for the drawn orientation.
+    FreeOrientation,
+    /// The user has not set the stretch cost.
+    FreeCosts,
+    /// No line is drawn along the parts of the group: a cut through one would be visible.
+    Unstroked,
+    /// The piece has unmatched holes.
+    UnmatchedHoles,
+    /// The piece has matched holes, and folds or cannot be triangulated.
+    FoldsWithHoles,
+    /// All holes of the best candidate are unmatched.
+    UnpairedHoles,
+    /// The piece turns far, without being a rotated copy.
+    TurnsFar,
+    /// The matched shapes are dissimilar, or the piece cannot be triangulated.
+    Dissimilar,
+    /// The best candidate folds or distorts much, or the piece cannot be triangulated. Crossings do
+    /// not count: including them would double the work and hardly ever help.
+    Poor,
+}
+
+/// Match options that an attempt tries, as changes to the requested ones.
+#[derive(Clone, Copy)]
+enum TriedOptions {
+    /// The requested options.
+    Requested,
+    /// The drawn orientation.
+    Upright,
+    /// Other stretch costs, and a high cost of inner distances.
+    OtherCosts,
+    /// Several stretch costs without thickness.
+    WithoutThickness,
+}
+
+/// All attempts in their order.
+const ATTEMPTS: [Attempt; 8] = [
+    CUT_HOLES,
+    UPRIGHT,
+    OTHER_COSTS,
+    WITHOUT_THICKNESS,
+    UNPAIR_HOLES,
+    Attempt {
+        branch: SearchBranch::UnpairedHoles,
+        conditions: &[
+            PieceCondition::UnpairedHoles,
+            PieceCondition::FreeCosts,
+            PieceCondition::FreeOrientation,
+            PieceCondition::TurnsFar,
+        ],
+        progress: [0.6, 0.62],
+        ..UPRIGHT
+    },
+    Attempt {
+        branch: SearchBranch::UnpairedHoles,
+        conditions: &[
+            PieceCondition::UnpairedHoles,
+            PieceCondition::FreeCosts,
+            PieceCondition::Dissimilar,
+        ],
+        progress: [0.62, 0.66],
+        ..OTHER_COSTS
+    },
+    Attempt {
+        branch: SearchBranch::UnpairedHoles,
+        conditions: &[
+            PieceCondition::UnpairedHoles,
+            PieceCondition::FreeCosts,
+            PieceCondition::Poor,
+        ],
+        progress: [0.66, ATTEMPTS_PROGRESS],
+        ..WITHOUT_THICKNESS
+    },
+];
+
+/// Cuts unmatched holes open or closes them, instead of letting them appear or disappear.
+const CUT_HOLES: Attempt = Attempt {
+    branch: SearchBranch::Common,
+    conditions: &[
+        PieceCondition::FreeHoles,
+        PieceCondition::Unstroked,
+        PieceCondition::UnmatchedHoles,
+    ],
+    options: TriedOptions::Requested,
+    holes: Some(CUT_OR_CLOSE),
+    max_work: usize::MAX,
+    progress: [REQUESTED_PROGRESS, 0.3],
+};
+
+/// Matches in the drawn orientation what turns far.
+const UPRIGHT: Attempt = Attempt {
+    branch: SearchBranch::PairedHoles,
+    conditions: &[
+        PieceCondition::FreeCosts,
+        PieceCondition::FreeOrientation,
+        PieceCondition::TurnsFar,
+    ],
+    options: TriedOptions::Upright,
+    holes: None,
+    max_work: MAX_WORK,
+    progress: [0.3, 0.34],
+};
+
+/// The only attempt of a draft.
+const DRAFT: Attempt = Attempt {
+    max_work: MAX_DRAFT_WORK,
+    progress: [REQUESTED_DRAFT_PROGRESS, 1.0],
+    ..UPRIGHT
+};
+
+/// Matches dissimilar shapes with other costs.
+const OTHER_COSTS: Attempt = Attempt {
+    branch: SearchBranch::PairedHoles,
+    conditions: &[PieceCondition::FreeCosts, PieceCondition::Dissimilar],
+    options: TriedOptions::OtherCosts,
+    holes: None,
+    max_work: MAX_WORK,
+    progress: [0.34, 0.42],
+};
+
+/// Ignores thickness: such matches are worse and a last resort.
+const WITHOUT_THICKNESS: Attempt = Attempt {
+    branch: SearchBranch::PairedHoles,
+    conditions: &[PieceCondition::FreeCosts, PieceCondition::Poor],
+    options: TriedOptions::WithoutThickness,
+    holes: None,
+    max_work: MAX_WORK,
+    progress: [0.42, 0.5],
+};
+
+/// Leaves all holes unmatched.
+const UNPAIR_HOLES: Attempt = Attempt {
+    branch: SearchBranch::UnpairedHoles,
+    conditions: &[PieceCondition::FreeHoles, PieceCondition::FoldsWithHoles],
+    options: TriedOptions::Requested,
+    holes: Some(HolePolicy::Unpaired),
+    max_work: usize::MAX,
+    progress: [0.5, 0.6],
+};
 
 /// Returns the best candidate of each piece of a group. `drafts` are the same pieces with the
 /// requested match, if known.
@@ -82,61 +247,30 @@ pub(in crate::transition) fn best_of_group(
     drafts: Option<&Vec<PieceResult>>,
     progress: &dyn Progress,
 ) -> Result<Vec<PieceResult>, BuildError> {
-    let span = |from, to| ProgressSpan::new(progress, from, to);
-    let mut chosen = match drafts {
+    let mut paired = match drafts {
         Some(drafts) => drafts.clone(),
-        None => group.as_asked(&span(0.0, REQUESTED_PROGRESS))?,
+        None => group.requested_pieces(&ProgressSpan::new(progress, 0.0, REQUESTED_PROGRESS))?,
     };
-    let mut without_holes = Vec::new();
-    if !group.prepared.is_crowd() {
-        if !group.prepared.is_lined(group.group) {
-            let have_unmatched_holes: Vec<bool> = chosen.iter().map(has_unmatched_holes).collect();
-            let progress = span(REQUESTED_PROGRESS, CUT_PROGRESS);
-            group.try_holes(&mut chosen, CUT_HOLES, &have_unmatched_holes, &progress)?;
+    let mut unpaired: Vec<PieceResult> = Vec::new();
+    if !group.prepared.has_many_rings() {
+        for attempt in &ATTEMPTS {
+            match attempt.branch {
+                SearchBranch::Common => {
+                    attempt.run(group, &mut paired, progress)?;
+                    unpaired = paired.clone();
+                }
+                SearchBranch::PairedHoles => attempt.run(group, &mut paired, progress)?,
+                SearchBranch::UnpairedHoles => attempt.run(group, &mut unpaired, progress)?,
+            }
         }
-        let have_folding_holes: Vec<bool> = chosen.iter().map(has_folding_holes).collect();
-        let mut others = chosen.clone();
-        let progress = span(CUT_PROGRESS, OTHER_COSTS_PROGRESS);
-        group.try_orientation_and_costs(&mut chosen, &|_| true, &progress)?;
-        let progress = span(OTHER_COSTS_PROGRESS, UNMATCHED_PROGRESS);
-        group.try_holes(
-            &mut others,
-            HolePolicy::Unpaired,
-            &have_folding_holes,
-            &progress,
-        )?;
-        let progress = span(UNMATCHED_PROGRESS, UNMATCHED_COSTS_PROGRESS);
-        group.try_orientation_and_costs(&mut others, &has_no_matched_holes, &progress)?;
-        let others = others.into_iter().map(Some);
-        without_holes = others
-            .map(|other| other.filter(has_no_matched_holes))
-            .collect();
     }
-    let last = span(UNMATCHED_COSTS_PROGRESS, 1.0);
-    let shares = ProgressShares::new(&last, chosen.len());
-    let slide = |chosen: PieceResult, progress: &dyn Progress| -> Result<PieceResult, BuildError> {
-        Ok(match chosen {
-            Ok(best) => Ok(improved_by_sliding(best, group.spec, progress)?),
-            none => none,
-        })
-    };
-    without_holes.resize_with(chosen.len(), || None);
-    let pairs = chosen.into_par_iter().zip(without_holes).enumerate();
-    let best = pairs.map(|(k, (chosen, without_holes))| {
-        let share = shares.part(k);
-        let Some(without_holes) = without_holes else {
-            return Ok(vec![slide(chosen, &share)?]);
-        };
-        let [first, second] =
-            [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| ProgressSpan::new(&share, a, b));
-        let mut best = vec![slide(chosen, &first)?];
-        // Compare only after sliding, which can repair a pairing of holes that folds, as in D and
-        // P.
-        take_better(&mut best, vec![slide(without_holes, &second)?.ok()]);
-        Ok(best)
-    });
-    let best: Vec<Vec<PieceResult>> = best.collect::<Result<_, BuildError>>()?;
-    Ok(best.concat())
+    let has_unpaired_holes = |best: &MatchCandidate| best.holes == HolePolicy::Unpaired;
+    let unpaired = unpaired
+        .into_iter()
+        .map(|result| result.ok().filter(has_unpaired_holes))
+        .collect();
+    let sliding = ProgressSpan::new(progress, ATTEMPTS_PROGRESS, 1.0);
+    slide_and_choose(paired, unpaired, group.spec, &sliding)
 }
 
 /// Returns the draft of each piece: the requested match, or the drawn orientation for pieces that
@@ -148,225 +282,144 @@ pub(in crate::transition) fn drafts_of_group(
     group: &GroupSearch,
     progress: &dyn Progress,
 ) -> Result<Vec<PieceResult>, BuildError> {
-    let [asking, turning] =
-        [(0.0, 0.7), (0.7, 1.0)].map(|(a, b)| ProgressSpan::new(progress, a, b));
-    let mut chosen = group.as_asked(&asking)?;
-    if !group.prepared.is_crowd() {
-        group.try_upright(&mut chosen, (&|_| true, MAX_DRAFT_WORK), &turning)?;
+    let requesting = ProgressSpan::new(progress, 0.0, REQUESTED_DRAFT_PROGRESS);
+    let mut drafts = group.requested_pieces(&requesting)?;
+    if !group.prepared.has_many_rings() {
+        DRAFT.run(group, &mut drafts, progress)?;
     }
-    Ok(chosen)
+    Ok(drafts)
 }
 
-impl GroupSearch<'_> {
-    /// Tries the requested costs with another treatment of holes, for the pieces selected by
-    /// `wants`.
-    fn try_holes(
+impl Attempt {
+    /// Tries the variants of this attempt for the pieces that meet its conditions, and replaces
+    /// their results by better ones. `progress` is that of the whole search.
+    ///
+    /// # Errors
+    /// If the work is cancelled.
+    fn run(
         &self,
-        chosen: &mut [PieceResult],
-        holes: HolePolicy,
-        wants: &[bool],
+        group: &GroupSearch,
+        results: &mut [PieceResult],
         progress: &dyn Progress,
     ) -> Result<(), BuildError> {
-        let requested = &self.spec.options.matching;
-        if requested.holes != HoleRule::Auto {
-            return Ok(());
-        }
-        let options = requested.options();
-        self.try_ways(chosen, &[MatchVariant { options, holes }], wants, progress)
-    }
-
-    /// Tries the drawn orientation and other costs, for the pieces selected by `is_selected`.
-    fn try_orientation_and_costs(
-        &self,
-        chosen: &mut [PieceResult],
-        is_selected: &dyn Fn(&PieceResult) -> bool,
-        progress: &dyn Progress,
-    ) -> Result<(), BuildError> {
-        let [turning, trying_costs] =
-            [(0.0, 0.2), (0.2, 1.0)].map(|(a, b)| ProgressSpan::new(progress, a, b));
-        self.try_upright(chosen, (is_selected, MAX_WORK), &turning)?;
-        self.try_other_costs(chosen, is_selected, &trying_costs)
-    }
-
-    /// Tries other costs for dissimilar shapes, then costs without thickness where the best
-    /// candidate is poor.
-    fn try_other_costs(
-        &self,
-        chosen: &mut [PieceResult],
-        is_selected: &dyn Fn(&PieceResult) -> bool,
-        progress: &dyn Progress,
-    ) -> Result<(), BuildError> {
-        let spans = [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| ProgressSpan::new(progress, a, b));
-        let cost_rounds = cost_rounds(&self.spec.options.matching);
-        for (k, (round, span)) in cost_rounds.iter().zip(&spans).enumerate() {
-            let wants = |chosen: &PieceResult| match chosen {
-                Err(_) => true,
-                Ok(best) if k == 0 => best.matched.is_in_both() && best.matched.cost > SIMILAR_COST,
-                // Costs without thickness match worse and are a last resort. Crossings alone do not
-                // justify them: that would double the work and hardly ever help.
-                Ok(best) => best.folds() || best.distortion > HIGH_DISTORTION,
-            };
-            let wants = |chosen: &PieceResult| is_selected(chosen) && wants(chosen);
-            let wants = affordable(chosen, &wants, round.len(), MAX_WORK);
-            self.try_with_best_holes(chosen, round, &wants, span)?;
-        }
-        Ok(())
-    }
-
-    /// Tries the drawn orientation for the pieces that turn far.
-    fn try_upright(
-        &self,
-        chosen: &mut [PieceResult],
-        (is_selected, max_work): (&dyn Fn(&PieceResult) -> bool, usize),
-        progress: &dyn Progress,
-    ) -> Result<(), BuildError> {
-        let requested = &self.spec.options.matching;
-        if requested.stretch.is_some() || requested.keep_up {
-            return Ok(());
-        }
-        let upright = MatchOptions {
-            keep_up: true,
-            ..requested.options()
+        let [from, to] = self.progress;
+        let progress = ProgressSpan::new(progress, from, to);
+        let options = self.options.changed(&group.spec.options.matching);
+        let includes = |result: &PieceResult| {
+            let mut conditions = self.conditions.iter();
+            conditions.all(|condition| condition.holds(group, result))
         };
-        let is_wanted = |chosen: &PieceResult| is_selected(chosen) && turns_far(chosen);
-        let wants = affordable(chosen, &is_wanted, 1, max_work);
-        self.try_with_best_holes(chosen, &[upright], &wants, progress)
-    }
-
-    /// Tries several options for the pieces selected by `wants`, with the treatment of holes that
-    /// is best for each piece so far.
-    fn try_with_best_holes(
-        &self,
-        chosen: &mut [PieceResult],
-        options: &[MatchOptions],
-        wants: &[bool],
-        progress: &dyn Progress,
-    ) -> Result<(), BuildError> {
-        let best_policy = |chosen: &PieceResult| match chosen {
-            Ok(best) => best.holes,
-            Err(_) => self.first_holes(),
-        };
-        let best_policies: Vec<HolePolicy> = chosen.iter().map(best_policy).collect();
-        for current in [self.first_holes(), CUT_HOLES, HolePolicy::Unpaired] {
+        let included = affordable(results, &includes, options.len(), self.max_work);
+        let policies: Vec<HolePolicy> = results
+            .iter()
+            .map(|result| self.hole_policy(group, result))
+            .collect();
+        // The pieces of a group are matched together, all with one policy.
+        for policy in [group.first_holes(), CUT_OR_CLOSE, HolePolicy::Unpaired] {
+            let wants: Vec<bool> = (policies.iter().zip(&included))
+                .map(|(own_policy, is_included)| *is_included && *own_policy == policy)
+                .collect();
             let variant = |options: &MatchOptions| MatchVariant {
                 options: options.clone(),
-                holes: current,
+                holes: policy,
             };
             let variants: Vec<MatchVariant> = options.iter().map(variant).collect();
-            let wants: Vec<bool> = (best_policies.iter().zip(wants))
-                .map(|(policy, wants)| *wants && *policy == current)
-                .collect();
-            self.try_ways(chosen, &variants, &wants, progress)?;
+            group.try_variants(results, &variants, &wants, &progress)?;
         }
         Ok(())
     }
+
+    /// Returns how unmatched holes of a piece are treated.
+    fn hole_policy(&self, group: &GroupSearch, result: &PieceResult) -> HolePolicy {
+        match (self.holes, result) {
+            (Some(policy), _) => policy,
+            (None, Ok(best)) => best.holes,
+            (None, Err(_)) => group.first_holes(),
+        }
+    }
 }
 
-/// Returns which of the pieces selected by `wants` can be tried within `max_work`, the smallest
+impl PieceCondition {
+    /// Returns whether a piece of the group with this result so far meets the condition.
+    fn holds(self, group: &GroupSearch, result: &PieceResult) -> bool {
+        let settings = &group.spec.options.matching;
+        let matched = piece(result);
+        let best = result.as_ref().ok();
+        match self {
+            Self::FreeHoles => settings.holes == HoleRule::Auto,
+            Self::FreeOrientation => !settings.keep_up,
+            Self::FreeCosts => settings.stretch.is_none(),
+            Self::Unstroked => !group.prepared.is_lined(group.index),
+            Self::UnmatchedHoles => matched.is_in_both() && !matched.lone.is_empty(),
+            Self::FoldsWithHoles => {
+                let has_matched_holes = matched.is_in_both() && matched.rings.len() > 1;
+                has_matched_holes && best.is_none_or(MatchCandidate::folds)
+            }
+            Self::UnpairedHoles => best.is_some_and(|best| best.holes == HolePolicy::Unpaired),
+            Self::TurnsFar => {
+                best.is_some_and(|best| !best.stays_upright() && best.distortion > LOW_DISTORTION)
+            }
+            Self::Dissimilar => best
+                .is_none_or(|best| best.matched.is_in_both() && best.matched.cost > SIMILAR_COST),
+            Self::Poor => best.is_none_or(|best| best.folds() || best.distortion > HIGH_DISTORTION),
+        }
+    }
+}
+
+impl TriedOptions {
+    /// Returns the options to try, given the user's settings.
+    fn changed(self, settings: &MatchSettings) -> Vec<MatchOptions> {
+        let requested = settings.options();
+        let with_costs = |stretch: f64, thickness: f64| MatchOptions {
+            stretch,
+            thickness,
+            ..requested.clone()
+        };
+        match self {
+            Self::Requested => vec![requested.clone()],
+            Self::Upright => vec![MatchOptions {
+                keep_up: true,
+                ..requested.clone()
+            }],
+            Self::OtherCosts => {
+                let with_inner_distances = MatchOptions {
+                    inner: INNER_DISTANCE_COST,
+                    ..requested.clone()
+                };
+                OTHER_STRETCH_COSTS
+                    .map(|stretch| with_costs(stretch, requested.thickness))
+                    .into_iter()
+                    .chain([with_inner_distances])
+                    .collect()
+            }
+            Self::WithoutThickness => COSTS_WITHOUT_THICKNESS
+                .map(|stretch| with_costs(stretch, 0.0))
+                .to_vec(),
+        }
+    }
+}
+
+/// Returns which of the pieces selected by `includes` can be tried within `max_work`, the smallest
 /// first, if each needs `candidates_per_piece` candidates.
 fn affordable(
-    chosen: &[PieceResult],
-    wants: &dyn Fn(&PieceResult) -> bool,
+    results: &[PieceResult],
+    includes: &dyn Fn(&PieceResult) -> bool,
     candidates_per_piece: usize,
     max_work: usize,
 ) -> Vec<bool> {
     let work = |k: usize| {
-        let rings = piece(&chosen[k]).rings.iter();
+        let rings = piece(&results[k]).rings.iter();
         let vertices: usize = rings.map(|ring| ring.source.len()).sum();
         candidates_per_piece * vertices * vertices
     };
-    let mut candidates: Vec<usize> = (0..chosen.len()).filter(|&k| wants(&chosen[k])).collect();
+    let mut candidates: Vec<usize> = (0..results.len())
+        .filter(|&k| includes(&results[k]))
+        .collect();
     candidates.sort_by_key(|&k| work(k));
-    let (mut total_work, mut selected) = (0, vec![false; chosen.len()]);
+    let (mut total_work, mut selected) = (0, vec![false; results.len()]);
     for k in candidates {
         total_work += work(k);
         selected[k] = total_work <= max_work;
     }
     selected
-}
-
-/// Returns whether the piece turns far, without being a rotated copy.
-fn turns_far(chosen: &PieceResult) -> bool {
-    let is_far = |best: &MatchCandidate| !best.is_upright() && best.distortion > LOW_DISTORTION;
-    chosen.as_ref().is_ok_and(is_far)
-}
-
-/// Returns whether the piece has unmatched holes.
-fn has_unmatched_holes(chosen: &PieceResult) -> bool {
-    let piece = piece(chosen);
-    piece.is_in_both() && !piece.lone.is_empty()
-}
-
-/// Returns whether the piece has matched holes and folds.
-fn has_folding_holes(chosen: &PieceResult) -> bool {
-    let piece = piece(chosen);
-    let folds = chosen.as_ref().map_or(true, MatchCandidate::folds);
-    piece.is_in_both() && piece.rings.len() > 1 && folds
-}
-
-/// Returns whether the best candidate leaves all holes unmatched.
-fn has_no_matched_holes(chosen: &PieceResult) -> bool {
-    chosen
-        .as_ref()
-        .is_ok_and(|best| best.holes == HolePolicy::Unpaired)
-}
-
-/// Slides the boundary correspondence of a candidate along the outlines as long as that improves
-/// its motion.
-///
-/// # Errors
-/// If the work is cancelled.
-fn improved_by_sliding(
-    mut best: MatchCandidate,
-    spec: &TransitionSpec,
-    progress: &dyn Progress,
-) -> Result<MatchCandidate, BuildError> {
-    for round in 0..MAX_SLIDES {
-        if !best.matched.is_in_both() || best.distortion < LOW_DISTORTION {
-            break;
-        }
-        let fraction_after = |k: u32| f64::from(k) / f64::from(MAX_SLIDES);
-        let progress =
-            &ProgressSpan::new(progress, fraction_after(round), fraction_after(round + 1));
-        let options = &spec.options.triangulation;
-        let places = slide_outlines(&best.matched, &best.mesh, options, progress);
-        still_wanted(progress)?;
-        let Some(places) = places else { break };
-        let moved = best.matched.moved(&places);
-        let moved = MatchCandidate::new(moved, best.holes, &spec.options, progress).ok();
-        still_wanted(progress)?;
-        match moved {
-            Some(moved) if moved.is_better_than(&best) => best = moved,
-            _ => break,
-        }
-    }
-    Ok(best)
-}
-
-/// Returns the costs that are tried after the requested ones, round by round; none if the user has
-/// set the stretch cost.
-fn cost_rounds(requested: &MatchSettings) -> Vec<Vec<MatchOptions>> {
-    if requested.stretch.is_some() {
-        return Vec::new();
-    }
-    let requested = requested.options();
-    let with_costs = |stretch: f64, thickness: f64| MatchOptions {
-        stretch,
-        thickness,
-        ..requested.clone()
-    };
-    let with_inner_distances = MatchOptions {
-        inner: INNER_DISTANCE_COST,
-        ..requested.clone()
-    };
-    let mut others = OTHER_STRETCH_COSTS
-        .map(|stretch_cost| with_costs(stretch_cost, requested.thickness))
-        .to_vec();
-    others.push(with_inner_distances);
-    vec![
-        others,
-        COSTS_WITHOUT_THICKNESS
-            .map(|stretch_cost| with_costs(stretch_cost, 0.0))
-            .to_vec(),
-    ]
 }

@@ -12,7 +12,7 @@ use crate::transition::transients::holes::{PieceHole, timed};
 use crate::transition::transients::layers::PieceLayers;
 use crate::warp::homotopy::Homotopy;
 use crate::warp::{Arap, ArapOptions, Warp};
-use crate::work::progress::{Cancelled, Progress, ProgressSpan, still_wanted};
+use crate::work::progress::{Cancelled, Progress, ProgressSpan, check_cancelled};
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 /// Number of even time steps at which folds and crossings are counted (resource limit: each costs a
@@ -42,7 +42,7 @@ pub(in crate::transition) struct MatchCandidate {
     /// How unmatched holes were treated.
     pub(in crate::transition) holes: HolePolicy,
     pub(in crate::transition) mesh: CompatibleMesh,
-    trouble: MotionDefects,
+    defects: MotionDefects,
     /// Distortion; see [`CompatibleMesh::distortion`].
     pub(in crate::transition) distortion: f64,
 }
@@ -119,7 +119,7 @@ impl MatchCandidate {
             MotionDefects::default()
         };
         Ok(Self {
-            trouble,
+            defects: trouble,
             distortion: mesh.distortion(IGNORED_AREA),
             holes,
             matched,
@@ -135,25 +135,25 @@ impl MatchCandidate {
 
     /// Returns whether a face folds at some step.
     pub(in crate::transition) fn folds(&self) -> bool {
-        self.trouble.folds > 0
+        self.defects.folds > 0
     }
 
     /// Returns whether the piece hardly turns as a whole.
-    pub(in crate::transition) fn is_upright(&self) -> bool {
-        self.trouble.rotation.abs() <= MAX_UPRIGHT_ROTATION
+    pub(in crate::transition) fn stays_upright(&self) -> bool {
+        self.defects.rotation.abs() <= MAX_UPRIGHT_ROTATION
     }
 
     /// Returns the quantities by which candidates are compared, the most important first; lower is
     /// better.
     fn comparison_key(&self) -> (usize, usize, f64) {
-        (self.trouble.folds, self.trouble.crossings, self.misfit())
+        (self.defects.folds, self.defects.crossings, self.misfit())
     }
 
     /// Returns the distortion, increased by excess turning, rotation and excess area; at least 1.
     pub(in crate::transition) fn misfit(&self) -> f64 {
-        let turning = (1.0 + self.trouble.turning).powi(TURNING_EXPONENT);
-        let rotation = (1.0 + self.trouble.rotation.abs() / PI).powi(ROTATION_EXPONENT);
-        let area = 1.0 + self.trouble.swelling;
+        let turning = (1.0 + self.defects.turning).powi(TURNING_EXPONENT);
+        let rotation = (1.0 + self.defects.rotation.abs() / PI).powi(ROTATION_EXPONENT);
+        let area = 1.0 + self.defects.swelling;
         self.distortion * turning * rotation * area
     }
 }
@@ -174,14 +174,14 @@ impl MotionDefects {
         let [mut turned, mut areas] = [const { Vec::new() }; 2];
         let mut placer = arap.placer();
         for step in 0..=STEPS {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             let t = f64::from(step) / f64::from(STEPS);
             placer.place(t);
             let places = &placer.placement().in_frame;
             let ring = |ring: &Vec<u32>| ring.iter().map(|&v| places[v as usize]).collect();
             let holes = unmatched_holes
                 .iter()
-                .filter_map(|(_, hole)| hole.at(places, t));
+                .filter_map(|(_, hole)| hole.ring_at(places, t));
             let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).chain(holes).collect();
             // A hole that has disappeared still counts as a point, which turns once.
             let absent = loops.len() + unmatched_holes.len() - rings.len();

@@ -6,7 +6,7 @@ use crate::compatible::PieceMeshError;
 use crate::correspondence::{HolePolicy, HoleRule, MatchOptions, MatchPlan, PieceMatch};
 use crate::transition::error::BuildError;
 use crate::transition::spec::TransitionSpec;
-use crate::work::progress::{Progress, ProgressShares, ProgressSpan, still_wanted};
+use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled};
 use rayon::prelude::*;
 
 /// Fraction of the progress of a variant when its pieces are matched (heuristic).
@@ -34,7 +34,7 @@ pub(in crate::transition) fn piece(chosen: &PieceResult) -> &PieceMatch {
 pub(in crate::transition) struct GroupSearch<'a> {
     pub(in crate::transition) prepared: &'a MatchPlan<'a>,
     /// Index of the group.
-    pub(in crate::transition) group: usize,
+    pub(in crate::transition) index: usize,
     pub(in crate::transition) spec: &'a TransitionSpec,
 }
 
@@ -42,8 +42,8 @@ impl GroupSearch<'_> {
     /// Returns how unmatched holes are treated first: as requested, or, with automatic treatment,
     /// such that they appear or disappear without bending anything.
     pub(in crate::transition) fn first_holes(&self) -> HolePolicy {
-        HolePolicy::By(match self.spec.options.matching.holes {
-            HoleRule::Auto => HoleRule::Alone,
+        HolePolicy::Paired(match self.spec.options.matching.holes {
+            HoleRule::Auto => HoleRule::Transient,
             rule => rule,
         })
     }
@@ -52,14 +52,14 @@ impl GroupSearch<'_> {
     ///
     /// # Errors
     /// If the group cannot be matched, a candidate cannot be solved, or the work is cancelled.
-    pub(in crate::transition) fn as_asked(
+    pub(in crate::transition) fn requested_pieces(
         &self,
         progress: &dyn Progress,
     ) -> Result<Vec<PieceResult>, BuildError> {
         let (costs, holes) = (self.spec.options.matching.options(), self.first_holes());
         let pieces = self
             .prepared
-            .matched_group(self.group, &costs, holes, progress)?;
+            .matched_group(self.index, &costs, holes, progress)?;
         let shares = ProgressShares::new(progress, pieces.len());
         let pieces = pieces.into_par_iter().enumerate();
         pieces
@@ -72,7 +72,7 @@ impl GroupSearch<'_> {
     ///
     /// # Errors
     /// If the work is cancelled.
-    pub(in crate::transition) fn try_ways(
+    pub(in crate::transition) fn try_variants(
         &self,
         chosen: &mut [PieceResult],
         variants: &[MatchVariant],
@@ -105,8 +105,8 @@ impl GroupSearch<'_> {
                 .map(|(a, b)| ProgressSpan::new(&share, a, b));
             let matched =
                 self.prepared
-                    .matched_group(self.group, &variant.options, variant.holes, &matching);
-            still_wanted(progress)?;
+                    .matched_group(self.index, &variant.options, variant.holes, &matching);
+            check_cancelled(progress)?;
             // A variant that fails is no better: each piece has a result already.
             let pieces = matched.unwrap_or_default();
             let shares = ProgressShares::new(&rating, pieces.len());
@@ -118,7 +118,7 @@ impl GroupSearch<'_> {
                 };
                 let candidate = is_wanted.then(new);
                 // A cancellation, however, must end the work.
-                still_wanted(progress)?;
+                check_cancelled(progress)?;
                 Ok(candidate.flatten())
             });
             candidates.collect::<Result<Vec<_>, BuildError>>()

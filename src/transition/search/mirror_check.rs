@@ -11,7 +11,7 @@ use crate::transition::drawing_pair::DrawingPair;
 use crate::transition::error::BuildError;
 use crate::transition::note::TransitionNote;
 use crate::transition::spec::TransitionSpec;
-use crate::work::progress::{Progress, still_wanted};
+use crate::work::progress::{Progress, check_cancelled};
 
 /// Distortion below which a match is good enough as drawn (heuristic).
 const GOOD: f64 = 2.0;
@@ -42,7 +42,7 @@ pub(in crate::transition) fn mirror_note(
     let [source, target] = &drawings.outlines;
     let target = mirrored(target);
     let draft = draft(spec, [source, &target], &drawings.looks, progress);
-    still_wanted(progress)?;
+    check_cancelled(progress)?;
     // A draft without folds is required: more search can find a better match than a draft.
     let draft = draft.filter(|draft| !draft.iter().any(MatchCandidate::folds));
     let mirrored = draft.map(|draft| distortion(draft.iter()));
@@ -61,10 +61,10 @@ fn draft(
     let groups = (0..prepared.groups().len()).map(|group| {
         let group = GroupSearch {
             prepared: &prepared,
-            group,
+            index: group,
             spec,
         };
-        let pieces: Vec<PieceResult> = group.as_asked(progress).ok()?;
+        let pieces: Vec<PieceResult> = group.requested_pieces(progress).ok()?;
         pieces.into_iter().collect::<Result<Vec<_>, _>>().ok()
     });
     Some(groups.collect::<Option<Vec<_>>>()?.concat())

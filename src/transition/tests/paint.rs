@@ -30,7 +30,7 @@ fn film_of(source: &str, target: &str) -> Transition {
 fn visible_layers(film: &Transition, t: f64) -> Vec<(Paint, f64)> {
     let figure = film.frame(t).figure();
     let style = TransitionStyle::default();
-    let coats = figure.coats.iter().map(|coat| {
+    let coats = figure.layers.iter().map(|coat| {
         let rings = &figure.rings[coat.rings.clone()];
         (style.paint_at(coat.paints, t), area(rings))
     });
@@ -59,7 +59,7 @@ fn the_ends_are_the_drawings_and_exchanging_them_reverses_the_motion() {
     ));
     let (there, back) = (film(&a, &b), film(&b, &a));
     for (design, t) in [(&a, 0.0), (&b, 1.0)] {
-        let coats = design.coats.iter();
+        let coats = design.paint_layers.iter();
         let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
         assert_same(&visible_layers(&there, t), &wanted.collect::<Vec<_>>());
     }
@@ -84,7 +84,7 @@ fn paint_outweighs_position_when_parts_are_paired() {
     let Content::Solid(solid) = crossed.content() else {
         panic!("a film of solids");
     };
-    for coat in &solid.coating.as_ref().unwrap().coats {
+    for coat in &solid.paint_layers.as_ref().unwrap().layers {
         assert_eq!(coat.paints[0], coat.paints[1]);
     }
     // Parts on different layers may cross.
@@ -147,7 +147,7 @@ fn boundary_paths_show_drawings_in_their_own_colours() {
         drawing(&format!("{red}{moved}")),
     );
     let mut spec = TransitionSpec::new(a, b);
-    spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    spec.method = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
     let film = Transition::build(&spec, &Silent).unwrap();
     for t in [0.0, 0.5, 1.0] {
         assert_same(
@@ -157,7 +157,7 @@ fn boundary_paths_show_drawings_in_their_own_colours() {
     }
     spec.options.paint = PaintRule::One;
     let plain = Transition::build(&spec, &Silent).unwrap();
-    assert!(plain.frame(0.5).figure().coats.is_empty());
+    assert!(plain.frame(0.5).figure().layers.is_empty());
 }
 
 #[test]
@@ -194,7 +194,7 @@ fn unmatched_parts_fade_on_request() {
         fade: true,
         ..PaintLayerOptions::default()
     };
-    let faded = film.with_coats(&fading);
+    let faded = film.with_paint_layers(&fading);
     let opacity = |film: &Transition, t: f64| {
         let visible_layers = visible_layers(film, t);
         let red = visible_layers.iter().find(|(paint, _)| paint.colour == RED);
@@ -204,7 +204,7 @@ fn unmatched_parts_fade_on_request() {
         assert_eq!(opacity(&film, t), Some(1.0));
         assert!((opacity(&faded, t).unwrap() - t).abs() < 1e-9, "{t}");
     }
-    let back = faded.with_coats(&PaintLayerOptions::default());
+    let back = faded.with_paint_layers(&PaintLayerOptions::default());
     assert_eq!(back.frame(0.9).figure(), film.frame(0.9).figure());
 }
 
@@ -219,7 +219,7 @@ fn the_stacking_order_changes_when_requested() {
         reorder_at: 0.8,
         ..PaintLayerOptions::default()
     };
-    let late = film.with_coats(&late);
+    let late = film.with_paint_layers(&late);
     let lowest = |film: &Transition, t: f64| visible_layers(film, t)[0].0.colour;
     assert_eq!([0.4, 0.6].map(|t| lowest(&film, t)), [RED, BLUE]);
     assert_eq!([0.6, 0.9].map(|t| lowest(&late, t)), [RED, BLUE]);
@@ -266,8 +266,8 @@ fn a_drawing_without_colours_takes_those_of_the_style() {
         spec.options.paint = rule;
         Transition::build(&spec, &Silent).unwrap()
     };
-    assert!(of(PaintRule::One).frame(0.5).figure().coats.is_empty());
-    assert_eq!(film(&plain, &plain).frame(0.5).figure().coats, []);
+    assert!(of(PaintRule::One).frame(0.5).figure().layers.is_empty());
+    assert_eq!(film(&plain, &plain).frame(0.5).figure().layers, []);
 }
 
 #[test]
@@ -283,14 +283,14 @@ fn each_paint_has_its_own_field() {
     ));
     let film = |warp: WarpKind, rule: PaintRule| {
         let mut spec = TransitionSpec::new(Arc::clone(&a), Arc::clone(&b));
-        spec.cell = TransitionMethod::new(warp, ContentKind::Field).unwrap();
+        spec.method = TransitionMethod::new(warp, ContentKind::Field).unwrap();
         spec.options.paint = rule;
         Transition::build(&spec, &Silent).unwrap()
     };
     for warp in [WarpKind::None, WarpKind::Arap] {
         let own = film(warp, PaintRule::Own);
         for (design, t) in [(&a, 0.0), (&b, 1.0)] {
-            let coats = design.coats.iter();
+            let coats = design.paint_layers.iter();
             let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
             let wanted: Vec<(Paint, f64)> = wanted.collect();
             let found = visible_layers(&own, t);
@@ -306,6 +306,6 @@ fn each_paint_has_its_own_field() {
         // Red and lime turn into each other instead of overlapping.
         assert_eq!(visible_layers(&own, 0.1).len(), 2);
         let one = film(warp, PaintRule::One);
-        assert!(one.frame(0.5).figure().coats.is_empty());
+        assert!(one.frame(0.5).figure().layers.is_empty());
     }
 }

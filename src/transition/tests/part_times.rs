@@ -44,7 +44,7 @@ fn a_part_waits_and_then_moves_as_usual() {
     let timed = plain.with_part_times(&[late(Side::Source, point_in_right_square(&plain))]);
     let x = |ring: &Vec<DVec2>| ring.iter().map(|p| p.x).fold(0.0, f64::max);
     for t in [0.0, 0.2, 0.5, 0.7, 0.9, 1.0] {
-        let own = late(Side::Source, [0.0; 2]).clock().at(t);
+        let own = late(Side::Source, [0.0; 2]).clock().part_time(t);
         // Sort by position: paint layers and loops have different orders.
         let mut expected = vec![
             rings(&plain, t)
@@ -72,7 +72,7 @@ fn a_part_changes_colour_in_its_own_time() {
     let style = TransitionStyle::default();
     let figure = timed.frame(0.4).figure();
     let paints = figure
-        .coats
+        .layers
         .iter()
         .map(|coat| style.paint_at(coat.paints, coat.t));
     let paints: Vec<_> = paints.collect();
@@ -80,14 +80,14 @@ fn a_part_changes_colour_in_its_own_time() {
         paints,
         [style.fill_at(0.0).into(), style.fill_at(0.4).into()]
     );
-    assert!(plain.frame(0.4).figure().coats.is_empty());
+    assert!(plain.frame(0.4).figure().layers.is_empty());
 }
 
 #[test]
 fn exchanging_the_designs_reverses_the_part_times() {
     let plain = squares(Vec::new());
     let timed = plain.with_part_times(&[late(Side::Source, point_in_right_square(&plain))]);
-    let report = measure::film(&timed, 17, &Silent).unwrap();
+    let report = measure::film_report(&timed, 17, &Silent).unwrap();
     assert!(report.asymmetry.unwrap() < 1e-9, "{:?}", report.asymmetry);
     assert_eq!(report.worst_folds, Some(0));
 }
@@ -128,7 +128,7 @@ fn of_overlapping_parts_the_uppermost_waits() {
     // Returns the t that each layer has reached, the lowest first.
     let layer_times = |at: DVec2| -> Vec<f64> {
         let timed = plain.with_part_times(&[late(Side::Source, at.into())]);
-        let coats = timed.frame(0.75).figure().coats;
+        let coats = timed.frame(0.75).figure().layers;
         coats.iter().map(|coat| coat.t).collect()
     };
     assert_eq!(layer_times(bounds.centre()), [0.75, 0.5]);
@@ -150,9 +150,9 @@ fn an_appearing_part_and_its_hole_wait() {
     let Content::Solid(solid) = timed.content() else {
         panic!("rigid parts");
     };
-    assert!(solid.clocks.is_some());
+    assert!(solid.part_clocks.is_some());
     for t in [0.6, 0.8, 1.0] {
-        let own = late(Side::Target, [0.0; 2]).clock().at(t);
+        let own = late(Side::Target, [0.0; 2]).clock().part_time(t);
         let area = |film: &Transition, t: f64| area(&rings(film, t));
         let gap = area(&timed, t) - area(&plain, own);
         assert!(gap.abs() < 1e-9, "{t}: {gap}");
@@ -181,9 +181,9 @@ fn invalid_part_times_are_refused() {
 fn other_methods_note_that_all_parts_move_together() {
     let source = svg("M0 60h20v20h-20z M60 60h20v20h-20z");
     let mut spec = TransitionSpec::new(Arc::clone(&source), source);
-    spec.cell = TransitionMethod::FIELD_BLEND;
+    spec.method = TransitionMethod::FIELD_BLEND;
     spec.options.parts = vec![late(Side::Source, [0.0; 2])];
     let film = Transition::build(&spec, &Silent).unwrap();
-    assert_eq!(film.notes(), [TransitionNote::OneTime]);
+    assert_eq!(film.notes(), [TransitionNote::PartTimesIgnored]);
     assert!(film.with_part_times(&[]).notes().is_empty());
 }

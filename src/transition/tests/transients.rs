@@ -25,7 +25,7 @@ fn sorted(rings: &[Vec<DVec2>]) -> Vec<f64> {
 #[test]
 fn unmatched_holes_shrink_in_place() {
     let mut spec = TransitionSpec::new(perforated(5), perforated(0));
-    spec.options.matching.holes = HoleRule::Alone;
+    spec.options.matching.holes = HoleRule::Transient;
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
     for (t, wanted) in [(0.0, -200.0), (2.0 / 3.0, -50.0)] {
@@ -85,7 +85,7 @@ fn a_hole_makes_way_for_one_inside_it() {
     let dot = svg("M5 20h90v60h-90z M45 45v10h10v-10z");
     for (a, b) in [(&window, &dot), (&dot, &window)] {
         let mut spec = TransitionSpec::new(Arc::clone(a), Arc::clone(b));
-        spec.options.matching.holes = HoleRule::Alone;
+        spec.options.matching.holes = HoleRule::Transient;
         let transition = Transition::build(&spec, &Silent).unwrap();
         let mut frame = transition.frame(0.0);
         let (mut crossings, mut most) = (0, 0);
@@ -113,7 +113,7 @@ fn a_draft_has_the_same_ends_as_the_best_match() {
     let given = TransitionSpec::new(design(SQUARE), design(SQUARE));
     assert!(given.draft(&Silent).is_none());
     let mut field = spec;
-    field.cell = TransitionMethod::FIELD_BLEND;
+    field.method = TransitionMethod::FIELD_BLEND;
     assert!(field.draft(&Silent).is_none());
 }
 
@@ -141,7 +141,7 @@ fn designs_that_would_match_better_mirrored_give_a_note() {
 /// Returns the number of parts that swell.
 fn swelling(transition: &Transition) -> usize {
     match transition.content() {
-        Content::Solid(solid) => solid.swells.len(),
+        Content::Solid(solid) => solid.swelling_shapes.len(),
         _ => 0,
     }
 }
@@ -169,7 +169,10 @@ fn a_ring_around_other_parts_appears_as_a_line_that_thickens() {
             let places = &frame.placement().in_frame;
             for ring in 0..solid.rings_at(places, t).len() {
                 let edge = RingEdge { ring, point: 0 };
-                assert!(solid.corners_at(edge, places, t).is_some(), "{t}: {ring}");
+                assert!(
+                    solid.face_vertices_at(edge, places, t).is_some(),
+                    "{t}: {ring}"
+                );
             }
         }
         let now = area(&rings);
@@ -238,7 +241,7 @@ fn absent_parts_are_not_drawn() {
     );
     for (source, target, wanted) in [(&one, &two, [1, 2]), (&two, &one, [2, 1])] {
         let mut spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
-        spec.options.matching.parts = PartRule::Alone;
+        spec.options.matching.parts = PartRule::Transient;
         let transition = Transition::build(&spec, &Silent).unwrap();
         let rings = |t: f64| transition.frame(t).figure().rings.len();
         assert_eq!([rings(0.0), rings(1.0)], wanted);

@@ -16,7 +16,7 @@ impl SharedPartLoops {
     pub(in crate::transition) fn of(film: &Arap) -> Self {
         let parts = film.mesh().components();
         let piece = |walk: &Vec<u32>| walk.first().map_or(0, |&v| parts[v as usize] as usize);
-        let is_in_both = |piece: usize| film.lives().get(piece).is_none_or(Option::is_none);
+        let is_in_both = |piece: usize| film.time_windows().get(piece).is_none_or(Option::is_none);
         let (walks, pieces) = (film.mesh().boundary_loops().into_iter())
             .map(|walk| (piece(&walk), walk))
             .filter(|(piece, _)| is_in_both(*piece))

@@ -25,7 +25,7 @@ impl GrowthProfile {
 
     /// Returns the profile of a shape whose outlines at each size step are given by `at`;
     /// `diameter` is that of the whole design.
-    pub(in crate::transition) fn of<'a>(
+    pub(in crate::transition) fn sampled<'a>(
         at: impl Fn(usize) -> &'a [Vec<DVec2>],
         diameter: f64,
     ) -> Self {
@@ -47,7 +47,7 @@ impl GrowthProfile {
     }
 
     /// Returns turning and area at a fraction of the full size, interpolated linearly.
-    pub(in crate::transition) fn at(&self, size: f64) -> [f64; 2] {
+    pub(in crate::transition) fn at_size(&self, size: f64) -> [f64; 2] {
         let at = size * SIZE_STEPS as f64;
         let below = (at as usize).min(SIZE_STEPS - 1);
         let [a, b] = [self.0[below], self.0[below + 1]];

@@ -16,7 +16,7 @@ use crate::content::TransientHole;
 use crate::correspondence::{PieceMatch, RingMatch};
 use crate::geometry::DVec2;
 use crate::warp::{Arap, Placer, TimeWindow, Warp};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 
 /// How often holes make way: the pairs of icons and of glyphs that need it take one, and
@@ -81,7 +81,7 @@ pub(in crate::transition) fn timed_by(
         }
     }
     for (hole, life, _) in best.1 {
-        holes[hole].1.life = life;
+        holes[hole].1.window = life;
     }
     Ok(holes)
 }
@@ -99,7 +99,7 @@ pub(in crate::transition) fn with_lives(
         return None;
     }
     for ((_, hole), &life) in holes.iter_mut().zip(lives) {
-        hole.life = life;
+        hole.window = life;
     }
     Some(holes)
 }
@@ -116,7 +116,7 @@ fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<PieceHole> {
         let is_here = |face: &&[u32; 3]| parts[face[0] as usize] as usize == k;
         let faces: Vec<[u32; 3]> = mesh.faces().iter().filter(is_here).copied().collect();
         let hole = |ring: &RingMatch| {
-            let (side, points) = ring.whole()?;
+            let (side, points) = ring.transient_side()?;
             let hole = TransientHole::new(points, &faces, places[side], TimeWindow::whole(side))?;
             Some((k, hole))
         };
@@ -167,14 +167,14 @@ impl HoleScene {
         let of_both = self.outlines[0].len();
         let mut lives = Vec::new();
         for &(k, known) in order {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             let (piece, hole) = &holes[k];
             let level = levels.of_piece(*piece);
             let times = timetable.ranked(k);
             let (life, crossed) = self.life(hole, &times, known, level);
             timetable.set(k, life);
             let mut hole = hole.clone();
-            hole.life = life;
+            hole.window = life;
             self.add(&hole, level);
             lives.push((k, life, crossed));
         }
@@ -188,7 +188,7 @@ impl HoleScene {
     fn prices(&self, hole: &TransientHole, level: usize) -> Vec<f64> {
         let price = |life: TimeWindow| {
             let mut hole = hole.clone();
-            hole.life = life;
+            hole.window = life;
             CROSSING * self.crossed(&hole, level, 1) as f64
         };
         let lives: Vec<TimeWindow> = eighths(hole.side()).collect();
@@ -207,7 +207,7 @@ impl HoleScene {
         let all = times.iter().map(|&(_, life)| life);
         for life in all.filter(|life| known.is_none_or(|known| known == *life)) {
             let mut hole = hole.clone();
-            hole.life = life;
+            hole.window = life;
             let crossed = self.crossed(&hole, level, best.0);
             if crossed < best.0 {
                 best = (crossed, life);
@@ -224,7 +224,7 @@ impl HoleScene {
             .zip(self.places.iter().zip(&self.outlines));
         let crosses = |&(&t, (places, others)): &(&f64, (&Vec<DVec2>, &Vec<LayeredOutline>))| {
             let ring = hole
-                .at(places, t)
+                .ring_at(places, t)
                 .map(|ring| LayeredOutline::of(ring, level));
             ring.is_some_and(|ring| {
                 ring.crosses(&ring) || others.iter().any(|other| ring.crosses(other))
@@ -239,7 +239,7 @@ impl HoleScene {
             .iter()
             .zip(self.places.iter().zip(&mut self.outlines));
         for (&t, (places, outlines)) in steps {
-            let ring = hole.at(places, t);
+            let ring = hole.ring_at(places, t);
             outlines.extend(ring.map(|ring| LayeredOutline::of(ring, level)));
         }
     }

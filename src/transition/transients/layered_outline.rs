@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 pub(in crate::transition) struct LayeredOutline {
     pub(in crate::transition) points: Vec<DVec2>,
     /// Paint layer; only outlines on the same layer collide.
-    pub(in crate::transition) level: usize,
+    pub(in crate::transition) layer: usize,
     bounds: Bounds,
     /// Edges in a search structure, built on first use.
     edges: OnceLock<EdgeBvh>,
@@ -19,7 +19,7 @@ impl LayeredOutline {
         let bounds = Bounds::of(points.iter().copied()).unwrap_or_else(|| Bounds::at(DVec2::ZERO));
         Self {
             points,
-            level,
+            layer: level,
             bounds,
             edges: OnceLock::new(),
         }
@@ -27,7 +27,7 @@ impl LayeredOutline {
 
     /// Returns whether an edge crosses an edge of another outline on the same layer.
     pub(in crate::transition) fn crosses(&self, other: &Self) -> bool {
-        if self.level != other.level || !self.bounds.meets(&other.bounds) {
+        if self.layer != other.layer || !self.bounds.meets(&other.bounds) {
             return false;
         }
         let edges = other.edges.get_or_init(|| EdgeBvh::of(&other.points));

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub(in crate::transition) struct PieceLayers {
     of_pieces: Vec<usize>,
     /// For each level its coats in source and target.
-    pub(in crate::transition) coats: Vec<[Option<usize>; 2]>,
+    pub(in crate::transition) layers: Vec<[Option<usize>; 2]>,
 }
 
 impl PieceLayers {
@@ -25,7 +25,7 @@ impl PieceLayers {
         looks: &PartLooks,
     ) -> Self {
         let coats = |parts: [Option<usize>; 2]| -> [Option<usize>; 2] {
-            Side::BOTH.map(|side| parts[side].map(|part| looks.coat(side, part)))
+            Side::BOTH.map(|side| parts[side].map(|part| looks.paint_layer(side, part)))
         };
         let mut of_pieces: Vec<[Option<usize>; 2]> = pieces.map(coats).collect();
         // What is born or dies goes with most of its coat.
@@ -46,7 +46,7 @@ impl PieceLayers {
         levels.iter().for_each(|(own, &level)| coats[level] = *own);
         Self {
             of_pieces: of_pieces.iter().map(|own| levels[own]).collect(),
-            coats,
+            layers: coats,
         }
     }
 

@@ -26,7 +26,7 @@ use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::DVec2;
 use crate::transition::options::BuildQuality;
 use crate::warp::{Arap, TimeWindow};
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
 /// Parts beyond so many are not searched a place for; each costs a look at all
 /// others at every step. Beyond 24, two of the 74 parts of an icon met.
@@ -35,7 +35,7 @@ const SEARCHED: usize = 100;
 /// When each piece changes its size, before anything is chosen: a part of one
 /// design alone all the time.
 pub(in crate::transition) fn lives(matched: &RegionMatch) -> Vec<Option<TimeWindow>> {
-    let life = |piece: &PieceMatch| piece.alone().map(TimeWindow::whole);
+    let life = |piece: &PieceMatch| piece.only_side().map(TimeWindow::whole);
     matched.pieces.iter().map(life).collect()
 }
 
@@ -102,12 +102,12 @@ pub(in crate::transition) fn placed(
     let mut scene = TransientScene::of(film, (holes, &specks), (levels, steps));
     let mut timetable = timetable_of(&specks, film, holes, quality);
     for (k, (_, hole)) in holes.iter().enumerate() {
-        timetable.set(k, hole.life);
+        timetable.set(k, hole.window);
     }
     let prices = |k: usize| scene.prices(&specks[k - holes.len()], film);
     timetable.plan(holes.len(), prices, progress)?;
     for (rank, speck) in specks.iter().enumerate() {
-        still_wanted(progress)?;
+        check_cancelled(progress)?;
         scene.place(
             speck,
             (&mut timetable, holes.len() + rank),
@@ -122,7 +122,7 @@ pub(in crate::transition) fn placed(
         lives[speck.piece] = Some(birth.life);
         swelling.extend(birth.swells.then_some(speck.piece));
     }
-    let Some(mesh) = film.mesh().with_parts_moved(&by) else {
+    let Some(mesh) = film.mesh().with_parts_translated(&by) else {
         return Ok(None);
     };
     let mut matched = matched.clone();

@@ -54,13 +54,13 @@ impl SampleTimes {
     }
 
     /// Returns the fraction of the transition that is closer to this time than to the others.
-    pub(in crate::transition) fn long(&self, step: usize) -> f64 {
+    pub(in crate::transition) fn weight(&self, step: usize) -> f64 {
         let [before, after] = [step.saturating_sub(1), (step + 1).min(self.last())];
         (self.0[after] - self.0[before]) / 2.0
     }
 
     /// Adds a time, and the midpoints between it and its neighbours.
-    pub(in crate::transition) fn look_at(&mut self, t: f64) {
+    pub(in crate::transition) fn refine_at(&mut self, t: f64) {
         let before = self.before(t).min(self.last() - 1);
         let neighbours = [self.0[before], self.0[before + 1]];
         let added = neighbours.map(|end| end.midpoint(t)).into_iter().chain([t]);
@@ -98,9 +98,9 @@ mod tests {
     fn added_times_are_symmetric() {
         let [mut forwards, mut backwards] = [SampleTimes::default(), SampleTimes::default()];
         for t in [0.3, 0.0, 1.0, 0.999_999_999] {
-            forwards.look_at(t);
+            forwards.refine_at(t);
             // As the reversed motion reports it, up to rounding.
-            backwards.look_at(1.0 - t + 1e-12);
+            backwards.refine_at(1.0 - t + 1e-12);
         }
         let mirrored: Vec<f64> = backwards.times().iter().map(|t| 1.0 - t).rev().collect();
         assert_eq!(forwards.times(), mirrored);

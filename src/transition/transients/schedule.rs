@@ -116,7 +116,7 @@ impl ScheduledTransient {
         for (k, sum) in sums.iter_mut().enumerate() {
             let size = self.life.size(k as f64 / last);
             if size > 0.0 {
-                let [turning, area] = self.growth.at(size);
+                let [turning, area] = self.growth.at_size(size);
                 let stretch = self.stretch.as_ref().map_or(1.0, |stretch| stretch[k]);
                 sum[0] += times * turning;
                 sum[1] += times * area * stretch;
@@ -168,7 +168,7 @@ impl TransientSchedule {
             let places = &placer.placement().in_frame;
             let rings = walks.rings(places);
             let area = rings.iter().map(|ring| signed_area(ring)).sum();
-            let stretch = holes.iter().map(|hole| hole.stretch(places));
+            let stretch = holes.iter().map(|hole| hole.area_ratio(places));
             (
                 [total_turning(&rings, diameter) + points, area],
                 stretch.collect(),
@@ -178,9 +178,10 @@ impl TransientSchedule {
         let (sums, stretch): (Vec<[f64; 2]>, Vec<Vec<f64>>) =
             steps.map_init(|| film.placer(), at).unzip();
         let of_hole = |(k, hole): (usize, &&TransientHole)| ScheduledTransient {
-            growth: GrowthProfile::scaled(std::slice::from_ref(hole.ring()), diameter),
+            growth: GrowthProfile::scaled(std::slice::from_ref(hole.design_ring()), diameter),
             stretch: Some(stretch.iter().map(|at| at[k]).collect()),
-            place: Bounds::of(hole.ring().iter().copied()).map_or(DVec2::ZERO, |b| b.centre()),
+            place: Bounds::of(hole.design_ring().iter().copied())
+                .map_or(DVec2::ZERO, |b| b.centre()),
             life: TimeWindow::whole(hole.side()),
             prices: Vec::new(),
         };

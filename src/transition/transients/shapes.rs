@@ -24,11 +24,14 @@ pub(in crate::transition) fn drawn(
         let walks: Vec<usize> = (0..loops.len()).filter(is_of_piece).collect();
         Some(match swelling.contains(&piece) {
             true => Either::Left(swell(mesh, &loops, walks, life)?),
-            false => Either::Right(SeedShape { walks, life }),
+            false => Either::Right(SeedShape {
+                loop_indices: walks,
+                window: life,
+            }),
         })
     };
     // How thick each is takes some time.
-    let lives = film.lives().par_iter().enumerate();
+    let lives = film.time_windows().par_iter().enumerate();
     lives.filter_map(drawn).partition_map(|drawn| drawn)
 }
 

@@ -151,7 +151,7 @@ impl LocalMaps {
     }
 
     /// Replaces the stiffness factors of the faces.
-    pub(super) fn stiffened(mut self, by: &[f64]) -> Self {
+    pub(super) fn with_stiffness(mut self, by: &[f64]) -> Self {
         let before = std::mem::replace(&mut self.stiffness, by.to_vec());
         let factor = |stiffness: &[f64], face: usize| stiffness.get(face).copied().unwrap_or(1.0);
         for (k, face) in self.faces.iter_mut().enumerate() {
@@ -163,7 +163,7 @@ impl LocalMaps {
     }
 
     /// Replaces the angles by the negated angles of the interpolation in the other direction.
-    pub(super) fn turning_back(mut self, forward: &Self) -> Self {
+    pub(super) fn with_reversed_angles(mut self, forward: &Self) -> Self {
         for (face, other) in self.faces.iter_mut().zip(&forward.faces) {
             face.map.angle = -other.map.angle;
         }
@@ -191,7 +191,7 @@ impl LocalMaps {
                 matrix.add(v as u32, v as u32, diagonal[v]);
             }
         }
-        outlined.hold(mesh, &diagonal, &mut matrix);
+        outlined.add_to_matrix(mesh, &diagonal, &mut matrix);
         matrix
     }
 
@@ -202,7 +202,7 @@ impl LocalMaps {
         outlined: OutlineConstraints,
     ) -> SymmetricMatrix {
         let (mut matrix, diagonal) = self.energy(mesh);
-        outlined.hold(mesh, &diagonal, &mut matrix);
+        outlined.add_to_matrix(mesh, &diagonal, &mut matrix);
         matrix
     }
 

@@ -28,13 +28,14 @@ const MAX_STIFFNESS: f64 = 1e4;
 
 impl LocalMaps {
     /// Appends the boundary edges as elements, if the mesh has the constraints of outlines.
-    pub(super) fn rimmed(
+    pub(super) fn with_boundary_edges(
         mut self,
         mesh: &CompatibleMesh,
         lives: &[Option<TimeWindow>],
-        (options, outlined): (&ArapOptions, OutlineConstraints),
+        options: &ArapOptions,
+        constraints: OutlineConstraints,
     ) -> Self {
-        if outlined.of(options.homotopy) == OutlineConstraints::Yes {
+        if constraints.for_homotopy(options.homotopy) == OutlineConstraints::On {
             let edges = edges(mesh, &self.faces, lives, options.symmetric);
             self.elements.extend(edges);
         }
@@ -61,18 +62,20 @@ fn edges(
         let outer = (0..3).filter(|&k| connectivity.neighbour(face, k).is_none());
         edges.extend(outer.map(|k| {
             let ends = [corners[k], corners[(k + 1) % 3]];
-            edge(mesh, ends, &faces[face], (diameters[part], symmetric))
+            edge(mesh, ends, &faces[face], diameters[part], symmetric)
         }));
     }
     edges
 }
 
-/// Returns the element of one boundary edge of a face.
+/// Returns the element of one boundary edge of a face. `diameters` are those of its part in source
+/// and target.
 fn edge(
     mesh: &CompatibleMesh,
     ends: [u32; 2],
     face: &FaceMap,
-    (diameters, symmetric): ([f64; 2], bool),
+    diameters: [f64; 2],
+    symmetric: bool,
 ) -> ElementMap {
     let [p, q] = [mesh.source(), mesh.target()].map(|at| {
         let [a, b] = ends.map(|v| at[v as usize]);

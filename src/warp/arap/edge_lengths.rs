@@ -14,7 +14,7 @@ use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 use crate::numerics::Cholesky;
 use crate::warp::homotopy::Homotopy;
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
 /// Number of alternations between positions and lengths (heuristic).
 const ROUNDS: u32 = 5;
@@ -23,7 +23,8 @@ const ROUNDS: u32 = 5;
 pub(super) fn fit_halfway_lengths(
     stresses: &mut ForceAssembly,
     mesh: &CompatibleMesh,
-    (cholesky, homotopy): (&Cholesky, Homotopy),
+    cholesky: &Cholesky,
+    homotopy: Homotopy,
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
     /// Time at which the lengths are fitted.
@@ -33,20 +34,15 @@ pub(super) fn fit_halfway_lengths(
     if edges.is_empty() || homotopy == Homotopy::Linear {
         return Ok(());
     }
-    let place = cholesky.place_in_order();
+    let place = cholesky.elimination_places();
     let mut memory = stresses.memory();
     let mut forces = vec![DVec2::ZERO; place.len()];
     let mut deviation = vec![0.0; 2 * place.len()];
     let mut workspace = cholesky.workspace(2);
     for _ in 0..ROUNDS {
-        still_wanted(progress)?;
-        let working = (&mut memory, &mut forces[..]);
-        stresses.right_hand_sides(
-            EvaluationTimes::Even(HALFWAY),
-            place,
-            working,
-            &mut deviation,
-        );
+        check_cancelled(progress)?;
+        let halfway = EvaluationTimes::Uniform(HALFWAY);
+        stresses.right_hand_sides(halfway, place, &mut memory, &mut forces, &mut deviation);
         cholesky.solve_ordered(&mut deviation, &mut workspace);
         let (x, y) = deviation.split_at(place.len());
         let position = |v: u32| {
@@ -56,13 +52,13 @@ pub(super) fn fit_halfway_lengths(
         };
         for edge in edges.clone() {
             let element = &stresses.elements()[edge];
-            let even = element.even(homotopy, HALFWAY);
+            let even = element.even_vector(homotopy, HALFWAY);
             let [from, to] = element.ends.map(position);
             // The optimal length is the projection onto the element's direction.
             let ratio = (to - from).dot(even) / even.length_squared();
             // NaN for an edge that vanishes halfway; its length then does not matter.
             let ratio = if ratio.is_nan() { 1.0 } else { ratio };
-            stresses.set_halfway(edge, ratio);
+            stresses.set_halfway_length(edge, ratio);
         }
     }
     Ok(())

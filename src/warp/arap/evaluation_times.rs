@@ -6,9 +6,9 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(super) enum EvaluationTimes<'a> {
     /// One time for all parts.
-    Even(f64),
+    Uniform(f64),
     /// A separate time for each connected part.
-    OfParts {
+    PerPart {
         /// Time of each part.
         parts: &'a [f64],
         /// Time of the part of each vertex.
@@ -20,16 +20,16 @@ impl EvaluationTimes<'_> {
     /// Returns the time of a connected part.
     pub(super) fn of_part(self, part: usize) -> f64 {
         match self {
-            Self::Even(t) => t,
-            Self::OfParts { parts, .. } => parts[part],
+            Self::Uniform(t) => t,
+            Self::PerPart { parts, .. } => parts[part],
         }
     }
 
     /// Returns the time of a vertex.
     pub(super) fn of_vertex(self, vertex: usize) -> f64 {
         match self {
-            Self::Even(t) => t,
-            Self::OfParts { vertices, .. } => vertices[vertex],
+            Self::Uniform(t) => t,
+            Self::PerPart { vertices, .. } => vertices[vertex],
         }
     }
 }
@@ -58,7 +58,7 @@ impl PartTimeBuffer {
             self.vertices.resize(self.vertices.len().max(run.end), 0.0);
             self.vertices[run].fill(self.parts[part]);
         }
-        EvaluationTimes::OfParts {
+        EvaluationTimes::PerPart {
             parts: &self.parts,
             vertices: &self.vertices,
         }

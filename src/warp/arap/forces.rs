@@ -150,7 +150,7 @@ impl ForceAssembly {
         // Uses the operations of a frame, so that both ends cancel exactly.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
-            stresses.forces(EvaluationTimes::Even(t), &mut memory, &mut forces);
+            stresses.forces(EvaluationTimes::Uniform(t), &mut memory, &mut forces);
             forces
         });
         stresses.ends = begin.into_iter().zip(end).map(<[DVec2; 2]>::from).collect();
@@ -163,7 +163,7 @@ impl ForceAssembly {
     }
 
     /// Sets the length of an element at t = ½, relative to its linearly interpolated length.
-    pub(super) fn set_halfway(&mut self, element: usize, ratio: f64) {
+    pub(super) fn set_halfway_length(&mut self, element: usize, ratio: f64) {
         self.halfway[element] = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
     }
 
@@ -185,7 +185,8 @@ impl ForceAssembly {
         &self,
         times: EvaluationTimes,
         place: &[u32],
-        (memory, forces): (&mut Memory, &mut [DVec2]),
+        memory: &mut Memory,
+        forces: &mut [DVec2],
         rhs: &mut [f64],
     ) {
         self.forces(times, memory, forces);
@@ -212,7 +213,7 @@ impl ForceAssembly {
         if self.homotopy != Homotopy::Linear {
             for (element, &halfway) in self.elements.iter().zip(&self.halfway) {
                 let t = times.of_vertex(element.ends[0] as usize);
-                element.add(self.homotopy, (t, halfway), forces);
+                element.add(self.homotopy, t, halfway, forces);
             }
         }
     }
@@ -270,9 +271,9 @@ impl WithSimd for FacePass<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self(stresses, times, forces) = self;
         match times {
-            EvaluationTimes::Even(t) => stresses.pass(forces, |_| [t; LANES]),
+            EvaluationTimes::Uniform(t) => stresses.pass(forces, |_| [t; LANES]),
             // All corners of a face belong to one part and have the same time.
-            EvaluationTimes::OfParts { vertices, .. } => stresses.pass(forces, |faces| {
+            EvaluationTimes::PerPart { vertices, .. } => stresses.pass(forces, |faces| {
                 let mut row = [0.0; LANES];
                 for (t, face) in row.iter_mut().zip(faces) {
                     *t = vertices[face[0] as usize];
@@ -346,7 +347,7 @@ fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) ->
 
 impl ElementMap {
     /// Returns the element's vector at t if it followed the homotopy without length correction.
-    pub(super) fn even(&self, homotopy: Homotopy, t: f64) -> DVec2 {
+    pub(super) fn even_vector(&self, homotopy: Homotopy, t: f64) -> DVec2 {
         let map = PolarDecomposition {
             angle: self.angle,
             stretch: DMat2::IDENTITY * self.stretch,
@@ -355,11 +356,11 @@ impl ElementMap {
     }
 
     /// Adds the element's forces at t, given its relative length at t = ½.
-    fn add(&self, homotopy: Homotopy, (t, halfway): (f64, f64), forces: &mut [DVec2]) {
+    fn add(&self, homotopy: Homotopy, t: f64, halfway: f64, forces: &mut [DVec2]) {
         // The length correction is a parabola that vanishes at both ends.
         let ratio = 1.0 + (halfway - 1.0) * (4.0 * t * (1.0 - t));
         let ratio = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
-        let pull = self.even(homotopy, t) * (self.stiffness * ratio);
+        let pull = self.even_vector(homotopy, t) * (self.stiffness * ratio);
         let [from, to] = self.ends.map(|v| v as usize);
         forces[from] -= pull;
         forces[to] += pull;
@@ -394,7 +395,7 @@ mod tests {
                 let [chosen, plain] = [&chosen, &plain].map(|stresses| {
                     let mut forces = vec![DVec2::ZERO; 30];
                     stresses.forces(
-                        EvaluationTimes::Even(t),
+                        EvaluationTimes::Uniform(t),
                         &mut stresses.memory(),
                         &mut forces,
                     );

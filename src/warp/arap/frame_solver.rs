@@ -27,12 +27,12 @@ pub(super) struct FactoredArap {
     /// Ridge that the factorisation needed.
     pub ridge: Option<Ridge>,
     /// Right-hand sides of a frame.
-    pub stresses: ForceAssembly,
-    pub drift: PartTranslations,
+    pub forces: ForceAssembly,
+    pub translations: PartTranslations,
     pub maps: LocalMaps,
     /// Options for the already subdivided mesh; `subdivisions` is 0.
     pub options: ArapOptions,
-    pub outlined: OutlineConstraints,
+    pub outline_constraints: OutlineConstraints,
     pub guard: Option<Arc<Guard>>,
 }
 
@@ -55,12 +55,12 @@ impl FrameSolver {
         Self {
             deviation: vec![0.0; 2 * prepared.mesh.source().len()],
             workspace: prepared.cholesky.workspace(2),
-            memory: prepared.stresses.memory(),
-            correction: match prepared.stresses.bounded() {
+            memory: prepared.forces.memory(),
+            correction: match prepared.forces.bounded() {
                 Some(_) => vec![0.0; 2 * prepared.mesh.source().len()],
                 None => Vec::new(),
             },
-            shifts: vec![DVec2::ZERO; prepared.drift.part_count()],
+            shifts: vec![DVec2::ZERO; prepared.translations.part_count()],
             arap: Arc::clone(prepared),
         }
     }
@@ -75,7 +75,7 @@ impl FrameSolver {
             correction,
             shifts,
         } = self;
-        let place = arap.cholesky.place_in_order();
+        let place = arap.cholesky.elimination_places();
         let Placement {
             in_frame,
             in_source,
@@ -85,22 +85,22 @@ impl FrameSolver {
         // The linear homotopy has zero deviation and needs no solve.
         if arap.options.homotopy != Homotopy::Linear {
             // `in_frame` serves as memory for the forces before it receives the positions.
-            arap.stresses
-                .right_hand_sides(times, place, (memory, in_frame), deviation);
+            arap.forces
+                .right_hand_sides(times, place, memory, in_frame, deviation);
             arap.cholesky.solve_ordered(deviation, workspace);
-            if let Some(bounded) = arap.stresses.bounded() {
+            if let Some(bounded) = arap.forces.bounded() {
                 let solver = DeviationSolver::new(&arap.cholesky, in_frame, correction, workspace);
                 strain_limiting::put_back((bounded, times), deviation, memory, solver);
             }
-            arap.drift.shifts(times, deviation, shifts);
+            arap.translations.shifts(times, deviation, shifts);
         }
         let (dx, dy) = deviation.split_at(place.len());
-        for (run, part) in arap.drift.runs() {
+        for (run, part) in arap.translations.runs() {
             let (shift, t) = (shifts[part], times.of_part(part));
             // All maps of a transient part are the same scaling, so its deviation is only rounding
             // and is ignored.
-            let (t, weight) = match arap.drift.life(part) {
-                Some(window) => (window.share(t), 0.0),
+            let (t, weight) = match arap.translations.time_window(part) {
+                Some(window) => (window.fraction_done(t), 0.0),
                 None => (t, 1.0),
             };
             let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
@@ -113,7 +113,7 @@ impl FrameSolver {
             }
         }
         if let Some(guard) = &arap.guard {
-            for (run, part) in arap.drift.runs() {
+            for (run, part) in arap.translations.runs() {
                 let Some(mix) = guard.at(times.of_part(part)) else {
                     continue;
                 };

@@ -38,7 +38,7 @@ use crate::compatible::{BarElement, CompatibleFamily};
 use crate::geometry::{DMat2, DVec2, PolarDecomposition, SymmetricEigen, twice_signed_area};
 use crate::numerics::{Cholesky, CholeskyWorkspace, FactorError, SymmetricMatrix};
 use crate::warp::homotopy::Homotopy;
-use crate::work::progress::{Progress, checkpoint, still_wanted};
+use crate::work::progress::{Progress, check_cancelled, checkpoint};
 use mend::Mender;
 use parts::{BlendParts, blended};
 use std::sync::Arc;
@@ -46,7 +46,7 @@ use std::sync::Arc;
 /// A prefactored blend of many designs. Cloning is cheap.
 ///
 /// ```
-/// use morphospace::compatible::Family;
+/// use morphospace::compatible::CompatibleFamily;
 /// use morphospace::geometry::{DMat2, DVec2};
 /// use morphospace::work::progress::Silent;
 /// use morphospace::warp::ArapBlend;
@@ -54,7 +54,8 @@ use std::sync::Arc;
 /// let first = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
 /// let turned = |by: f64| first.iter().map(|&p| DMat2::from_angle(by) * p).collect();
 /// let places = vec![turned(0.0), turned(1.0), turned(2.0)];
-/// let blend = ArapBlend::build(&Family::new(vec![[0, 1, 2]], places, vec![])?, &Silent)?;
+/// let family = CompatibleFamily::new(vec![[0, 1, 2]], places, vec![])?;
+/// let blend = ArapBlend::build(&family, &Silent)?;
 /// let mut placer = blend.placer();
 /// let at = placer.place(&[0.25, 0.5, 0.25]);
 /// assert!((at[0].distance(at[1]) - 1.0).abs() < 1e-12); // turned, not shrunk
@@ -108,7 +109,7 @@ impl ArapBlend {
         // together over the faces, and parts turn the short way.
         let mut maps = Vec::with_capacity(count);
         for design in 0..count {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             maps.push(LocalMaps::new(&family.pair(0, design), &options, &[])?);
         }
         let mut ways = Vec::with_capacity(family.faces().len() * count);
@@ -133,7 +134,7 @@ impl ArapBlend {
         let done = factor_with_ridge(matrix.grounded(family), progress)?;
         let (cholesky, _) = done.map_err(|error| match error {
             FactorError::NotPositiveDefinite { index } => {
-                ArapError::Thin([0, count - 1].map(|k| family.places()[k][index]))
+                ArapError::Thin([0, count - 1].map(|k| family.embeddings()[k][index]))
             }
             error => ArapError::Factor(error),
         })?;
@@ -165,7 +166,7 @@ impl ArapBlend {
         let vertices = inner.parts.of_vertex.len();
         BlendPlacer {
             blend: Arc::clone(inner),
-            places: inner.family.places()[0].clone(),
+            places: inner.family.embeddings()[0].clone(),
             pulls: vec![DVec2::ZERO; vertices],
             deviation: vec![0.0; 2 * vertices],
             workspace: inner.cholesky.workspace(2),
@@ -220,7 +221,7 @@ impl BlendPlacer {
         let count = weights.len();
         self.pulls.fill(DVec2::ZERO);
         blend.add_pulls(weights, &mut self.pulls);
-        let order = blend.cholesky.place_in_order();
+        let order = blend.cholesky.elimination_places();
         let (x, y) = self.deviation.split_at_mut(order.len());
         let ends = blend.ends.chunks_exact(count);
         for ((&pull, ends), &at) in self.pulls.iter().zip(ends).zip(order) {
@@ -235,7 +236,7 @@ impl BlendPlacer {
         let deviation = |v: usize| DVec2::new(x[order[v] as usize], y[order[v] as usize]);
         blend.parts.shifts(weights, deviation, &mut self.shifts);
         for (v, place) in self.places.iter_mut().enumerate() {
-            let designs = blend.family.places().iter().zip(weights);
+            let designs = blend.family.embeddings().iter().zip(weights);
             let straight: DVec2 = designs.map(|(places, &w)| places[v] * w).sum();
             // What is exactly 0 at a design is added last.
             *place = straight + (deviation(v) + self.shifts[blend.parts.of_vertex[v] as usize]);
@@ -351,7 +352,7 @@ fn mean_of(maps: &[PolarDecomposition]) -> (DMat2, Vec<[f64; 4]>) {
 fn weight(family: &CompatibleFamily, face: usize, maps: &[PolarDecomposition]) -> DMat2 {
     let corners = family.faces()[face];
     let mut sum = DMat2::ZERO;
-    for (places, map) in family.places().iter().zip(maps) {
+    for (places, map) in family.embeddings().iter().zip(maps) {
         let [a, b, c] = corners.map(|v| places[v as usize]);
         let inverse = map.matrix().inverse();
         sum += inverse * inverse.transpose() * (0.5 * twice_signed_area(a, b, c));
@@ -363,8 +364,8 @@ impl BlendBar {
     fn of(family: &CompatibleFamily, maps: &[&ElementMap]) -> Self {
         let ends = maps[0].ends;
         let along = |places: &Vec<DVec2>| places[ends[1] as usize] - places[ends[0] as usize];
-        let first = along(&family.places()[0]);
-        let ways = family.places().iter().zip(maps).map(|(places, map)| {
+        let first = along(&family.embeddings()[0]);
+        let ways = family.embeddings().iter().zip(maps).map(|(places, map)| {
             let angle = first.to_angle() + map.angle;
             [angle, along(places).length().ln()]
         });
@@ -385,7 +386,7 @@ struct Assembly {
 
 impl Assembly {
     fn new(family: &CompatibleFamily) -> Self {
-        let n = family.places()[0].len();
+        let n = family.embeddings()[0].len();
         let entries = 6 * family.faces().len() + 4 * family.elements().len();
         Self {
             matrix: SymmetricMatrix::zero(n, entries),

@@ -136,12 +136,12 @@ impl PartTranslations {
     }
 
     /// Returns the time window of a part that is a point in one of the designs.
-    pub(super) fn life(&self, part: usize) -> Option<TimeWindow> {
+    pub(super) fn time_window(&self, part: usize) -> Option<TimeWindow> {
         self.lives.get(part).copied().flatten()
     }
 
     /// Returns the time windows of all parts; the list may be shorter than the number of parts.
-    pub(super) fn lives(&self) -> &[Option<TimeWindow>] {
+    pub(super) fn time_windows(&self) -> &[Option<TimeWindow>] {
         &self.lives
     }
 
@@ -149,14 +149,14 @@ impl PartTranslations {
     ///
     /// `ends` are its positions in source and target and `share` is the completed fraction of its
     /// own motion.
-    pub(super) fn carried(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
+    pub(super) fn carried_position(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
         let path = PartPath::of(ends, self.centroid, self.whole_angle);
-        self.centre(t) + path.at_share(t, share, self.whole_angle)
+        self.centre(t) + path.offset_at_fraction(t, share, self.whole_angle)
     }
 
     /// Returns the positions in source and target that the motion of the design carries to `place`
     /// at t.
-    pub(super) fn carried_back(&self, place: DVec2, t: f64) -> [DVec2; 2] {
+    pub(super) fn uncarried_ends(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         let [from, to] = self.centroid;
         let offset = place - self.centre(t);
         let turned = |by: f64| DMat2::from_angle(by * self.whole_angle) * offset;
@@ -183,13 +183,13 @@ impl PartTranslations {
         }
         for (part, shift) in shifts.iter_mut().enumerate() {
             let t = times.of_part(part);
-            match self.life(part) {
+            match self.time_window(part) {
                 // Exact ends.
                 Some(_) if t == 0.0 || t == 1.0 => *shift = DVec2::ZERO,
                 Some(window) => {
-                    let ([from, to], share) = (self.centres[part], window.share(t));
+                    let ([from, to], share) = (self.centres[part], window.fraction_done(t));
                     let straight = from * (1.0 - share) + to * share;
-                    *shift = self.carried([from, to], share, t) - straight;
+                    *shift = self.carried_position([from, to], share, t) - straight;
                 }
                 None => *shift += self.parts[part].deviation(t, self.whole_angle) + self.bend(t),
             }

@@ -33,14 +33,14 @@ pub(super) fn factor_with_ridge(
     mut matrix: SymmetricMatrix,
     progress: &dyn Progress,
 ) -> Result<Result<(Cholesky, Option<Ridge>), FactorError>, Cancelled> {
-    let first = Cholesky::factor_if_wanted(&matrix, progress)?;
+    let first = Cholesky::factor_cancellable(&matrix, progress)?;
     let Err(FactorError::NotPositiveDefinite { index: vertex }) = first else {
         return Ok(first.map(|cholesky| (cholesky, None)));
     };
     for share in RIDGES {
         // Ridges accumulate, but the previous one is only a hundredth of this one.
         matrix.stiffen(share);
-        match Cholesky::factor_if_wanted(&matrix, progress)? {
+        match Cholesky::factor_cancellable(&matrix, progress)? {
             Err(FactorError::NotPositiveDefinite { .. }) => {}
             result => return Ok(result.map(|cholesky| (cholesky, Some(Ridge { share, vertex })))),
         }

@@ -20,13 +20,13 @@ const STRAIGHT: f64 = 1e-6;
 
 /// Whether a mesh has the constraints of drawn outlines.
 ///
-/// With `Yes`, straight sides stay straight and boundary edges are elements of the energy. With
-/// `No`, the mesh is interpolated as given and only its weights determine its stiffness.
+/// With `On`, straight sides stay straight and boundary edges are elements of the energy. With
+/// `Off`, the mesh is interpolated as given and only its weights determine its stiffness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum OutlineConstraints {
-    Yes,
+    On,
     #[default]
-    No,
+    Off,
 }
 
 /// A vertex inside a straight side.
@@ -44,21 +44,21 @@ impl OutlineConstraints {
     ///
     /// Bounded distortion has none, because faces that must not be sheared further only fit
     /// together if sides may bend.
-    pub(super) fn of(self, homotopy: Homotopy) -> Self {
+    pub(super) fn for_homotopy(self, homotopy: Homotopy) -> Self {
         match homotopy {
-            Homotopy::Bounded => Self::No,
+            Homotopy::Bounded => Self::Off,
             _ => self,
         }
     }
 
     /// Adds the constraints to a matrix with the given diagonal, if they are enabled.
-    pub(super) fn hold(
+    pub(super) fn add_to_matrix(
         self,
         mesh: &CompatibleMesh,
         diagonal: &[f64],
         matrix: &mut SymmetricMatrix,
     ) {
-        if self == Self::Yes {
+        if self == Self::On {
             add_constraints(mesh, diagonal, matrix);
         }
     }

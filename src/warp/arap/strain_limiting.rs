@@ -54,7 +54,7 @@ impl<'a> DeviationSolver<'a> {
     fn solve(&mut self, pull: impl FnOnce(&mut [DVec2])) -> &[f64] {
         self.forces.fill(DVec2::ZERO);
         pull(self.forces);
-        let place = self.cholesky.place_in_order();
+        let place = self.cholesky.elimination_places();
         let (x, y) = self.solved.split_at_mut(place.len());
         for (force, &at) in self.forces.iter().zip(place) {
             x[at as usize] = force.x;
@@ -73,7 +73,7 @@ pub(super) fn put_back(
     memory: &mut Memory,
     mut solver: DeviationSolver,
 ) {
-    let place = solver.cholesky.place_in_order();
+    let place = solver.cholesky.elimination_places();
     let of = |all: &[f64], v: u32| {
         let at = place[v as usize] as usize;
         DVec2::new(all[at], all[place.len() + at])

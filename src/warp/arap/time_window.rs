@@ -41,7 +41,7 @@ impl TimeWindow {
     }
 
     /// Returns whether the window is a nonempty interval within [0, 1].
-    pub(crate) fn is_sound(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         0.0 <= self.from && self.from < self.to && self.to <= 1.0
     }
 
@@ -70,7 +70,7 @@ impl TimeWindow {
 
     /// Returns the completed fraction of the change at `t`; exactly 0 or 1 outside the window.
     #[must_use]
-    pub fn share(self, t: f64) -> f64 {
+    pub fn fraction_done(self, t: f64) -> f64 {
         match self.side {
             Side::Source => 1.0 - self.size(t),
             Side::Target => self.size(t),
@@ -80,7 +80,7 @@ impl TimeWindow {
     /// Returns the interval of frame times in which the part is visible.
     ///
     /// `when` maps a time of the part's clock to the frame time.
-    pub(crate) fn there(self, when: impl Fn(f64) -> f64) -> [f64; 2] {
+    pub(crate) fn visible_interval(self, when: impl Fn(f64) -> f64) -> [f64; 2] {
         match self.side {
             Side::Source => [0.0, when(self.to)],
             Side::Target => [when(self.from), 1.0],
@@ -89,7 +89,7 @@ impl TimeWindow {
 
     /// Returns whether the part has zero size at `t`.
     #[must_use]
-    pub fn is_gone(self, t: f64) -> bool {
+    pub fn is_absent(self, t: f64) -> bool {
         self.size(t) == 0.0
     }
 

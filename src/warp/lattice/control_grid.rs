@@ -61,7 +61,7 @@ impl ControlGrid {
     }
 
     /// Adds a weighted displacement and its weight to the sums of one control point.
-    pub(super) fn ask(&mut self, [column, row]: [usize; 2], weighted: DVec2, weight: f64) {
+    pub(super) fn add(&mut self, [column, row]: [usize; 2], weighted: DVec2, weight: f64) {
         let block = self.block(column >> SHIFT, row >> SHIFT);
         block.controls[row % SIDE][column % SIDE] += weighted;
         block.weights[row % SIDE][column % SIDE] += weight;

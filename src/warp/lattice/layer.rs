@@ -112,14 +112,14 @@ impl SplineLayer {
                 let weight = pull.weight * w * w;
                 let weighted = pull.by * (weight * w / total);
                 self.controls
-                    .ask([first[0] + i, first[1] + j], weighted, weight);
+                    .add([first[0] + i, first[1] + j], weighted, weight);
             }
         }
     }
 
     /// Returns the displacement of a point, zero outside the lattice.
     #[inline]
-    pub(super) fn at(&self, p: DVec2) -> DVec2 {
+    pub(super) fn displacement(&self, p: DVec2) -> DVec2 {
         let Some(SplineStencil { first, basis }) = self.stencil(p) else {
             return DVec2::ZERO;
         };
@@ -190,8 +190,8 @@ mod tests {
                     std::iter::once(unit_pull(at, by)),
                     f64::INFINITY,
                 );
-                assert!(layer.at(at).distance(by) < 1e-14);
-                assert_eq!(layer.at(at + 4.0 * spacing), DVec2::ZERO);
+                assert!(layer.displacement(at).distance(by) < 1e-14);
+                assert_eq!(layer.displacement(at + 4.0 * spacing), DVec2::ZERO);
             }
         }
     }
@@ -208,7 +208,7 @@ mod tests {
             let p = DVec2::new(0.021 * f64::from(k), 0.017 * f64::from(k));
             for (axis, slope) in [DVec2::X, DVec2::Y].into_iter().zip(layer.gradient(p)) {
                 let step = 1e-5 * axis;
-                let expected = (layer.at(p + step) - layer.at(p - step)) / 2e-5;
+                let expected = (layer.displacement(p + step) - layer.displacement(p - step)) / 2e-5;
                 assert!(slope.distance(expected) < 1e-7, "{p}: {slope} {expected}");
             }
         }

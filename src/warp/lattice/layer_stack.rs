@@ -108,7 +108,7 @@ impl LayerStack {
             }
         }));
         let levels = ground.options.levels;
-        for level in 0..ground.options.most_levels() {
+        for level in 0..ground.options.max_levels() {
             let residual = self.max_residual();
             // Added levels are only built while a feature is missed by the full tolerance.
             let target = if level < levels { TARGET_RESIDUAL } else { 1.0 };
@@ -162,7 +162,7 @@ impl LayerStack {
         });
         layer.fit(&ground.domain, spacing, pulls, bound);
         for feature in &mut self.features {
-            feature.now += layer.at(argument(feature));
+            feature.now += layer.displacement(argument(feature));
         }
         self.height += 1;
     }
@@ -179,14 +179,14 @@ impl LayerStack {
     }
 
     /// Maps each point.
-    pub(super) fn lead(&self, places: &[DVec2], out: &mut [DVec2]) {
+    pub(super) fn apply(&self, places: &[DVec2], out: &mut [DVec2]) {
         out.copy_from_slice(places);
         for layer in &self.layers[..self.height] {
             if self.is_composed {
-                out.iter_mut().for_each(|p| *p += layer.at(*p));
+                out.iter_mut().for_each(|p| *p += layer.displacement(*p));
             } else {
                 let places = places.iter().zip(&mut *out);
-                places.for_each(|(&place, out)| *out += layer.at(place));
+                places.for_each(|(&place, out)| *out += layer.displacement(place));
             }
         }
     }
@@ -211,7 +211,7 @@ mod tests {
                     let step = DMat2::IDENTITY + slope;
                     smallest = smallest.min(step.determinant());
                     total = step * total;
-                    at += layer.at(at);
+                    at += layer.displacement(at);
                 } else {
                     total += slope;
                 }

@@ -84,7 +84,7 @@ impl LatticeOptions {
     }
 
     /// Returns the maximum number of levels, including added ones.
-    pub(super) fn most_levels(&self) -> u32 {
+    pub(super) fn max_levels(&self) -> u32 {
         let finer = MAX_LATTICE_CELLS / (self.coarsest << (self.levels - 1));
         self.levels + MAX_EXTRA_LEVELS.min(finer.ilog2())
     }

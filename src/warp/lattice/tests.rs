@@ -157,9 +157,9 @@ fn smallest_determinant(warp: &Lattice, t: f64, steps: u32) -> f64 {
     for k in 0..(steps * steps) as u32 {
         let (i, j) = (f64::from(k) % steps, (f64::from(k) / steps).floor());
         let place = low + size * DVec2::new(i, j) / steps;
-        for tower in &warp.towers {
+        for tower in &warp.stacks {
             let [total, step] = tower.determinants(place);
-            smallest = smallest.min(total).min(if warp.ground.options.fold_free {
+            smallest = smallest.min(total).min(if warp.domain.options.fold_free {
                 step
             } else {
                 total

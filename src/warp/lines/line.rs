@@ -49,14 +49,14 @@ pub(super) struct FieldLine {
 
 impl LineFeature {
     /// Returns the end points in the frame and in both designs.
-    pub(super) fn points(&self) -> impl Iterator<Item = DVec2> + Clone + use<> {
+    pub(super) fn all_ends(&self) -> impl Iterator<Item = DVec2> + Clone + use<> {
         let designs = self.in_designs.into_iter().flatten();
         self.in_frame.into_iter().chain(designs)
     }
 
     /// Returns whether all end points are finite.
     pub(super) fn is_finite(&self) -> bool {
-        self.points().all(DVec2::is_finite)
+        self.all_ends().all(DVec2::is_finite)
     }
 }
 

@@ -30,7 +30,7 @@ impl Default for ScaledPlane {
 impl ScaledPlane {
     /// Chooses scale and origin from the bounding box of all features.
     pub(super) fn around(features: impl Iterator<Item = LineFeature> + Clone) -> Self {
-        let points = features.flat_map(|feature| feature.points());
+        let points = features.flat_map(|feature| feature.all_ends());
         let extent = points.clone().map(|p| p.abs().max_element());
         let unit = power_of_two_at(extent.fold(0.0, f64::max));
         let per_unit = unit.recip();

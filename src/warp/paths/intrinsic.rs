@@ -61,7 +61,7 @@ impl IntrinsicPaths {
         let [from, to] = self.centroid;
         let mut rest = out;
         for (edges, path) in &self.parts {
-            let centre = from * (1.0 - t) + to * t + path.at(t, self.whole_angle);
+            let centre = from * (1.0 - t) + to * t + path.offset(t, self.whole_angle);
             let (vertices, after) = rest.split_at_mut(edges.len());
             edges.write(t, vertices);
             vertices.iter_mut().for_each(|p| *p += centre);

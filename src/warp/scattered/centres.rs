@@ -28,16 +28,16 @@ pub(super) struct ClosePair {
     /// Indices of the two centres, in increasing order.
     pub(super) pair: [usize; 2],
     /// Factor (K d / D)² < 1 by which the difference is multiplied.
-    pub(super) shrunk: f64,
+    pub(super) shrink_factor: f64,
     /// Coupling μ of the two coefficients; 0 until the system computes it.
-    pub(super) tie: f64,
+    pub(super) coupling: f64,
 }
 
 /// Centres and displacements of one frame, with reusable memory.
 #[derive(Debug, Default)]
 pub(super) struct CentreData {
     /// Positions of the centres; normalised by [`Self::centre`].
-    pub(super) at: Vec<DVec2>,
+    pub(super) positions: Vec<DVec2>,
     /// Displacements to the source and to the target.
     pub(super) values: Vec<[DVec2; 2]>,
     /// Pairs that exceed the slope limit, in lexicographic order.
@@ -57,7 +57,7 @@ impl CentreData {
         features: impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone,
         unit: f64,
     ) {
-        self.at.clear();
+        self.positions.clear();
         self.values.clear();
         self.counts.clear();
         let first = features.clone().next().map_or(DVec2::ZERO, |(p, _)| p);
@@ -66,7 +66,7 @@ impl CentreData {
         // Features far outside the frame have coarser coordinates.
         let near = MERGE_DISTANCE * unit.max(1e-3 * extent);
         for (place, value) in features {
-            let mut centres = self.at.iter();
+            let mut centres = self.positions.iter();
             match centres.position(|p| p.distance_squared(place) <= near * near) {
                 Some(at) => {
                     self.counts[at] += 1.0;
@@ -74,11 +74,11 @@ impl CentreData {
                         *sum += value;
                     }
                     // Running mean of the merged positions.
-                    let mean = self.at[at];
-                    self.at[at] = mean + (place - mean) / self.counts[at];
+                    let mean = self.positions[at];
+                    self.positions[at] = mean + (place - mean) / self.counts[at];
                 }
                 None => {
-                    self.at.push(place);
+                    self.positions.push(place);
                     self.values.push(value);
                     self.counts.push(1.0);
                 }
@@ -90,8 +90,12 @@ impl CentreData {
     }
 
     /// Shrinks displacement differences with slopes above [`STEEPEST`] and records the pairs.
-    pub(super) fn ease(&mut self) {
-        let Self { at, memory, .. } = self;
+    pub(super) fn limit_slopes(&mut self) {
+        let Self {
+            positions: at,
+            memory,
+            ..
+        } = self;
         self.too_near.clear();
         memory.clear();
         // Uses the original displacements, so that the result is independent of the order.
@@ -116,8 +120,8 @@ impl CentreData {
                 if min_factor < 1.0 && i < j {
                     self.too_near.push(ClosePair {
                         pair: [i, j],
-                        shrunk: min_factor,
-                        tie: 0.0,
+                        shrink_factor: min_factor,
+                        coupling: 0.0,
                     });
                 }
             }
@@ -131,17 +135,20 @@ impl CentreData {
     ///
     /// The origin is the mean of the centres and the scale their largest distance from it, or
     /// `unit` if all centres coincide.
-    pub(super) fn centre(&mut self, unit: f64, sum: &mut RadialSum) {
-        let n = self.at.len();
-        sum.origin = self.at.iter().sum::<DVec2>() / n.max(1) as f64;
-        let distances = self.at.iter().map(|p| p.distance_squared(sum.origin));
+    pub(super) fn normalise(&mut self, unit: f64, sum: &mut RadialSum) {
+        let n = self.positions.len();
+        sum.origin = self.positions.iter().sum::<DVec2>() / n.max(1) as f64;
+        let distances = self
+            .positions
+            .iter()
+            .map(|p| p.distance_squared(sum.origin));
         let radius = distances.fold(0.0, f64::max).sqrt();
         sum.scale = if radius > 0.0 { radius } else { unit };
         let KernelCentres { x, y, own } = &mut sum.centres;
         x.clear();
         y.clear();
         own.clear();
-        for place in &mut self.at {
+        for place in &mut self.positions {
             *place = (*place - sum.origin) / sum.scale;
             x.push(place.x);
             y.push(place.y);
@@ -151,10 +158,10 @@ impl CentreData {
         let mut too_near = self.too_near.iter().peekable();
         for i in 0..n {
             for j in i + 1..n {
-                let mut squared = self.at[i].distance_squared(self.at[j]);
+                let mut squared = self.positions[i].distance_squared(self.positions[j]);
                 if let Some(near) = too_near.next_if(|near| near.pair == [i, j]) {
                     // A neighbour about to merge with this centre gradually stops counting.
-                    squared /= near.shrunk * near.shrunk;
+                    squared /= near.shrink_factor * near.shrink_factor;
                 }
                 own[i] = own[i].min(squared);
                 own[j] = own[j].min(squared);
@@ -167,19 +174,19 @@ impl CentreData {
     /// Subtracts the best-fit similarity from the displacements and returns it.
     ///
     /// For each design the result is the constant and the factors of x and y, each as [x, y].
-    pub(super) fn take_similarity(&mut self) -> [[[f64; 2]; 3]; 2] {
-        let n = self.at.len().max(1) as f64;
-        let spread: f64 = self.at.iter().map(|p| p.length_squared()).sum();
+    pub(super) fn remove_similarity(&mut self) -> [[[f64; 2]; 3]; 2] {
+        let n = self.positions.len().max(1) as f64;
+        let spread: f64 = self.positions.iter().map(|p| p.length_squared()).sum();
         std::array::from_fn(|k| {
             let mean = self.values.iter().map(|v| v[k]).sum::<DVec2>() / n;
             // Σ z̄ v / Σ z̄ z, as complex numbers.
-            let turns = self.at.iter().zip(&self.values).map(|(&z, v)| {
+            let turns = self.positions.iter().zip(&self.values).map(|(&z, v)| {
                 let v = v[k] - mean;
                 DVec2::new(z.dot(v), z.perp_dot(v))
             });
             let turn = turns.sum::<DVec2>();
             let turn = if spread > 0.0 { turn / spread } else { turn };
-            for (&z, v) in self.at.iter().zip(&mut self.values) {
+            for (&z, v) in self.positions.iter().zip(&mut self.values) {
                 v[k] -= mean + turn.rotate(z);
             }
             [mean, turn, turn.perp()].map(|column| column.to_array())

@@ -86,11 +86,11 @@ impl RadialSolver {
     /// Solves for finite positions and displacements of the features; cannot fail.
     pub(super) fn solve(&mut self, features: impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone) {
         self.places.merge(features, self.unit);
-        self.places.ease();
-        self.places.centre(self.unit, &mut self.sum);
-        self.sum.affine = self.places.take_similarity();
+        self.places.limit_slopes();
+        self.places.normalise(self.unit, &mut self.sum);
+        self.sum.affine = self.places.remove_similarity();
         self.sum.kernel = self.kernel();
-        let n = self.places.at.len();
+        let n = self.places.positions.len();
         self.sum.coefficients.clear();
         self.sum.coefficients.resize(n, [[0.0; 2]; 2]);
         // The similarity may explain everything, as for one feature; then nothing is solved.
@@ -141,9 +141,9 @@ impl RadialSolver {
     /// It is [`MIN_SLACK`], and larger across a line to which the centres are too close for their
     /// displacements.
     fn slack(&self) -> [f64; 3] {
-        let n = self.places.at.len().max(1) as f64;
+        let n = self.places.positions.len().max(1) as f64;
         let [mut xx, mut xy, mut yy] = [0.0; 3];
-        for p in &self.places.at {
+        for p in &self.places.positions {
             xx += p.x * p.x / n;
             xy += p.x * p.y / n;
             yy += p.y * p.y / n;
@@ -170,14 +170,14 @@ impl RadialSolver {
 
     /// Assembles the matrix column by column.
     fn assemble(&mut self) {
-        let n = self.places.at.len();
+        let n = self.places.positions.len();
         let size = n + 3;
         self.system.matrix.clear();
         self.system.matrix.resize(size * size, 0.0);
         let kernel = self.sum.kernel;
         let sign = kernel.sign();
         let columns = self.system.matrix.chunks_exact_mut(size);
-        for (of, (entries, p)) in columns.zip(&self.places.at).enumerate() {
+        for (of, (entries, p)) in columns.zip(&self.places.positions).enumerate() {
             let (out, affine) = entries.split_at_mut(n);
             let centres = &self.sum.centres;
             let column = KernelColumn {
@@ -189,7 +189,7 @@ impl RadialSolver {
             self.arch.dispatch(KernelDispatch(kernel, column));
             affine.copy_from_slice(&[1.0, p.x, p.y]);
         }
-        for (i, p) in self.places.at.iter().enumerate() {
+        for (i, p) in self.places.positions.iter().enumerate() {
             for (k, value) in [1.0, p.x, p.y].into_iter().enumerate() {
                 self.system.matrix[(n + k) * size + i] = value;
             }
@@ -208,26 +208,27 @@ impl RadialSolver {
     /// Adds the coupling μ of close pairs: (1 / shrunk − 1) times the energy of two opposite
     /// coefficients.
     fn couple_close_pairs(&mut self) {
-        let size = self.places.at.len() + 3;
+        let size = self.places.positions.len() + 3;
         for near in &mut self.places.too_near {
             let [i, j] = near.pair;
             let entry = |i: usize, j: usize| self.system.matrix[j * size + i];
             let energy = 0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i));
             // The energy may vanish for wide Gaussians; the squared distance bounds it from below.
-            let bounded = energy.abs() + self.places.at[i].distance_squared(self.places.at[j]);
-            near.tie = (bounded * (1.0 / near.shrunk - 1.0)).min(1e12);
+            let bounded =
+                energy.abs() + self.places.positions[i].distance_squared(self.places.positions[j]);
+            near.coupling = (bounded * (1.0 / near.shrink_factor - 1.0)).min(1e12);
         }
         for near in &self.places.too_near {
             let [i, j] = near.pair;
             for (i, j, mu) in [(i, i, 1.0), (j, j, 1.0), (i, j, -1.0), (j, i, -1.0)] {
-                self.system.matrix[j * size + i] += mu * near.tie;
+                self.system.matrix[j * size + i] += mu * near.coupling;
             }
         }
     }
 
     /// Copies the solution into `sum`, with the sign of the radial function.
     fn store_solution(&mut self) {
-        let n = self.places.at.len();
+        let n = self.places.positions.len();
         let size = n + 3;
         let sign = self.sum.kernel.sign();
         for (row, solution) in self.system.solution.chunks_exact(size).enumerate() {

@@ -130,19 +130,19 @@ fn a_film_may_change_only_at_rest_or_near_a_design() {
     let whole = timing(PlayMode::Loop);
     let mut playback = Playback::default();
     playback.toggle(&whole, &[]);
-    assert!(playback.may_change_film(&whole), "at its start");
+    assert!(playback.can_swap_film(&whole), "at its start");
     playback.advance(1.0, &whole, &[]);
-    assert!(!playback.may_change_film(&whole), "in its midst");
+    assert!(!playback.can_swap_film(&whole), "in its midst");
     playback.advance(0.98, &whole, &[]);
-    assert!(playback.may_change_film(&whole), "near its end");
+    assert!(playback.can_swap_film(&whole), "near its end");
     let midst = Timing {
         from: 0.2,
         to: 0.8,
         ..whole
     };
     playback.seek(0.5, &midst, &[]);
-    assert!(playback.may_change_film(&midst), "it never comes to an end");
+    assert!(playback.can_swap_film(&midst), "it never comes to an end");
     playback.seek(0.5, &whole, &[]);
     playback.toggle(&whole, &[]);
-    assert!(playback.may_change_film(&whole), "at rest");
+    assert!(playback.can_swap_film(&whole), "at rest");
 }

@@ -51,7 +51,7 @@ pub fn submenu(ui: &mut Ui, value: &mut Option<EasingFunction>, inherited: &str)
 fn name(ease: EasingFunction) -> &'static str {
     match ease {
         EasingFunction::Named(easing) => easing.name().title,
-        EasingFunction::Drawn(_) => "Custom",
+        EasingFunction::Bezier(_) => "Custom",
     }
 }
 
@@ -68,7 +68,7 @@ fn easing_list(ui: &mut Ui, value: &mut Option<EasingFunction>, inherited: Optio
     ui.add_space(GRID);
     let curve = value.unwrap_or_default().curve();
     if let Some(drawn) = canvas(ui, curve) {
-        *value = Some(EasingFunction::Drawn(drawn));
+        *value = Some(EasingFunction::Bezier(drawn));
     }
     ui.label(secondary_text(
         ui,
@@ -92,7 +92,7 @@ fn canvas(ui: &mut Ui, curve: EasingBezier) -> Option<EasingBezier> {
     }
     let points = (0..=48).map(|k| {
         let x = f64::from(k) / 48.0;
-        canvas_pos(rect, x, EasingFunction::Drawn(curve).apply(x))
+        canvas_pos(rect, x, EasingFunction::Bezier(curve).apply(x))
     });
     let ink = Stroke::new(2.0, palette.text);
     ui.painter().add(Shape::line(points.collect(), ink));

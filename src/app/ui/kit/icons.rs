@@ -17,26 +17,29 @@ const SOLID: &str = "solid icons";
 pub struct Icon {
     family: &'static str,
     /// Text of one character.
-    sign: &'static str,
+    glyph: &'static str,
     /// Clockwise rotation, in radians.
-    turn: f32,
+    rotation: f32,
     /// Fixed colour; `None` takes the colour given to [`paint_icon`].
-    ink: Option<Color32>,
+    colour: Option<Color32>,
 }
 
 impl Icon {
     /// Returns the icon with a fixed colour, or without one.
-    pub const fn inked(self, ink: Option<Color32>) -> Self {
-        Self { ink, ..self }
+    pub const fn with_colour(self, ink: Option<Color32>) -> Self {
+        Self {
+            colour: ink,
+            ..self
+        }
     }
 }
 
 const fn lines(sign: &'static str) -> Icon {
     Icon {
         family: LINES,
-        sign,
-        turn: 0.0,
-        ink: None,
+        glyph: sign,
+        rotation: 0.0,
+        colour: None,
     }
 }
 
@@ -49,7 +52,7 @@ const fn solid(sign: &'static str) -> Icon {
 
 /// The play triangle rotated by half a turn: Phosphor has no icon for playing backwards.
 pub const PLAY_BACKWARDS: Icon = Icon {
-    turn: std::f32::consts::PI,
+    rotation: std::f32::consts::PI,
     ..PLAY
 };
 
@@ -107,10 +110,10 @@ pub fn fonts() -> FontDefinitions {
 
 /// Paints an icon centred in `rect`; `colour` applies to icons without a colour of their own.
 pub fn paint_icon(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
-    let colour = icon.ink.unwrap_or(colour);
+    let colour = icon.colour.unwrap_or(colour);
     let font = FontId::new(SIZE, FontFamily::Name(icon.family.into()));
-    let sign = painter.layout_no_wrap(icon.sign.to_owned(), font, colour);
+    let sign = painter.layout_no_wrap(icon.glyph.to_owned(), font, colour);
     let corner = rect.center() - sign.size() / 2.0;
     let sign = TextShape::new(corner, sign, colour);
-    painter.add(sign.with_angle_and_anchor(icon.turn, Align2::CENTER_CENTER));
+    painter.add(sign.with_angle_and_anchor(icon.rotation, Align2::CENTER_CENTER));
 }

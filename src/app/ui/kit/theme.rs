@@ -44,7 +44,7 @@ pub struct ThemePalette {
     /// Selected items.
     pub accent: Color32,
     /// Background of selected items.
-    pub accent_ground: Color32,
+    pub accent_fill: Color32,
     /// Warnings, and t outside [0, 1].
     pub amber: Color32,
     /// Errors.
@@ -62,7 +62,7 @@ const DARK: ThemePalette = ThemePalette {
     text: Color32::from_rgb(0xe1, 0xe6, 0xec),
     weak: Color32::from_rgb(0x98, 0xa3, 0xb0),
     accent: Color32::from_rgb(0x7f, 0xb0, 0xf0),
-    accent_ground: Color32::from_rgb(0x2a, 0x45, 0x66),
+    accent_fill: Color32::from_rgb(0x2a, 0x45, 0x66),
     amber: Color32::from_rgb(0xe2, 0xb0, 0x5a),
     problem: Color32::from_rgb(0xf0, 0x8a, 0x70),
     good: Color32::from_rgb(0x7c, 0xc4, 0x9a),
@@ -77,7 +77,7 @@ const LIGHT: ThemePalette = ThemePalette {
     text: Color32::from_rgb(0x10, 0x14, 0x18),
     weak: Color32::from_rgb(0x48, 0x51, 0x5b),
     accent: Color32::from_rgb(0x1d, 0x5a, 0xa8),
-    accent_ground: Color32::from_rgb(0xcf, 0xdf, 0xf3),
+    accent_fill: Color32::from_rgb(0xcf, 0xdf, 0xf3),
     amber: Color32::from_rgb(0x8f, 0x5d, 0x06),
     problem: Color32::from_rgb(0xa8, 0x3a, 0x1c),
     good: Color32::from_rgb(0x1f, 0x6b, 0x44),
@@ -92,7 +92,7 @@ impl ThemePalette {
 
     /// Returns the text colour of disabled controls.
     #[must_use]
-    pub fn faint(&self) -> Color32 {
+    pub fn disabled_text(&self) -> Color32 {
         self.weak.lerp_to_gamma(self.panel, 0.45)
     }
 
@@ -198,7 +198,7 @@ fn visuals(palette: ThemePalette, base: Visuals) -> Visuals {
     visuals.hyperlink_color = palette.accent;
     visuals.warn_fg_color = palette.amber;
     visuals.error_fg_color = palette.problem;
-    visuals.selection.bg_fill = palette.accent_ground;
+    visuals.selection.bg_fill = palette.accent_fill;
     visuals.selection.stroke = Stroke::new(1.0, palette.accent);
     visuals.slider_trailing_fill = true;
     visuals.handle_shape = HandleShape::Circle;
@@ -208,7 +208,7 @@ fn visuals(palette: ThemePalette, base: Visuals) -> Visuals {
     visuals.widgets.noninteractive = widget(palette.panel, palette.line, palette.text);
     visuals.widgets.inactive = widget(palette.raised, Color32::TRANSPARENT, palette.text);
     visuals.widgets.hovered = widget(palette.hover, palette.line, palette.text);
-    visuals.widgets.active = widget(palette.accent_ground, palette.accent, palette.text);
+    visuals.widgets.active = widget(palette.accent_fill, palette.accent, palette.text);
     visuals.widgets.open = widget(palette.hover, palette.line, palette.text);
     visuals
 }
@@ -271,7 +271,7 @@ mod tests {
                     assert!(contrast(text, ground) >= 4.5, "{text:?} on {ground:?}");
                 }
             }
-            assert!(contrast(palette.text, palette.accent_ground) >= 4.5);
+            assert!(contrast(palette.text, palette.accent_fill) >= 4.5);
             assert!(contrast(palette.text, palette.hover) >= 4.5);
         }
     }

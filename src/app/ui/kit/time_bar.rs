@@ -13,8 +13,8 @@ const SHORTEST: f64 = 0.02;
 /// Part of the bar that is being dragged.
 #[derive(Clone, Copy, PartialEq)]
 enum TimeBarGrip {
-    From,
-    To,
+    Start,
+    End,
     Whole,
 }
 
@@ -43,7 +43,7 @@ pub fn bar(ui: &mut Ui, salt: usize, width: f32, clock: &mut PartClock) {
     if let Some(at) = response.hover_pos() {
         ui.ctx().set_cursor_icon(match grip_at(bar, at.x) {
             TimeBarGrip::Whole => CursorIcon::Grab,
-            TimeBarGrip::From | TimeBarGrip::To => CursorIcon::ResizeHorizontal,
+            TimeBarGrip::Start | TimeBarGrip::End => CursorIcon::ResizeHorizontal,
         });
     }
     let is_lit = grip.is_some() || response.hovered();
@@ -73,19 +73,19 @@ fn grip_at(bar: Rect, x: f32) -> TimeBarGrip {
     let [from, to] = [bar.left(), bar.right()].map(|end| (end - x).abs());
     match from.min(to) {
         near if near > GRID && bar.x_range().contains(x) => TimeBarGrip::Whole,
-        _ if from < to => TimeBarGrip::From,
-        _ => TimeBarGrip::To,
+        _ if from < to => TimeBarGrip::Start,
+        _ => TimeBarGrip::End,
     }
 }
 
 fn drag_grip(clock: &mut PartClock, grip: TimeBarGrip, delta: f64) {
     match grip {
         // A project file may hold windows shorter than SHORTEST.
-        TimeBarGrip::From => {
+        TimeBarGrip::Start => {
             let max_from = (clock.to - SHORTEST).max(0.0).min(clock.to);
             clock.from = (clock.from + delta).clamp(0.0, max_from);
         }
-        TimeBarGrip::To => {
+        TimeBarGrip::End => {
             let min_to = (clock.from + SHORTEST).min(1.0);
             clock.to = (clock.to + delta).clamp(min_to, 1.0);
         }
@@ -125,15 +125,15 @@ mod tests {
     #[test]
     fn ends_do_not_cross_and_moving_the_bar_keeps_its_length() {
         let mut clock = PartClock::WHOLE;
-        drag_grip(&mut clock, TimeBarGrip::From, 0.4);
-        drag_grip(&mut clock, TimeBarGrip::To, -0.9);
+        drag_grip(&mut clock, TimeBarGrip::Start, 0.4);
+        drag_grip(&mut clock, TimeBarGrip::End, -0.9);
         assert!((clock.to - clock.from - SHORTEST).abs() < 1e-12);
-        drag_grip(&mut clock, TimeBarGrip::To, 0.18);
+        drag_grip(&mut clock, TimeBarGrip::End, 0.18);
         drag_grip(&mut clock, TimeBarGrip::Whole, 5.0);
         assert!((clock.from - 0.8).abs() < 1e-12 && clock.to == 1.0);
         drag_grip(&mut clock, TimeBarGrip::Whole, -5.0);
         for (from, to) in [(0.99, 1.0), (0.0, 0.01)] {
-            for grip in [TimeBarGrip::From, TimeBarGrip::To] {
+            for grip in [TimeBarGrip::Start, TimeBarGrip::End] {
                 let mut short = PartClock {
                     from,
                     to,

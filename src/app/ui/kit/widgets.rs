@@ -228,8 +228,8 @@ pub fn choice(ui: &mut Ui, is_selected: bool, label: &str, size: Vec2) -> Respon
         WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, label)
     });
     let (fill, text) = match (ui.is_enabled(), is_selected, response.hovered()) {
-        (false, ..) => (palette.panel, palette.faint()),
-        (true, true, _) => (palette.accent_ground, palette.text),
+        (false, ..) => (palette.panel, palette.disabled_text()),
+        (true, true, _) => (palette.accent_fill, palette.text),
         (true, false, true) => (palette.hover, palette.text),
         (true, false, false) => (palette.raised, palette.weak),
     };
@@ -371,5 +371,5 @@ pub fn from_right<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
 pub fn primary_button(ui: &mut Ui, text: &str) -> Response {
     let palette = ThemePalette::of(ui);
     let text = RichText::new(text).color(palette.text);
-    ui.add(egui::Button::new(text).fill(palette.accent_ground))
+    ui.add(egui::Button::new(text).fill(palette.accent_fill))
 }

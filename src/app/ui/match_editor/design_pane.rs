@@ -67,7 +67,7 @@ impl DesignPane {
     }
 
     /// Returns the rectangle of the other design's pane.
-    pub fn across(&self) -> Rect {
+    pub fn opposite_pane(&self) -> Rect {
         let by = match self.side {
             Side::Source => self.rect.width(),
             Side::Target => -self.rect.width(),
@@ -84,14 +84,14 @@ impl DesignPane {
     }
 
     /// Maps a pointer position to the common frame.
-    pub fn touch(&self, at: Pos2, is_free: bool) -> EditorPointer {
+    pub fn pointer_target(&self, at: Pos2, is_free: bool) -> EditorPointer {
         let offset = at - self.room.center() - self.pan;
         let offset = DVec2::new(f64::from(offset.x), -f64::from(offset.y));
         EditorPointer {
             side: self.side,
-            at: self.centre + offset / self.px_per_unit,
-            reach: f64::from(REACH) / self.px_per_unit,
-            is_free,
+            position: self.centre + offset / self.px_per_unit,
+            pick_radius: f64::from(REACH) / self.px_per_unit,
+            ignores_snapping: is_free,
         }
     }
 
@@ -105,7 +105,7 @@ impl DesignPane {
         let painter = self.clip(stage);
         let sheet = &state.sheet;
         self.picture(&painter, sheet);
-        if sheet.in_colours() {
+        if sheet.shows_pictures() {
             // The outline traced from a picture would cover the picture.
             return self.title(&painter, state, inks);
         }
@@ -122,7 +122,7 @@ impl DesignPane {
 
     /// Draws the imported picture, if the project blends pictures.
     fn picture(&self, painter: &Painter, sheet: &MatchSheet) {
-        let sides = sheet.sides.as_ref().filter(|_| sheet.in_colours());
+        let sides = sheet.sides.as_ref().filter(|_| sheet.shows_pictures());
         let Some(picture) = sides.and_then(|sides| sides[self.side].picture.as_ref()) else {
             return;
         };
@@ -149,8 +149,8 @@ impl DesignPane {
     fn is_unmatched(&self, piece: &SheetPiece) -> bool {
         match piece.fate {
             PieceFate::Paired => false,
-            PieceFate::Dies => self.side == Side::Source,
-            PieceFate::Born => self.side == Side::Target,
+            PieceFate::Disappears => self.side == Side::Source,
+            PieceFate::Appears => self.side == Side::Target,
         }
     }
 
@@ -290,11 +290,11 @@ impl DesignPane {
         }
         for (k, piece) in sheet.pieces.iter().enumerate() {
             let word = match (piece.fate, self.is_unmatched(piece)) {
-                (PieceFate::Dies, true) => format!("{} disappears", piece.name),
-                (PieceFate::Born, true) => format!("{} appears", piece.name),
+                (PieceFate::Disappears, true) => format!("{} disappears", piece.name),
+                (PieceFate::Appears, true) => format!("{} appears", piece.name),
                 _ => piece.name.clone(),
             };
-            let at = self.px(piece.at[self.side]) + self.name_offset(sheet, k);
+            let at = self.px(piece.label_at[self.side]) + self.name_offset(sheet, k);
             label_card(painter, at, &word, inks, piece.is_linked);
         }
     }

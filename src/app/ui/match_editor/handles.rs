@@ -28,7 +28,7 @@ pub fn draw(painter: &Painter, state: &UiState, halves: &[DesignPane; 2], inks: 
         let clipped = half.clip(painter);
         features(&clipped, sheet, editor, half, inks);
         cuts(&clipped, sheet, editor, half, inks);
-        if sheet.is_free() {
+        if sheet.has_free_pins() {
             lines(&clipped, sheet, editor, half, inks);
         }
     }
@@ -142,7 +142,7 @@ fn cuts(
         for (at, end) in ends.into_iter().zip([CutEnd::Outer, CutEnd::Hole]) {
             let is_lit = editor.is_lit(EditorHandle::Cut(k, end));
             let size = if is_lit { 13.0 } else { 10.0 };
-            let fill = if shown.asked.is_some() {
+            let fill = if shown.requested_index.is_some() {
                 inks.accent
             } else {
                 inks.ground
@@ -166,7 +166,7 @@ fn link(
         Some((_, EditorGrab::Pin(k))) => Some(EditorHandle::Pin(k)),
         Some((_, EditorGrab::Feature(k))) => Some(EditorHandle::Feature(k)),
         Some((_, EditorGrab::Line(k, end))) => Some(EditorHandle::Line(k, end)),
-        Some((_, EditorGrab::Stretch(k))) => Some(EditorHandle::Line(k, 1)),
+        Some((_, EditorGrab::NewLineEnd(k))) => Some(EditorHandle::Line(k, 1)),
         _ => editor.hovered,
     };
     let of_handle = |handle: EditorHandle| -> Option<[DVec2; 2]> {

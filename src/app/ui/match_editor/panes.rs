@@ -76,7 +76,10 @@ fn halves(state: &UiState, stage: Rect, sides: &[SheetSide; 2]) -> [DesignPane; 
             rect.max - vec2(3.0 * GRID, ADVICE_HEIGHT + GRID),
         );
         let design = &sides[side];
-        let picture = design.picture.as_ref().filter(|_| state.sheet.in_colours());
+        let picture = design
+            .picture
+            .as_ref()
+            .filter(|_| state.sheet.shows_pictures());
         let bounds = picture.map_or(design.bounds, Picture::bounds);
         let view = state.editor.panes.view(EditorPane::Design(side));
         DesignPane::new(side, rect, room, bounds, view)
@@ -105,21 +108,24 @@ fn handle_pointer(
         && let Some(origin) = origin
     {
         // The press position: egui reports a drag only after the pointer has moved some points.
-        act(EditorAction::Press(half.touch(origin, shift)));
+        act(EditorAction::Press(half.pointer_target(origin, shift)));
     }
     if let Some(pointer) = response.interact_pointer_pos() {
         let delta = response.drag_delta();
         let delta = Vec2::new(delta.x, delta.y);
         if response.dragged_by(primary) && delta != Vec2::ZERO {
-            act(EditorAction::Drag(half.touch(pointer, shift), delta));
+            act(EditorAction::Drag(
+                half.pointer_target(pointer, shift),
+                delta,
+            ));
         } else if response.dragged() && delta != Vec2::ZERO {
             act(EditorAction::Pan(EditorPane::Design(half.side), delta));
         }
         if response.clicked_by(primary) {
-            act(EditorAction::Click(half.touch(pointer, shift)));
+            act(EditorAction::Click(half.pointer_target(pointer, shift)));
         }
         if response.clicked_by(PointerButton::Secondary) {
-            act(EditorAction::Remove(half.touch(pointer, shift)));
+            act(EditorAction::Remove(half.pointer_target(pointer, shift)));
         }
     }
     if response.drag_stopped_by(primary) {
@@ -128,7 +134,9 @@ fn handle_pointer(
     if let Some(pointer) = response.hover_pos() {
         // Only on movement: an intent in every frame would keep the window redrawing.
         if moved && !response.dragged() {
-            act(EditorAction::Hover(Some(half.touch(pointer, shift))));
+            act(EditorAction::Hover(Some(
+                half.pointer_target(pointer, shift),
+            )));
         }
         zoom(ui, half, pointer - half.rect.center(), &mut act);
     } else if has_left(state, half, response) {
@@ -144,7 +152,7 @@ fn has_left(state: &UiState, half: &DesignPane, response: &Response) -> bool {
     let is_elsewhere = response
         .ctx
         .input(|input| input.pointer.hover_pos())
-        .is_none_or(|p| !half.rect.union(half.across()).contains(p));
+        .is_none_or(|p| !half.rect.union(half.opposite_pane()).contains(p));
     // A handle that is being dragged stays highlighted wherever the pointer goes.
     is_marked && is_elsewhere && editor.grabbed.is_none()
 }
@@ -165,7 +173,7 @@ fn zoom(ui: &Ui, half: &DesignPane, from_middle: egui::Vec2, act: &mut impl FnMu
 fn instructions(painter: &Painter, state: &UiState, stage: Rect, inks: &EditorColours) {
     let editor = &state.editor;
     let usual = match (editor.tool, editor.first_part) {
-        (EditorTool::Pins, _) if state.sheet.is_free() => {
+        (EditorTool::Pins, _) if state.sheet.has_free_pins() => {
             "Click anywhere to add a pin on both sides, drag it into place, right-click to delete \
              it."
         }

@@ -28,7 +28,7 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
 }
 
 fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
-    let is_free = state.sheet.is_free();
+    let is_free = state.sheet.has_free_pins();
     // Lines control warps of the whole plane; parts exist only in outlines.
     let tools = [
         (
@@ -58,7 +58,7 @@ fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
             intents.push(Intent::Editor(EditorAction::Tool(tool)));
         }
     }
-    if !state.sheet.in_colours() {
+    if !state.sheet.shows_pictures() {
         outline_tools(ui, state, intents);
     }
     views(ui, state, intents);
@@ -76,11 +76,11 @@ fn views(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     ui.add_space(GRID);
     let tip = "Shows the film next to the designs. The usual keys play and scrub it.";
     if choice_button(ui, panes.film, "Film", tip, 44.0) {
-        act(EditorAction::Film(!panes.film));
+        act(EditorAction::ShowFilm(!panes.film));
     }
     let tip = "On: all panes pan and zoom together. Off: each separately.";
     if choice_button(ui, panes.together, "Link views", tip, 68.0) {
-        act(EditorAction::Together(!panes.together));
+        act(EditorAction::LinkPanes(!panes.together));
     }
 }
 
@@ -95,6 +95,6 @@ fn outline_tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     }
     let tip = "Shows the triangles that divide both designs, the same ones on either side.";
     if choice_button(ui, editor.triangles, "Triangles", tip, 68.0) {
-        act(EditorAction::Triangles(!editor.triangles));
+        act(EditorAction::ShowTriangles(!editor.triangles));
     }
 }

@@ -21,26 +21,26 @@ const SIZE: Vec2 = vec2(760.0, 440.0);
 pub struct FileDialogState(Option<OpenFileDialog>);
 
 struct OpenFileDialog {
-    asks: DialogPurpose,
+    purpose: DialogPurpose,
     dialog: FileDialog,
     typed: TypedPath,
 }
 
 /// Draws the dialog while files are asked for.
 pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents: &mut Intents) {
-    let Some(asks) = state.dialog.asks() else {
+    let Some(asks) = state.dialog.purpose() else {
         files.0 = None;
         return;
     };
-    files.0.take_if(|shown| shown.asks != *asks);
+    files.0.take_if(|shown| shown.purpose != *asks);
     let shown = files.0.get_or_insert_with(|| OpenFileDialog {
-        asks: asks.clone(),
+        purpose: asks.clone(),
         dialog: dialog(asks, state),
         typed: TypedPath::default(),
     });
     // Handled here, because the dialog itself would first take the focus off its text field.
     if ctx.input(|input| input.key_pressed(Key::Escape)) {
-        intents.push(Intent::Choose(Vec::new()));
+        intents.push(Intent::AnswerDialog(Vec::new()));
         return;
     }
     // The dialog writes selected names in the colour of the selection's background.
@@ -52,9 +52,11 @@ pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents
     });
     match shown.dialog.state() {
         DialogState::Open => {}
-        DialogState::Picked(path) => intents.push(Intent::Choose(vec![path.clone()])),
-        DialogState::PickedMultiple(paths) => intents.push(Intent::Choose(paths.clone())),
-        DialogState::Cancelled | DialogState::Closed => intents.push(Intent::Choose(Vec::new())),
+        DialogState::Picked(path) => intents.push(Intent::AnswerDialog(vec![path.clone()])),
+        DialogState::PickedMultiple(paths) => intents.push(Intent::AnswerDialog(paths.clone())),
+        DialogState::Cancelled | DialogState::Closed => {
+            intents.push(Intent::AnswerDialog(Vec::new()))
+        }
     }
 }
 
@@ -65,7 +67,7 @@ fn draw_with_side_panel(
     shown: &mut OpenFileDialog,
     intents: &mut Intents,
 ) {
-    let filters = shown.asks.filters();
+    let filters = shown.purpose.filters();
     let extensions = filters
         .first()
         .map_or(&[][..], |(_, extensions)| extensions);
@@ -80,9 +82,9 @@ fn draw_with_side_panel(
         };
         let folder = folder.unwrap_or(Path::new("."));
         if let Some(path) = file_side_panel::field(ui, typed, folder, extensions) {
-            intents.push(Intent::Choose(vec![path]));
+            intents.push(Intent::AnswerDialog(vec![path]));
         }
-        let file = entry.filter(|entry| entry.is_file() && !typed.has_offers());
+        let file = entry.filter(|entry| entry.is_file() && !typed.has_completions());
         file_side_panel::preview(ui, state, file.map(DirectoryEntry::as_path), intents);
     };
     shown.dialog.update_with_right_panel_ui(ctx, &mut panel);

@@ -21,25 +21,25 @@ pub const WIDTH: f32 = 192.0;
 #[derive(Debug, Default)]
 pub struct TypedPath {
     text: String,
-    of: Option<(String, PathBuf)>,
-    offers: Vec<PathBuf>,
+    looked_up: Option<(String, PathBuf)>,
+    completions: Vec<PathBuf>,
 }
 
 impl TypedPath {
     /// Returns whether completions are listed; they take the place of the preview.
-    pub fn has_offers(&self) -> bool {
-        !self.offers.is_empty()
+    pub fn has_completions(&self) -> bool {
+        !self.completions.is_empty()
     }
 
-    fn look_up(&mut self, folder: &Path, extensions: &[&str]) {
+    fn update_completions(&mut self, folder: &Path, extensions: &[&str]) {
         let key = (self.text.clone(), folder.to_owned());
-        if self.of.as_ref() != Some(&key) {
-            self.offers = if self.text.is_empty() {
+        if self.looked_up.as_ref() != Some(&key) {
+            self.completions = if self.text.is_empty() {
                 Vec::new()
             } else {
                 completions(&self.text, folder, extensions)
             };
-            self.of = Some(key);
+            self.looked_up = Some(key);
         }
     }
 }
@@ -51,12 +51,14 @@ pub fn field(
     folder: &Path,
     extensions: &[&str],
 ) -> Option<PathBuf> {
-    typed.look_up(folder, extensions);
+    typed.update_completions(folder, extensions);
     let id = ui.id().with("typed");
     let has_focus = ui.memory(|memory| memory.has_focus(id));
     // Tab is consumed before the field handles it, which would move the focus away.
     let completes = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
-    let mut chosen = completes.then(|| typed.offers.first().cloned()).flatten();
+    let mut chosen = completes
+        .then(|| typed.completions.first().cloned())
+        .flatten();
     let hint = "Type a path …";
     let edit = TextEdit::singleline(&mut typed.text)
         .id(id)
@@ -65,7 +67,7 @@ pub fn field(
         .desired_width(f32::INFINITY);
     let response = ui.add(edit);
     let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    for offer in &typed.offers {
+    for offer in &typed.completions {
         let name = offer.file_name().unwrap_or(offer.as_os_str());
         let slash = if offer.is_dir() { "/" } else { "" };
         let line = Button::new(format!("{}{slash}", name.to_string_lossy()))
@@ -112,7 +114,7 @@ pub fn preview(ui: &mut Ui, state: &UiState, file: Option<&Path>, intents: &mut 
         None => {
             ui.label(secondary_text(ui, "Loading preview …"));
             if !state.preview.is_for(file) {
-                intents.push(Intent::LookAt(file.to_owned()));
+                intents.push(Intent::PreviewFile(file.to_owned()));
             }
         }
     }

@@ -23,7 +23,7 @@ pub fn strip(root: &mut Ui, state: &UiState) {
 fn line(ui: &mut Ui, state: &UiState) {
     ui.label(secondary_text(ui, "Frame time"))
         .on_hover_text("Median of the last frames");
-    let whole = ("Total", &state.whole.0);
+    let whole = ("Total", &state.frame_intervals.0);
     let stages = match state.map.is_shown {
         true => vec![("Blend and draw", state.map.times()), whole],
         false => vec![
@@ -47,17 +47,17 @@ fn line(ui: &mut Ui, state: &UiState) {
 /// Returns where frames come from, as a short label and as a tooltip.
 fn frame_source(state: &UiState) -> (String, String) {
     let solved = || "Solved".to_owned();
-    match state.session.transition().and_then(Transition::film) {
+    match state.session.transition().and_then(Transition::recording) {
         Some(Ok(film)) => {
             let megabytes = film.bytes() as f64 / 1e6;
-            let (kind, by) = match state.times.is_played {
+            let (kind, by) = match state.times.is_gpu_played {
                 true => ("GPU recording", "the GPU"),
                 false => ("Recording", "memory"),
             };
             let details = format!(
                 "Frames are played from {by}: recorded with {} solves, accurate to {:.0e} of the \
                  designs' size",
-                film.solves(),
+                film.evaluation_count(),
                 film.error()
             );
             (format!("{kind} {megabytes:.1} MB"), details)

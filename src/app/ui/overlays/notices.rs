@@ -45,7 +45,7 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, intents: &m
     let palette = ThemePalette::of(ui);
     let (icon, colour) = match notice.kind {
         NoticeKind::Problem(_) => (icons::WARNING, palette.problem),
-        NoticeKind::Done | NoticeKind::Wrote => (icons::TICK, palette.accent),
+        NoticeKind::Done | NoticeKind::FileWritten => (icons::TICK, palette.accent),
         NoticeKind::Note => (icons::WARNING, palette.amber),
     };
     card(ui, egui::Margin::symmetric(12, 8), |ui| {
@@ -70,13 +70,13 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, intents: &m
                     ui.add_space(GRID);
                     let tip = "Builds it no matter how long it takes. You can cancel at any time.";
                     if ui.button("Build anyway").on_hover_text(tip).clicked() {
-                        intents.push(Intent::Insist);
+                        intents.push(Intent::BuildAnyway);
                     }
                 }
             });
             let close = icon_button(ui, icons::CLOSE, "Close", vec2(24.0, 24.0));
             if close.clicked() {
-                intents.push(Intent::Dismiss(notice.id));
+                intents.push(Intent::DismissNotice(notice.id));
             }
         });
     });

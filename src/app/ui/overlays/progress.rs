@@ -16,12 +16,12 @@ const PICTURE: f32 = 120.0;
 
 /// Draws a card at the top of the stage for each running job.
 pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
-    let build = state.session.told_work();
+    let build = state.session.visible_work();
     let build = build.map(|work| (work, Intent::CancelWork));
     let export = state.recorder.work();
-    let export = export.map(|work| (work, Intent::CancelRecording));
-    let choice = state.choosing.told();
-    let choice = choice.map(|share| (("Trying methods", share), Intent::CancelChoice));
+    let export = export.map(|work| (work, Intent::CancelExport));
+    let choice = state.choosing.visible_progress();
+    let choice = choice.map(|share| (("Trying methods", share), Intent::CancelMethodSearch));
     let all: Vec<_> = build.into_iter().chain(choice).chain(export).collect();
     if all.is_empty() {
         return;
@@ -30,17 +30,18 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
     fixed_layer("work", Align2::CENTER_TOP, at).show(ctx, |ui| {
         for ((stage, fraction), cancel) in all {
             let picture = match cancel {
-                Intent::CancelRecording => state.recorder.preview(),
+                Intent::CancelExport => state.recorder.preview(),
                 _ => None,
             };
-            pill(ui, (stage, fraction), picture, cancel, intents);
+            pill(ui, stage, fraction, picture, cancel, intents);
         }
     });
 }
 
 fn pill(
     ui: &mut Ui,
-    (stage, fraction): (&str, f64),
+    stage: &str,
+    fraction: f64,
     picture: Option<Arc<RgbaImage>>,
     cancel: Intent,
     intents: &mut Intents,

@@ -13,9 +13,9 @@ use crate::app::unsaved_question::UnsavedKind;
 
 /// Draws the pending question, if any.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
-    if let (Some(words), Some(lost)) = (state.question.text(), state.question.lost()) {
+    if let (Some(words), Some(lost)) = (state.question.text(), state.question.kind()) {
         ask_before_closing(ctx, lost, words, intents);
-    } else if let Some((title, age)) = state.autosave.lost() {
+    } else if let Some((title, age)) = state.autosave.recoverable() {
         ask_recover(ctx, title, age, intents);
     } else if let Some(path) = state.drop.undecided() {
         ask_drop(ctx, state, path, intents);
@@ -38,15 +38,15 @@ fn ask_before_closing(ctx: &Context, lost: UnsavedKind, question: &str, intents:
         ui.add(Label::new(question).wrap());
         answers(ui, |ui| {
             if primary_button(ui, keep).clicked() {
-                intents.push(Intent::Answer(UnsavedAnswer::Save));
+                intents.push(Intent::AnswerUnsaved(UnsavedAnswer::Save));
             }
             let mut answer = |ui: &mut Ui, text: &str, answer: UnsavedAnswer| {
                 if ui.button(text).clicked() {
-                    intents.push(Intent::Answer(answer));
+                    intents.push(Intent::AnswerUnsaved(answer));
                 }
             };
             answer(ui, discard, UnsavedAnswer::Discard);
-            answer(ui, "Cancel", UnsavedAnswer::Stay);
+            answer(ui, "Cancel", UnsavedAnswer::Cancel);
         });
     });
 }
@@ -64,11 +64,11 @@ fn ask_recover(ctx: &Context, title: &str, age: Option<Duration>, intents: &mut 
         ui.add(Label::new(words).wrap());
         answers(ui, |ui| {
             if primary_button(ui, "Recover").clicked() {
-                intents.push(Intent::Rescue(RecoveryAnswer::Restore));
+                intents.push(Intent::AnswerRecovery(RecoveryAnswer::Restore));
             }
             let mut answer = |ui: &mut Ui, text: &str, tip: &str, answer: RecoveryAnswer| {
                 if ui.button(text).on_hover_text(tip).clicked() {
-                    intents.push(Intent::Rescue(answer));
+                    intents.push(Intent::AnswerRecovery(answer));
                 }
             };
             let tip = "Deletes the unsaved changes.";
@@ -94,11 +94,11 @@ fn ago(age: Duration) -> String {
 
 fn ask_drop(ctx: &Context, state: &UiState, path: &Path, intents: &mut Intents) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let Some(whole) = state.session.whole() else {
+    let Some(whole) = state.session.whole_project() else {
         return;
     };
     // The two designs of the current segment.
-    let [source, target] = whole.leg_designs(state.session.leg());
+    let [source, target] = whole.segment_designs(state.session.segment());
     Modal::new(Id::new("drop")).show(ctx, |ui| {
         ui.set_width(440.0);
         ui.heading("Add or replace a design");
@@ -120,7 +120,7 @@ fn ask_drop(ctx: &Context, state: &UiState, path: &Path, intents: &mut Intents) 
             replace(ui, "Replace target", target);
             replace(ui, "Replace source", source);
             if ui.button("Cancel").clicked() {
-                intents.push(Intent::Back);
+                intents.push(Intent::Escape);
             }
         });
     });

@@ -62,7 +62,8 @@ type LayerToggle<'a> = (&'a mut bool, &'static str, &'static str, bool);
 fn layer_toggles<'a>(
     state: &UiState,
     project: &Project,
-    (show, onion): (&'a mut StageVisibility, &'a mut bool),
+    show: &'a mut StageVisibility,
+    onion: &'a mut bool,
 ) -> [LayerToggle<'a>; 8] {
     let is_field = project.content == Some(ContentKind::Field);
     // A distance field describes the area that the bars cover, not the bars themselves.
@@ -116,7 +117,7 @@ pub fn is_blank(state: &UiState) -> bool {
     let (mut show, mut onion) = (state.preferences.show, false);
     let project = state.session.project();
     project.is_some_and(|project| {
-        let layers = layer_toggles(state, project, (&mut show, &mut onion));
+        let layers = layer_toggles(state, project, &mut show, &mut onion);
         !layers.into_iter().any(|(on, .., applies)| *on && applies)
     })
 }
@@ -124,7 +125,7 @@ pub fn is_blank(state: &UiState) -> bool {
 fn layers(ui: &mut Ui, state: &UiState, draft: &Project, intents: &mut Intents) {
     let mut preferences = *state.preferences;
     let Preferences { show, onion, .. } = &mut preferences;
-    let layers = layer_toggles(state, draft, (show, onion));
+    let layers = layer_toggles(state, draft, show, onion);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
         ui.columns(3, |columns| {
@@ -134,7 +135,7 @@ fn layers(ui: &mut Ui, state: &UiState, draft: &Project, intents: &mut Intents) 
         });
     });
     if preferences != *state.preferences {
-        intents.push(Intent::Prefer(preferences));
+        intents.push(Intent::SetPreferences(preferences));
     }
 }
 

@@ -28,13 +28,13 @@ const SCALES: RangeInclusive<f64> = 0.25..=4.0;
 
 /// Draws the list of all designs, and all settings of those in the current segment.
 pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
-    let Some(whole) = state.session.whole() else {
+    let Some(whole) = state.session.whole_project() else {
         return;
     };
     // A path over the map blends all designs.
     let numbers = match whole.follows_path() {
         true => (0..whole.designs.len()).collect(),
-        false => whole.leg_designs(state.session.leg()).to_vec(),
+        false => whole.segment_designs(state.session.segment()).to_vec(),
     };
     let last = numbers.len().saturating_sub(1).max(1) as f64;
     section(ui, "Designs", |ui| {
@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
         add(ui, whole, intents);
         let tip = "How the designs are aligned before they are matched.";
         choice_row(ui, "Align", tip, &mut draft.fit);
-        let style = state.session.style_here();
+        let style = state.session.segment_style();
         let seen = draft.designs.iter_mut().zip(&numbers).enumerate();
         for (index, (entry, &number)) in seen {
             let colour = style.fill_at(index as f64 / last);
@@ -53,7 +53,13 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
                 (false, 0) => "Source".to_owned(),
                 (false, _) => "Target".to_owned(),
             };
-            design(ui, (index, number), (&role, colour), entry, intents);
+            let heading = DesignHeading {
+                index,
+                number,
+                role,
+                colour,
+            };
+            design(ui, &heading, entry, intents);
             if let Some(design) = state.session.all_designs().get(number) {
                 notes(ui, index, &design.notes);
             }
@@ -72,7 +78,7 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
 
 /// Draws the list of all designs, with buttons to reorder them.
 fn order(ui: &mut Ui, state: &UiState, whole: &Project, intents: &mut Intents) {
-    let here = whole.leg_designs(state.session.leg());
+    let here = whole.segment_designs(state.session.segment());
     for (k, entry) in whole.designs.iter().enumerate() {
         ui.horizontal(|ui| {
             let words = RichText::new(format!("{}", k + 1)).color(ThemePalette::of(ui).weak);
@@ -80,7 +86,7 @@ fn order(ui: &mut Ui, state: &UiState, whole: &Project, intents: &mut Intents) {
             from_right(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
                 list_buttons(ui, whole, k, intents);
-                let name = RichText::new(entry.shown_name());
+                let name = RichText::new(entry.display_name());
                 let name = match here.contains(&k) {
                     true => name.strong(),
                     false => name,
@@ -100,7 +106,7 @@ fn order(ui: &mut Ui, state: &UiState, whole: &Project, intents: &mut Intents) {
     let tip = "Continues from the last design to the first, so that the film can repeat forever.";
     toggle(ui, "Close the loop", tip, &mut closed);
     if closed != whole.closed {
-        intents.push(Intent::LeadBack(closed));
+        intents.push(Intent::CloseLoop(closed));
     }
 }
 
@@ -110,13 +116,13 @@ fn list_buttons(ui: &mut Ui, whole: &Project, k: usize, intents: &mut Intents) {
     let mut button = |icon, tip: &str, order: Option<Vec<MovedDesigns>>| {
         ui.add_enabled_ui(order.is_some(), |ui| {
             if icon_button(ui, icon, tip, vec2(24.0, 24.0)).clicked() {
-                intents.extend(order.map(Intent::Arrange));
+                intents.extend(order.map(Intent::ReorderDesigns));
             }
         });
     };
     let removed = (last > 1).then(|| whole.without(k));
     button(icons::CLOSE, "Remove", removed);
-    let duplicated = whole.with_repeated(k);
+    let duplicated = whole.with_duplicated(k);
     button(icons::COPY, "Duplicate", Some(duplicated));
     let later = (k < last).then(|| whole.with_moved(k, k + 2)).flatten();
     button(icons::DOWN, "Move down", later);
@@ -138,31 +144,38 @@ fn swap(ui: &mut Ui) -> bool {
     icon_button(ui, icons::SWAP, tip, vec2(32.0, CONTROL_HEIGHT)).clicked()
 }
 
-/// Draws one design of the current segment; `number` is its index among all designs.
-fn design(
-    ui: &mut Ui,
-    (index, number): (usize, usize),
-    (role, colour): (&str, Rgb),
-    entry: &mut DesignEntry,
-    intents: &mut Intents,
-) {
+/// Position, role and colour of a design in the current segment.
+struct DesignHeading {
+    /// Index among the designs of the segment.
+    index: usize,
+    /// Index among all designs.
+    number: usize,
+    /// Role in the segment, such as "Source".
+    role: String,
+    /// Fill colour on the stage.
+    colour: Rgb,
+}
+
+/// Draws one design of the current segment.
+fn design(ui: &mut Ui, heading: &DesignHeading, entry: &mut DesignEntry, intents: &mut Intents) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         let (dot, _) = ui.allocate_exact_size(vec2(12.0, CONTROL_HEIGHT), Sense::hover());
-        let fill = Color32::from_rgb(colour.0[0], colour.0[1], colour.0[2]);
+        let [r, g, b] = heading.colour.0;
+        let fill = Color32::from_rgb(r, g, b);
         ui.painter().circle_filled(dot.center(), 5.0, fill);
-        ui.label(secondary_text(ui, role));
+        ui.label(secondary_text(ui, &heading.role));
         from_right(ui, |ui| {
             let tip = "Replace file";
             if icon_button(ui, icons::OPEN, tip, vec2(24.0, 24.0)).clicked() {
-                intents.push(Intent::AskReplace(number));
+                intents.push(Intent::AskReplace(heading.number));
             }
             let path = entry.path.display().to_string();
-            ui.add(Label::new(entry.shown_name()).truncate())
+            ui.add(Label::new(entry.display_name()).truncate())
                 .on_hover_text(path);
         });
     });
-    let id = ui.id().with(("placement", index));
+    let id = ui.id().with(("placement", heading.index));
     ui.push_id(id, |ui| {
         CollapsingHeader::new("Placement").show_unindented(ui, |ui| placement(ui, entry));
         if is_picture(entry) {
@@ -223,7 +236,7 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
 fn is_picture(entry: &DesignEntry) -> bool {
     Format::PICTURES
         .iter()
-        .any(|format| format.ends(&entry.path))
+        .any(|format| format.matches_extension(&entry.path))
 }
 
 fn import_options(ui: &mut Ui, entry: &mut DesignEntry) {

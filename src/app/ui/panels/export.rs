@@ -47,7 +47,7 @@ pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         picture(ui, &mut draft, intents);
     });
     if draft != *state.preferences {
-        intents.push(Intent::Prefer(draft));
+        intents.push(Intent::SetPreferences(draft));
     }
 }
 
@@ -61,7 +61,7 @@ pub fn foot(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         let is_free = state.recorder.work().is_none() && state.film.0.is_some();
         ui.add_enabled_ui(is_free, |ui| {
             if primary_button(ui, "Export").clicked() {
-                intents.push(Intent::Record);
+                intents.push(Intent::ExportFilm);
             }
         });
     });
@@ -166,7 +166,7 @@ fn purpose(ui: &mut Ui, draft: &mut Preferences) {
         // Slides and posts accept MP4. For a web page, the type that plays without a player depends
         // on the content.
         draft.record_format = match purpose {
-            LayoutPreset::Page => None,
+            LayoutPreset::WebPage => None,
             _ if has_ffmpeg() => Some(FilmFileFormat::Film(FilmKind::Mp4)),
             _ => None,
         };
@@ -193,7 +193,7 @@ fn my_presets(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
             match in_use {
                 Some(name) => {
                     if ui.button(format!("Delete “{name}”")).clicked() {
-                        intents.push(Intent::ForgetPreset(name.to_owned()));
+                        intents.push(Intent::RemovePreset(name.to_owned()));
                         ui.close();
                     }
                 }
@@ -216,7 +216,7 @@ fn save_preset(ui: &mut Ui, intents: &mut Intents) {
     let can_save = !name.trim().is_empty();
     let button = ui.add_enabled(can_save, Button::new("Save preset"));
     if can_save && (button.clicked() || is_entered) {
-        intents.push(Intent::KeepPreset(name.trim().to_owned()));
+        intents.push(Intent::SavePreset(name.trim().to_owned()));
         name.clear();
         ui.close();
     }
@@ -231,8 +231,8 @@ fn range(ui: &mut Ui, state: &UiState, look: &mut FilmExportOptions) {
         let before = places;
         let [from, to] = &mut places;
         let width = (ui.available_width() - GRID) / 2.0;
-        let first = place(ui, state, "film from", from, ("Start", width));
-        let last = place(ui, state, "film to", to, ("End", width));
+        let first = place(ui, state, "film from", from, "Start", width);
+        let last = place(ui, state, "film to", to, "End", width);
         if places != before {
             look.span = places;
         }
@@ -246,7 +246,8 @@ fn place(
     state: &UiState,
     salt: &str,
     at: &mut Option<f64>,
-    (default_name, width): (&str, f32),
+    default_name: &str,
+    width: f32,
 ) -> Response {
     let (timing, stops) = (state.session.timing(), state.session.stops());
     let name = |at: Option<f64>| match at {

@@ -49,7 +49,7 @@ fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     // Not part of the copy: shortcuts change the method too, by an intent of its own.
     method::show(ui, state, project, intents);
     let mut draft = project.clone();
-    if state.session.can_match() && draft.warp != Some(WarpKind::None) {
+    if state.session.has_match_editor() && draft.warp != Some(WarpKind::None) {
         matching::show(ui, state, &mut draft, intents);
     }
     // Blends of many designs interpolate rigid parts in a fixed way.
@@ -63,7 +63,7 @@ fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     }
     let carries_fields =
         draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Field);
-    if carries_fields || draft.warp.is_some_and(WarpKind::is_of_the_plane) {
+    if carries_fields || draft.warp.is_some_and(WarpKind::is_plane_warp) {
         warps::travel(ui, &mut draft.options.travel);
     }
     match draft.warp {
@@ -82,6 +82,6 @@ fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     appearance::show(ui, state, &mut draft, intents);
     // One intent for all sections, so that one change by the user is one undo step.
     if draft != *project {
-        intents.push(Intent::Edit(Box::new(draft)));
+        intents.push(Intent::ReplaceSettings(Box::new(draft)));
     }
 }

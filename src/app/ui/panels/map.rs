@@ -20,7 +20,7 @@ const STAR: f32 = 14.0;
 
 /// Draws both sections.
 pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let Some(whole) = state.session.whole() else {
+    let Some(whole) = state.session.whole_project() else {
         return;
     };
     let mut draft = whole.map.clone();
@@ -98,7 +98,7 @@ fn saved_blends(ui: &mut Ui, state: &UiState, draft: &mut MapSettings, intents: 
         }
         let tip = "Exports each blend as SVG and DXF, an overview sheet and a table of measures";
         if ui.button("Export").on_hover_text(tip).clicked() {
-            intents.push(Intent::ExportKept);
+            intents.push(Intent::ExportSavedBlends);
         }
     });
 }
@@ -110,7 +110,10 @@ fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedPlace, intents: 
     let Rgb([r, g, b]) = state.session.style().ground;
     let ground = Color32::from_rgb(r, g, b);
     ui.painter().rect_filled(rect, RADIUS, ground);
-    let thumbnail = state.map.made().and_then(|made| made.kept(place.at));
+    let thumbnail = state
+        .map
+        .pictures()
+        .and_then(|made| made.saved_blend(place.at));
     if let Some(thumbnail) = thumbnail {
         let texture = texture(ui.ctx(), Id::new(("kept", k)), thumbnail, u32::MAX);
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -118,7 +121,7 @@ fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedPlace, intents: 
         painter.image(texture.id(), rect.shrink(2.0), whole, Color32::WHITE);
     }
     if response.on_hover_text("Go there").clicked() {
-        intents.push(Intent::Puck(place.at));
+        intents.push(Intent::MoveMarker(place.at));
     }
 }
 

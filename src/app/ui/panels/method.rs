@@ -1,12 +1,16 @@
-//! Method section: a table of methods with one row per warp and one column per content.
+//! Method section: the chosen method in words, and below it, folded away, a table of all methods
+//! with one row per warp and one column per content.
 //!
 //! Unavailable cells are greyed out, and their tooltips say why.
 
+use bevy_egui::egui::text::LayoutJob;
 use bevy_egui::egui::{
-    Align2, Button, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2,
+    Align, Align2, Button, CollapsingHeader, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo,
+    WidgetType, pos2, vec2,
 };
 
 use crate::app::input::intent::Intent;
+use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{GRID, RADIUS, SMALL, ThemePalette};
 use crate::app::ui::kit::widgets::{hint, section, tooltip_left};
 use crate::app::ui::ui_state::{Intents, UiState};
@@ -19,29 +23,36 @@ use crate::warp::WarpKind;
 /// Width of the row heads, in points.
 const ROW_LABEL_WIDTH: f32 = 52.0;
 
-/// Height of a cell, in points.
-const CELL_HEIGHT: f32 = 28.0;
+/// Height of a cell, in points: two lines of text.
+const CELL_HEIGHT: f32 = 40.0;
 
-/// Draws the table and the description of the chosen cell.
+/// Draws the chosen method, the button that chooses the best one, and the folded table.
 pub fn show(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents) {
     section(ui, "Method", |ui| {
-        let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / ContentKind::ALL.len() as f32;
-        heads(ui, width);
-        ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
-        for warp in WarpKind::ALL {
-            ui.horizontal(|ui| {
-                row_head(ui, warp);
-                for content in ContentKind::ALL {
-                    cell(ui, state, project, (warp, content), width - 4.0, intents);
-                }
-            });
-        }
-        ui.add_space(4.0);
         if let (Some(warp), Some(content)) = (project.warp, project.content) {
+            ui.label(capitalised(method_name(warp, content)));
             hint(ui, description(warp, content));
             choose(ui, state, content, intents);
         }
+        CollapsingHeader::new("Advanced")
+            .id_salt("all methods")
+            .show_unindented(ui, |ui| table(ui, state, project, intents));
     });
+}
+
+/// Draws the table of all methods.
+fn table(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents) {
+    let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / ContentKind::ALL.len() as f32;
+    heads(ui, width);
+    ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+    for warp in WarpKind::ALL {
+        ui.horizontal(|ui| {
+            row_head(ui, warp);
+            for content in ContentKind::ALL {
+                cell(ui, state, project, warp, content, width - 4.0, intents);
+            }
+        });
+    }
 }
 
 /// Draws the button that chooses the method by trying several.
@@ -50,13 +61,13 @@ fn choose(ui: &mut Ui, state: &UiState, content: ContentKind, intents: &mut Inte
     if content == ContentKind::Colours {
         return;
     }
-    ui.add_space(4.0);
-    let is_idle = state.choosing.told().is_none() && state.session.transition().is_some();
+    let is_idle =
+        state.choosing.visible_progress().is_none() && state.session.transition().is_some();
     let button = ui.add_enabled(is_idle, Button::new("Choose the best method"));
     let tip = "Tries rigid parts, distance fields carried by them and the plain field blend, and \
                chooses the film with the fewest defects.";
     if button.clicked() {
-        intents.push(Intent::ChooseMethod);
+        intents.push(Intent::ChooseBestMethod);
     }
     tooltip_left(&button, ui.min_rect().left(), tip);
 }
@@ -85,15 +96,20 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
     response.on_hover_text(name.sentence);
 }
 
+/// Returns the name of a method in running text.
+fn method_name(warp: WarpKind, content: ContentKind) -> &'static str {
+    TransitionMethod::new(warp, content).map_or("no method", |cell| cell.labels().name)
+}
+
 /// Returns the label of a cell.
-pub fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
-    TransitionMethod::new(warp, content).map_or("–", |cell| cell.words().button)
+fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
+    TransitionMethod::new(warp, content).map_or("–", |cell| cell.labels().button)
 }
 
 /// Returns the description of a cell.
 pub fn description(warp: WarpKind, content: ContentKind) -> &'static str {
     TransitionMethod::new(warp, content).map_or("Nothing moves and nothing blends.", |cell| {
-        cell.words().sentence
+        cell.labels().sentence
     })
 }
 
@@ -101,7 +117,8 @@ fn cell(
     ui: &mut Ui,
     state: &UiState,
     project: &Project,
-    (warp, content): (WarpKind, ContentKind),
+    warp: WarpKind,
+    content: ContentKind,
     width: f32,
     intents: &mut Intents,
 ) {
@@ -120,7 +137,7 @@ fn cell(
     });
     paint_cell(ui, rect, name, &response, is_chosen, available.is_ok());
     if response.clicked() && !is_chosen {
-        intents.push(Intent::UseCell(warp, content));
+        intents.push(Intent::SetMethod(warp, content));
     }
     let tip = match available {
         Ok(()) => description(warp, content).to_owned(),
@@ -132,13 +149,17 @@ fn cell(
 fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool, can: bool) {
     let palette = ThemePalette::of(ui);
     let (fill, line, text) = match (can, chosen, response.hovered()) {
-        (_, true, _) => (palette.accent_ground, palette.accent, palette.text),
-        (false, ..) => (palette.panel, palette.line, palette.faint()),
+        (_, true, _) => (palette.accent_fill, palette.accent, palette.text),
+        (false, ..) => (palette.panel, palette.line, palette.disabled_text()),
         (true, false, true) => (palette.hover, palette.line, palette.text),
         (true, false, false) => (palette.raised, palette.raised, palette.text),
     };
     ui.painter()
         .rect(rect, RADIUS, fill, (1.0, line), StrokeKind::Inside);
-    ui.painter()
-        .text(rect.center(), Align2::CENTER_CENTER, name, SMALL, text);
+    // Wrapped and centred: the names of carried contents need two lines.
+    let mut job = LayoutJob::simple(name.to_owned(), SMALL, text, rect.width() - GRID);
+    job.halign = Align::Center;
+    let words = ui.painter().layout_job(job);
+    let top = rect.center().y - 0.5 * words.size().y;
+    ui.painter().galley(pos2(rect.center().x, top), words, text);
 }

@@ -110,8 +110,8 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let palette = ThemePalette::of(ui);
     let (side, words) = match part.fate {
         PieceFate::Paired => (Side::Source, "is in both designs"),
-        PieceFate::Dies => (Side::Source, "is only in the source and disappears"),
-        PieceFate::Born => (Side::Target, "is only in the target and appears"),
+        PieceFate::Disappears => (Side::Source, "is only in the source and disappears"),
+        PieceFate::Appears => (Side::Target, "is only in the target and appears"),
     };
     tooltip_left(
         &response,
@@ -136,11 +136,8 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     for ring in rings.filter(|ring| shows_others || ring.piece == piece) {
         let is_own = ring.piece == piece;
         let ink = if is_own { palette.text } else { palette.line };
-        view.draw(
-            ui.painter(),
-            &ring.sides[side],
-            (1.0 + f32::from(is_own), ink),
-        );
+        let width = 1.0 + f32::from(is_own);
+        view.draw(ui.painter(), &ring.sides[side], width, ink);
     }
 }
 
@@ -158,7 +155,7 @@ impl PartThumbnail {
         Self { bounds, to, scale }
     }
 
-    fn draw(&self, painter: &Painter, ring: &[DVec2], (width, ink): (f32, Color32)) {
+    fn draw(&self, painter: &Painter, ring: &[DVec2], width: f32, ink: Color32) {
         let middle = 0.5 * (self.bounds.min + self.bounds.max);
         // 48 points per ring are enough for a thumbnail 30 points wide.
         let step = ring.len().div_ceil(48).max(1);

@@ -47,17 +47,17 @@ fn waiting(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.horizontal(|ui| {
         ui.label(secondary_text(ui, unmeasured_reason(state)));
         let tip = "Check the whole film for folds, crossings and distortion.";
-        if state.measured.is_broken_off() && ui.small_button("Check").on_hover_text(tip).clicked() {
-            intents.push(Intent::Measure);
+        if state.measured.was_stopped() && ui.small_button("Check").on_hover_text(tip).clicked() {
+            intents.push(Intent::MeasureAgain);
         }
     });
 }
 
 /// Returns why there are no results.
 pub fn unmeasured_reason(state: &UiState) -> String {
-    match state.measured.told() {
+    match state.measured.visible_progress() {
         _ if state.session.transition().is_none() => "Nothing to check yet.".to_owned(),
-        _ if state.measured.is_broken_off() => "The check was stopped.".to_owned(),
+        _ if state.measured.was_stopped() => "The check was stopped.".to_owned(),
         Some(share) => format!("Checking, {:.0} % … Press Esc to stop.", 100.0 * share),
         None => "Checking …".to_owned(),
     }
@@ -97,8 +97,8 @@ fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents)
         return;
     };
     let tip = format!("{sampled}\nBetween them: {proved}.");
-    let Some(first) = proved.first_t() else {
-        let exception = match (proved.is_whole(), proved.left_out > 0) {
+    let Some(first) = proved.first_failure_time() else {
+        let exception = match (proved.is_complete(), proved.left_out > 0) {
             (true, _) => "",
             (false, true) => ", except appearing and disappearing parts",
             (false, false) => ", except cuts while they open",
@@ -114,7 +114,7 @@ fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents)
     );
     let label = Label::new(secondary_text(ui, text)).sense(Sense::click());
     if ui.add(label).on_hover_text(tip).clicked() {
-        intents.push(Intent::Seek(state.session.beyond(first)));
+        intents.push(Intent::Seek(state.session.whole_t(first)));
     }
 }
 
@@ -144,9 +144,9 @@ fn headline(ui: &mut Ui, state: &UiState, finding: &Finding, intents: &mut Inten
         ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
     }
     if response.clicked() {
-        intents.push(Intent::Seek(state.session.beyond(finding.t)));
+        intents.push(Intent::Seek(state.session.whole_t(finding.t)));
     }
-    let here = state.session.within(state.playback.t());
+    let here = state.session.segment_t(state.playback.t());
     let go = if (here - finding.t).abs() <= NEAR_T {
         "The place is marked on the stage."
     } else {
@@ -163,8 +163,11 @@ fn offers(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         ui.set_min_height(ROW_HEIGHT);
         ui.spacing_mut().item_spacing.x = 6.0;
         ui.add_space(22.0);
-        let now = helping.now().map(|now| now.to_string()).unwrap_or_default();
-        let words = match (helping.offers(), helping.is_busy(), helping.is_done()) {
+        let now = helping
+            .current_rating()
+            .map(|now| now.to_string())
+            .unwrap_or_default();
+        let words = match (helping.suggestions(), helping.is_busy(), helping.is_done()) {
             ([], true, _) => "Looking for fixes: flipping, rotating, other methods …",
             ([], _, true) => "No fix found: tried flipping, rotating and other methods.",
             ([], ..) => "",
@@ -172,15 +175,15 @@ fn offers(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
             _ => "Try:",
         };
         ui.label(secondary_text(ui, words));
-        for (index, offer) in helping.offers().iter().enumerate() {
+        for (index, offer) in helping.suggestions().iter().enumerate() {
             let left = match offer.rating {
                 rating if rating.is_flawless() => "no defects".to_owned(),
                 rating => rating.to_string(),
             };
-            let text = format!("{} ({left})", offer.what.words());
+            let text = format!("{} ({left})", offer.what.label());
             let tip = format!("Tested: {} instead of {now}. Can be undone.", offer.rating);
             if ui.small_button(text).on_hover_text(tip).clicked() {
-                intents.push(Intent::TakeOffer(index));
+                intents.push(Intent::ApplySuggestion(index));
             }
         }
     });
@@ -196,7 +199,7 @@ fn fix_button(ui: &mut Ui, index: usize, finding: &Finding, intents: &mut Intent
         capitalised(&finding.remedy.to_string())
     );
     if ui.small_button("Fix").on_hover_text(tip).clicked() {
-        intents.push(Intent::TakeAdvice(index));
+        intents.push(Intent::ApplyRemedy(index));
     }
 }
 
@@ -208,7 +211,7 @@ pub fn mark(ui: &Ui, state: &UiState, stage: Rect) {
     let colour = ThemePalette::on(is_light(state.session.style().ground)).amber;
     let painter = ui.painter().with_clip_rect(stage);
     for finding in &measures.verdict.findings {
-        if (state.session.within(state.playback.t()) - finding.t).abs() > NEAR_T {
+        if (state.session.segment_t(state.playback.t()) - finding.t).abs() > NEAR_T {
             continue;
         }
         let px = state.view.px_from_world(finding.place);

@@ -56,7 +56,7 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
 
 /// Shows why the right half is empty.
 fn missing(ui: &Ui, state: &UiState, rect: Rect) {
-    let twin = &state.twin;
+    let twin = &state.comparison;
     let words = match (twin.transition(), twin.problem()) {
         (Some(_), _) => return,
         (None, Some(problem)) => problem.to_string(),
@@ -76,7 +76,7 @@ fn first_name(ui: &mut Ui, state: &UiState) {
     let Some(transition) = state.session.transition() else {
         return;
     };
-    let name = Label::new(secondary_text(ui, capitalised(transition.cell().name())));
+    let name = Label::new(secondary_text(ui, capitalised(transition.method().name())));
     ui.add_sized([NAME_WIDTH, CONTROL_HEIGHT], name)
         .on_hover_text("Method of the project, chosen in the panel on the right");
 }
@@ -85,7 +85,7 @@ fn second_name(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let Some(project) = state.session.project() else {
         return;
     };
-    let chosen = state.twin.method_beside(project);
+    let chosen = state.comparison.method_for(project);
     ComboBox::from_id_salt("second method")
         .width(NAME_WIDTH)
         .selected_text(capitalised(chosen.name()))
@@ -96,14 +96,14 @@ fn second_name(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
                 let available = state.session.available(cell.warp(), cell.content());
                 let mut name = RichText::new(capitalised(method.name()));
                 if available.is_err() {
-                    name = name.color(ThemePalette::of(ui).faint());
+                    name = name.color(ThemePalette::of(ui).disabled_text());
                 }
                 ui.add_enabled_ui(available.is_ok(), |ui| {
                     let response = ui.selectable_label(chosen == method, name);
                     if let Err(reason) = &available {
                         response.on_disabled_hover_text(format!("Not available: {reason}"));
                     } else if response.on_hover_text(tip(method)).clicked() {
-                        intents.push(Intent::TwinMethod(method));
+                        intents.push(Intent::SetComparisonMethod(method));
                     }
                 });
             }

@@ -51,7 +51,7 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
     root.painter()
         .rect_filled(stage, 0.0, Color32::from_rgb(r, g, b));
     let ink = ink_on(back);
-    let Some(made) = state.map.made() else {
+    let Some(made) = state.map.pictures() else {
         missing(root, state, stage, ink);
         return right;
     };
@@ -64,7 +64,7 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
     let side = left.width().min(left.height());
     let square = Rect::from_center_size(left.center(), vec2(side, side));
     handle_drag(root, state, made, square, intents);
-    draw(root, state, made, (left, square), ink);
+    draw(root, state, made, left, square, ink);
     if let Some(picture) = made.blend() {
         image(root, "the blend", picture, right, Color32::WHITE);
     }
@@ -75,7 +75,7 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
 fn missing(ui: &Ui, state: &UiState, rect: Rect, ink: Color32) {
     let words = match state.map.problem() {
         Some(problem) => problem.to_string(),
-        None if state.session.whole().is_none() => {
+        None if state.session.whole_project().is_none() => {
             "Open a project with several designs, or drop several files here.".to_owned()
         }
         None => "Laying out the map …".to_owned(),
@@ -128,32 +128,28 @@ fn handle_drag(
         held.design = near.map(|(design, _)| design);
     }
     match held.design {
-        Some(design) => intents.push(Intent::MoveSite(design, place)),
+        Some(design) => intents.push(Intent::MoveMapDesign(design, place)),
         // The press position becomes the first point.
-        None if state.map.draws_path && held.line.last() != Some(&place) => held.line.push(place),
-        None if state.map.draws_path => {}
-        None if place != state.map.puck() => intents.push(Intent::Puck(place)),
+        None if state.map.is_drawing_path && held.line.last() != Some(&place) => {
+            held.line.push(place)
+        }
+        None if state.map.is_drawing_path => {}
+        None if place != state.map.marker() => intents.push(Intent::MoveMarker(place)),
         None => {}
     }
     root.data_mut(|data| data.insert_temp(id, held));
 }
 
-fn draw(
-    root: &Ui,
-    state: &UiState,
-    made: &MapPictures,
-    (left, square): (Rect, Rect),
-    ink: Color32,
-) {
+fn draw(root: &Ui, state: &UiState, made: &MapPictures, left: Rect, square: Rect, ink: Color32) {
     let painter = root.painter_at(left);
-    if let Some(land) = made.land().picture() {
+    if let Some(land) = made.contours().picture() {
         image(root, "land", land, square, Color32::WHITE);
     }
-    if let Some(pictures) = made.ground() {
+    if let Some(pictures) = made.thumbnails() {
         image(
             root,
             "between",
-            &pictures.between,
+            &pictures.blends,
             square,
             Color32::from_white_alpha(170),
         );
@@ -166,19 +162,19 @@ fn draw(
         let at = at.min(left.max - vec2(0.0, 18.0));
         painter.text(at, Align2::CENTER_TOP, &design.name, font.clone(), ink);
     }
-    draw_path(root, state, (left, square), ink);
-    draw_marker(root, state, made, (left, square), ink);
+    draw_path(root, state, left, square, ink);
+    draw_marker(root, state, made, left, square, ink);
 }
 
 /// Draws the path with its stops, the line being drawn, and the saved blends.
-fn draw_path(root: &Ui, state: &UiState, (left, square): (Rect, Rect), ink: Color32) {
+fn draw_path(root: &Ui, state: &UiState, left: Rect, square: Rect, ink: Color32) {
     /// Number of points that the curve is drawn with, per segment.
     const POINTS: usize = 48;
     let painter = root.painter_at(left);
     let stroke = Stroke::new(2.0, ink);
     let on = |place: DVec2| on_screen(square, place);
     if let Some(curve) = state.map.curve() {
-        let count = POINTS * curve.leg_count();
+        let count = POINTS * curve.segment_count();
         let points = (0..=count).map(|k| on(curve.at(k as f64 / POINTS as f64)));
         painter.add(Shape::line(points.collect(), stroke));
     }
@@ -187,7 +183,7 @@ fn draw_path(root: &Ui, state: &UiState, (left, square): (Rect, Rect), ink: Colo
         let points = held.line.iter().map(|place| on(*place));
         painter.add(Shape::line(points.collect(), stroke));
     }
-    let Some(whole) = state.session.whole() else {
+    let Some(whole) = state.session.whole_project() else {
         return;
     };
     for kept in &whole.map.kept {
@@ -219,11 +215,12 @@ fn draw_marker(
     root: &Ui,
     state: &UiState,
     made: &MapPictures,
-    (left, square): (Rect, Rect),
+    left: Rect,
+    square: Rect,
     ink: Color32,
 ) {
     let painter = root.painter_at(left);
-    let at = on_screen(square, state.map.puck());
+    let at = on_screen(square, state.map.marker());
     painter.circle(at, MARKER, Color32::WHITE, Stroke::new(1.5, ink));
     let mut from = -FRAC_PI_2;
     for (design, &weight) in made.weights().iter().enumerate() {
@@ -246,14 +243,17 @@ fn draw_marker(
 fn colour_of(state: &UiState, made: &MapPictures, design: usize) -> Color32 {
     let mut weights = vec![0.0; made.weights().len()];
     weights[design] = 1.0;
-    let Rgb([r, g, b]) = state.session.style().fill_at(made.space().tint(&weights));
+    let Rgb([r, g, b]) = state
+        .session
+        .style()
+        .fill_at(made.space().colour_fraction(&weights));
     Color32::from_rgb(r, g, b)
 }
 
 /// Draws the legend: the designs of the blend with their weights, from the top left.
 fn draw_legend(root: &Ui, state: &UiState, made: &MapPictures, rect: Rect, ink: Color32) {
     let mut layout = WeightLegend::new(rect.width());
-    for (design, words) in WeightLegend::words(made, made.weights()) {
+    for (design, words) in WeightLegend::labels(made, made.weights()) {
         let galley = root
             .painter()
             .layout_no_wrap(words, WeightLegend::font(), ink);
@@ -290,7 +290,7 @@ impl WeightLegend {
     }
 
     /// Returns index and label of each design whose weight rounds to at least 1 %.
-    fn words(made: &MapPictures, weights: &[f64]) -> Vec<(usize, String)> {
+    fn labels(made: &MapPictures, weights: &[f64]) -> Vec<(usize, String)> {
         let all = made.space().designs().iter().zip(weights).enumerate();
         let visible = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
         visible
@@ -301,7 +301,7 @@ impl WeightLegend {
     /// Returns the height with all designs at 100 %, so that it stays while the marker moves.
     fn height(root: &Ui, made: &MapPictures, width: f32) -> f32 {
         let mut layout = Self::new(width);
-        for (_, words) in Self::words(made, &vec![1.0; made.weights().len()]) {
+        for (_, words) in Self::labels(made, &vec![1.0; made.weights().len()]) {
             let ink = Color32::WHITE;
             let galley = root.painter().layout_no_wrap(words, Self::font(), ink);
             layout.place(galley.size().x);

@@ -29,14 +29,14 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
                     let name = layout.name();
                     (layout, name.title, name.sentence)
                 });
-                let now = state.session.whole().map(|whole| whole.map.layout);
+                let now = state.session.whole_project().map(|whole| whole.map.layout);
                 let mut layout = now.unwrap_or_default();
                 let before = layout;
                 ui.allocate_ui(vec2(LAYOUTS, CONTROL_HEIGHT), |ui| {
                     choices(ui, &mut layout, &all.collect::<Vec<_>>());
                 });
                 if layout != before {
-                    intents.push(Intent::LayOut(layout));
+                    intents.push(Intent::SetMapLayout(layout));
                 }
                 ui.add_space(GRID);
                 measures(ui, state, intents);
@@ -52,7 +52,7 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
 /// Draws the list of measures whose contours the map can show.
 fn measures(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let named = |shown: Option<MapMeasure>| shown.map_or("No contours", |m| m.name().title);
-    let mut shown = state.map.shown;
+    let mut shown = state.map.measure;
     let all = MapMeasure::CHOICES.iter().copied().map(Some);
     let list = ComboBox::from_id_salt("contours").selected_text(named(shown));
     list.width(112.0).show_ui(ui, |ui| {
@@ -62,8 +62,8 @@ fn measures(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
                 .on_hover_text(tip);
         }
     });
-    if shown != state.map.shown {
-        intents.push(Intent::ShowMeasure(shown));
+    if shown != state.map.measure {
+        intents.push(Intent::ShowMapMeasure(shown));
     }
 }
 
@@ -72,26 +72,26 @@ fn tools(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let accent = ThemePalette::of(ui).accent;
     let size = vec2(32.0, CONTROL_HEIGHT);
     let mut tool = |icon: Icon, is_on: bool, tip: &str, intent: Intent| {
-        if icon_button(ui, icon.inked(is_on.then_some(accent)), tip, size).clicked() {
+        if icon_button(ui, icon.with_colour(is_on.then_some(accent)), tip, size).clicked() {
             intents.push(intent);
         }
     };
-    let draws = state.map.draws_path;
+    let draws = state.map.is_drawing_path;
     let tip = "Draw a path (E): click to add a stop, drag to draw the way to the next stop";
-    tool(icons::PATH, draws, tip, Intent::DrawPath(!draws));
+    tool(icons::PATH, draws, tip, Intent::SetPathDrawing(!draws));
     let tip = "Record the marker's movement as a path (W)";
     tool(
         icons::RECORD,
         state.map.is_recording(),
         tip,
-        Intent::RecordPath,
+        Intent::TogglePathRecording,
     );
-    tool(icons::STAR, false, "Save this blend (K)", Intent::Keep);
+    tool(icons::STAR, false, "Save this blend (K)", Intent::SaveBlend);
 }
 
 /// Returns how the designs are blended, or the first note about it.
 fn status(state: &UiState) -> String {
-    match state.map.made() {
+    match state.map.pictures() {
         _ if state.map.is_busy() => "Computing …".to_owned(),
         Some(made) => {
             let space = made.space();
@@ -99,7 +99,7 @@ fn status(state: &UiState) -> String {
             let how = match space.family() {
                 Some(family) => format!(
                     "Rigid parts, one mesh of {} vertices",
-                    family.places()[0].len()
+                    family.embeddings()[0].len()
                 ),
                 None if space.is_of_pictures() => "Pictures".to_owned(),
                 None => "Distance fields".to_owned(),

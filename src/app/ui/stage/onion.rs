@@ -13,13 +13,13 @@ const OPACITY: f32 = 0.55;
 pub fn show(ui: &Ui, state: &UiState, stage: Rect) {
     let painter = ui.painter().with_clip_rect(stage);
     let style = state.session.style();
-    let way = state.session.way();
+    let layout = state.session.sequence_layout();
     let at = |p: &DVec2| -> Pos2 {
         let px = state.view.px_from_world(*p);
         stage.min + vec2(px.x, px.y)
     };
     for skin in state.onion.skins() {
-        let [r, g, b] = style.fill_at(colour_fraction(skin.t, way)).0;
+        let [r, g, b] = style.fill_at(colour_fraction(skin.t, layout)).0;
         let ink = Color32::from_rgb(r, g, b).gamma_multiply(OPACITY);
         let stroke = Stroke::new(1.0, ink);
         for ring in &skin.rings {

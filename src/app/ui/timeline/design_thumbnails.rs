@@ -20,8 +20,8 @@ pub struct ThumbnailDrag<'a> {
 
 impl<'a> ThumbnailDrag<'a> {
     /// Interaction for the open project; `None` if its designs have no order on the timeline.
-    pub fn of(state: &'a UiState<'a>, ruler: TimelineRuler) -> Option<Self> {
-        let whole = state.session.whole()?;
+    pub fn new(state: &'a UiState<'a>, ruler: TimelineRuler) -> Option<Self> {
+        let whole = state.session.whole_project()?;
         (whole.is_sequence() && !whole.follows_path()).then_some(Self {
             whole,
             ruler,
@@ -30,7 +30,7 @@ impl<'a> ThumbnailDrag<'a> {
     }
 
     /// Handles the pointer on the thumbnail at `t`; returns its offset in points while dragged.
-    pub fn hold(&mut self, ui: &Ui, t: f64, rect: Rect, intents: &mut Intents) -> f32 {
+    pub fn interact(&mut self, ui: &Ui, t: f64, rect: Rect, intents: &mut Intents) -> f32 {
         let k = t.round();
         // Frames between designs cannot be dragged, nor the first design repeated by a closed loop.
         if (t - k).abs() > 1e-9 || k < 0.0 || k as usize >= self.whole.designs.len() {
@@ -43,7 +43,7 @@ impl<'a> ThumbnailDrag<'a> {
         if response.clicked() {
             intents.push(Intent::Seek(t));
         }
-        let name = self.whole.designs[k].shown_name();
+        let name = self.whole.designs[k].display_name();
         let tip = format!(
             "{}. Drag to reorder, right-click to replace, duplicate or remove.",
             SanitizedLine(&name)
@@ -63,7 +63,11 @@ impl<'a> ThumbnailDrag<'a> {
         }
         let drop_index = self.drop_index(pointer.x);
         if response.drag_stopped() {
-            intents.extend(self.whole.with_moved(k, drop_index).map(Intent::Arrange));
+            intents.extend(
+                self.whole
+                    .with_moved(k, drop_index)
+                    .map(Intent::ReorderDesigns),
+            );
             return 0.0;
         }
         if !response.dragged() {
@@ -81,7 +85,7 @@ impl<'a> ThumbnailDrag<'a> {
     }
 
     /// Marks where the dragged thumbnail would be inserted.
-    pub fn mark(&self, ui: &Ui, top: f32, height: f32) {
+    pub fn draw_drop_marker(&self, ui: &Ui, top: f32, height: f32) {
         let Some((k, drop_index)) = self.dragged else {
             return;
         };
@@ -105,10 +109,10 @@ fn menu(ui: &mut Ui, whole: &Project, k: usize, intents: &mut Intents) {
         ("Insert before …", Intent::AskInsert(k)),
         ("Insert after …", Intent::AskInsert(k + 1)),
     ];
-    let duplicated = Intent::Arrange(whole.with_repeated(k));
+    let duplicated = Intent::ReorderDesigns(whole.with_duplicated(k));
     choices.push(("Duplicate", duplicated));
     if whole.designs.len() > 2 {
-        choices.push(("Remove", Intent::Arrange(whole.without(k))));
+        choices.push(("Remove", Intent::ReorderDesigns(whole.without(k))));
     }
     for (label, intent) in choices {
         if ui.button(label).clicked() {

@@ -8,13 +8,13 @@ use crate::app::ui::timeline::design_thumbnails::ThumbnailDrag;
 use crate::app::ui::timeline::ruler::TimelineRuler;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::view::filmstrip;
-use crate::app::view::filmstrip::PICTURE_PX;
+use crate::app::view::filmstrip::THUMBNAIL_PX;
 
 /// Height that the film strip adds to the timeline, in points.
 pub const HEIGHT: f32 = 40.0;
 
 /// Size of the largest thumbnail, in points: half its pixels, so it is sharp on 2× displays.
-const LARGEST: (f32, f32) = (PICTURE_PX.0 as f32 / 2.0, PICTURE_PX.1 as f32 / 2.0);
+const LARGEST: (f32, f32) = (THUMBNAIL_PX.x as f32 / 2.0, THUMBNAIL_PX.y as f32 / 2.0);
 
 /// Minimum width of a recognisable thumbnail, in points: in less room some are skipped.
 const MIN_WIDTH: f32 = 40.0;
@@ -27,9 +27,9 @@ pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &
     let Some(pictures) = state.filmstrip.pictures() else {
         return;
     };
-    let segments = state.session.leg_count();
-    let count = filmstrip::pictures(segments);
-    let longest = PICTURE_PX.0 * count as u32;
+    let segments = state.session.segment_count();
+    let count = filmstrip::thumbnail_count(segments);
+    let longest = THUMBNAIL_PX.x * count as u32;
     let texture = texture(ui.ctx(), Id::new("filmstrip"), pictures, longest);
     let palette = ThemePalette::of(ui);
     let last = count - 1;
@@ -46,13 +46,13 @@ pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &
     let size = vec2(width, width * LARGEST.1 / LARGEST.0);
     let [r, g, b] = state.session.style().ground.0;
     let current = state.playback.t() / segments as f64 * last as f64;
-    let mut drag = ThumbnailDrag::of(state, ruler);
+    let mut drag = ThumbnailDrag::new(state, ruler);
     for index in (0..count).step_by(step) {
         let middle = pos2(ruler.x(t(index)), top + LARGEST.1 / 2.0);
         let place = Rect::from_center_size(middle, size);
         let offset = drag
             .as_mut()
-            .map_or(0.0, |drag| drag.hold(ui, t(index), place, intents));
+            .map_or(0.0, |drag| drag.interact(ui, t(index), place, intents));
         let rect = place.translate(vec2(offset, 0.0));
         // The dragged thumbnail lies above the others.
         let painter = match offset == 0.0 {
@@ -72,7 +72,7 @@ pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &
         painter.rect_stroke(rect, RADIUS, Stroke::new(1.0, ink), StrokeKind::Inside);
     }
     if let Some(drag) = drag {
-        drag.mark(ui, top, size.y);
+        drag.draw_drop_marker(ui, top, size.y);
     }
 }
 

@@ -30,7 +30,7 @@ pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
             track::show(ui, state, &mut draft, has_pictures, intents);
             // Timing and stops belong to the project, so changing them can be undone.
             if draft != *project {
-                intents.push(Intent::Edit(Box::new(draft)));
+                intents.push(Intent::ReplaceSettings(Box::new(draft)));
             }
         });
 }

@@ -72,7 +72,7 @@ fn one(
 ) {
     let palette = ThemePalette::of(ui);
     // Within the current segment, as are the measurements.
-    let t = state.session.within(state.playback.t());
+    let t = state.session.segment_t(state.playback.t());
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
     if !series.iter().any(|[_, value]| value.is_finite()) {
@@ -106,7 +106,7 @@ fn one(
         || response.response.dragged_by(PointerButton::Primary);
     if let Some(pointer) = response.inner.filter(|_| is_held) {
         // The axis extends a little beyond the measured range.
-        let t = state.session.beyond(pointer.x.clamp(0.0, 1.0));
+        let t = state.session.whole_t(pointer.x.clamp(0.0, 1.0));
         intents.push(Intent::Seek(t));
     }
     response.response.on_hover_text(format!(
@@ -133,7 +133,7 @@ fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
         // Leaves room for half of the last label.
         .set_margin_fraction(vec2(0.04, 0.08))
         .label_formatter(|_| None)
-        .y_grid_spacer(|input| marks(input.bounds))
+        .y_grid_spacer(|input| marks(input.bounds.0, input.bounds.1))
         .custom_x_axes(vec![t_axis(colour)])
         .custom_y_axes(vec![value_axis(quantity, colour)]);
     always_shown(quantity)
@@ -167,7 +167,7 @@ fn t_axis(colour: Color32) -> AxisHints<'static> {
 
 /// Returns three to six marks at round steps. (egui's own steps are powers of ten, which leaves an
 /// axis up to 9,000 without any mark that fits.)
-fn marks((min, max): (f64, f64)) -> Vec<GridMark> {
+fn marks(min: f64, max: f64) -> Vec<GridMark> {
     let rough = (max - min) / 5.0;
     let ten = 10_f64.powf(rough.log10().floor());
     let round = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * ten);
@@ -269,10 +269,10 @@ mod tests {
     #[test]
     fn every_axis_has_marks_and_room_for_them() {
         for max in (1..200).map(|k| 1.3_f64.powi(k - 100)) {
-            let marks = marks((0.0, max));
+            let marks = marks(0.0, max);
             assert!((3..=6).contains(&marks.len()), "{max}: {marks:?}");
         }
-        assert!(marks((2.0, 2.0)).is_empty() && marks((f64::NAN, 1.0)).is_empty());
+        assert!(marks(2.0, 2.0).is_empty() && marks(f64::NAN, 1.0).is_empty());
     }
 
     #[test]

@@ -35,7 +35,7 @@ impl TimelineRuler {
         // The current t may be typed or played far outside and must stay visible.
         let places = places.chain([state.playback.t()]);
         // Relative to the film, so the margin does not depend on the number of segments.
-        let end = state.session.leg_count() as f64;
+        let end = state.session.segment_count() as f64;
         let (mut from, mut to) = (-BEYOND * end, (1.0 + BEYOND) * end);
         for t in places {
             from = from.min(t);

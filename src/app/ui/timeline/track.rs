@@ -15,7 +15,7 @@ use crate::app::ui::timeline::ruler::TimelineRuler;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::io::sanitize::SanitizedLine;
 use crate::project::Project;
-use crate::transition::{TransitionStop, TransitionStyle, colour_fraction};
+use crate::transition::{SequenceLayout, TransitionStop, TransitionStyle, colour_fraction};
 
 /// Distance within which scrubbing snaps to designs and stops, in points (tolerance: tenths are
 /// about 60 points apart in the smallest window).
@@ -47,11 +47,14 @@ pub fn show(
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let ruler = TimelineRuler::new(rect, state, &draft.stops);
-    let names = state.session.names_on_the_way();
+    let names = state.session.names_along_path();
     scrub(&response, ruler, &draft.stops, intents);
     beyond(ui, ruler);
-    bar(ui, ruler, &draft.style, state.session.way());
-    let is_path = state.session.whole().is_some_and(Project::follows_path);
+    bar(ui, ruler, &draft.style, state.session.sequence_layout());
+    let is_path = state
+        .session
+        .whole_project()
+        .is_some_and(Project::follows_path);
     ticks(ui, ruler, &names, is_path);
     if has_pictures {
         filmstrip::show(ui, state, ruler, ruler.y + 30.0, intents);
@@ -106,12 +109,12 @@ fn beyond(ui: &Ui, ruler: TimelineRuler) {
     }
 }
 
-fn bar(ui: &Ui, ruler: TimelineRuler, style: &TransitionStyle, way: (usize, bool)) {
+fn bar(ui: &Ui, ruler: TimelineRuler, style: &TransitionStyle, layout: SequenceLayout) {
     const STEPS: u32 = 32;
     let mut mesh = Mesh::default();
     for i in 0..=STEPS {
         let share = f64::from(i) / f64::from(STEPS);
-        let [r, g, b] = style.fill_at(colour_fraction(share * ruler.end, way)).0;
+        let [r, g, b] = style.fill_at(colour_fraction(share * ruler.end, layout)).0;
         let colour = Color32::from_rgb(r, g, b);
         let x = ruler.x(share * ruler.end);
         mesh.colored_vertex(pos2(x, ruler.y - BAR_HEIGHT / 2.0), colour);

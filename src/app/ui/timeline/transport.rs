@@ -61,7 +61,7 @@ fn play_button(ui: &mut Ui, state: &UiState) -> Response {
     let (fill, ink) = if response.hovered() {
         (palette.accent, palette.panel)
     } else {
-        (palette.accent_ground, palette.text)
+        (palette.accent_fill, palette.text)
     };
     ui.painter().circle_filled(rect.center(), 17.0, fill);
     icons::paint_icon(ui.painter(), icon, rect, ink);
@@ -85,7 +85,7 @@ fn time_field(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     // In words as well, because colour alone must not carry this meaning.
     let beyond = match state.playback.t() {
         t if t < 0.0 => "before the source",
-        t if t > state.session.leg_count() as f64 => "beyond the target",
+        t if t > state.session.segment_count() as f64 => "beyond the target",
         _ => return,
     };
     ui.label(RichText::new(beyond).small().color(palette.amber));

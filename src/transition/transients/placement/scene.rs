@@ -55,12 +55,12 @@ pub(super) struct TransientPlacement {
 impl TransientPlacement {
     /// The part at `t`, larger by a share of its size the smaller it is.
     fn at(&self, speck: &TransientPart, film: &Arap, t: f64, margin: f64) -> Vec<LayeredOutline> {
-        let share = self.life.share(t);
+        let share = self.life.fraction_done(t);
         // A speck is not drawn.
-        if self.life.is_gone(t) {
+        if self.life.is_absent(t) {
             return Vec::new();
         }
-        let centre = film.carried(speck.ends_at(self.place), share, t);
+        let centre = film.carried_position(speck.ends_at(self.place), share, t);
         if self.swells {
             return speck.swollen(centre, share);
         }
@@ -72,8 +72,8 @@ impl TransientPlacement {
 impl TransientPlacement {
     /// Where at `t` a place is that lies in the part where it is drawn.
     fn takes(&self, speck: &TransientPart, film: &Arap, here: DVec2, t: f64) -> DVec2 {
-        let share = self.life.share(t);
-        let centre = film.carried(speck.ends_at(self.place), share, t);
+        let share = self.life.fraction_done(t);
+        let centre = film.carried_position(speck.ends_at(self.place), share, t);
         let from_centre = here - speck.ends[speck.side];
         match self.swells {
             // It goes with its middle.
@@ -119,7 +119,7 @@ impl<'a> TransientScene<'a> {
             placer.place(t);
             let places = &placer.placement().in_frame;
             let there = holes.iter().filter_map(|(piece, hole)| {
-                let ring = hole.at(places, t)?;
+                let ring = hole.ring_at(places, t)?;
                 Some(LayeredOutline::of(ring, levels.of_piece(*piece)))
             });
             (walks.outlines(places, levels), there.collect())
@@ -273,7 +273,7 @@ impl<'a> TransientScene<'a> {
         let others = others.filter(|_| is_searched);
         // What begins at one place grows out of it as one picture would: nothing of it
         // meets, however small it is.
-        let end = film.carried_back(speck.ends[speck.side], [0.0, 1.0][speck.side]);
+        let end = film.uncarried_ends(speck.ends[speck.side], [0.0, 1.0][speck.side]);
         let others = others.map(|place| place.lerp(end[speck.side.other()], speck.least));
         let growing = std::iter::once(own).chain(others);
         let grows = |place: DVec2| {
@@ -285,7 +285,7 @@ impl<'a> TransientScene<'a> {
             (place.distance(own), birth)
         };
         // In the place that it will have, or along with what is around it.
-        let drawn = film.carried_back(speck.ends[speck.side], begins(speck, life));
+        let drawn = film.uncarried_ends(speck.ends[speck.side], begins(speck, life));
         let swells = |place: DVec2| {
             let birth = TransientPlacement {
                 place: place + speck.off_middle(),
@@ -321,7 +321,7 @@ impl<'a> TransientScene<'a> {
             let rings = birth.at(speck, film, t, MARGIN);
             let side = speck.side;
             if !(self.crosses_none(step, side, &rings) && self.is_apart(step, side, &rings)) {
-                long += self.steps.long(step);
+                long += self.steps.weight(step);
             }
         }
         long
@@ -351,7 +351,7 @@ impl<'a> TransientScene<'a> {
         let Some(outer) = rings.first() else {
             return true;
         };
-        let is_beside = |other: &&LayeredOutline| other.level == outer.level;
+        let is_beside = |other: &&LayeredOutline| other.layer == outer.layer;
         let place = outer.points[0];
         let others = self
             .there(step, side)
@@ -379,7 +379,7 @@ impl<'a> TransientScene<'a> {
         let around = born.chain(carried_within(here, now, then));
         let innermost = around.min_by(|a, b| a.0.total_cmp(&b.0));
         let place = innermost.map_or_else(|| carried_among(here, now, then), |(_, place)| place);
-        film.carried_back(place, begins)[side.other()]
+        film.uncarried_ends(place, begins)[side.other()]
     }
 }
 

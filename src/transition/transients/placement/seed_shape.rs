@@ -1,6 +1,6 @@
 //! A part of one design alone: a speck in the other.
 
-use crate::content::middle;
+use crate::content::mean_point;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, inradius, inset, ring_edges, signed_area, winding};
 use crate::transition::transients::growth_profile::{GrowthProfile, SIZE_STEPS};
@@ -53,7 +53,7 @@ impl TransientPart {
     pub(super) fn all(matched: &RegionMatch, levels: &PieceLayers) -> Vec<Self> {
         let pieces = matched.pieces.iter().enumerate();
         let alone = |(k, piece): (usize, &PieceMatch)| {
-            let side = piece.alone()?;
+            let side = piece.only_side()?;
             Some(Self::of(k, piece, (side, levels.of_piece(k))))
         };
         let mut all: Vec<Self> = pieces.filter_map(alone).collect();
@@ -140,14 +140,14 @@ impl TransientPart {
     /// is while it swells.
     pub(super) fn off_middle_at(&self, share: f64) -> DVec2 {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
-        middle(outer) * (self.size(share) - 1.0)
+        mean_point(outer) * (self.size(share) - 1.0)
     }
 
     /// What is to be added to a place at which it swells for that to be the
     /// place of a speck which grows: it keeps its middle, and not its centroid.
     pub(super) fn off_middle(&self) -> DVec2 {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
-        middle(outer) * (1.0 - self.least)
+        mean_point(outer) * (1.0 - self.least)
     }
 
     /// Where so much of its change is done, and its centroid would be at
@@ -168,7 +168,7 @@ impl TransientPart {
 
     /// What it is while it swells; `diameter` is that of the whole.
     pub(super) fn swelling(&self, diameter: f64) -> GrowthProfile {
-        GrowthProfile::of(|size| self.swelling.level(size, &self.rings), diameter)
+        GrowthProfile::sampled(|size| self.swelling.level(size, &self.rings), diameter)
     }
 
     /// What would meet something in all times comes or goes at once.

@@ -6,7 +6,7 @@
 use super::{GRAIN, ORDERLY, TransientSchedule, eighths, life};
 use crate::geometry::{Bounds, DVec2, Side};
 use crate::warp::TimeWindow;
-use crate::work::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::ops::Range;
 
 /// How often all are gone through.
@@ -40,7 +40,7 @@ impl TransientSchedule {
             return Ok(());
         }
         for k in (fixed..self.coming.len()).take(PRICED) {
-            still_wanted(progress)?;
+            check_cancelled(progress)?;
             self.coming[k].prices = prices(k);
         }
         let free = fixed..self.coming.len().min(fixed + PLANNED);
@@ -112,7 +112,7 @@ impl TransientSchedule {
     /// Changes the times of two of the largest at once, where that helps, and says whether it
     /// did.
     pub(super) fn improve_twos(&mut self, free: &Range<usize>) -> bool {
-        let size = |k: usize| self.coming[k].growth.at(1.0)[1].abs();
+        let size = |k: usize| self.coming[k].growth.at_size(1.0)[1].abs();
         let mut largest: Vec<usize> = free.clone().collect();
         largest.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
         largest.truncate(IN_TWOS);

@@ -136,7 +136,7 @@ fn any_eighths_of_the_film_are_times() {
         assert!(
             times
                 .iter()
-                .all(|life| life.is_sound() && life.side == side)
+                .all(|life| life.is_valid() && life.side == side)
         );
         assert_eq!(times[0], TimeWindow::whole(side));
         let back = eighths(side.other()).map(TimeWindow::backwards);

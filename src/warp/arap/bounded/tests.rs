@@ -103,7 +103,7 @@ fn stretched(p: DVec2) -> DVec2 {
 fn a_disc_keeps_the_bound() {
     let mesh = plate(stretched);
     let film = bounded(&mesh);
-    assert_eq!(film.unflattened(), 0);
+    assert_eq!(film.unflattened_count(), 0);
     let found = by_end(&mesh, &film);
     assert!(found <= 1.0 + 1e-9, "{found}");
 }
@@ -154,7 +154,7 @@ fn angles_around_a_hole_close() {
         DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * 1.1 + DVec2::new(0.0, 0.1 * p.x * p.x)
     });
     let film = bounded(&mesh);
-    assert_eq!(film.unflattened(), 0);
+    assert_eq!(film.unflattened_count(), 0);
     // Turned back it is the same film.
     let back = film.swapped(&Silent).expect("a film");
     for (mesh, film) in [(&mesh, &film), (back.mesh(), &back)] {
@@ -207,7 +207,7 @@ fn a_sheet_that_is_not_flat_takes_each_metric_by_itself() {
     let mut found = vec![DVec2::ZERO; mesh.source().len()];
     let mut expected = found.clone();
     bounded.add(
-        EvaluationTimes::Even(0.3),
+        EvaluationTimes::Uniform(0.3),
         &mut bounded.memory(),
         &mut found,
     );

@@ -42,7 +42,7 @@ impl AlongBlend {
             placer.place(&own).to_vec()
         });
         Self {
-            ends: Arc::new(blend.family().between(ends)),
+            ends: Arc::new(blend.family().with_embeddings(ends)),
             blend,
             weights: Arc::new(weights),
         }
@@ -99,7 +99,7 @@ mod tests {
             );
         }
         let placement = along.placer().placement().clone();
-        assert_eq!(placement.in_source, blend.family().places()[1]);
-        assert_eq!(placement.in_target, blend.family().places()[2]);
+        assert_eq!(placement.in_source, blend.family().embeddings()[1]);
+        assert_eq!(placement.in_target, blend.family().embeddings()[2]);
     }
 }

@@ -39,7 +39,7 @@ pub(super) struct Mender {
 
 impl Mender {
     pub fn of(family: &CompatibleFamily) -> Self {
-        let count = family.places()[0].len();
+        let count = family.embeddings()[0].len();
         let mut is_fixed = vec![false; count];
         let loops = family.boundary_loops();
         let ends = family.elements().iter().flatten();

@@ -25,8 +25,8 @@ pub(super) fn blended(weights: &[f64], places: &[DVec2]) -> DVec2 {
 
 /// Fixed masses of the vertices: the mean of the designs' normalised lumped areas.
 fn masses(family: &CompatibleFamily) -> Vec<f64> {
-    let mut masses = vec![0.0; family.places()[0].len()];
-    for places in family.places() {
+    let mut masses = vec![0.0; family.embeddings()[0].len()];
+    for places in family.embeddings() {
         let area = |face: &[u32; 3]| {
             let [a, b, c] = face.map(|v| places[v as usize]);
             0.5 * twice_signed_area(a, b, c)
@@ -65,7 +65,7 @@ impl BlendParts {
         let mut turned = vec![DVec2::ZERO; count * designs];
         // The only part is the whole.
         if count > 1 {
-            for (design, places) in family.places().iter().enumerate() {
+            for (design, places) in family.embeddings().iter().enumerate() {
                 let mut centres = vec![DVec2::ZERO; count];
                 for ((&part, &share), &p) in of_vertex.iter().zip(&shares).zip(places) {
                     centres[part as usize] += p * share;
@@ -132,7 +132,7 @@ fn common_angles(family: &CompatibleFamily, masses: &[f64]) -> Vec<f64> {
     let count = family.count();
     let total: f64 = masses.iter().sum();
     let centred: Vec<Vec<DVec2>> = family
-        .places()
+        .embeddings()
         .iter()
         .map(|places| {
             let centre: DVec2 = places

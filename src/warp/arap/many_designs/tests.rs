@@ -35,7 +35,7 @@ fn each_design_is_met_to_the_last_bit() {
     let family = family(&THREE);
     let blend = ArapBlend::build(&family, &Silent).expect("a blend");
     let mut placer = blend.placer();
-    for (k, places) in family.places().iter().enumerate() {
+    for (k, places) in family.embeddings().iter().enumerate() {
         let mut weights = [0.0; 3];
         weights[k] = 1.0;
         assert_eq!(placer.place(&weights), &places[..]);
@@ -72,7 +72,7 @@ fn a_rigid_design_moves_rigidly() {
         let first = places[0];
         places.iter().map(|p| p.distance(first)).collect()
     };
-    for (a, b) in lengths(places).iter().zip(lengths(&family.places()[0])) {
+    for (a, b) in lengths(places).iter().zip(lengths(&family.embeddings()[0])) {
         assert!((a - b).abs() < 1e-10);
     }
 }

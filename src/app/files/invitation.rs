@@ -1,0 +1,84 @@
+//! Invitation of the first minute: whether the window says how to begin, next to a gallery project
+//! that plays.
+
+use bevy::prelude::{MessageReader, ResMut, Resource};
+
+use crate::app::input::intent::{Intent, RecoveryAnswer};
+use crate::project::gallery::GalleryEntry;
+
+/// Gallery project that plays when the program starts without files: it is ready within a second,
+/// and every part of it moves.
+pub const START_PROJECT: &str = "gecko";
+
+/// Gallery projects that the invitation offers, in this order: one of each kind of design first.
+pub const EXAMPLES: [&str; 10] = [
+    "day-to-night",
+    "three-portraits",
+    "girder-to-arch",
+    "letters-in-turn",
+    "fern",
+    "words",
+    "bridges",
+    "vessels",
+    "spectacles",
+    "bracket-to-davit",
+];
+
+/// Whether the invitation is shown.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Invitation {
+    is_shown: bool,
+}
+
+impl Invitation {
+    /// Whether it is shown.
+    #[must_use]
+    pub fn is_shown(&self) -> bool {
+        self.is_shown
+    }
+
+    /// Closes it; returns whether it was shown.
+    pub fn close(&mut self) -> bool {
+        std::mem::take(&mut self.is_shown)
+    }
+}
+
+/// The gallery projects that the invitation offers, in its order.
+#[must_use]
+pub fn examples(gallery: &[GalleryEntry]) -> Vec<&GalleryEntry> {
+    let entry = |name: &&str| gallery.iter().find(|entry| entry.name == **name);
+    EXAMPLES.iter().filter_map(entry).collect()
+}
+
+/// Shows the invitation at the start, and closes it as soon as the user opens anything.
+pub fn apply(mut intents: MessageReader<Intent>, mut invitation: ResMut<Invitation>) {
+    for intent in intents.read() {
+        match intent {
+            Intent::Welcome => invitation.is_shown = true,
+            Intent::CloseInvitation
+            | Intent::OpenGallery(_)
+            | Intent::PlayGallery(_)
+            | Intent::InsertDesigns(..)
+            | Intent::ReplaceDesign(..)
+            | Intent::AnswerRecovery(RecoveryAnswer::Restore) => invitation.is_shown = false,
+            Intent::Open(files) if !files.is_empty() => invitation.is_shown = false,
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::gallery;
+
+    #[test]
+    fn every_offered_project_is_in_the_gallery() -> Result<(), Box<dyn std::error::Error>> {
+        let gallery = gallery::list()?;
+        let offered = examples(&gallery);
+        let names: Vec<&str> = offered.iter().map(|entry| entry.name.as_str()).collect();
+        assert_eq!(names, EXAMPLES);
+        assert!(gallery.iter().any(|entry| entry.name == START_PROJECT));
+        Ok(())
+    }
+}

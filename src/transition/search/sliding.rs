@@ -1,0 +1,96 @@
+//! Slides the boundary correspondence of the best candidates along their outlines, and chooses
+//! between the results of the search.
+//!
+//! A candidate slides as long as that improves its motion, [`MAX_SLIDES`] times at most.
+
+use super::candidate::MatchCandidate;
+use super::group::{PieceResult, take_better};
+use crate::compatible::slide_outlines;
+use crate::transition::error::BuildError;
+use crate::transition::spec::TransitionSpec;
+use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled};
+use rayon::prelude::*;
+
+/// Maximum number of times that a piece slides (resource limit).
+const MAX_SLIDES: u32 = 3;
+
+/// Distortion below which a map is not improved further: two drawings of one shape (heuristic).
+pub(super) const LOW_DISTORTION: f64 = 1.02;
+
+/// Slides the best candidate of each piece, and its candidate without matched holes if there is
+/// one; returns the better of the two. `unpaired` has one entry per piece or is empty.
+///
+/// # Errors
+/// If the work is cancelled.
+pub(super) fn slide_and_choose(
+    paired: Vec<PieceResult>,
+    mut unpaired: Vec<Option<MatchCandidate>>,
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<Vec<PieceResult>, BuildError> {
+    unpaired.resize_with(paired.len(), || None);
+    let shares = ProgressShares::new(progress, paired.len());
+    let pieces = paired.into_par_iter().zip(unpaired).enumerate();
+    let chosen = pieces.map(|(k, (paired, unpaired))| {
+        let share = shares.part(k);
+        let Some(unpaired) = unpaired else {
+            return slid(paired, spec, &share);
+        };
+        let [first, second] =
+            [(0.0, 0.5), (0.5, 1.0)].map(|(from, to)| ProgressSpan::new(&share, from, to));
+        let mut best = slid(paired, spec, &first)?;
+        // Compare only after sliding, which can repair a pairing of holes that folds, as in D and
+        // P.
+        let unpaired = improved_by_sliding(unpaired, spec, &second)?;
+        take_better(std::slice::from_mut(&mut best), vec![Some(unpaired)]);
+        Ok(best)
+    });
+    chosen.collect()
+}
+
+/// Slides the candidate of a piece, if it has one.
+///
+/// # Errors
+/// If the work is cancelled.
+fn slid(
+    result: PieceResult,
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<PieceResult, BuildError> {
+    match result {
+        Ok(best) => Ok(Ok(improved_by_sliding(best, spec, progress)?)),
+        untriangulated => Ok(untriangulated),
+    }
+}
+
+/// Slides the boundary correspondence of a candidate along the outlines as long as that improves
+/// its motion.
+///
+/// # Errors
+/// If the work is cancelled.
+fn improved_by_sliding(
+    mut best: MatchCandidate,
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<MatchCandidate, BuildError> {
+    for round in 0..MAX_SLIDES {
+        if !best.matched.is_in_both() || best.distortion < LOW_DISTORTION {
+            break;
+        }
+        let fraction_after = |k: u32| f64::from(k) / f64::from(MAX_SLIDES);
+        let progress =
+            &ProgressSpan::new(progress, fraction_after(round), fraction_after(round + 1));
+        let options = &spec.options.triangulation;
+        let places = slide_outlines(&best.matched, &best.mesh, options, progress);
+        check_cancelled(progress)?;
+        let Some(places) = places else { break };
+        let moved = best.matched.with_ring_places(&places);
+        let moved = MatchCandidate::new(moved, best.holes, &spec.options, progress).ok();
+        check_cancelled(progress)?;
+        match moved {
+            Some(moved) if moved.is_better_than(&best) => best = moved,
+            _ => break,
+        }
+    }
+    Ok(best)
+}

@@ -1,0 +1,93 @@
+//! A second method shown next to the stage, and the measures of the film on the stage.
+
+use std::time::Duration;
+
+use crate::headless_window::HeadlessWindow;
+use bevy::input::keyboard::{Key, KeyCode};
+use bevy::prelude::{Entity, With};
+use morphospace::app::{Comparison, ComparisonMethod, Intent, OnComparison, StageMeasures};
+use morphospace::content::ContentKind;
+use morphospace::stage::{Blend, StageTransition};
+use morphospace::transition::TransitionMethod;
+
+/// Updates until the second method is built.
+fn wait_for_comparison(window: &mut HeadlessWindow) {
+    window.update();
+    while window.0.world().resource::<Comparison>().is_busy() {
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+    window.update();
+}
+
+#[test]
+fn the_second_method_is_shown_at_the_same_t_as_the_stage() {
+    let mut window = HeadlessWindow::with_gallery();
+    while window
+        .session()
+        .transition()
+        .is_none_or(|t| t.compatible().is_none())
+    {
+        window.send(Intent::NextMethod);
+        window.wait();
+    }
+    window.type_char(KeyCode::KeyV, "v");
+    wait_for_comparison(&mut window);
+    window.send(Intent::Seek(0.5));
+    let world = window.0.world_mut();
+    let mut compared = world.query_filtered::<(&StageTransition, &Blend), With<OnComparison>>();
+    let (StageTransition(linear), blend) = compared.single(world).expect("one compared entity");
+    assert_eq!(blend.t, 0.5);
+    // The default second method moves every vertex on a straight line: at ½ it is at the midpoint.
+    let mesh = linear.compatible().expect("triangles");
+    let frame = linear.frame(0.5);
+    let size = mesh.diameter();
+    for (k, p) in frame.placement().in_frame.iter().enumerate() {
+        let midpoint = 0.5 * (mesh.source()[k] + mesh.target()[k]);
+        assert!(p.distance(midpoint) < 1e-6 * size, "{p} is not {midpoint}");
+    }
+    window.send(Intent::SetComparisonMethod(ComparisonMethod::Cell(
+        TransitionMethod::FIELD_BLEND,
+    )));
+    wait_for_comparison(&mut window);
+    let comparison: &Comparison = window.0.world().resource();
+    assert!(comparison.problem().is_none());
+    let content = comparison.transition().map(|t| t.method().content());
+    assert_eq!(content, Some(ContentKind::Field));
+    window.press(KeyCode::Escape, Key::Escape);
+    let world = window.0.world_mut();
+    let mut compared = world.query_filtered::<Entity, With<OnComparison>>();
+    assert_eq!(compared.iter(world).count(), 0);
+}
+
+/// Updates until the film on the stage is measured.
+fn wait_for_measures(window: &mut HeadlessWindow) {
+    for _ in 0..20_000 {
+        window.update();
+        if window
+            .0
+            .world()
+            .resource::<StageMeasures>()
+            .measures()
+            .is_some()
+        {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    panic!("no measures");
+}
+
+#[test]
+fn the_film_on_the_stage_is_measured() {
+    let mut window = HeadlessWindow::with_gallery();
+    wait_for_measures(&mut window);
+    let measured: &StageMeasures = window.0.world().resource();
+    let measures = measured.measures().expect("measures");
+    assert_eq!(measures.film.samples.len(), measures.verdict.steps);
+    assert!(!measured.is_busy());
+    // A new transition is measured again.
+    window.send(Intent::NextMethod);
+    window.wait();
+    wait_for_measures(&mut window);
+}

@@ -1,0 +1,315 @@
+//! Opening, dropping, saving and closing: effects, questions about unsaved changes, and refusals.
+
+use std::path::Path;
+
+use crate::headless_window::{HeadlessWindow, gallery_names};
+use bevy::prelude::{Entity, With};
+use bevy::window::{FileDragAndDrop, WindowCloseRequested};
+use morphospace::app::{Intent, OnStage, UnsavedAnswer, UnsavedQuestion};
+use morphospace::content::Content;
+use morphospace::stage::{Blend, StageTransition};
+
+#[test]
+fn an_opened_project_is_on_the_stage_at_t() {
+    let mut window = HeadlessWindow::with_gallery();
+    window.send(Intent::Seek(0.25));
+    let world = window.0.world_mut();
+    let mut staged = world.query_filtered::<(&StageTransition, &Blend), With<OnStage>>();
+    let (_, blend) = staged.single(world).expect("one entity on the stage");
+    assert_eq!(blend.t, 0.25);
+}
+
+#[test]
+fn every_gallery_project_opens() {
+    let mut window = HeadlessWindow::new();
+    for name in gallery_names()
+        .into_iter()
+        .filter(|name| !name.contains("stress"))
+    {
+        window.send(Intent::OpenGallery(name.clone()));
+        window.wait();
+        assert_eq!(window.session().gallery_name(), Some(name.as_str()));
+        assert!(
+            window.session().transition().is_some(),
+            "{name}: {:?}",
+            window.problems()
+        );
+    }
+}
+
+#[test]
+fn two_designs_opened_together_play_at_once_and_projects_do_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, points: &str| {
+        let text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"><path d=\"M{points}z\"/></svg>"
+        );
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    };
+    let [a, b] = [
+        file("a.svg", "0,0 9,0 9,3 0,3"),
+        file("b.svg", "0,0 3,0 3,9 0,9"),
+    ];
+    let mut window = HeadlessWindow::new();
+    window.send(Intent::Open(vec![a.clone()]));
+    window.wait();
+    assert!(!window.playback().is_playing(), "there is nothing to see");
+    window.send(Intent::Open(vec![a, b]));
+    window.wait();
+    assert!(window.playback().is_playing());
+    window.send(Intent::TogglePlay);
+    assert!(!window.playback().is_playing(), "a pause is not overridden");
+    window.send(Intent::OpenGallery(gallery_names()[0].clone()));
+    window.wait();
+    assert!(!window.playback().is_playing());
+}
+
+#[test]
+fn a_missing_project_is_reported_and_the_open_project_stays() {
+    let mut window = HeadlessWindow::with_gallery();
+    let title = window.session().title();
+    window.send(Intent::Open(vec!["/nowhere/at-all.morph".into()]));
+    window.wait();
+    assert!(
+        window.problems()[0].contains("at-all.morph"),
+        "{:?}",
+        window.problems()
+    );
+    assert_eq!(window.session().title(), title);
+    assert!(window.session().transition().is_some());
+}
+
+#[test]
+fn a_replacement_that_cannot_be_read_leaves_the_project_unchanged() {
+    let mut window = HeadlessWindow::with_gallery();
+    let before = window.session().project().cloned();
+    window.send(Intent::ReplaceDesign(1, "/nowhere/at-all.svg".into()));
+    window.wait();
+    assert!(!window.problems().is_empty());
+    assert_eq!(window.session().project().cloned(), before);
+}
+
+#[test]
+fn closing_asks_about_unsaved_changes_until_they_are_discarded() {
+    let mut window = HeadlessWindow::with_gallery();
+    window.send(Intent::Seek(0.123));
+    window.send(Intent::AddStop);
+    assert!(window.session().is_dirty());
+    let request = WindowCloseRequested {
+        window: Entity::PLACEHOLDER,
+    };
+    window.0.world_mut().write_message(request.clone());
+    window.update();
+    window.update();
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_some()
+    );
+    assert!(window.0.should_exit().is_none());
+    window.send(Intent::AnswerUnsaved(UnsavedAnswer::Cancel));
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_none()
+    );
+    assert!(window.session().is_dirty());
+    window.0.world_mut().write_message(request);
+    window.update();
+    window.update();
+    window.send(Intent::AnswerUnsaved(UnsavedAnswer::Discard));
+    window.update();
+    assert!(window.0.should_exit().is_some());
+}
+
+#[test]
+fn opening_another_project_asks_about_unsaved_changes() {
+    let mut window = HeadlessWindow::with_gallery();
+    let title = window.session().title();
+    window.send(Intent::Seek(0.123));
+    window.send(Intent::AddStop);
+    let other = gallery_names().pop().expect("a gallery");
+    window.send(Intent::OpenGallery(other));
+    window.wait();
+    assert_eq!(window.session().title(), title);
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_some()
+    );
+}
+
+#[test]
+fn a_value_beyond_the_range_of_its_slider_is_not_changed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut document = "version = 1\nwarp = \"arap\"\ncontent = \"solid\"\n".to_owned();
+    for (name, x) in [("a.json", 0), ("b.json", 2)] {
+        let polygon = format!("{{\"polygons\": [[[[0, 0], [4, 0], [{x}, 3]]]]}}");
+        std::fs::write(folder.path().join(name), polygon).expect("room");
+        document.push_str(&format!("[[designs]]\npath = \"{name}\"\n"));
+    }
+    document.push_str("[arap]\nsubdivisions = 5\n");
+    let path = folder.path().join("fine.morph");
+    std::fs::write(&path, document).expect("room");
+    let mut window = HeadlessWindow::with_panels();
+    window.send(Intent::Open(vec![path]));
+    window.wait();
+    (0..3).for_each(|_| window.update());
+    let project = window.session().project().expect("a project");
+    assert_eq!(project.options.arap.subdivisions, 5);
+    assert!(!window.session().is_dirty());
+}
+
+#[test]
+fn a_saved_project_is_opened_unchanged() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("saved.morph");
+    let mut window = HeadlessWindow::with_gallery();
+    window.send(Intent::Seek(0.3));
+    window.send(Intent::AddStop);
+    window.send(Intent::SaveTo(path.clone()));
+    assert!(!window.session().is_dirty());
+    assert_eq!(window.session().path(), Some(Path::new(&path)));
+    let stops = window.session().stops().to_vec();
+    let mut reopened = HeadlessWindow::new();
+    reopened.send(Intent::Open(vec![path]));
+    reopened.wait();
+    assert_eq!(reopened.problems(), Vec::<String>::new());
+    assert_eq!(reopened.session().stops(), stops);
+    assert!(reopened.session().transition().is_some());
+}
+
+#[test]
+fn settings_changed_during_a_build_are_built_afterwards() {
+    let mut window = HeadlessWindow::with_gallery();
+    window.send(Intent::NextMethod);
+    let mut project = window.session().project().cloned().expect("a project");
+    project.options.arap.subdivisions = 1;
+    project.options.field.cells = 96;
+    window.send(Intent::ReplaceSettings(Box::new(project.clone())));
+    window.wait();
+    window.wait();
+    assert_eq!(window.session().project(), Some(&project));
+    let transition = window.session().transition().expect("a transition");
+    let shown = (
+        Some(transition.method().warp()),
+        Some(transition.method().content()),
+    );
+    assert_eq!(shown, (project.warp, project.content));
+}
+
+#[test]
+fn parts_that_carry_fields_have_their_own_rotations() {
+    let mut window = HeadlessWindow::new();
+    window.send(Intent::OpenGallery("letters-carried".to_owned()));
+    window.wait();
+    let transition = window.session().transition().expect("a transition");
+    assert!(matches!(transition.content(), Content::Field(_)));
+    assert!(
+        window.session().parts() > 0,
+        "the panel lists the parts' rotations"
+    );
+}
+
+#[test]
+fn cancelling_a_build_restores_the_previous_settings() {
+    let mut window = HeadlessWindow::with_gallery();
+    let before = window.session().project().cloned();
+    window.send(Intent::NextMethod);
+    window.send(Intent::CancelWork);
+    if window.session().work().is_none() {
+        window.wait();
+    }
+    let after = window.session().project().cloned();
+    let transition = window.session().transition().expect("a transition");
+    let shown = (
+        Some(transition.method().warp()),
+        Some(transition.method().content()),
+    );
+    assert_eq!(
+        after.as_ref().map(|p| (p.warp, p.content)),
+        Some(shown),
+        "stage and settings agree"
+    );
+    assert!(after == before || window.session().is_dirty());
+}
+
+/// Drops files on the window and waits until they are open.
+fn drop_files(window: &mut HeadlessWindow, paths: &[&Path]) {
+    for path in paths {
+        window
+            .0
+            .world_mut()
+            .write_message(FileDragAndDrop::DroppedFile {
+                window: Entity::PLACEHOLDER,
+                path_buf: path.to_path_buf(),
+            });
+    }
+    for _ in 0..20 {
+        window.update();
+    }
+    window.wait();
+}
+
+/// Writes an SVG with a square and returns its path.
+fn write_square(folder: &Path, name: &str, side: u32) -> std::path::PathBuf {
+    let path = folder.join(name);
+    let svg = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="{side}" height="{side}"/></svg>"#
+    );
+    std::fs::write(&path, svg).expect("a file");
+    path
+}
+
+#[test]
+fn two_dropped_files_become_a_pair_and_a_single_one_asks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = write_square(folder.path(), "small.svg", 30);
+    let large = write_square(folder.path(), "large.svg", 80);
+    let mut window = HeadlessWindow::with_gallery();
+    drop_files(&mut window, &[&small, &large]);
+    assert_eq!(window.problems(), Vec::<String>::new());
+    let names = |window: &HeadlessWindow| {
+        let designs = window.session().transition().map(|t| t.designs().clone());
+        designs.map(|[a, b]| [a.name.clone(), b.name.clone()])
+    };
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "large".to_owned()])
+    );
+    drop_files(&mut window, &[&small]);
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "large".to_owned()]),
+        "it asks before replacing a design"
+    );
+    window.send(Intent::ReplaceDesign(1, small));
+    window.wait();
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "small".to_owned()])
+    );
+    assert!(window.session().is_dirty());
+}
+
+#[test]
+fn a_project_dropped_with_other_files_is_refused() {
+    let mut window = HeadlessWindow::with_gallery();
+    let nowhere = Path::new("/nowhere/a.svg");
+    drop_files(
+        &mut window,
+        &[nowhere, nowhere, Path::new("/nowhere/a.morph")],
+    );
+    assert_eq!(window.problems().len(), 1);
+}

@@ -1,0 +1,236 @@
+//! Saving: every way to save ends with a notice that says where, or that it was cancelled.
+
+use std::path::{Path, PathBuf};
+
+use bevy::input::keyboard::{Key, KeyCode};
+use morphospace::app::{
+    DialogPurpose, FileDialogRequest, Intent, NoticeKind, Notices, UnsavedAnswer,
+};
+use morphospace::work::progress::Silent;
+
+use crate::headless_window::{HeadlessWindow, gallery_names};
+
+/// Purpose of the open file dialog.
+fn open_dialog(window: &HeadlessWindow) -> Option<DialogPurpose> {
+    window
+        .0
+        .world()
+        .resource::<FileDialogRequest>()
+        .purpose()
+        .cloned()
+}
+
+/// Texts of the confirmations now shown.
+fn confirmations(window: &HeadlessWindow) -> Vec<String> {
+    let notices = window.0.world().resource::<Notices>().list();
+    let done = notices
+        .iter()
+        .filter(|notice| notice.kind == NoticeKind::Done);
+    done.map(|notice| notice.text.clone()).collect()
+}
+
+/// Answers the file dialog with paths; returns whether the window closes.
+fn choose(window: &mut HeadlessWindow, paths: &[&Path]) -> bool {
+    let paths = paths.iter().map(|path| path.to_path_buf()).collect();
+    window.send(Intent::AnswerDialog(paths));
+    (0..3).fold(false, |is_closed, _| {
+        window.update();
+        is_closed || window.0.should_exit().is_some()
+    })
+}
+
+/// A window with an unsaved change.
+fn with_change() -> HeadlessWindow {
+    let mut window = HeadlessWindow::with_gallery();
+    window.send(Intent::CyclePlayMode);
+    assert!(window.session().is_dirty());
+    window
+}
+
+#[test]
+fn a_saved_match_is_reused_when_the_project_is_reopened() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawing = |name: &str, path: &str| {
+        let file = folder.path().join(name);
+        let text = format!("<svg xmlns='http://www.w3.org/2000/svg'><path d='{path}'/></svg>");
+        std::fs::write(&file, text).expect("a file");
+        file
+    };
+    let square = drawing("square.svg", "M10 10h80v80h-80z");
+    let angle = drawing("angle.svg", "M10 10h80v20h-60v60h-20z");
+    let mut window = HeadlessWindow::new();
+    window.send(Intent::Open(vec![square, angle]));
+    window.wait();
+    let path = folder.path().join("saved.morph");
+    window.send(Intent::SaveTo(path.clone()));
+    assert!(!window.session().is_dirty());
+    let mut reopened = HeadlessWindow::new();
+    reopened.send(Intent::Open(vec![path.clone()]));
+    reopened.wait();
+    let spec = reopened
+        .session()
+        .staged_segment()
+        .expect("a film")
+        .spec()
+        .expect("settings");
+    assert!(!spec.found.is_none());
+    assert!(
+        spec.draft(&Silent).is_none(),
+        "the saved match makes a draft unnecessary"
+    );
+    // After a change the match is searched again, and saving stores the new one.
+    let before = std::fs::read_to_string(&path).expect("text");
+    let mut project = reopened.session().project().cloned().expect("a project");
+    project.options.arap.symmetric = false;
+    reopened.send(Intent::ReplaceSettings(Box::new(project)));
+    reopened.wait();
+    reopened.send(Intent::Save);
+    let saved_match = |text: &str| text.split("[found]").nth(1).map(str::to_owned);
+    let after = std::fs::read_to_string(&path).expect("text");
+    assert!(saved_match(&after).is_some() && saved_match(&after) != saved_match(&before));
+}
+
+/// File name that the dialog suggests for the first gallery project.
+fn suggested_name() -> String {
+    format!("{}.morph", gallery_names().remove(0))
+}
+
+#[test]
+fn saving_a_new_project_asks_for_a_file_and_confirms_where_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_change();
+    window.send(Intent::Save);
+    assert_eq!(
+        open_dialog(&window),
+        Some(DialogPurpose::Save(suggested_name()))
+    );
+    let path = folder.path().join("mine");
+    choose(&mut window, &[&path]);
+    let path = path.with_extension("morph");
+    assert!(path.is_file() && !window.session().is_dirty());
+    assert!(confirmations(&window).contains(&format!("Saved {}", path.display())));
+    assert_eq!(open_dialog(&window), None);
+    // Now the project has a file: saving asks no more, and the next dialog opens in its folder.
+    window.send(Intent::CyclePlayMode);
+    window.send(Intent::Save);
+    assert!(open_dialog(&window).is_none() && !window.session().is_dirty());
+    window.send(Intent::AskOpen);
+    let dialog: &FileDialogRequest = window.0.world().resource();
+    assert_eq!(dialog.folder(), Some(folder.path()));
+}
+
+#[test]
+fn cancelling_the_save_dialog_is_reported_and_cancels_closing() {
+    let mut window = with_change();
+    window.send(Intent::Close);
+    window.send(Intent::AnswerUnsaved(UnsavedAnswer::Save));
+    window.update();
+    assert!(matches!(open_dialog(&window), Some(DialogPurpose::Save(_))));
+    assert!(!choose(&mut window, &[]));
+    assert!(
+        confirmations(&window)
+            .iter()
+            .any(|text| text.contains("Save cancelled"))
+    );
+    assert!(window.session().is_dirty());
+    // The close request was dropped: a later save does not close the window.
+    let folder = tempfile::tempdir().expect("a folder");
+    window.send(Intent::SaveTo(folder.path().join("later.morph")));
+    window.update();
+    assert!(window.0.should_exit().is_none());
+}
+
+#[test]
+fn closing_waits_for_the_save_and_an_error_keeps_the_window_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").expect("a file");
+    let mut window = with_change();
+    let mut close_and_save_to = |path: PathBuf| {
+        window.send(Intent::Close);
+        window.send(Intent::AnswerUnsaved(UnsavedAnswer::Save));
+        window.update();
+        let is_closed = choose(&mut window, &[&path]);
+        (window.problems(), is_closed)
+    };
+    let (problems, is_closed) = close_and_save_to(file.join("below.morph"));
+    assert!(
+        problems.len() == 1 && problems[0].contains("file"),
+        "{problems:?}"
+    );
+    assert!(!is_closed);
+    let path = folder.path().join("mine.morph");
+    let (problems, is_closed) = close_and_save_to(path.clone());
+    assert_eq!(problems, Vec::<String>::new());
+    assert!(path.is_file());
+    assert!(is_closed);
+}
+
+#[test]
+fn a_name_that_gets_the_extension_of_an_existing_file_does_not_overwrite_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let taken = folder.path().join("taken.morph");
+    std::fs::write(&taken, "precious").expect("a file");
+    let mut window = with_change();
+    window.send(Intent::SaveAs);
+    choose(&mut window, &[&folder.path().join("taken")]);
+    assert_eq!(std::fs::read_to_string(&taken).expect("text"), "precious");
+    assert!(window.problems()[0].contains("taken.morph"));
+    assert_eq!(
+        open_dialog(&window),
+        Some(DialogPurpose::Save("taken.morph".into()))
+    );
+    // Selecting the existing file itself means that it may be replaced.
+    choose(&mut window, &[&taken]);
+    assert!(!window.session().is_dirty() && window.problems().is_empty());
+    assert_ne!(std::fs::read_to_string(&taken).expect("text"), "precious");
+}
+
+#[test]
+fn the_file_selected_in_the_dialog_is_opened() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.morph");
+    let mut window = with_change();
+    window.send(Intent::SaveTo(path.clone()));
+    let mut reopened = HeadlessWindow::new();
+    reopened.send(Intent::SaveAs);
+    assert_eq!(open_dialog(&reopened), None, "there is nothing to save");
+    reopened.send(Intent::AskOpen);
+    assert_eq!(open_dialog(&reopened), Some(DialogPurpose::Open));
+    choose(&mut reopened, &[&path]);
+    reopened.wait();
+    assert_eq!(reopened.session().path(), Some(path.as_path()));
+}
+
+/// Keys go to the file dialog while it is open.
+#[test]
+fn escape_cancels_the_dialog_and_enter_accepts_its_suggestion() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = HeadlessWindow::with_panels();
+    window.send(Intent::SaveTo(folder.path().join("first.morph")));
+    let press = |window: &mut HeadlessWindow, code: KeyCode, key: Key| {
+        // The dialog lists its folder in the background.
+        for _ in 0..20 {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+            window.update();
+        }
+        window.press(code, key);
+        window.update();
+        window.update();
+    };
+    window.send(Intent::SaveAs);
+    press(&mut window, KeyCode::Escape, Key::Escape);
+    assert_eq!(open_dialog(&window), None);
+    assert!(
+        confirmations(&window)
+            .iter()
+            .any(|text| text.contains("Save cancelled"))
+    );
+    window.send(Intent::SaveAs);
+    press(&mut window, KeyCode::Enter, Key::Enter);
+    // A file with the suggested name exists: the dialog asks, and Enter confirms.
+    press(&mut window, KeyCode::Enter, Key::Enter);
+    assert_eq!(open_dialog(&window), None);
+    let is_saved = |text: &String| text.ends_with("first.morph");
+    assert!(confirmations(&window).iter().any(is_saved));
+}

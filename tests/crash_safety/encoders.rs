@@ -1,0 +1,129 @@
+//! Encoders that fail or falsely report success leave the earlier film unchanged.
+//!
+//! Encoders that hang are tested in `signals`.
+
+use std::fs;
+
+use crate::cli_fixture::{CliFixture, stderr};
+use crate::{command_with_fake, fake_ffmpeg, with_fixture_files};
+
+/// Content of the film before the program runs.
+const EARLIER: &[u8] = b"an earlier good film";
+
+/// Arguments that encode four frames.
+const FILM: &str = "render a.obj b.obj --frames 4 --play once --size 64x48 --out film.mp4";
+
+/// A minimal MP4: the sample-size table that gives the number of frames, and bytes for them.
+fn mp4(frames: u32) -> Vec<u8> {
+    let mp4_box = |kind: &[u8], content: &[u8]| {
+        let size = content.len() as u32 + 8;
+        [&size.to_be_bytes(), kind, content].concat()
+    };
+    let table: Vec<u8> = [0, 100, frames].map(u32::to_be_bytes).concat();
+    let path = ["stsz", "stbl", "minf", "mdia", "trak", "moov"];
+    let track = path
+        .iter()
+        .fold(table, |content, kind| mp4_box(kind.as_bytes(), &content));
+    let media = mp4_box(b"mdat", &vec![1; 100 * frames as usize]);
+    [mp4_box(b"ftyp", b"isom"), track, media].concat()
+}
+
+/// The message of the program when `ffmpeg` is this script and its film must be rejected.
+///
+/// Checks that the message is one line and that the earlier film is unchanged.
+fn error_with_encoder(script: &str) -> String {
+    let cli = CliFixture::new();
+    fs::write(cli.path("film.mp4"), EARLIER).expect("written");
+    for (name, bytes) in [
+        ("whole", mp4(4)),
+        ("fewer", mp4(2)),
+        ("cut", mp4(4)[..300].to_vec()),
+    ] {
+        fs::write(cli.path(name), bytes).expect("written");
+    }
+    fake_ffmpeg(&cli, script);
+    let output = command_with_fake(&cli, FILM).output().expect("it starts");
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{script}: {message}");
+    assert_eq!(message.lines().count(), 1, "{script}: {message}");
+    assert!(message.contains("film.mp4"), "{script}: {message}");
+    assert!(!message.contains(".part"), "{script}: {message}");
+    let content = fs::read(cli.path("film.mp4")).expect("read");
+    assert_eq!(content, EARLIER, "{script}");
+    let expected = with_fixture_files(&["bin", "cut", "fewer", "film.mp4", "whole"]);
+    assert_eq!(cli.file_names("."), expected, "{script}");
+    message
+}
+
+#[test]
+fn an_incomplete_film_is_rejected_even_if_the_encoder_reports_success() {
+    for (script, reason) in [
+        ("cat > /dev/null", "no part `moov`"),
+        ("exit 0", "no part `moov`"),
+        ("cat > /dev/null; rm \"$out\"", "was not written completely"),
+        ("cat > /dev/null; cat fewer > \"$out\"", "2 of 4 frames"),
+        ("cat > /dev/null; cat cut > \"$out\"", "`mdat` is cut off"),
+        (
+            "cat > /dev/null; echo 'moov atom not written' >&2",
+            "ffmpeg said: moov atom not written",
+        ),
+    ] {
+        let message = error_with_encoder(script);
+        assert!(
+            message.contains("was not written completely"),
+            "{script}: {message}"
+        );
+        assert!(message.contains(reason), "{script}: {message}");
+    }
+}
+
+#[test]
+fn a_film_that_cannot_be_decoded_is_rejected() {
+    let script = "case \"$*\" in *null*) echo 'no picture' >&2; exit 1;; esac\n\
+        cat > /dev/null; cat whole > \"$out\"";
+    let message = error_with_encoder(script);
+    assert!(message.contains("no picture"), "{message}");
+}
+
+#[test]
+fn a_full_disk_is_reported_whatever_the_exit_status_of_the_encoder() {
+    let full = "echo 'av_interleaved_write_frame(): No space left on device' >&2";
+    for end in ["exit 0", "exit 1", "echo 'Conversion failed!' >&2; exit 1"] {
+        let message = error_with_encoder(&format!("cat > /dev/null; {full}; {end}"));
+        assert!(message.contains("the disk is full"), "{message}");
+    }
+}
+
+#[test]
+fn messages_of_the_encoder_are_quoted_with_the_file_name_of_the_user() {
+    let message = error_with_encoder("echo \"$out: Invalid argument\" >&2; exit 1");
+    assert!(
+        message.contains(": film.mp4: Invalid argument;"),
+        "{message}"
+    );
+    let message = error_with_encoder("printf '\\033[31mred\\n' >&2; kill -9 $$");
+    assert!(
+        message.contains("red") && !message.contains('\u{1b}'),
+        "{message}"
+    );
+    let message = error_with_encoder("exit 3");
+    assert!(message.contains("exit status: 3"), "{message}");
+}
+
+#[test]
+fn a_complete_film_replaces_the_earlier_one() {
+    let cli = CliFixture::new();
+    fs::write(cli.path("film.mp4"), EARLIER).expect("written");
+    fs::write(cli.path("whole"), mp4(4)).expect("written");
+    // Text on stderr alone is not a failure.
+    let script = "case \"$*\" in *null*) exit 0;; esac\n\
+        cat > /dev/null; cat whole > \"$out\"; echo 'deprecated' >&2";
+    fake_ffmpeg(&cli, script);
+    let output = command_with_fake(&cli, FILM).output().expect("it starts");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(fs::read(cli.path("film.mp4")).expect("read"), mp4(4));
+    assert_eq!(
+        cli.file_names("."),
+        with_fixture_files(&["bin", "film.mp4", "whole"])
+    );
+}

@@ -1,0 +1,143 @@
+//! Runs the built program in a temporary folder, with limits on memory and time.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Child, Command, ExitStatus, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+/// Maximum address space, in KiB, for opening any file (resource limit: 1 GiB).
+const MAX_KIB: u64 = 1 << 20;
+
+/// Maximum running time: five times the two seconds that are promised, since machines may be busy.
+const TIME_LIMIT: Duration = Duration::from_secs(10);
+
+/// A temporary folder with one valid design, `square.json`, in which the program runs.
+pub struct BoundedFixture(TempDir);
+
+/// Exit status and output of the program.
+#[derive(Debug)]
+pub struct ProgramOutput {
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl BoundedFixture {
+    pub fn new() -> Self {
+        let fixture = Self(tempfile::tempdir().expect("a folder"));
+        fixture.write("square.json", "[[0,0],[15,0],[15,15],[0,15]]");
+        fixture
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        fs::write(self.path(name), bytes).expect("written");
+    }
+
+    /// Runs the program; fails if it takes longer than [`TIME_LIMIT`].
+    pub fn run(&self, arguments: &[&str]) -> ProgramOutput {
+        ProgramOutput::new(wait(self.command(arguments), arguments, TIME_LIMIT))
+    }
+
+    /// Runs the program with nine times the limit, for work that is slow without optimisation.
+    pub fn run_long(&self, arguments: &[&str]) -> ProgramOutput {
+        ProgramOutput::new(wait(self.command(arguments), arguments, 9 * TIME_LIMIT))
+    }
+
+    fn command(&self, arguments: &[&str]) -> Child {
+        let program = env!("CARGO_BIN_EXE_morphospace");
+        let mut command = match cfg!(unix) {
+            // The shell sets the memory limit and then becomes the program.
+            true => {
+                let mut shell = Command::new("sh");
+                let limited = format!("ulimit -v {MAX_KIB}; exec \"$0\" \"$@\"");
+                shell.args(["-c", &limited, program]);
+                shell
+            }
+            false => Command::new(program),
+        };
+        command
+            .args(arguments)
+            .current_dir(self.0.path())
+            // The limit is on addresses: the arenas and stacks of many threads would reserve
+            // addresses without using memory.
+            .env("MALLOC_ARENA_MAX", "2")
+            .env("RAYON_NUM_THREADS", "2")
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command.spawn().expect("the program starts")
+    }
+
+    /// Asserts that `check` and `render` refuse a file with a one-line error that contains its name
+    /// and a reason.
+    #[track_caller]
+    pub fn assert_refused(&self, file: &str, reason: &str) {
+        self.assert_inputs_refused(&[file, "square.json"], file, reason);
+    }
+
+    /// Asserts the same for a list of inputs.
+    #[track_caller]
+    pub fn assert_inputs_refused(&self, inputs: &[&str], file: &str, reason: &str) {
+        let render = ["render", "--at", "0.5", "--size", "8x8", "--out", "x.png"];
+        for command in [&["check", "--samples", "2"][..], &render] {
+            let output = self.run(&[command, inputs].concat());
+            output.assert_one_line_error();
+            assert_eq!(output.code, Some(1), "{file}: {output:?}");
+            assert_eq!(output.stdout, "", "{file} wrote data");
+            for part in [file, reason] {
+                assert!(output.stderr.contains(part), "{part}: {}", output.stderr);
+            }
+            assert!(!self.path("x.png").exists());
+        }
+    }
+}
+
+impl ProgramOutput {
+    fn new(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Self {
+            code: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+
+    /// Asserts that stderr is one short line without control characters, and not a panic.
+    #[track_caller]
+    pub fn assert_one_line_error(&self) {
+        let line = self.stderr.strip_suffix('\n').unwrap_or("");
+        assert!(!line.is_empty(), "{self:?}");
+        assert_eq!(terminal_control(line), None, "{line:?}");
+        assert!(!line.contains("panicked"), "{line}");
+        assert!(line.chars().count() < 1_100, "{line}");
+    }
+}
+
+/// The first control or text-direction character, which a terminal would act on.
+pub fn terminal_control(line: &str) -> Option<char> {
+    let is_direction = |c| ('\u{202a}'..='\u{202e}').contains(&c);
+    line.chars().find(|&c| c.is_control() || is_direction(c))
+}
+
+/// Waits for a process and returns its output; kills it and fails after the limit.
+fn wait(mut child: Child, arguments: &[&str], limit: Duration) -> Output {
+    let start = Instant::now();
+    // The output fits into the buffer of a pipe, so it can be read after the end.
+    let exit_status =
+        |child: &mut Child| -> Option<ExitStatus> { child.try_wait().expect("a child") };
+    while exit_status(&mut child).is_none() {
+        if start.elapsed() > limit {
+            child.kill().expect("killed");
+            panic!("no exit within {limit:?}: {arguments:?}");
+        }
+        sleep(Duration::from_millis(10));
+    }
+    child.wait_with_output().expect("read")
+}

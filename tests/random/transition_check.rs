@@ -1,0 +1,81 @@
+//! Checks of the transition between two polygons that must hold for every input.
+
+use super::Rings;
+use morphospace::geometry::orient2d;
+use morphospace::measure::film_report;
+use morphospace::work::progress::Silent;
+use morphospace::{Design, Transition};
+
+/// Defects that a valid transition may still have.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FilmDefects {
+    /// Maximum number of folded faces in a sampled frame.
+    pub folds: usize,
+    /// Maximum number of boundary crossings in a sampled frame.
+    pub crossings: usize,
+}
+
+/// Number of sampled frames.
+const SAMPLES: usize = 17;
+
+/// Maximum relative deviation of the area at t = 0 and t = 1 (tolerance: a closed hole leaves a
+/// tiny ring).
+const END_TOLERANCE: f64 = 1e-4;
+
+/// Builds the transition by rigid parts and checks it; returns its defects.
+///
+/// Rings without area are not valid designs and count as free of defects.
+///
+/// # Errors
+/// A description, if two valid designs have no transition, a face is not positive at an end, a
+/// point is not finite, or the area at an end is not that of the design.
+pub fn check_transition(source: Rings, target: Rings) -> Result<FilmDefects, String> {
+    let source = Design::from_rings("source", source);
+    let target = Design::from_rings("target", target);
+    let (Ok(source), Ok(target)) = (source, target) else {
+        return Ok(FilmDefects::default());
+    };
+    let areas = [&source, &target].map(|d| d.outline(0.0).map_or(0.0, |o| o.area()));
+    let transition = Transition::between(source, target).map_err(|e| e.to_string())?;
+    check_positive_faces(&transition)?;
+    check_finite_vertices(&transition)?;
+    let report = film_report(&transition, SAMPLES, &Silent).map_err(|e| e.to_string())?;
+    for (i, area) in [(0, areas[0]), (SAMPLES - 1, areas[1])] {
+        let deviation = (report.samples[i].area / area - 1.0).abs();
+        // NaN would pass the comparison alone.
+        if deviation.is_nan() || deviation > END_TOLERANCE {
+            return Err(format!("frame {i}: the area is off by {deviation}"));
+        }
+    }
+    Ok(FilmDefects {
+        folds: report.worst_folds.unwrap_or(0),
+        crossings: report.worst_crossings.unwrap_or(0),
+    })
+}
+
+/// Checks that every face is positive in both designs.
+fn check_positive_faces(transition: &Transition) -> Result<(), String> {
+    let mesh = transition.compatible().ok_or("no mesh")?;
+    for points in [mesh.source(), mesh.target()] {
+        let is_positive = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| points[v as usize]);
+            orient2d(a, b, c) > 0.0
+        };
+        if !mesh.faces().iter().all(is_positive) {
+            return Err("a face is not positive".to_owned());
+        }
+    }
+    Ok(())
+}
+
+/// Checks that every vertex is finite in every sampled frame.
+fn check_finite_vertices(transition: &Transition) -> Result<(), String> {
+    let mut frame = transition.frame(0.0);
+    for i in 0..SAMPLES {
+        frame.seek(i as f64 / (SAMPLES - 1) as f64);
+        if !frame.placement().in_frame.iter().all(|p| p.is_finite()) {
+            return Err(format!("frame {i}: a point that is not finite"));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,302 @@
+//! The crate's own source code, parsed: modules, their imports, and which file uses which.
+//!
+//! Every path in the code is followed through imports and re-exports to the file that defines
+//! the item it names. Method calls are not followed, because `x.f()` names no file. Test code
+//! is left out.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use syn::punctuated::Punctuated;
+use syn::visit::{self, Visit};
+
+/// Segments of a path.
+pub type Names = Vec<String>;
+
+/// For each file, the files that it uses, each with one path that shows it.
+pub type Uses<'a> = BTreeMap<&'a Path, BTreeMap<&'a Path, String>>;
+
+/// A module: its file, the items it defines and its imports.
+#[derive(Default)]
+struct Module {
+    file: PathBuf,
+    defined: BTreeSet<String>,
+    /// Imported names and the paths they stand for.
+    imported: BTreeMap<String, Names>,
+    /// Paths of glob imports, without `::*`.
+    globs: Vec<Names>,
+    /// Every path in the code, as written.
+    named: Vec<Names>,
+}
+
+/// All modules of a crate, by path.
+#[derive(Default)]
+pub struct Crate(BTreeMap<Names, Module>);
+
+/// Whether an item is compiled for tests only.
+pub fn is_test(attributes: &[syn::Attribute]) -> bool {
+    let is_cfg_test = |attribute: &syn::Attribute| {
+        attribute.path().is_ident("cfg")
+            && (attribute.parse_args::<syn::Path>()).is_ok_and(|path| path.is_ident("test"))
+    };
+    attributes.iter().any(is_cfg_test)
+}
+
+impl Crate {
+    /// Parses the crate whose `lib.rs` lies in `root`.
+    pub fn read(root: &Path) -> Self {
+        let mut found = Self::default();
+        found.add_file(Vec::new(), &root.join("lib.rs"), root);
+        found
+    }
+
+    /// Parses a module; `folder` holds its children.
+    fn add_file(&mut self, name: Names, file: &Path, folder: &Path) {
+        let text = fs::read_to_string(file).expect("a source file");
+        let parsed = syn::parse_file(&text).expect("Rust");
+        self.add_items(name, file, folder, &parsed.items);
+    }
+
+    fn add_items(&mut self, name: Names, file: &Path, folder: &Path, items: &[syn::Item]) {
+        let mut module = Module {
+            file: file.to_owned(),
+            ..Module::default()
+        };
+        for item in items {
+            if let syn::Item::Mod(child) = item {
+                if !is_test(&child.attrs) {
+                    self.add_child(&name, file, folder, child);
+                }
+                continue;
+            }
+            module.visit_item(item);
+        }
+        self.0.insert(name, module);
+    }
+
+    fn add_child(&mut self, parent: &[String], file: &Path, folder: &Path, child: &syn::ItemMod) {
+        let ident = child.ident.to_string();
+        let name = [parent, std::slice::from_ref(&ident)].concat();
+        let folder = folder.join(&ident);
+        if let Some((_, items)) = &child.content {
+            return self.add_items(name, file, &folder, items);
+        }
+        self.add_file(name, &folder.with_extension("rs"), &folder);
+    }
+
+    /// Returns the file that defines the item at `path`, as seen from `module`; `None` for
+    /// items of other crates and for modules.
+    fn file_of(&self, module: &[String], path: &[String], depth: usize) -> Option<&Path> {
+        let at = self.0.get(module)?;
+        let (first, rest) = path.split_first()?;
+        // Glob imports may be circular.
+        if depth > 20 {
+            return None;
+        }
+        match first.as_str() {
+            "crate" => return self.file_of(&[], rest, depth + 1),
+            "self" => return self.file_of(module, rest, depth + 1),
+            "super" => {
+                let (_, parent) = module.split_last()?;
+                return self.file_of(parent, rest, depth + 1);
+            }
+            _ => {}
+        }
+        let child = [module, std::slice::from_ref(first)].concat();
+        if self.0.contains_key(&child) {
+            return self.file_of(&child, rest, depth + 1);
+        }
+        if at.defined.contains(first) {
+            return Some(&at.file);
+        }
+        if let Some(target) = at.imported.get(first) {
+            let path = [target.as_slice(), rest].concat();
+            // Next to a module of the same name, `use image::…` means the crate.
+            return (path.first() != Some(first) || target.len() > 1)
+                .then(|| self.file_of(module, &path, depth + 1))?;
+        }
+        at.globs.iter().find_map(|glob| {
+            let path = [glob.as_slice(), path].concat();
+            self.file_of(module, &path, depth + 1)
+        })
+    }
+
+    /// Paths of the top-level modules.
+    pub fn top_modules(&self) -> Names {
+        let top = self.0.keys().filter(|path| path.len() == 1);
+        top.map(|path| path[0].clone()).collect()
+    }
+
+    /// Returns which file uses which.
+    pub fn uses(&self) -> Uses<'_> {
+        let mut uses = Uses::new();
+        for (name, module) in &self.0 {
+            let from = uses.entry(&module.file).or_default();
+            let imported = module.imported.values().filter(|path| is_inside(path));
+            for path in module.named.iter().chain(imported) {
+                if let Some(file) = self.file_of(name, path, 0)
+                    && file != module.file
+                {
+                    from.entry(file).or_insert_with(|| path.join("::"));
+                }
+            }
+        }
+        uses
+    }
+}
+
+/// Whether an import is of this crate.
+fn is_inside(path: &[String]) -> bool {
+    matches!(path[0].as_str(), "crate" | "self" | "super")
+}
+
+impl Module {
+    fn import(&mut self, before: &[String], tree: &syn::UseTree) {
+        let with = |ident: &syn::Ident| [before, &[ident.to_string()]].concat();
+        match tree {
+            syn::UseTree::Path(path) => self.import(&with(&path.ident), &path.tree),
+            syn::UseTree::Group(group) => {
+                group
+                    .items
+                    .iter()
+                    .for_each(|tree| self.import(before, tree));
+            }
+            syn::UseTree::Glob(_) => self.globs.push(before.to_vec()),
+            syn::UseTree::Name(name) if name.ident == "self" => {
+                let last = before.last().cloned().unwrap_or_default();
+                self.imported.insert(last, before.to_vec());
+            }
+            syn::UseTree::Name(name) => {
+                self.imported
+                    .insert(name.ident.to_string(), with(&name.ident));
+            }
+            syn::UseTree::Rename(rename) => {
+                let path = with(&rename.ident);
+                self.imported.insert(rename.rename.to_string(), path);
+            }
+        }
+    }
+}
+
+impl<'ast> Visit<'ast> for Module {
+    fn visit_item(&mut self, item: &'ast syn::Item) {
+        use syn::Item::{Const, Enum, Fn, Macro, Static, Struct, Trait, Type};
+        let (attributes, ident) = match item {
+            Const(item) => (&item.attrs, Some(&item.ident)),
+            Enum(item) => (&item.attrs, Some(&item.ident)),
+            Fn(item) => (&item.attrs, Some(&item.sig.ident)),
+            Macro(item) => (&item.attrs, item.ident.as_ref()),
+            Static(item) => (&item.attrs, Some(&item.ident)),
+            Struct(item) => (&item.attrs, Some(&item.ident)),
+            Trait(item) => (&item.attrs, Some(&item.ident)),
+            Type(item) => (&item.attrs, Some(&item.ident)),
+            syn::Item::Use(item) => (&item.attrs, None),
+            syn::Item::Impl(item) => (&item.attrs, None),
+            _ => return visit::visit_item(self, item),
+        };
+        if is_test(attributes) {
+            return;
+        }
+        self.defined.extend(ident.map(ToString::to_string));
+        visit::visit_item(self, item);
+    }
+
+    fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
+        self.import(&[], &item.tree);
+    }
+
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        let names = path.segments.iter().map(|s| s.ident.to_string());
+        self.named.push(names.collect());
+        visit::visit_path(self, path);
+    }
+
+    fn visit_macro(&mut self, mac: &'ast syn::Macro) {
+        let arguments = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
+        if let Ok(arguments) = mac.parse_body_with(arguments) {
+            // The parsed arguments live only as long as this call, so the names are copied.
+            let mut inside = Self::default();
+            arguments.iter().for_each(|e| inside.visit_expr(e));
+            self.named.append(&mut inside.named);
+        }
+        visit::visit_macro(self, mac);
+    }
+}
+
+/// The folder of the crate's source.
+pub fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
+/// Every Rust file below a folder, sorted.
+pub fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("a folder").flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// Lists imports between neighbours in one folder (files, or subfolders with all their files)
+/// that lie on a cycle.
+pub fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
+    let mut graphs: BTreeMap<PathBuf, NeighbourGraph> = BTreeMap::new();
+    for (from, used) in uses {
+        for (to, name) in used {
+            if let Some((parent, [a, b])) = neighbours(from, to) {
+                let edges = graphs.entry(parent).or_default().entry(a).or_default();
+                edges.insert(b, name.clone());
+            }
+        }
+    }
+    let mut cycles = Vec::new();
+    for (parent, graph) in &graphs {
+        for (a, edges) in graph {
+            let back = edges.iter().filter(|(b, _)| leads_to(graph, b, a));
+            cycles
+                .extend(back.map(|(b, name)| format!("{}: {a} -> {b}: {name}", parent.display())));
+        }
+    }
+    cycles
+}
+
+/// Neighbours in a folder, and a path by which one uses the other.
+type NeighbourGraph = BTreeMap<String, BTreeMap<String, String>>;
+
+/// The deepest folder that holds both files, and the two entries of it they lie in. A folder
+/// and the file that declares its modules (`a/` and `a.rs`) are one entry.
+fn neighbours(from: &Path, to: &Path) -> Option<(PathBuf, [String; 2])> {
+    let [a, b] = [from, to].map(|file| -> Names {
+        let file = file.with_extension("");
+        let parts = file.components();
+        parts
+            .map(|part| part.as_os_str().to_string_lossy().into_owned())
+            .collect()
+    });
+    let shared = a.iter().zip(&b).take_while(|(x, y)| x == y).count();
+    let entries = [a.get(shared)?.clone(), b.get(shared)?.clone()];
+    Some((a[..shared].iter().collect(), entries))
+}
+
+fn leads_to(graph: &NeighbourGraph, from: &str, to: &str) -> bool {
+    let mut seen = BTreeSet::new();
+    let mut open = vec![from];
+    while let Some(entry) = open.pop() {
+        if entry == to {
+            return true;
+        }
+        let next = graph.get(entry).into_iter().flat_map(|edges| edges.keys());
+        open.extend(next.map(String::as_str).filter(|entry| seen.insert(*entry)));
+    }
+    false
+}
