@@ -1,5 +1,5 @@
-//! Times a frame of two pictures of 1920 × 1080 pixels on the CPU: the warp by 40 pairs of lines,
-//! and the pixels.
+//! Times the blending of two pictures of 1920 × 1080 pixels on the CPU: the warp by 40 pairs of
+//! lines, the rendering of the pixels, and both together.
 //!
 //! `cargo bench --no-default-features --bench colours`
 
@@ -54,8 +54,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Pair of lines number `k`: spread over the frame by an additive recurrence, moved and rotated
-/// slightly.
+/// Returns the `k`-th pair of lines. The source lines are spread over the frame by an additive
+/// recurrence; each target line is its source line moved, rotated and lengthened slightly.
 fn line(k: u32) -> LinePair {
     let k = f64::from(k);
     let position = DVec2::new((k * 0.618_034).fract(), (k * 0.754_878).fract());

@@ -1,4 +1,5 @@
-//! Times distance transforms, exact distance fields of polygons, and contours.
+//! Times distance transforms of masks, exact distance fields of polygons, and the extraction of the
+//! contour of a field blend.
 //!
 //! `cargo bench --no-default-features --bench field`. For comparison, `benches/field_edt.py` times
 //! `edt.sdf` (PyPI package edt) on the same masks.
@@ -22,7 +23,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// A gear of 24 teeth with a hole.
+/// Mask of a gear with 24 teeth and a central hole; `side` is the side of the mask in cells.
 fn gear(side: u32) -> Result<Mask> {
     let half = f64::from(side / 2);
     let is_inside = |x: u32, y: u32| {
@@ -34,7 +35,8 @@ fn gear(side: u32) -> Result<Mask> {
     mask(side, is_inside)
 }
 
-/// Random cells, half of them inside: as many and as short runs as possible.
+/// Mask of random cells, half of them inside, so that runs of equal cells are many and short;
+/// `side` is the side of the mask in cells.
 fn noise(side: u32) -> Result<Mask> {
     mask(side, |x, y| {
         let hash = (x + side * y).wrapping_mul(2_654_435_761);
@@ -80,7 +82,8 @@ fn signed_transform(criterion: &mut Criterion) -> Result<()> {
     Ok(())
 }
 
-/// A wavy ring with the given number of edges.
+/// A disc with a wavy outline: `edges` is the number of its edges, `waves` that of the waves around
+/// it.
 fn wavy(edges: u32, waves: f64) -> Result<Regions> {
     let angles = (0..edges).map(|i| f64::from(i) * TAU / f64::from(edges));
     let ring = angles.map(|a| DVec2::from_angle(a) * (8.0 + 2.0 * (waves * a).sin()));

@@ -1,11 +1,13 @@
-//! Times recording and playing of transitions with 100,000 and a million vertices.
+//! Times the recording of warps of 100,000 and a million vertices, and frames solved by the warp or
+//! played from the recording.
 //!
-//! `cargo bench --no-default-features --bench film`. If the variable `FILM_CHOLMOD` is set,
-//! `benches/film_cholmod.sh` times the back-substitution of CHOLMOD on the same matrix in the same
-//! run.
+//! `cargo bench --no-default-features --bench film`. If the environment variable `FILM_CHOLMOD` is
+//! set, the run also times CHOLMOD's back-substitution with the same matrix
+//! (`benches/film_cholmod.sh`).
 //!
-//! - `solved`: a whole solved frame: right-hand sides, solve, vertex positions
-//! - `played`: the same frame from the recording, on all threads and on one
+//! - `solved`: a frame computed by the warp: right-hand sides, solve, vertex positions
+//! - `played`: the same frame evaluated from the recording on all threads
+//! - `played, 1 thread`: the same on one thread
 
 use criterion::{BenchmarkId, Criterion};
 use morphospace::compatible::CompatibleMesh;
@@ -23,7 +25,7 @@ use std::time::Instant;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// A square sheet of `side`² vertices, bent into a half ring.
+/// A square sheet of `side` × `side` vertices that bends into a half ring.
 fn sheet(side: u32) -> Result<CompatibleMesh> {
     let step = 1.0 / f64::from(side - 1);
     let source: Vec<DVec2> = (0..side * side)
@@ -40,7 +42,7 @@ fn sheet(side: u32) -> Result<CompatibleMesh> {
     Ok(CompatibleMesh::new(faces, source, target, Vec::new())?)
 }
 
-/// Median time of `runs` back-substitutions by CHOLMOD, in milliseconds.
+/// Median time of `runs` back-substitutions by CHOLMOD with the matrix of `arap`, in milliseconds.
 fn cholmod_ms(arap: &Arap, runs: u32) -> Result<f64> {
     let matrix = arap.system();
     let path = std::env::temp_dir().join(format!("morphospace-film-{}.mtx", std::process::id()));
@@ -68,7 +70,7 @@ fn cholmod_ms(arap: &Arap, runs: u32) -> Result<f64> {
     Ok(String::from_utf8(out.stdout)?.trim().parse()?)
 }
 
-/// Times frames at changing t.
+/// Times frames placed by `placer` on `threads`, with a different t for each frame.
 fn play(criterion: &mut Criterion, id: BenchmarkId, mut placer: Placer, threads: &ThreadPool) {
     let mut group = criterion.benchmark_group("film");
     group.sample_size(20);

@@ -1,11 +1,11 @@
-//! Times building and playing as-rigid-as-possible interpolations with 1,000, 10,000 and 100,000
-//! vertices, and faer's own back-substitution on the same matrix in the same run.
+//! Times the construction and the frames of as-rigid-as-possible interpolations with 1,000, 10,000
+//! and 100,000 vertices. For comparison, times faer's own back-substitution with the same matrix.
 //!
 //! `cargo bench --no-default-features --bench frame`
 //!
-//! - `build`: local maps, assembly and factorisation
-//! - `bare`: faer's own solve with reused memory, two right-hand sides
-//! - `solve`: the same through this library
+//! - `build`: maps of the faces, assembly of the matrix, and factorisation
+//! - `bare`: solve by faer alone with reused memory, for two right-hand sides
+//! - `solve`: the same solve by this library
 //! - `frame`: a whole frame: right-hand sides, solve, vertex positions
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -24,7 +24,7 @@ use morphospace::warp::{Arap, ArapOptions, Warp};
 use morphospace::work::progress::Silent;
 use std::hint::black_box;
 
-/// A square sheet of `side`² vertices, bent into a half ring.
+/// A square sheet of `side` × `side` vertices that bends into a half ring.
 fn sheet(side: u32) -> CompatibleMesh {
     let step = 1.0 / f64::from(side - 1);
     let source: Vec<DVec2> = (0..side * side)
@@ -41,7 +41,7 @@ fn sheet(side: u32) -> CompatibleMesh {
     CompatibleMesh::new(faces, source, target, Vec::new()).expect("a valid sheet")
 }
 
-/// faer's Cholesky factor, used without this library.
+/// A Cholesky factor computed by faer without this library.
 struct FaerCholesky {
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,

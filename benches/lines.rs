@@ -1,10 +1,11 @@
-//! Times a whole frame of two pictures of 1024 × 1024 pixels, warped by 40 pairs of lines: both the
-//! warp on its grid and the pixels.
+//! Times a frame that blends two pictures of 1024 × 1024 pixels, warped by 40 pairs of lines. The
+//! whole frame (warp and pixels) and the warp alone are timed.
 //!
-//! `cargo bench --no-default-features --bench lines`. If the variable `LINES_NUMPY` names a Python
-//! with NumPy, `benches/lines_numpy.py` makes the same frame first; the times of both and the
-//! differences of their results are printed. NumPy evaluates the lines at every pixel; the program
-//! does so at the vertices of its grid and interpolates linearly between them.
+//! `cargo bench --no-default-features --bench lines`. If the environment variable `LINES_NUMPY`
+//! names a Python interpreter with NumPy, `benches/lines_numpy.py` first computes the same frame.
+//! The times of NumPy and of the program and the differences between their results are then
+//! printed. NumPy evaluates the line warp at every pixel; the program evaluates it at the vertices
+//! of its grid and interpolates linearly between them.
 
 use criterion::Criterion;
 use image::{DynamicImage, ImageFormat, Rgba, RgbaImage};
@@ -26,10 +27,10 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 /// Side of the pictures in pixels.
 const SIDE: usize = 1024;
 
-/// Number of pairs of lines.
+/// Number of pairs of lines that define the warp.
 const COUNT: u32 = 40;
 
-/// Pixels of the frame in the plane.
+/// Raster on which the frame is rendered: one pixel per unit of the plane.
 const PIXELS: PictureRaster = PictureRaster {
     size: [SIDE as u32; 2],
     corner: DVec2::new(0.0, SIDE as f64),
@@ -48,13 +49,13 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Ends of a line with the given midpoint, angle and length.
+/// Ends of a line with the given midpoint, angle (in radians) and length.
 fn line(midpoint: DVec2, angle: f64, length: f64) -> [DVec2; 2] {
     let half = DVec2::from_angle(angle) * (0.5 * length);
     [midpoint - half, midpoint + half]
 }
 
-/// Pair of lines number `i`; the same as in `benches/lines_numpy.py`.
+/// Returns the `i`-th pair of lines; `benches/lines_numpy.py` uses the same pairs.
 fn pair(i: u32) -> LinePair {
     let i = f64::from(i);
     let midpoint = DVec2::new(0.5 + i * 0.7548776662, 0.5 + i * 0.5698402910).fract() * SIDE as f64;
@@ -68,7 +69,7 @@ fn pair(i: u32) -> LinePair {
     }
 }
 
-/// An opaque picture of smooth waves.
+/// An opaque picture of smooth waves, which `shift` moves.
 fn design(shift: u32) -> Result<Arc<Design>> {
     let wave = |x: u32, k: u32| ((x * (k + 1) + shift * 57) % 511).abs_diff(255) as u8;
     let pixel = |x, y| Rgba([wave(x, 0), wave(y, 1), wave(x + y, 2), 255]);
@@ -86,13 +87,13 @@ fn transition() -> Result<Transition> {
     Ok(Transition::build(&spec, &Silent)?)
 }
 
-/// The picture at t = ½; `None` if the transition has no pictures.
+/// Renders the blended picture at t = ½; `None` if the transition has no pictures.
 fn picture(frame: &mut Frame) -> Option<RgbaImage> {
     frame.seek(0.5);
     frame.picture(&PIXELS)
 }
 
-/// Times NumPy and the program, and prints the differences of their results.
+/// Times NumPy and the program, and prints the times and the differences between their results.
 #[expect(clippy::print_stdout, reason = "a benchmark prints its results")]
 fn compare(python: &std::ffi::OsStr, transition: &Transition) -> Result<()> {
     let out = std::env::temp_dir().join(format!("lines_numpy_{}.bin", std::process::id()));
@@ -141,8 +142,11 @@ fn max_and_mean(values: &[f64]) -> (f64, f64) {
     (max, values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Distances of the positions that each pixel has in both designs from those expected: four planes,
-/// x and y in the source and in the target.
+/// For each pixel: the distances between the expected positions and those of `placement`, first in
+/// the source, then in the target.
+///
+/// `expected` consists of four planes with a value per pixel: x and y in the source, x and y in the
+/// target.
 fn map_distances(placement: &Placement, expected: &[f64]) -> Vec<f64> {
     let mut distances = vec![f64::INFINITY; 2 * SIDE * SIDE];
     for face in placement.faces.iter() {
@@ -171,7 +175,7 @@ fn map_distances(placement: &Placement, expected: &[f64]) -> Vec<f64> {
     distances
 }
 
-/// Times whole frames on one and on two threads.
+/// Times whole frames (warp and pixels) on one and on two threads.
 fn whole_frame(criterion: &mut Criterion, transition: &Transition) -> Result<()> {
     for threads in [1, 2] {
         let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);

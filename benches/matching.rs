@@ -1,4 +1,5 @@
-//! Times the matching of two outlines, and the construction of polygons with shared vertices.
+//! Times the matching of two outlines, and the construction of two polygons with corresponding
+//! vertices from the match.
 //!
 //! `cargo bench --no-default-features --bench matching`
 
@@ -18,7 +19,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// A lobed outline without symmetry.
+/// An outline of `count` points with `lobes` lobes and without rotational symmetry.
 fn lobes(count: u32, lobes: f64) -> Result<BoundaryCurve> {
     let point = |k: u32| {
         let a = TAU * f64::from(k) / f64::from(count);
@@ -30,7 +31,7 @@ fn lobes(count: u32, lobes: f64) -> Result<BoundaryCurve> {
     )?)?)
 }
 
-/// Matching by number of points and of samples; both outlines have equally many points.
+/// Times matching for several numbers of outline points and of samples.
 fn matching(criterion: &mut Criterion) -> Result<()> {
     let mut group = criterion.benchmark_group("match_curves");
     group.sample_size(20);

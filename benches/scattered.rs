@@ -1,9 +1,9 @@
-//! Times warps by scattered points and by lattices: frames on a raster and on a grid.
+//! Times frames of warps by scattered points and by lattices. A frame evaluates two maps, into the
+//! source and into the target, on a raster of 512 × 512 points or on a grid of 64 × 64 cells.
 //!
 //! `cargo bench --no-default-features --bench scattered`. For comparison,
-//! `benches/scattered_scipy.py` solves and evaluates the same two maps, into the source and into
-//! the target, with `scipy.interpolate.RBFInterpolator`, for the same point pairs as the rasters
-//! here.
+//! `benches/scattered_scipy.py` solves and evaluates the maps of the raster frames with
+//! `scipy.interpolate.RBFInterpolator`, for the same point pairs.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use morphospace::correspondence::PointPair;
@@ -15,7 +15,7 @@ use std::error::Error;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Frame of the warps: the unit square.
+/// Region of the plane that the warps cover: the unit square.
 const SQUARE: Bounds = Bounds {
     min: DVec2::ZERO,
     max: DVec2::ONE,
@@ -29,19 +29,20 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Evenly spread points: the additive recurrence by the plastic number.
+/// Returns `count` points spread evenly over the unit square by the additive recurrence with the
+/// plastic number. `shift` moves all of them along the recurrence, in steps.
 fn spread(count: u32, shift: f64) -> Vec<DVec2> {
     let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
     let point = |k| ((f64::from(k) + shift) * step).fract();
     (1..=count).map(point).collect()
 }
 
-/// Target of a point: a smooth function.
+/// Target of the source point `p`: a smooth function of `p`.
 fn target_of(p: &DVec2) -> DVec2 {
     DVec2::new((3.0 * p.x).sin() + p.y * p.y, p.x * (2.0 * p.y).cos())
 }
 
-/// Options with a radial basis and its width.
+/// Options with the given radial basis and a width suited to the unit square.
 fn with_basis(basis: RadialBasis) -> ScatteredOptions {
     ScatteredOptions {
         basis,
@@ -50,7 +51,8 @@ fn with_basis(basis: RadialBasis) -> ScatteredOptions {
     }
 }
 
-/// Times frames at t = ½ on a raster of 512 × 512 points: both maps are solved and evaluated.
+/// Times frames at t = ½ on a raster of 512 × 512 points. Each frame solves both maps and evaluates
+/// them at all points.
 fn rasters(criterion: &mut Criterion) -> Result<()> {
     let raster: Vec<DVec2> = (0..512 * 512)
         .map(|k| DVec2::new(f64::from(k % 512), f64::from(k / 512)) / 511.0)
@@ -92,7 +94,7 @@ fn rasters(criterion: &mut Criterion) -> Result<()> {
     Ok(())
 }
 
-/// Point pairs that move by at most a tenth of the frame in x and y.
+/// Point pairs whose targets differ from their sources by at most 0.1 in x and in y.
 fn pairs(count: u32) -> Vec<PointPair> {
     let ends = spread(count, 0.0).into_iter().zip(spread(count, 0.3));
     let pair = |(source, shift): (DVec2, DVec2)| PointPair {
@@ -102,7 +104,7 @@ fn pairs(count: u32) -> Vec<PointPair> {
     ends.map(pair).collect()
 }
 
-/// Times frames on a grid, by number of point pairs.
+/// Times frames on a grid for several numbers of point pairs.
 fn frames(criterion: &mut Criterion) -> Result<()> {
     let mut group = criterion.benchmark_group("frame");
     group.sample_size(10);
@@ -133,7 +135,8 @@ fn frames(criterion: &mut Criterion) -> Result<()> {
     Ok(())
 }
 
-/// A function that computes a frame on a grid of 64 × 64 cells, at another t in each call.
+/// Returns a function that computes a frame of `warp` on a grid of 64 × 64 cells, at a different t
+/// in each call.
 fn frame<W: PlaneWarp>(warp: &W) -> impl FnMut() {
     let places = PlaneGrid::covering(&SQUARE, 64).places().to_vec();
     let (mut source, mut target) = (places.clone(), places.clone());

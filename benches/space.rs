@@ -1,5 +1,6 @@
-//! Times a move of the marker on the map of six outlines of 150 points each: the weights at the
-//! marker, the blend as rigid parts, and its image as the window draws it.
+//! Times the map of six outlines of 150 points each. For a new position of the marker: its weights,
+//! the blend of the designs as rigid parts, and the image of the blend as the window draws it. For
+//! the whole map: its measures on a grid of 64 × 64 positions.
 //!
 //! `cargo bench --no-default-features --bench space`
 
@@ -18,14 +19,14 @@ use std::sync::Arc;
 /// Number of points of each outline.
 const POINTS: u32 = 150;
 
-/// Size of the blend in a window of 1280 × 720, in pixels.
+/// Size of the image of the blend in a window of 1280 × 720, in pixels.
 const SIZE: [u32; 2] = [360, 472];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = Criterion::default().configure_from_args().sample_size(30);
     let designs: Vec<Arc<Design>> = (0..6).map(flower).collect::<Result<_, _>>()?;
     let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent)?;
-    // Without a common mesh the space would blend fields, which is timed differently.
+    // Without a common mesh the space would blend fields instead of rigid parts.
     space.family().ok_or("no common mesh")?;
     let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances()))?;
     let mut frame = space.frame();
@@ -62,7 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A rounded outline with `k` + 2 lobes.
+/// A smooth outline with `k` + 2 lobes.
 fn flower(k: u32) -> Result<Arc<Design>, Box<dyn Error>> {
     let lobes = f64::from(k + 2);
     let corner = |i: u32| {

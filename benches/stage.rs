@@ -1,13 +1,16 @@
-//! Times the stage with 25,000 to a million vertices, without a window.
+//! Times the drawing of transitions of 25,000 to a million vertices by the GPU, without a window.
 //!
-//! The cases are the gallery's rotor with growing subdivision, and a sheet that is bent into a half
-//! ring. `cargo bench --bench stage`; names after `--` select cases. Images are 1280 × 720 pixels,
-//! rendered and read back.
+//! The cases are the gallery's rotor with three levels of subdivision, and a sheet that bends into
+//! a half ring. `cargo bench --bench stage`; names after `--` select cases. Images have 1280 × 720
+//! pixels; they are rendered and read back from the GPU.
 //!
-//! - `first image`: from the designs to the first rendered image
-//! - `recorded`: recording, after which the GPU plays
-//! - `solve`, `draw`: CPU times of a frame, as F3 shows them; once solved and once played
-//! - `image`: a whole frame
+//! - `first image`: time from the designs to the first rendered image
+//! - `recorded`: time to record the transition, so that the GPU can play it
+//! - `solve`, `draw`: median CPU times of a frame, as F3 shows them
+//! - `image`: median time of a frame, including its image
+//!
+//! `solve`, `draw` and `image` are printed twice: for frames solved on the CPU, and for frames
+//! played on the GPU from the recording.
 
 #[path = "../tests/gpu/offscreen.rs"]
 #[expect(dead_code, reason = "most functions are used by the tests")]
@@ -26,7 +29,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Number of frames of which the median is printed.
+/// Number of frames whose median time is printed.
 const FRAMES: u32 = 40;
 
 #[expect(clippy::print_stdout, reason = "a benchmark prints its results")]
@@ -56,10 +59,10 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Function that creates the transition of a case.
+/// Function that creates the specification of a case's transition.
 type MakeSpec = fn() -> Result<TransitionSpec, Box<dyn Error>>;
 
-/// Names and transitions of the cases.
+/// Name of each case, and the function that creates the specification of its transition.
 const CASES: [(&str, MakeSpec); 4] = [
     ("rotor3", || rotor(3)),
     ("rotor4", || rotor(4)),
@@ -67,14 +70,14 @@ const CASES: [(&str, MakeSpec); 4] = [
     ("sheet", sheet),
 ];
 
-/// The gallery's rotor with the given number of subdivisions.
+/// The gallery's rotor, with each face split into four `subdivisions` times.
 fn rotor(subdivisions: u32) -> Result<TransitionSpec, Box<dyn Error>> {
     let mut spec = gallery::load("rotor")?.spec()?;
     spec.options.arap.subdivisions = subdivisions;
     Ok(spec)
 }
 
-/// A square of a million vertices, bent by three radians.
+/// A square sheet of a million vertices that bends by three radians.
 fn sheet() -> Result<TransitionSpec, Box<dyn Error>> {
     const SIDE: u32 = 1000;
     let step = 1.0 / f64::from(SIDE - 1);
@@ -96,7 +99,7 @@ fn sheet() -> Result<TransitionSpec, Box<dyn Error>> {
     Ok(TransitionSpec::new(source?, target?))
 }
 
-/// Times a case; returns its results as text.
+/// Times one case; returns its times as text.
 fn measure(
     renderer: &mut OffscreenRenderer,
     make_spec: MakeSpec,
@@ -126,7 +129,7 @@ fn measure(
     ))
 }
 
-/// Median times of frames, as text.
+/// Times [`FRAMES`] frames of the scene on the stage; returns the median times as text.
 fn time_frames(
     renderer: &mut OffscreenRenderer,
     scene: &RenderedScene,

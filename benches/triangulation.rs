@@ -1,4 +1,5 @@
-//! Times compatible triangulation of easy and hard pairs, and its growth with the number of points.
+//! Times compatible triangulation of easy and hard pairs of outlines, and the growth of the time
+//! with the number of points.
 //!
 //! `cargo bench --no-default-features --bench triangulation`
 
@@ -8,7 +9,7 @@ use morphospace::geometry::DVec2;
 use morphospace::work::progress::Silent;
 use std::f64::consts::TAU;
 
-/// Rings of source and target.
+/// Boundary rings of the source and of the target; each design is a list of rings.
 type RingPair = [Vec<Vec<DVec2>>; 2];
 
 fn main() {
@@ -22,7 +23,7 @@ fn polar(radius: f64, angle: f64) -> DVec2 {
     radius * DVec2::from_angle(angle)
 }
 
-/// A lobed outline without symmetry.
+/// An outline of `count` points with `lobes` lobes and without rotational symmetry.
 fn lobes(count: usize, lobes: f64) -> Vec<DVec2> {
     let point = |k: usize| {
         let a = TAU * k as f64 / count as f64;
@@ -31,7 +32,7 @@ fn lobes(count: usize, lobes: f64) -> Vec<DVec2> {
     (0..count).map(point).collect()
 }
 
-/// A band wound into a spiral.
+/// Outline of a band that is wound into a spiral.
 fn spiral(count: usize, turns: f64) -> Vec<DVec2> {
     let steps = count / 2 - 1;
     let at = |k: usize, out: f64| {
@@ -42,7 +43,7 @@ fn spiral(count: usize, turns: f64) -> Vec<DVec2> {
     outer.chain((0..=steps).rev().map(|k| at(k, 0.0))).collect()
 }
 
-/// A straight band.
+/// Outline of a straight band.
 fn strip(count: usize) -> Vec<DVec2> {
     let steps = count / 2 - 1;
     let at = |k: usize, y: f64| DVec2::new(30.0 * k as f64 / steps as f64, y);
@@ -50,7 +51,7 @@ fn strip(count: usize) -> Vec<DVec2> {
     low.chain((0..=steps).rev().map(|k| at(k, 1.0))).collect()
 }
 
-/// A comb with a tooth for every four points.
+/// Outline of a comb with a tooth for every four points.
 fn comb(count: usize) -> Vec<DVec2> {
     let teeth = count / 4;
     let mut points = vec![DVec2::ZERO, DVec2::new(teeth as f64, 0.0)];
@@ -62,7 +63,7 @@ fn comb(count: usize) -> Vec<DVec2> {
     points
 }
 
-/// A ring with a hole whose points are rotated by an angle.
+/// An annulus: an outer ring, and a hole whose points are rotated by `turn` radians.
 fn annulus(count: usize, turn: f64) -> Vec<Vec<DVec2>> {
     let ring = |radius: f64, turn: f64, n: usize, direction: f64| -> Vec<DVec2> {
         (0..n)
@@ -75,7 +76,7 @@ fn annulus(count: usize, turn: f64) -> Vec<Vec<DVec2>> {
     ]
 }
 
-/// Named pairs with about `count` points each.
+/// Pairs of designs with about `count` points each, and their names.
 fn pairs(count: usize) -> Vec<(&'static str, RingPair)> {
     let comb = comb(count);
     let mut shifted = lobes(count, 5.0);
@@ -90,7 +91,7 @@ fn pairs(count: usize) -> Vec<(&'static str, RingPair)> {
     ]
 }
 
-/// Times the pairs, or only the named one, for each number of points.
+/// Times all pairs, or only the pair with the name `only`, for each of the numbers of points.
 fn bench(criterion: &mut Criterion, group: &str, counts: &[usize], only: Option<&str>) {
     let mut group = criterion.benchmark_group(group);
     group.sample_size(10);
@@ -112,7 +113,7 @@ fn gallery(criterion: &mut Criterion) {
     bench(criterion, "gallery", &[120, 1200], None);
 }
 
-/// Times one pair with growing numbers of points.
+/// Times one pair of outlines with growing numbers of points.
 fn growth(criterion: &mut Criterion) {
     bench(
         criterion,

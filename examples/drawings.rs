@@ -1,4 +1,5 @@
-//! Drawings as Bevy assets: three files are loaded by the asset server and blended in turn.
+//! Drawings as Bevy assets: the asset server loads the files, and the program blends from each
+//! drawing to the next.
 //!
 //! R reloads the files, so that a drawing changed in another program replaces the old one.
 //!
@@ -11,14 +12,14 @@ use morphospace::stage::{
     Blend, BlendWeights, BuildFailed, Morph, MorphDesigns, MorphPlugin, MorphSystems, StageStyle,
 };
 
-/// Drawings that are shown by default.
+/// Drawings that are shown if no files are given.
 const BOTTLES: [&str; 3] = [
     "gallery/bottle-claret.svg",
     "gallery/bottle-demijohn.svg",
     "gallery/bottle-milk.svg",
 ];
 
-/// Seconds of one round through all drawings.
+/// Duration of one cycle through all drawings, in seconds.
 const ROUND_SECS: f64 = 9.0;
 
 fn main() -> AppExit {
@@ -55,7 +56,7 @@ fn reload(keys: Res<ButtonInput<KeyCode>>, server: Res<AssetServer>, morphs: Que
     }
 }
 
-/// Blends from each design to the next, and from the last back to the first.
+/// Blends from each design to the next, and from the last one back to the first.
 fn advance_blend(
     time: Res<Time>,
     mut blends: Query<(&MorphDesigns, &mut BlendWeights, &mut Blend)>,
@@ -68,12 +69,12 @@ fn advance_blend(
         weights.0 = vec![0.0; count];
         weights.0[from] += 1.0 - fraction;
         weights.0[(from + 1) % count] += fraction;
-        // A pair of designs is blended by t instead of weights.
+        // Two designs are blended by t; three or more are blended by weights.
         blend.t = 0.5 - 0.5 * (TAU * round).cos();
     }
 }
 
-/// Scales and centres a new morph in the window.
+/// Scales a new morph to the window and centres it.
 fn fit(window: Single<&Window>, mut morphs: Query<(&Morph, &mut Transform), Added<Morph>>) {
     for (morph, mut transform) in &mut morphs {
         let bounds = morph.frame().transition().bounds();

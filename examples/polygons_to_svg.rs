@@ -1,4 +1,4 @@
-//! Writes five SVG files of a transition between two lists of points; needs only the core library.
+//! Writes five SVG images of a transition between two polygons; needs only the core library.
 //!
 //! `cargo run --release --no-default-features --example polygons_to_svg`
 

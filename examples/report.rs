@@ -1,4 +1,4 @@
-//! Prints the measures of a transition as JSON; needs only the core library.
+//! Prints the measures of a gallery project's transition as JSON; needs only the core library.
 //!
 //! `cargo run --release --no-default-features --example report [GALLERY NAME]`
 
@@ -10,7 +10,7 @@ use morphospace::transition::Transition;
 use morphospace::work::progress::Silent;
 use serde_json::{Value, json};
 
-/// Number of values of t at which the film is measured.
+/// Number of values of t, from 0 to 1, at which the film is measured.
 const SAMPLES: usize = 33;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Measures of the mesh and the film of a bundled project, and the defects found.
+/// Measures of the mesh and of the film of the gallery project `name`, and the defects of the film.
 pub fn report(name: &str) -> Result<Value, Box<dyn Error>> {
     let loaded = gallery::load(name)?;
     let transition = Transition::build(&loaded.spec()?, &Silent)?;

@@ -1,7 +1,7 @@
-//! `MorphPlugin` in a small Bevy program: two meshes are blended by a slider.
+//! A small Bevy program with `MorphPlugin`, in which a slider blends two meshes.
 //!
-//! The meshes are spawned with a `Blend`, and a knob on a bar sets its t. The knob swings by itself
-//! until it is dragged.
+//! The meshes are spawned with a `Blend`, whose t is set by a knob on a bar. The knob swings by
+//! itself until the user drags it.
 //!
 //! `cargo run --release --example two_meshes`
 
@@ -17,13 +17,13 @@ use morphospace::stage::{
 };
 use morphospace::transition::TransitionStyle;
 
-/// Seconds from one star to the other and back while the knob swings.
+/// Duration of one swing of the knob, from the first star to the second and back, in seconds.
 const PERIOD_SECS: f64 = 6.0;
 
-/// Ends of the bar, below the stars.
+/// Ends of the slider's bar in the window, in pixels from the centre.
 const BAR: [Vec2; 2] = [Vec2::new(-200.0, -340.0), Vec2::new(200.0, -340.0)];
 
-/// The knob of the slider, and its position on the bar from 0 to 1.
+/// The knob of the slider; `t` is its position on the bar, from 0 to 1.
 #[derive(Component, Default)]
 struct SliderKnob {
     t: f64,
@@ -42,7 +42,8 @@ fn main() -> AppExit {
         .run()
 }
 
-/// A star of twelve points around a hub, twisted by an angle in radians.
+/// A star with twelve tips around an open hub. `inner` is the radius of the notches, `outer` that
+/// of the tips. The tips are rotated by `twist` radians.
 fn star(inner: f64, outer: f64, twist: f64) -> Result<TriangleMesh, MeshError> {
     let corner = |i: u32| {
         let is_tip = i % 2 == 1;
@@ -60,7 +61,7 @@ fn star(inner: f64, outer: f64, twist: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(positions, tips.chain(belt).collect())
 }
 
-/// Spawns the camera, two meshes and their style.
+/// Spawns the camera, and an entity with two meshes, their blend and their style.
 fn spawn_pair(mut commands: Commands) -> Result {
     commands.spawn(Camera2d);
     commands.spawn((
@@ -132,7 +133,8 @@ fn set_blend(knob: Single<&SliderKnob>, mut blends: Query<&mut Blend>) {
     }
 }
 
-/// Shows t in the title; runs after solving, so that the frame belongs to this update.
+/// Shows t in the title of the window. Runs after solving, so that the title belongs to the frame
+/// that is drawn.
 fn show_t(morphs: Query<&Morph, Changed<Morph>>, mut window: Single<&mut Window>) {
     for morph in &morphs {
         window.title = format!("t = {:.2}", morph.frame().t());

@@ -1,8 +1,8 @@
-//! `MeshFamily` in a small Bevy program: four meshes are blended by weights.
+//! A small Bevy program with `MeshFamily`, in which four meshes are blended by weights.
 //!
-//! The stars belong to the corners of a square. The position of a marker in the square gives the
-//! weights, by natural neighbours as on the program's map. The marker wanders by itself until it is
-//! dragged.
+//! Each of the four stars belongs to a corner of a square. The position of a marker in the square
+//! determines the weights, by natural-neighbour interpolation as on the map of the Morphospace
+//! window. The marker wanders by itself until the user drags it.
 //!
 //! `cargo run --release --example weighted_meshes`
 
@@ -18,13 +18,14 @@ use morphospace::stage::{
 };
 use morphospace::transition::TransitionStyle;
 
-/// Half of the side of the square in which the marker moves, in pixels.
+/// Half the side of the square in which the marker moves, in pixels.
 const HALF_SIDE: f32 = 110.0;
 
-/// Centre of the square, in pixels.
+/// Centre of the square in which the marker moves, in pixels from the centre of the window.
 const CENTRE: Vec2 = Vec2::new(0.0, -220.0);
 
-/// Corners of the square to which the stars belong, in units of [`HALF_SIDE`].
+/// For each star: the corner of the square to which it belongs, relative to the centre of the
+/// square, in units of [`HALF_SIDE`].
 const SITES: [Vec2; 4] = [
     Vec2::new(-1.0, 1.0),
     Vec2::new(1.0, 1.0),
@@ -32,7 +33,7 @@ const SITES: [Vec2; 4] = [
     Vec2::new(-1.0, -1.0),
 ];
 
-/// The marker that is dragged, and the map that gives the weights at its position.
+/// The marker that the user drags, and the map from its position to the weights.
 #[derive(Component)]
 struct MapMarker {
     map: WeightMap,
@@ -50,7 +51,8 @@ fn main() -> AppExit {
         .run()
 }
 
-/// A star of twelve points around a hub, twisted by an angle in radians.
+/// A star with twelve tips around an open hub. `inner` is the radius of the notches, `outer` that
+/// of the tips. The tips are rotated by `twist` radians.
 fn star(inner: f64, outer: f64, twist: f64) -> Result<TriangleMesh, MeshError> {
     let corner = |i: u32| {
         let is_tip = i % 2 == 1;
@@ -69,7 +71,7 @@ fn star(inner: f64, outer: f64, twist: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(positions.collect(), tips.chain(belt).collect())
 }
 
-/// Spawns the camera, the meshes and their style.
+/// Spawns the camera, and an entity with four meshes, their weights and their style.
 fn spawn_stars(mut commands: Commands) -> Result {
     commands.spawn(Camera2d);
     commands.spawn((
@@ -95,7 +97,7 @@ fn spawn_stars(mut commands: Commands) -> Result {
     Ok(())
 }
 
-/// Spawns the corners of the square and the marker.
+/// Spawns the four corners of the square, and the marker.
 fn spawn_map(
     mut commands: Commands,
     mut meshes: ResMut<Assets<Mesh>>,
@@ -145,14 +147,14 @@ fn move_marker(
     }
 }
 
-/// Sets the weights at the marker.
+/// Sets the weights of the blend to those at the marker.
 fn set_weights(marker: Single<(&MapMarker, &Transform)>, mut blends: Query<&mut BlendWeights>) {
     let (marker, transform) = *marker;
     let at = (transform.translation.truncate() - CENTRE) / HALF_SIDE;
     let mut weights = vec![0.0; SITES.len()];
     marker.map.weights(at.as_dvec2(), &mut weights);
     for mut blend in &mut blends {
-        // Every change of the component is solved, so unchanged weights are not written.
+        // Writing the component triggers a solve, so unchanged weights are not written.
         blend.set_if_neq(BlendWeights(weights.clone()));
     }
 }

@@ -1,8 +1,8 @@
 //! The application window: playback, panels, keys and export, on top of the core library and the
 //! stage plugin.
 //!
-//! Keys, panels and dialogs write [`Intent`] messages; the systems of the folders below act on
-//! them; `ui` draws the resulting state and computes nothing. [`LogicPlugin`] holds every system
+//! Keys, panels and dialogs write `Intent` messages; the systems of the folders below act on
+//! them; `ui` draws the resulting state and computes nothing. `LogicPlugin` holds every system
 //! that needs neither a window nor a graphics card, and is what the tests run.
 //!
 //! | folder | contents |
@@ -51,39 +51,45 @@ mod unsaved_question;
 mod view;
 mod window;
 
-pub use analysis::film_measures::{FilmMeasures, StageMeasures};
-pub use analysis::method_search::MethodSearch;
-pub use analysis::stage_recording::StageRecording;
-pub use analysis::suggestions::{SuggestedChange, Suggestion, Suggestions};
-pub use capture::film_exporter::FilmExporter;
-pub use compare::comparison::{Comparison, OnComparison};
-pub use editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
-pub use editing::panes::{EditorPanes, PaneView};
-pub use editing::sheet::{MatchSheet, PieceFate};
-pub use files::file_dialog::{DialogPurpose, FileDialogRequest};
-pub use files::invitation::{Invitation, START_PROJECT};
-pub use files::project_actions::GalleryEntries;
-pub use input::editor_action::{EditorAction, EditorPane, EditorPointer, EditorTool};
-pub use input::gesture::KeyboardFocus;
-pub use input::intent::{Intent, RecoveryAnswer, UnsavedAnswer};
-pub use input::key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow, KeyTrigger};
-pub use input::preferences::{
-    ComparisonMethod, FilmExportOptions, FilmFileFormat, ImageScale, Preferences, ThemeChoice,
-};
-pub use jobs::job::JobError;
-pub use logic::LogicPlugin;
-pub use map::map_view::{MapBuildError, MapView};
 pub use no_window::NoWindowError;
-pub use notices::{Notice, NoticeKind, NoticeTopic, Notices};
-pub use output_files::CaptureFolder;
-pub use persistence::autosave::Autosave;
-pub use playback::player::Playback;
-pub use presentation::presenter::Presentation;
-pub use redraw_pace::{PanelRepaint, RedrawPace};
-pub use session::load::TransitionProblem;
-pub use session::save::SaveError;
-pub use session::state::{MethodUnavailable, Session};
-pub use stage_area::{AutoFit, StageArea};
-pub use stage_sync::OnStage;
-pub use unsaved_question::{UnsavedKind, UnsavedQuestion};
-pub use window::{AppOptions, WindowPlugins, run};
+pub use window::{AppOptions, run};
+
+/// Systems, resources and intents of the window, for the tests that drive it.
+#[cfg(feature = "testing")]
+pub mod testing {
+    pub use super::analysis::film_measures::{FilmMeasures, StageMeasures};
+    pub use super::analysis::method_search::MethodSearch;
+    pub use super::analysis::stage_recording::StageRecording;
+    pub use super::analysis::suggestions::{SuggestedChange, Suggestion, Suggestions};
+    pub use super::capture::film_exporter::FilmExporter;
+    pub use super::compare::comparison::{Comparison, OnComparison};
+    pub use super::editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
+    pub use super::editing::panes::{EditorPanes, PaneView};
+    pub use super::editing::sheet::{MatchSheet, PieceFate};
+    pub use super::files::file_dialog::{DialogPurpose, FileDialogRequest};
+    pub use super::files::invitation::{Invitation, START_PROJECT};
+    pub use super::files::project_actions::GalleryEntries;
+    pub use super::input::editor_action::{EditorAction, EditorPane, EditorPointer, EditorTool};
+    pub use super::input::gesture::KeyboardFocus;
+    pub use super::input::intent::{Intent, RecoveryAnswer, UnsavedAnswer};
+    pub use super::input::key_map::{KeyBinding, KeyMap, KeyModifiers, KeyTableRow, KeyTrigger};
+    pub use super::input::preferences::{
+        ComparisonMethod, FilmExportOptions, FilmFileFormat, ImageScale, Preferences, ThemeChoice,
+    };
+    pub use super::jobs::job::JobError;
+    pub use super::logic::LogicPlugin;
+    pub use super::map::map_view::{MapBuildError, MapView};
+    pub use super::notices::{Notice, NoticeKind, NoticeTopic, Notices};
+    pub use super::output_files::CaptureFolder;
+    pub use super::persistence::autosave::Autosave;
+    pub use super::playback::player::Playback;
+    pub use super::presentation::presenter::Presentation;
+    pub use super::redraw_pace::{PanelRepaint, RedrawPace};
+    pub use super::session::load::TransitionProblem;
+    pub use super::session::save::SaveError;
+    pub use super::session::state::{MethodUnavailable, Session};
+    pub use super::stage_area::{AutoFit, StageArea};
+    pub use super::stage_sync::OnStage;
+    pub use super::unsaved_question::{UnsavedKind, UnsavedQuestion};
+    pub use super::window::WindowPlugins;
+}

@@ -151,8 +151,8 @@ fn execute(command: &CliCommand) -> Result<(), CliError> {
 }
 
 /// Prints why the window could not be opened, and returns the exit code.
-pub fn report_window_error(why: impl std::error::Error) -> ExitCode {
-    output::exit_code(Err(CliError::failed(why)))
+pub fn report_window_error(error: impl std::error::Error) -> ExitCode {
+    output::exit_code(Err(CliError::failed(error)))
 }
 
 /// Prints that this build has no window, and returns the exit code.
@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn check_takes_either_inputs_or_a_table() {
-        let parsed = |line: &str| Cli::try_parse_from(line.split(' '));
+        let parse = |line: &str| Cli::try_parse_from(line.split(' '));
         for (line, missing) in [
             ("x check", "PROJECT"),
             ("x check --pairs t.csv", "--out"),
@@ -182,13 +182,13 @@ mod tests {
             ("x check a b --out r.csv", "--pairs"),
             ("x check a b --both", "--pairs"),
         ] {
-            let error = parsed(line).expect_err(line).to_string();
+            let error = parse(line).expect_err(line).to_string();
             assert!(error.contains(missing), "{line}: {error}");
         }
-        assert!(parsed("x check --pairs t.csv --out r.csv --samples 3").is_ok());
-        let both = parsed("x check a b --pairs t.csv --out r.csv").expect("parsed");
-        let refused = execute(&both.command.expect("a check"));
-        assert!(matches!(refused, Err(CliError::Usage(said)) if said.contains("--pairs")));
+        assert!(parse("x check --pairs t.csv --out r.csv --samples 3").is_ok());
+        let with_both = parse("x check a b --pairs t.csv --out r.csv").expect("parsed");
+        let result = execute(&with_both.command.expect("a check"));
+        assert!(matches!(result, Err(CliError::Usage(message)) if message.contains("--pairs")));
     }
 
     #[test]

@@ -1,8 +1,10 @@
-//! Compatible triangulation: one list of faces with an embedding in each design.
+//! Compatible triangulations: one list of faces with an embedding (a position for every vertex) in
+//! each design.
 //!
-//! [`CompatibleMesh`] has two embeddings, source and target; a [`CompatibleFamily`] has one for
-//! each of many designs. Guaranteed: every face is positively oriented in all embeddings, by exact
-//! predicates, so that each local map has a positive determinant. Not guaranteed: that faces do not
+//! [`CompatibleMesh`] has two embeddings, source and target. A [`CompatibleFamily`] has one
+//! embedding for each of two or more designs. Guaranteed: every face is positively oriented
+//! (counter-clockwise) in all embeddings, by exact predicates. The affine map of a face from one
+//! embedding to another therefore has a positive determinant. Not guaranteed: that faces do not
 //! overlap; the mesh of a spiral may lie over itself.
 
 mod assembly;
@@ -32,24 +34,25 @@ use crate::mesh::{
 use crate::work::progress::Progress;
 use std::sync::Arc;
 
-/// One connectivity with two embeddings, source and target.
+/// One list of faces with two embeddings, source and target.
 #[derive(Clone, Debug)]
 pub struct CompatibleMesh {
     faces: Arc<[[u32; 3]]>,
     source: Vec<DVec2>,
     target: Vec<DVec2>,
-    /// Bars that lie in no panel, as two-point elements.
+    /// Bars that lie in no face, as two-point elements of the energy.
     elements: Vec<BarElement>,
     connectivity: Connectivity,
 }
 
 impl CompatibleMesh {
-    /// Creates a mesh from faces, two embeddings of their vertices, and bars that lie in no face.
-    /// Faces that are clockwise in both embeddings are reversed.
+    /// Creates a mesh from faces, the positions of their vertices in source and target, and bars
+    /// that lie in no face. Faces that are clockwise in both embeddings are reversed.
     ///
     /// # Errors
-    /// [`CompatibleError`] if the embeddings have different lengths, a face is not positive in
-    /// both, or a vertex belongs to no face and no bar.
+    /// [`CompatibleError`] if the embeddings have different lengths, a coordinate is not finite, a
+    /// face is flat in one embedding or has opposite orientations in the two, a bar has no length,
+    /// or a vertex belongs to no face and no bar.
     ///
     /// ```
     /// use morphospace::{compatible::CompatibleMesh, geometry::DVec2};
@@ -68,7 +71,7 @@ impl CompatibleMesh {
         if source.len() != target.len() {
             return Err(CompatibleError::VertexCounts([source.len(), target.len()]));
         }
-        // Each check relies on the ones before it.
+        // Each check relies on the checks before it.
         validation::check_points(&source, Side::Source)?;
         validation::check_points(&target, Side::Target)?;
         check_faces(&faces, source.len())?;
@@ -85,10 +88,12 @@ impl CompatibleMesh {
         })
     }
 
-    /// Creates a mesh from two meshes that have the same faces in the same order.
+    /// Creates a mesh from two meshes that have the same faces in the same order. The direction in
+    /// which a face lists its vertices does not matter.
     ///
     /// # Errors
-    /// [`CompatibleError`] names the first face that differs; otherwise the error of [`Self::new`].
+    /// [`CompatibleError::FaceCounts`] or [`CompatibleError::FacesDiffer`] if the faces differ.
+    /// Otherwise as [`Self::new`].
     pub fn from_meshes(
         source: &TriangleMesh,
         target: &TriangleMesh,
@@ -109,11 +114,12 @@ impl CompatibleMesh {
     }
 
     /// Creates a mesh from two trusses with the same nodes and bars. Panels between the bars are
-    /// triangulated; bars in no panel become elements.
+    /// triangulated. Bars that lie in no panel become two-point elements.
     ///
     /// # Errors
-    /// [`CompatibleError::Truss`] names the first difference or the panel that cannot be
-    /// triangulated in both designs, or reports a cancel. Otherwise the error of [`Self::new`].
+    /// [`CompatibleError::Truss`] names the first difference between the trusses or the panel that
+    /// cannot be triangulated in both designs, or reports that the work was cancelled. Otherwise as
+    /// [`Self::new`].
     pub fn from_trusses(
         source: &Truss,
         target: &Truss,
@@ -142,7 +148,7 @@ impl CompatibleMesh {
         &self.target
     }
 
-    /// Bars that lie in no face.
+    /// Bars that lie in no face, as pairs of vertex indices.
     #[must_use]
     pub fn elements(&self) -> &[BarElement] {
         &self.elements
@@ -154,13 +160,13 @@ impl CompatibleMesh {
         &self.connectivity
     }
 
-    /// Closed boundary loops of the faces, as vertex indices.
+    /// Closed boundary loops of the faces, each as the indices of its vertices in order.
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
         self.connectivity.boundary_loops(&self.faces)
     }
 
-    /// Index of the connected part of each vertex. Faces and bars connect vertices.
+    /// For each vertex, the index of its connected part. Faces and bars connect vertices.
     #[must_use]
     pub fn components(&self) -> Vec<u32> {
         // Two edges of a face are enough to connect its corners.
@@ -169,24 +175,25 @@ impl CompatibleMesh {
         components(self.source.len(), links)
     }
 
-    /// Smallest box around both embeddings.
+    /// Smallest axis-parallel box around both embeddings.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.source.iter().chain(&self.target).copied())
             .unwrap_or_else(|| unreachable!("a compatible mesh has vertices"))
     }
 
-    /// Larger of the two embeddings' diameters.
+    /// Larger diameter of the two embeddings, in units of the plane.
     #[must_use]
     pub fn diameter(&self) -> f64 {
         Bounds::diameter_of(&self.source).max(Bounds::diameter_of(&self.target))
     }
 
-    /// Conformal distortion of the map between the embeddings, as a high quantile of σ₁/σ₂ over the
-    /// faces; 1 for a similarity and for a mesh without faces.
+    /// Conformal distortion of the map from source to target: σ₁/σ₂, the ratio of the singular
+    /// values of a face's affine map, as a high quantile over the faces. It is 1 for a similarity
+    /// and for a mesh without faces.
     ///
-    /// Each face is weighted by its area, half by its share of the source and half by its share of
-    /// the target. The worst faces, up to the fraction `ignored_area` of all area, do not count.
+    /// The weight of a face is the mean of its shares of the source's and the target's area. The
+    /// worst faces, up to the fraction `ignored_area` of the total weight, are ignored.
     #[must_use]
     pub fn distortion(&self, ignored_area: f64) -> f64 {
         let edges = |points: &[DVec2], face: &[u32; 3]| {
@@ -195,16 +202,17 @@ impl CompatibleMesh {
         };
         let face_distortion = |face| {
             let [p, q] = [&self.source, &self.target].map(|points| edges(points, face));
-            // For r = σ₁/σ₂ the mean of r and 1/r is |J|² / (2 det J), because |J|² = σ₁² + σ₂² and
-            // det J = σ₁σ₂. The inverse of p exists because its face is positive.
+            // For r = σ₁/σ₂ the mean of r and 1/r is |J|² / (2 det J), where J is the Jacobian of
+            // the face, because |J|² = σ₁² + σ₂² and det J = σ₁σ₂. The inverse of p exists because
+            // the face is positive in the source.
             let j = q * p.inverse();
             let square = j.x_axis.length_squared() + j.y_axis.length_squared();
             let mean = 0.5 * square / j.determinant();
             (mean, [p, q].map(|edges| edges.determinant()))
         };
         let mut faces: Vec<(f64, [f64; 2])> = self.faces.iter().map(face_distortion).collect();
-        // The worst faces come first, so that they can be skipped until their area reaches the
-        // fraction.
+        // The worst faces come first. They are skipped until their total weight exceeds
+        // `ignored_area`.
         faces.sort_by(|a, b| b.0.total_cmp(&a.0));
         let total = |side: usize| faces.iter().map(|face| face.1[side]).sum::<f64>();
         let totals = [total(0), total(1)];
@@ -231,8 +239,8 @@ impl CompatibleMesh {
         }
     }
 
-    /// Returns the mesh with each connected part translated by `by[part]`, its offsets in source
-    /// and target; `None` if rounding turns a face over.
+    /// Returns the mesh with each connected part translated by `by[part]`: its offset in the source
+    /// and its offset in the target. `None` if rounding makes a face flat or turns it over.
     pub(crate) fn with_parts_translated(&self, by: &[[DVec2; 2]]) -> Option<Self> {
         let parts = self.components();
         let translated = |side: Side, points: &[DVec2]| -> Vec<DVec2> {
@@ -241,27 +249,27 @@ impl CompatibleMesh {
                 .map(|(&p, &part)| p + by[part as usize][side])
                 .collect()
         };
-        let moved = Self {
+        let mesh = Self {
             source: translated(Side::Source, &self.source),
             target: translated(Side::Target, &self.target),
             ..self.clone()
         };
         let is_positive = |points: &[DVec2]| {
-            let corners = moved
+            let corners = mesh
                 .faces
                 .iter()
                 .map(|face| face.map(|v| points[v as usize]));
             corners.into_iter().all(|[a, b, c]| orient2d(a, b, c) > 0.0)
         };
-        // Translations keep shapes, but their rounding may flip a face that is nearly flat.
-        (is_positive(&moved.source) && is_positive(&moved.target)).then_some(moved)
+        // Translations preserve shapes, but rounding may flip a face that is nearly flat.
+        (is_positive(&mesh.source) && is_positive(&mesh.target)).then_some(mesh)
     }
 
-    /// Splits every face into four, `rounds` times. Neither shape changes; vertices keep their
-    /// indices and new ones follow.
+    /// Splits every face into four at its edge midpoints, `rounds` times. The shapes stay the same
+    /// in both designs. Existing vertices keep their indices; new vertices follow them.
     ///
     /// # Errors
-    /// [`TooManyVertices`] beyond the limit.
+    /// [`TooManyVertices`] if the result would have more vertices than a mesh may have.
     pub fn subdivided(&self, rounds: u32) -> Result<Self, TooManyVertices> {
         if rounds == 0 || self.faces.is_empty() {
             return Ok(self.clone());
@@ -269,7 +277,8 @@ impl CompatibleMesh {
         let fine = Subdivision::new(&self.faces, self.source.len(), rounds)?;
         let extend = |points: &[DVec2]| {
             let mut all = points.to_vec();
-            // In order, because a later round halves edges that an earlier one created.
+            // The midpoints are listed in the order of creation: a later round halves edges that an
+            // earlier round created.
             for &[a, b] in &fine.midpoints {
                 all.push(all[a as usize].midpoint(all[b as usize]));
             }
@@ -287,8 +296,8 @@ impl CompatibleMesh {
     }
 }
 
-/// Returns whether two faces have the same vertices. Their direction is ignored, because the
-/// embeddings decide the orientation.
+/// Returns whether two faces have the same vertices in any order. Orientation is ignored here;
+/// [`CompatibleMesh::new`] determines it from the embeddings.
 fn same_face(mut a: [u32; 3], mut b: [u32; 3]) -> bool {
     a.sort_unstable();
     b.sort_unstable();

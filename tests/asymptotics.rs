@@ -1,8 +1,9 @@
-//! Growth of time and memory with the size of the input, measured on the built program.
+//! Growth of the program's time and memory with the size n of its input.
 //!
-//! For growing numbers of holes, pieces, nested rings, star points and bars, time grows at most
-//! as n² log n, and memory stays below 1 GiB. All families:
-//! `cargo test --release --test asymptotics`; without `--release` only the quick ones.
+//! For growing numbers of holes, pieces, nested rings, pieces of self-crossing stars, and bars, the
+//! time grows at most as n² log n, and the memory stays below 1 GiB.
+//! `cargo test --release --test asymptotics` tests all families of inputs; without `--release` only
+//! the quick ones.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -12,16 +13,16 @@ use std::time::Duration;
 
 use morphospace::DVec2;
 
-/// Time and memory of one run of the program.
+/// Time and memory that one run of the program takes.
 #[derive(Clone, Copy, Debug)]
 struct RunCost {
-    /// Processor time, which other processes do not affect.
+    /// Processor time, which hardly depends on other processes.
     cpu_seconds: f64,
-    /// Peak of the resident memory.
+    /// Maximum resident memory so far.
     peak_mebibytes: f64,
 }
 
-/// Runs the program and samples its cost until it ends.
+/// Runs the program with the arguments of `line`; returns its cost, sampled until it ends.
 fn run_cost(folder: &Path, line: &str) -> RunCost {
     let mut child = Command::new(env!("CARGO_BIN_EXE_morphospace"))
         .current_dir(folder)
@@ -46,7 +47,8 @@ fn run_cost(folder: &Path, line: &str) -> RunCost {
     }
 }
 
-/// Processor time and peak memory of a process from `/proc`; `None` once it has ended.
+/// Reads the processor time and the peak memory of a process from `/proc`; `None` once the process
+/// has ended.
 fn cost_so_far(process: u32) -> Option<RunCost> {
     let read = |file: &str| fs::read_to_string(format!("/proc/{process}/{file}")).ok();
     let status = read("status")?;
@@ -54,7 +56,8 @@ fn cost_so_far(process: u32) -> Option<RunCost> {
         .lines()
         .find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kibibytes: f64 = peak.trim().strip_suffix(" kB")?.parse().ok()?;
-    // The program name in parentheses may contain any character. A tick is 1/100 s.
+    // Fields are counted after the program name, which is in parentheses and may contain spaces.
+    // Fields 11 and 12 are the user and system time in ticks of 1/100 s.
     let stat = read("stat")?;
     let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();
     let ticks = |field: usize| fields.get(field)?.parse::<f64>().ok();
@@ -64,16 +67,17 @@ fn cost_so_far(process: u32) -> Option<RunCost> {
     })
 }
 
-/// Sizes of the inputs, each twice the previous one.
+/// Values of n, the size of the inputs; each is twice the previous one.
 const SIZES: [u32; 4] = [10, 20, 40, 80];
 
-/// Factor by which growth may exceed n² log n (tolerance: noise of the measurement).
+/// Factor by which the growth of the time may exceed that of n² log n (tolerance: timing noise).
 const SLACK: f64 = 5.0;
 
-/// Shortest time, in seconds, taken as a reference (tolerance: shorter times are mostly start-up).
+/// Reference time, in seconds, that replaces shorter measured times (tolerance: shorter times are
+/// mostly start-up of the program).
 const MIN_SECONDS: f64 = 0.25;
 
-/// Checks the growth of transitions from designs of growing size to a square.
+/// Asserts that time and memory for a transition from `design(n)` to a square grow slowly with n.
 fn assert_slow_growth(name: &str, design: impl Fn(u32) -> String) {
     let folder = tempfile::tempdir().expect("a folder");
     let write =
@@ -102,7 +106,7 @@ fn assert_slow_growth(name: &str, design: impl Fn(u32) -> String) {
     );
 }
 
-/// JSON text of a file with these rings.
+/// JSON text of a polygon file with these rings.
 fn polygons(rings: impl Iterator<Item = Vec<DVec2>>) -> String {
     let ring = |ring: Vec<DVec2>| ring.iter().map(|p| p.to_array()).collect::<Vec<_>>();
     serde_json::to_string(&rings.map(ring).collect::<Vec<_>>()).expect("numbers")
@@ -115,7 +119,7 @@ fn regular_polygon(centre: DVec2, radius: f64, points: u32) -> Vec<DVec2> {
     (0..points).map(point).collect()
 }
 
-/// Grid positions in rows of ten.
+/// The first `count` positions of a unit grid, in rows of ten.
 fn grid_positions(count: u32) -> impl Iterator<Item = DVec2> {
     (0..count).map(|k| DVec2::new(f64::from(k % 10) + 0.5, f64::from(k / 10) + 0.5))
 }
@@ -148,8 +152,7 @@ fn time_for_nested_rings_grows_at_most_quadratically() {
 
 #[test]
 fn time_for_self_crossing_stars_grows_at_most_quadratically_in_their_pieces() {
-    // A star with p points has about p² / 4 crossings, hence as many pieces: p is chosen so that
-    // the number of pieces is about n.
+    // A star with p points has about p² / 4 crossings and pieces, so p ≈ 2√n gives about n pieces.
     assert_slow_growth("stars", |n| {
         let points = (2.0 * f64::from(n).sqrt()) as u32 | 1;
         let step = TAU * f64::from(points / 2) / f64::from(points);

@@ -1,18 +1,23 @@
-//! Holds the code to the bounds in `budget.toml`: size, numeric constants, type names, folder
-//! cycles, the length of the README, and plain language. Prints every figure; run with
-//! `cargo test --test budget -- --nocapture`.
+//! Tests that figures of the code and its prose stay within the bounds in `budget.toml`: lines of
+//! code, numeric constants, repeated type names, import cycles between folders, length of the
+//! README, and words that plain language avoids. `cargo test --test budget -- --nocapture` prints
+//! every figure.
 
-mod source;
+#[path = "source/files.rs"]
+mod files;
+#[path = "source/uses.rs"]
+mod uses;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use files::{files_below, folder};
 use proc_macro2::Span;
 use serde::Deserialize;
-use source::{Crate, files_below, folder, folder_cycles, is_test};
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
+use uses::{Crate, Names, Uses, is_test};
 
 /// The contents of `budget.toml`.
 #[derive(Deserialize)]
@@ -30,7 +35,7 @@ struct Budget {
     repeated: BTreeMap<String, String>,
 }
 
-/// Upper bounds of word counts per 1,000 lines of prose.
+/// Upper bounds on the occurrences of words per 1,000 lines of prose.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct LanguageBudget {
@@ -40,7 +45,7 @@ struct LanguageBudget {
     nobody_somebody: f64,
 }
 
-/// Files and folders below `src` whose wording is not counted yet.
+/// Files and folders below `src` whose wording is exempt from [`LanguageBudget`].
 #[derive(Deserialize)]
 struct LanguageExemption {
     paths: Vec<PathBuf>,
@@ -59,7 +64,7 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// Fails where a figure exceeds its bound.
+/// Prints a figure and asserts that it does not exceed its bound.
 fn hold(name: &str, figure: f64, bound: f64) {
     println!("{name}: {figure:.2} (at most {bound})");
     assert!(
@@ -68,7 +73,7 @@ fn hold(name: &str, figure: f64, bound: f64) {
     );
 }
 
-/// The lines of a file that are compiled for tests only, and its numeric constants outside.
+/// Line numbers of a file's test code, and the number of numeric constants in its other code.
 #[derive(Default)]
 struct ProductionCode {
     test_lines: BTreeSet<usize>,
@@ -117,7 +122,8 @@ impl<'ast> Visit<'ast> for ProductionCode {
     }
 }
 
-/// Whether a file below `src` holds tests only: `tests.rs`, `testing.rs` and `tests/`.
+/// Whether a file below `src` holds tests only: `tests.rs`, `testing.rs`, or a file in a folder of
+/// one of these names.
 fn is_test_file(file: &Path) -> bool {
     let inside = file
         .strip_prefix(folder())
@@ -155,7 +161,7 @@ fn production_lines_and_constants_stay_within_the_budget() {
     );
 }
 
-/// The names of all types that a file defines, in tests too.
+/// Names of all types that a file defines, including those in test code.
 #[derive(Default)]
 struct TypeNames(Vec<String>);
 
@@ -205,6 +211,60 @@ fn type_names_are_used_once() {
     );
 }
 
+/// Lists imports between neighbours in one folder (files, or subfolders with all their files)
+/// that lie on a cycle.
+fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
+    let mut graphs: BTreeMap<PathBuf, NeighbourGraph> = BTreeMap::new();
+    for (from, used) in uses {
+        for (to, name) in used {
+            if let Some((parent, [a, b])) = neighbours(from, to) {
+                let edges = graphs.entry(parent).or_default().entry(a).or_default();
+                edges.insert(b, name.clone());
+            }
+        }
+    }
+    let mut cycles = Vec::new();
+    for (parent, graph) in &graphs {
+        for (a, edges) in graph {
+            let back = edges.iter().filter(|(b, _)| leads_to(graph, b, a));
+            cycles
+                .extend(back.map(|(b, name)| format!("{}: {a} -> {b}: {name}", parent.display())));
+        }
+    }
+    cycles
+}
+
+/// Neighbours in a folder, and a path by which one uses the other.
+type NeighbourGraph = BTreeMap<String, BTreeMap<String, String>>;
+
+/// The deepest folder that holds both files, and the two entries of it they lie in. A folder
+/// and the file that declares its modules (`a/` and `a.rs`) are one entry.
+fn neighbours(from: &Path, to: &Path) -> Option<(PathBuf, [String; 2])> {
+    let [a, b] = [from, to].map(|file| -> Names {
+        let file = file.with_extension("");
+        let parts = file.components();
+        parts
+            .map(|part| part.as_os_str().to_string_lossy().into_owned())
+            .collect()
+    });
+    let shared = a.iter().zip(&b).take_while(|(x, y)| x == y).count();
+    let entries = [a.get(shared)?.clone(), b.get(shared)?.clone()];
+    Some((a[..shared].iter().collect(), entries))
+}
+
+fn leads_to(graph: &NeighbourGraph, from: &str, to: &str) -> bool {
+    let mut seen = BTreeSet::new();
+    let mut open = vec![from];
+    while let Some(entry) = open.pop() {
+        if entry == to {
+            return true;
+        }
+        let next = graph.get(entry).into_iter().flat_map(|edges| edges.keys());
+        open.extend(next.map(String::as_str).filter(|entry| seen.insert(*entry)));
+    }
+    false
+}
+
 #[test]
 fn folders_have_no_cycles() {
     let cycles = folder_cycles(&Crate::read(&folder()).uses());
@@ -228,7 +288,8 @@ fn the_readme_is_short() {
     );
 }
 
-/// The prose of a source file: its comment lines; of Markdown: lines outside code blocks.
+/// Returns the lines of prose of a file: the comment lines of a Rust file, the lines outside code
+/// blocks of a Markdown file.
 fn prose(file: &Path) -> Vec<String> {
     let text = read(file);
     if file.extension().is_some_and(|extension| extension == "rs") {
@@ -246,7 +307,7 @@ fn prose(file: &Path) -> Vec<String> {
     lines.map(str::to_owned).collect()
 }
 
-/// How often a clause opens with "What", as in "What comes or goes".
+/// Number of clauses in a line that open with "What", as in "What comes or goes".
 fn what_clauses(line: &str) -> usize {
     let lower = line.to_lowercase();
     let before_and_after = lower.match_indices("what").filter(|(at, word)| {
@@ -264,7 +325,7 @@ fn words<'a>(line: &'a str, wanted: &'a [&'a str]) -> usize {
         .count()
 }
 
-/// Every file whose prose is counted.
+/// Files whose prose is counted: all except those in `exempt`.
 fn prose_files(exempt: &[PathBuf]) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = ["src", "tests", "benches", "examples"]
         .iter()

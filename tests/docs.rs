@@ -3,7 +3,8 @@
 //!
 //! `UPDATE_DOCS=1 cargo test --test docs` writes the generated lists anew.
 
-mod source;
+#[path = "source/files.rs"]
+mod files;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -273,7 +274,13 @@ fn the_reference_of_project_files_names_every_key() {
     ];
     for table in tables {
         for key in known_keys(table) {
-            let is_named = page.contains(&format!("`{key}`"));
+            let forms = [
+                format!("`{key}`"),
+                format!("`{key}."),
+                format!(".{key}`"),
+                format!(".{key}]"),
+            ];
+            let is_named = forms.iter().any(|form| page.contains(form));
             assert!(is_named, "project-file.md does not name `{key}` of {table}");
         }
     }
@@ -317,7 +324,7 @@ fn the_options_of_the_command_line_are_listed() {
 /// A documented constant: file, name, and first line of its documentation.
 fn heuristics() -> BTreeMap<String, Vec<[String; 2]>> {
     let mut by_folder: BTreeMap<String, Vec<[String; 2]>> = BTreeMap::new();
-    for file in source::files_below(&source::folder()) {
+    for file in files::files_below(&files::folder()) {
         let text = read(&file);
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         for (k, line) in lines.iter().enumerate() {
@@ -339,7 +346,7 @@ fn heuristics() -> BTreeMap<String, Vec<[String; 2]>> {
             let Some(at) = sentence.find("(heuristic") else {
                 continue;
             };
-            let inside = file.strip_prefix(source::folder()).expect("a source file");
+            let inside = file.strip_prefix(files::folder()).expect("a source file");
             let mut parts = inside.components();
             let top = parts.next().expect("a name").as_os_str().to_string_lossy();
             let folder = top.trim_end_matches(".rs").to_owned();

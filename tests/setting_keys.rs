@@ -25,7 +25,7 @@ fn check_choices<T>(expected: &str)
 where
     T: Choice + Debug + Display + Serialize + DeserializeOwned,
 {
-    let mut keys_found: Vec<_> = keys::<T>().collect();
+    let mut keys_found: Vec<_> = choice_keys::<T>().collect();
     keys_found.sort_unstable();
     assert_eq!(keys_found.join(" "), expected);
     let titles: HashSet<_> = T::CHOICES.iter().map(|c| c.name().title).collect();

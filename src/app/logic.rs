@@ -58,7 +58,7 @@ pub struct LogicPlugin;
 impl Plugin for LogicPlugin {
     fn build(&self, app: &mut App) {
         use MorphSystems::{Build, Input, Playback as Play};
-        init(app);
+        init_resources(app);
         app.configure_sets(Update, (Input, Play, Build).chain())
             .add_systems(
                 Update,
@@ -70,7 +70,7 @@ impl Plugin for LogicPlugin {
                 )
                     .in_set(Input),
             )
-            .add_systems(Update, act().in_set(Play))
+            .add_systems(Update, intent_systems().in_set(Play))
             .add_systems(
                 Update,
                 (
@@ -86,7 +86,7 @@ impl Plugin for LogicPlugin {
     }
 }
 
-fn init(app: &mut App) {
+fn init_resources(app: &mut App) {
     app.add_message::<Intent>()
         .add_message::<bevy::window::FileDragAndDrop>()
         .add_message::<bevy::window::WindowCloseRequested>()
@@ -135,7 +135,7 @@ fn init(app: &mut App) {
 
 /// Systems that act on intents, in the order in which their results depend on each other: a project
 /// is opened before it is played.
-fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
+fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
         // First of all readers of intents, so that closing the window takes no longer than a key
         // press.

@@ -2,7 +2,7 @@
 //!
 //! Bevy panics in both cases and offers no check beforehand: a process may connect to a window
 //! system only once, and probing for a graphics card takes as long as starting. So exactly these
-//! two panics are caught and turned into [`NoWindowError`]; all others continue.
+//! two panics are caught and turned into [`NoWindowError`]; all others propagate.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind, set_hook, take_hook};
@@ -38,8 +38,8 @@ impl NoWindowError {
             Some(text) => text.as_str(),
             None => panic.downcast_ref::<&str>()?,
         };
-        let begins = |(begin, _): &&(&str, Self)| text.starts_with(begin);
-        PANICS.iter().find(begins).map(|(_, why)| *why)
+        let is_prefix = |(begin, _): &&(&str, Self)| text.starts_with(begin);
+        PANICS.iter().find(is_prefix).map(|(_, why)| *why)
     }
 }
 
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_two_panics_become_errors_and_others_go_on() {
+    fn the_two_panics_become_errors_and_others_propagate() {
         assert_eq!(catch_no_window(|| 7), Ok(7));
         let detail = "no DISPLAY";
         let display = catch_no_window(|| panic!("Failed to build event loop: {detail}"));

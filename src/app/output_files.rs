@@ -17,13 +17,13 @@ pub struct CaptureFolder(pub PathBuf);
 impl CaptureFolder {
     /// The requested folder, or `Morphospace` in the user's pictures, home or current folder.
     #[must_use]
-    pub fn choose(asked: Option<PathBuf>) -> Self {
+    pub fn choose(requested: Option<PathBuf>) -> Self {
         let pictures = || {
             dirs::picture_dir()
                 .or_else(dirs::home_dir)
                 .unwrap_or_default()
         };
-        Self(asked.unwrap_or_else(|| pictures().join("Morphospace")))
+        Self(requested.unwrap_or_else(|| pictures().join("Morphospace")))
     }
 }
 
@@ -71,7 +71,7 @@ fn first_free<T>(
         };
         let path = folder.join(name);
         match create(&path) {
-            Ok(made) => return Ok((made, path)),
+            Ok(created) => return Ok((created, path)),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             Err(error) => return Err(failed(&path, error)),
         }
@@ -116,8 +116,8 @@ impl ScratchFolder {
 /// # Errors
 /// The folder cannot be created or written to.
 pub fn check_writable(folder: &Path) -> Result<(), CreateFileError> {
-    let tried = std::fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
-    tried.map(drop).map_err(|source| CreateFileError {
+    let attempt = std::fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
+    attempt.map(drop).map_err(|source| CreateFileError {
         path: folder.display().to_string(),
         source,
     })
@@ -128,19 +128,24 @@ pub fn check_writable(folder: &Path) -> Result<(), CreateFileError> {
 /// # Errors
 /// The folder cannot be created or written to; nothing is left there then.
 pub fn move_to_free_name(
-    made: &Path,
+    source_path: &Path,
     folder: &Path,
     stem: &str,
 ) -> Result<PathBuf, CreateFileError> {
-    if made.is_dir() {
-        let (_, path) = first_free(folder, stem, "", |path| move_folder(made, path))?;
+    if source_path.is_dir() {
+        let (_, path) = first_free(folder, stem, "", |path| move_folder(source_path, path))?;
         return Ok(path);
     }
-    let extension = made.extension().unwrap_or_default().to_string_lossy();
+    let extension = source_path
+        .extension()
+        .unwrap_or_default()
+        .to_string_lossy();
     let (_, path) = first_free(folder, stem, &format!(".{extension}"), |path| {
         // A hard link never overwrites, and the file is complete from its first moment.
-        match std::fs::hard_link(made, path) {
-            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => copy_new(made, path),
+        match std::fs::hard_link(source_path, path) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
+                copy_new(source_path, path)
+            }
             linked => linked,
         }
     })?;
@@ -148,12 +153,12 @@ pub fn move_to_free_name(
 }
 
 /// Copies to a new file; for other disks and file systems without links.
-fn copy_new(made: &Path, path: &Path) -> io::Result<()> {
+fn copy_new(source_path: &Path, path: &Path) -> io::Result<()> {
     // Reserves the name; the content then replaces the empty file in one step.
     drop(OpenOptions::new().write(true).create_new(true).open(path)?);
     let copy = || {
         let mut file = AtomicFile::create(path)?;
-        io::copy(&mut File::open(made)?, file.file_mut())?;
+        io::copy(&mut File::open(source_path)?, file.file_mut())?;
         file.commit()
     };
     copy().inspect_err(|_| {
@@ -162,14 +167,14 @@ fn copy_new(made: &Path, path: &Path) -> io::Result<()> {
 }
 
 /// Moves a folder to a new name; copies it where it cannot be renamed.
-fn move_folder(made: &Path, path: &Path) -> io::Result<()> {
+fn move_folder(source_path: &Path, path: &Path) -> io::Result<()> {
     // Created first, because `rename` may overwrite an empty folder.
     std::fs::create_dir(path)?;
-    if std::fs::rename(made, path).is_ok() {
+    if std::fs::rename(source_path, path).is_ok() {
         return Ok(());
     }
     let copy = || {
-        for entry in made.read_dir()? {
+        for entry in source_path.read_dir()? {
             let entry = entry?;
             copy_new(&entry.path(), &path.join(entry.file_name()))?;
         }

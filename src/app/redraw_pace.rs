@@ -113,10 +113,10 @@ impl RedrawPace {
     /// left to the work.
     fn progress_interval(self) -> Duration {
         let [.., longest] = PROGRESS_INTERVALS;
-        let enough = |interval: &Duration| *interval >= self.frame * 2;
+        let is_long_enough = |interval: &Duration| *interval >= self.frame * 2;
         PROGRESS_INTERVALS
             .into_iter()
-            .find(enough)
+            .find(is_long_enough)
             .unwrap_or(longest)
     }
 }
@@ -151,7 +151,7 @@ pub struct RedrawInputs<'w, 's> {
 
 impl RedrawInputs<'_, '_> {
     /// Whether something on the stage moves or awaits a rendered frame.
-    fn moves(&self) -> bool {
+    fn is_stage_moving(&self) -> bool {
         self.playback.is_playing()
             || (self.preferences.panels && self.preferences.times)
             || self.captures.is_awaited()
@@ -160,12 +160,12 @@ impl RedrawInputs<'_, '_> {
     }
 
     /// Whether panels slide, fade or change size.
-    fn slides(&self) -> bool {
+    fn are_panels_animating(&self) -> bool {
         self.repaint.0.is_zero()
     }
 
     /// Whether something will change by itself, such as the progress of work.
-    fn waits(&self) -> bool {
+    fn is_work_pending(&self) -> bool {
         // For example a blinking cursor, or a tooltip about to appear.
         self.repaint.0 < REST_INTERVAL
             || self.presentation.has_pending_change()
@@ -189,7 +189,7 @@ impl RedrawInputs<'_, '_> {
     }
 
     /// Whether work has a result whose effect must be drawn.
-    fn is_new(&self) -> bool {
+    fn has_new_results(&self) -> bool {
         self.session.is_changed()
             || self.method_search.is_changed()
             || self.estimate.is_changed()
@@ -238,9 +238,9 @@ pub fn set_redraw_pace(
     _main_thread: NonSendMarker,
 ) {
     let messages_read = messages.events.read().count() + messages.intents.read().count();
-    let is_stirred = messages_read > 0 || inputs.is_new();
-    let works = inputs.session.work().is_some();
-    *state.settling = match (is_stirred, works) {
+    let has_news = messages_read > 0 || inputs.has_new_results();
+    let is_building = inputs.session.work().is_some();
+    *state.settling = match (has_news, is_building) {
         (true, true) => SETTLING_FRAMES_AT_WORK,
         (true, false) => SETTLING_FRAMES,
         (false, _) => state.settling.saturating_sub(1),
@@ -250,7 +250,7 @@ pub fn set_redraw_pace(
         *state.frame = time.delta();
     }
     // A transition being built matters more than sliding panels: they jump to their end position.
-    let skips_sliding = works && *state.frame * 2 > PROGRESS_INTERVALS[0];
+    let skips_sliding = is_building && *state.frame * 2 > PROGRESS_INTERVALS[0];
     if skips_sliding && let Some(requests) = &mut messages.requests {
         requests.clear();
     }
@@ -263,8 +263,10 @@ pub fn set_redraw_pace(
     // Needed even if hidden: the speaker's window is visible, or an autosave is pending.
     let is_needed = inputs.speaker.is_open() || inputs.autosave.is_behind();
     let pace = RedrawPace {
-        is_moving: *state.settling > 0 || inputs.moves() || (inputs.slides() && !skips_sliding),
-        is_waiting: inputs.waits(),
+        is_moving: *state.settling > 0
+            || inputs.is_stage_moving()
+            || (inputs.are_panels_animating() && !skips_sliding),
+        is_waiting: inputs.is_work_pending(),
         has_clock: inputs.speaker.is_open(),
         is_hidden: !is_needed && (*state.is_covered || window.iter().any(is_minimised)),
         frame: *state.frame,

@@ -48,13 +48,13 @@ pub fn stage_comparison(
         let blend = Blend {
             t: session.segment_t(playback.t()),
         };
-        let marks = (OnComparison, Propagate(COMPARISON_LAYER));
+        let markers = (OnComparison, Propagate(COMPARISON_LAYER));
         stage(
             &mut commands,
             comparison.transition(),
             blend,
             &staged,
-            marks,
+            markers,
         );
     }
 }
@@ -65,7 +65,7 @@ fn stage<Of: Component>(
     transition: Option<&Transition>,
     blend: Blend,
     staged: &StagedEntity<Of>,
-    marks: impl Bundle,
+    markers: impl Bundle,
 ) {
     match (transition, staged.single()) {
         (Some(new), Ok((_, StageTransition(old))))
@@ -76,7 +76,7 @@ fn stage<Of: Component>(
             commands.entity(entity).insert(new);
         }
         (Some(new), Err(_)) => {
-            commands.spawn((marks, StageTransition(new.clone()), blend));
+            commands.spawn((markers, StageTransition(new.clone()), blend));
         }
         (None, Ok((entity, _))) => commands.entity(entity).despawn(),
         (None, Err(_)) => {}
@@ -103,10 +103,10 @@ pub fn stage_t(
 
 /// Selects the segment that t is in.
 pub fn select_segment(playback: Res<Playback>, mut session: ResMut<Session>) {
-    let leg = session.segment_at(playback.t());
+    let segment = session.segment_at(playback.t());
     // Compared first, because writing marks the session as changed.
-    if leg != session.segment() {
-        session.select_segment(leg);
+    if segment != session.segment() {
+        session.select_segment(segment);
     }
 }
 
@@ -115,14 +115,14 @@ pub fn stage_style(
     session: Res<Session>,
     preferences: Res<Preferences>,
     mut styles: Query<&mut StageStyle, StageOrComparison>,
-    mut ground: ResMut<ClearColor>,
+    mut clear_colour: ResMut<ClearColor>,
 ) {
     let style = session.segment_style();
     let [r, g, b] = style.ground.0;
     let colour = Color::srgb_u8(r, g, b);
     // Compared first, here and below: writing marks it as changed and redraws it.
-    if ground.0 != colour {
-        ground.0 = colour;
+    if clear_colour.0 != colour {
+        clear_colour.0 = colour;
     }
     let show = preferences.show;
     for mut staged in &mut styles {

@@ -25,7 +25,7 @@ pub enum UnsavedKind {
 /// The intent that waits for an answer, if any.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct UnsavedQuestion {
-    held: Option<PendingIntent>,
+    pending: Option<PendingIntent>,
 }
 
 /// An intent that waits for an answer.
@@ -43,30 +43,33 @@ impl UnsavedQuestion {
     /// Text of the open question.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
-        let held = self.held.as_ref().filter(|held| !held.is_answered)?;
-        Some(&held.text)
+        let pending = self
+            .pending
+            .as_ref()
+            .filter(|pending| !pending.is_answered)?;
+        Some(&pending.text)
     }
 
     /// Kind of work that would be lost by the waiting intent.
     #[must_use]
     pub fn kind(&self) -> Option<UnsavedKind> {
-        self.held.as_ref().map(|held| held.kind)
+        self.pending.as_ref().map(|pending| pending.kind)
     }
 
     /// Holds an intent back and asks.
-    pub fn ask(&mut self, intent: Intent, lost: UnsavedKind, text: String) {
-        self.held = Some(PendingIntent {
+    pub fn ask(&mut self, intent: Intent, kind: UnsavedKind, text: String) {
+        self.pending = Some(PendingIntent {
             intent,
-            kind: lost,
+            kind,
             is_answered: false,
             text,
         });
     }
 
     /// Call when the work is saved or discarded: returns the intent that waited for it.
-    pub fn take_if_resolved(&mut self, lost: UnsavedKind) -> Option<Intent> {
-        let waits = |held: &mut PendingIntent| held.is_answered && held.kind == lost;
-        Some(self.held.take_if(waits)?.intent)
+    pub fn take_if_resolved(&mut self, kind: UnsavedKind) -> Option<Intent> {
+        let waits = |pending: &mut PendingIntent| pending.is_answered && pending.kind == kind;
+        Some(self.pending.take_if(waits)?.intent)
     }
 
     /// Call when saving was cancelled or failed: drops the intent that waited for it.
@@ -125,12 +128,12 @@ pub fn answer(
         match intent {
             Intent::AnswerUnsaved(UnsavedAnswer::Cancel) | Intent::Escape => {
                 // After the answer, Esc means something else.
-                question.held.take_if(|held| !held.is_answered);
+                question.pending.take_if(|pending| !pending.is_answered);
             }
             Intent::AnswerUnsaved(answer) => {
-                if let Some(held) = &mut question.held {
-                    held.is_answered = true;
-                    match (held.kind, answer) {
+                if let Some(pending) = &mut question.pending {
+                    pending.is_answered = true;
+                    match (pending.kind, answer) {
                         // Saving may open a dialog and take long; the intent waits for the result.
                         (UnsavedKind::Changes, UnsavedAnswer::Save) => next.push(Intent::Save),
                         (UnsavedKind::Changes, _) => {

@@ -64,14 +64,14 @@ fn program(options: AppOptions) -> App {
         files,
         captures,
         film_memory,
-        starts_talk: presents,
+        starts_talk,
     } = options;
     share_arenas();
     let autosave = autosave();
     let mut app = App::new();
     // Bevy's own Ctrl-C handler does not wake a resting event loop; `handle_termination` does.
     let plugins = DefaultPlugins
-        .set(window(presents))
+        .set(window(starts_talk))
         .disable::<TerminalCtrlCHandlerPlugin>();
     app.add_plugins(plugins)
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
@@ -84,7 +84,7 @@ fn program(options: AppOptions) -> App {
         .insert_resource(GalleryStripCache::usual())
         .add_systems(Startup, move |mut intents: MessageWriter<Intent>| {
             intents.write(first_intent(&files));
-            if presents {
+            if starts_talk {
                 intents.write(Intent::Present { is_all: true });
             }
         })
@@ -152,13 +152,13 @@ fn first_intent(files: &[PathBuf]) -> Intent {
 }
 
 /// The main window's properties.
-fn window(presents: bool) -> WindowPlugin {
+fn window(starts_talk: bool) -> WindowPlugin {
     WindowPlugin {
         primary_window: Some(Window {
             title: "Morphospace".to_owned(),
             name: Some("morphospace".to_owned()),
             // Set here and not by a system, so that the very first frame is full screen.
-            mode: if presents {
+            mode: if starts_talk {
                 fullscreen_mode()
             } else {
                 WindowMode::Windowed

@@ -43,11 +43,11 @@ pub(super) struct CatalogueArgs {
 
 pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
-    let whole = WholeProgress::new(&terminal);
-    let building = ProgressSpan::new(&whole, 0.0, 0.7);
+    let overall = WholeProgress::new(&terminal);
+    let building = ProgressSpan::new(&overall, 0.0, 0.7);
     let (loaded, space, _) = args.inputs.open_space(&args.method, &building)?;
-    let kept = &loaded.project.map.kept;
-    if kept.is_empty() {
+    let saved_blends = &loaded.project.map.kept;
+    if saved_blends.is_empty() {
         return Err(CliError::Failed(
             "the project has no saved blends: save some on the map in the window (D, then K), and \
              save the project"
@@ -55,7 +55,7 @@ pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
         ));
     }
     let map = loaded.map_of(&space).map_err(CliError::failed)?;
-    let catalogue = Catalogue::new(&space, &map, kept, args.stars, args.sort);
+    let catalogue = Catalogue::new(&space, &map, saved_blends, args.stars, args.sort);
     if catalogue.is_empty() {
         let min_stars = args.stars;
         return Err(CliError::Failed(format!(
@@ -63,9 +63,9 @@ pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
         )));
     }
     let style = &loaded.project.style;
-    let given = args.ground.map(|BackgroundColour(ground)| ground);
-    let ground = given.unwrap_or(Some(style.ground));
-    let writing = ProgressSpan::new(&whole, 0.7, 1.0);
+    let requested = args.ground.map(|BackgroundColour(ground)| ground);
+    let ground = requested.unwrap_or(Some(style.ground));
+    let writing = ProgressSpan::new(&overall, 0.7, 1.0);
     let written = catalogue
         .write(&space, style, ground, &args.out, &writing)
         .map_err(CliError::failed)?;

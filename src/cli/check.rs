@@ -41,9 +41,9 @@ pub(super) struct CheckArgs {
 
 pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
     match (&args.inputs, &args.batch) {
-        (Some(inputs), None) if args.map => map(args, inputs),
-        (Some(inputs), None) => one(args, inputs),
-        (None, Some(batch)) => table(args, batch),
+        (Some(inputs), None) if args.map => check_space(args, inputs),
+        (Some(inputs), None) => check_segments(args, inputs),
+        (None, Some(batch)) => check_pairs(args, batch),
         _ => Err(CliError::Usage(
             "give a project, two or more designs, or a table of pairs with --pairs".to_owned(),
         )),
@@ -51,7 +51,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
 }
 
 /// Measures and prints a transition, or each segment of a sequence.
-fn one(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
+fn check_segments(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
     let measured = args.measuring.of(inputs, &terminal)?;
     // Clears the progress line before the report is printed.
@@ -72,12 +72,12 @@ fn one(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
 const BLENDS: usize = 200;
 
 /// Measures and prints the space of all designs.
-fn map(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
+fn check_space(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
-    let whole = WholeProgress::new(&terminal);
-    let building = ProgressSpan::new(&whole, 0.0, 0.7);
+    let overall = WholeProgress::new(&terminal);
+    let building = ProgressSpan::new(&overall, 0.0, 0.7);
     let (_, space, build) = inputs.open_space(args.measuring.method(), &building)?;
-    let measuring = ProgressSpan::new(&whole, 0.7, 1.0);
+    let measuring = ProgressSpan::new(&overall, 0.7, 1.0);
     let report = measure::space_report(&space, BLENDS, &measuring).map_err(CliError::failed)?;
     let measured = SpaceMeasurement::new(&space, report, build);
     drop(terminal);
@@ -88,7 +88,7 @@ fn map(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
 }
 
 /// Measures the pairs of a table and prints the summary.
-fn table(args: &CheckArgs, batch: &PairBatchArgs) -> Result<(), CliError> {
+fn check_pairs(args: &CheckArgs, batch: &PairBatchArgs) -> Result<(), CliError> {
     let outcome = batch.run(&args.measuring, &Terminal::new())?;
     let summary = &outcome.summary;
     output::write_data(&if args.json {

@@ -142,17 +142,17 @@ mod tests {
     #[test]
     fn paths_are_stored_relative_to_the_project() {
         let folder = tempfile::tempdir().expect("a folder");
-        let at = |path: &str| folder.path().join(path);
-        fs::create_dir_all(at("a/b")).expect("made");
-        fs::create_dir_all(at("c")).expect("made");
-        fs::write(at("a/x.svg"), b"").expect("written");
-        let from = |folder: &str| relative(&at("a/x.svg"), &at(folder)).expect("a path");
+        let path_in = |path: &str| folder.path().join(path);
+        fs::create_dir_all(path_in("a/b")).expect("created");
+        fs::create_dir_all(path_in("c")).expect("created");
+        fs::write(path_in("a/x.svg"), b"").expect("written");
+        let from = |folder: &str| relative(&path_in("a/x.svg"), &path_in(folder)).expect("a path");
         assert_eq!(from("a"), Path::new("x.svg"));
         assert_eq!(from("a/b"), Path::new("../x.svg"));
         assert_eq!(from("c"), Path::new("../a/x.svg"));
-        assert!(relative(&at("missing.svg"), &at("a")).is_err());
-        let element = format!("{}#stalk", at("a/x.svg").display());
-        let stored = |path: &str| stored_path(path.as_ref(), &at("c")).expect("a path");
+        assert!(relative(&path_in("missing.svg"), &path_in("a")).is_err());
+        let element = format!("{}#stalk", path_in("a/x.svg").display());
+        let stored = |path: &str| stored_path(path.as_ref(), &path_in("c")).expect("a path");
         assert_eq!(stored(&element), Path::new("../a/x.svg#stalk"));
         assert_eq!(stored("glyph:%40"), Path::new("glyph:%40"));
     }

@@ -140,7 +140,7 @@ fn best_for_most(
         let (transition, _) =
             build_best_method(&spec, &shares.part(k)).map_err(CliError::transition_not_built)?;
         let method = transition.method();
-        match counts.iter_mut().find(|(known, _)| *known == method) {
+        match counts.iter_mut().find(|(counted, _)| *counted == method) {
             Some((_, count)) => *count += 1,
             None => counts.push((method, 1)),
         }

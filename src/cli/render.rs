@@ -1,7 +1,7 @@
 //! `morphospace render`: writes images, contact sheets, maps, numbered images and animations.
 //!
-//! The name of the output determines its kind. Numbered images show one pass; animations of a
-//! ping-pong project also play backwards.
+//! The name of the output determines its kind. Numbered images show the film from start to end;
+//! animations of a ping-pong project also play backwards.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -66,7 +66,7 @@ pub(super) struct RenderArgs {
     #[arg(long, requires = "map", value_parser = one_of::<MapLayout>())]
     sites: Option<MapLayout>,
 
-    /// Number of frames of one pass, evenly spaced in t [default: by the project's timing]
+    /// Number of frames from start to end, evenly spaced in t [default: by the project's timing]
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
 
@@ -127,12 +127,12 @@ impl LayoutArgs {
             || self.lines.is_some()
             || self.frame_margin.is_some()
             || self.captions;
-        let plain = || PictureLayout {
+        let default_layout = || PictureLayout {
             aspect: Aspect::Original,
             ..PictureLayout::default()
         };
         let base = match &self.preset {
-            None => plain(),
+            None => default_layout(),
             Some(PresetChoice::BuiltIn(preset)) => preset.layout(),
             Some(PresetChoice::Saved(preset)) => preset.layout(),
         };
@@ -165,10 +165,10 @@ fn preset(name: &str) -> Result<PresetChoice, String> {
         }
         None => FilmPresets::default(),
     };
-    let known = choice_keys::<LayoutPreset>().map(str::to_owned);
-    let known: Vec<String> = known.chain(saved.0.keys().cloned()).collect();
+    let built_in = choice_keys::<LayoutPreset>().map(str::to_owned);
+    let names: Vec<String> = built_in.chain(saved.0.keys().cloned()).collect();
     let chosen = saved.0.get(name).copied().map(PresetChoice::Saved);
-    chosen.ok_or_else(|| format!("use one of {}", known.join(", ")))
+    chosen.ok_or_else(|| format!("use one of {}", names.join(", ")))
 }
 
 /// Parses a margin, as a fraction of the shorter side.
@@ -202,18 +202,20 @@ fn out_help() -> String {
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = ExportTarget::of_path(&args.out).map_err(CliError::usage)?;
-    let shown = shown(args, &target)?;
-    let target = if shown.is_none() {
+    let still_content = still_content(args, &target)?;
+    let target = if still_content.is_none() {
         target.preferring_film()
     } else {
         target
     };
     // Checked before the designs are read, which may take long.
-    check(args, &target, shown)?;
+    check_output_name(args, &target, still_content)?;
     let terminal = Terminal::new();
-    let whole = WholeProgress::new(&terminal);
-    if let (Some(MapOrFilm::Map(grid)), ExportTarget::Still(kind, path)) = (shown, &target) {
-        let (drawing, notes) = map(args, grid, &whole)?;
+    let overall = WholeProgress::new(&terminal);
+    if let (Some(StillContent::Map(grid)), ExportTarget::Still(kind, path)) =
+        (still_content, &target)
+    {
+        let (drawing, notes) = draw_map(args, grid, &overall)?;
         write_still(&drawing, *kind, path).map_err(CliError::failed)?;
         drop(terminal);
         notes.iter().for_each(|note| output::message(note));
@@ -222,16 +224,16 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     }
     let opened = args
         .inputs
-        .open(&args.method, &ProgressSpan::new(&whole, 0.0, 0.5))?;
-    let writing = ProgressSpan::new(&whole, 0.5, 1.0);
-    let written = match (target, shown) {
-        (ExportTarget::Still(kind, path), Some(shown)) => {
-            let drawing = draw(args, &opened, shown, &writing)?;
+        .open(&args.method, &ProgressSpan::new(&overall, 0.0, 0.5))?;
+    let writing = ProgressSpan::new(&overall, 0.5, 1.0);
+    let written = match (target, still_content) {
+        (ExportTarget::Still(kind, path), Some(content)) => {
+            let drawing = draw_still(args, &opened, content, &writing)?;
             write_still(&drawing, kind, &path).map_err(CliError::failed)?;
             vec![path]
         }
-        // `check` has refused single images for a film.
-        (target, _) => film(args, &opened, target, &writing)?,
+        // `check_output_name` has refused single images for a film.
+        (target, _) => write_frames(args, &opened, target, &writing)?,
     };
     // Clears the progress line before the message is printed.
     drop(terminal);
@@ -241,7 +243,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
 
 /// Content of a single image.
 #[derive(Clone, Copy)]
-enum MapOrFilm {
+enum StillContent {
     /// The frame at a t.
     Frame(f64),
     /// A contact sheet with this number of frames.
@@ -258,7 +260,10 @@ fn is_numbered(path: &Path) -> bool {
 }
 
 /// Returns the content of a single image requested by the flags; `None` for a film.
-fn shown(args: &RenderArgs, target: &ExportTarget) -> Result<Option<MapOrFilm>, CliError> {
+fn still_content(
+    args: &RenderArgs,
+    target: &ExportTarget,
+) -> Result<Option<StillContent>, CliError> {
     let count = args.sheet.map(|count| count as usize);
     if let Some(t) = args.at.iter().find(|t| !t.is_finite()) {
         return Err(CliError::Usage(format!(
@@ -266,7 +271,7 @@ fn shown(args: &RenderArgs, target: &ExportTarget) -> Result<Option<MapOrFilm>, 
         )));
     }
     if let Some(grid) = args.map {
-        return Ok(Some(MapOrFilm::Map(grid)));
+        return Ok(Some(StillContent::Map(grid)));
     }
     match args.at.as_slice() {
         // Numbered images if several t are given or the name has a placeholder.
@@ -276,31 +281,31 @@ fn shown(args: &RenderArgs, target: &ExportTarget) -> Result<Option<MapOrFilm>, 
         {
             Ok(None)
         }
-        &[t] => Ok(Some(MapOrFilm::Frame(t))),
+        &[t] => Ok(Some(StillContent::Frame(t))),
         [_, _, ..] => Err(CliError::Usage(format!(
             "--at has {} values: write name-####.svg for numbered images, or give one value",
             args.at.len()
         ))),
-        [] if args.compare => Ok(Some(MapOrFilm::Methods(
+        [] if args.compare => Ok(Some(StillContent::Methods(
             count.unwrap_or(COMPARISON_COLUMNS),
         ))),
-        [] => Ok(count.map(MapOrFilm::Sheet)),
+        [] => Ok(count.map(StillContent::Sheet)),
     }
 }
 
 /// Checks that the name of the output fits the flags.
-fn check(
+fn check_output_name(
     args: &RenderArgs,
     target: &ExportTarget,
-    shown: Option<MapOrFilm>,
+    content: Option<StillContent>,
 ) -> Result<(), CliError> {
-    if shown.is_some() && args.out.is_dir() {
+    if content.is_some() && args.out.is_dir() {
         let (path, extensions) = (args.out.display(), extension_list::<StillKind>());
         return Err(CliError::Usage(format!(
             "`{path}` is a folder: name a file in it that ends in {extensions}"
         )));
     }
-    let flags = match (target, shown) {
+    let flags = match (target, content) {
         (ExportTarget::Still(_, path), None) => {
             return Err(CliError::Usage(format!(
                 "`{0}` is a single image: add --at T for one moment or --sheet N for a contact sheet, or write name-####.{1} for numbered images",
@@ -309,8 +314,8 @@ fn check(
             )));
         }
         (ExportTarget::Still(..), Some(_)) | (_, None) => return Ok(()),
-        (_, Some(MapOrFilm::Methods(_))) => "--compare makes",
-        (_, Some(MapOrFilm::Map(_))) => "--map makes",
+        (_, Some(StillContent::Methods(_))) => "--compare makes",
+        (_, Some(StillContent::Map(_))) => "--map makes",
         (_, Some(_)) => "--at and --sheet make",
     };
     let (path, extensions) = (args.out.display(), extension_list::<StillKind>());
@@ -319,35 +324,35 @@ fn check(
 }
 
 /// Draws a single image.
-fn draw(
+fn draw_still(
     args: &RenderArgs,
     opened: &OpenedProject,
-    shown: MapOrFilm,
+    content: StillContent,
     progress: &dyn Progress,
 ) -> Result<Drawing, CliError> {
     let project = &opened.loaded.project;
     let (sequence, style) = (&opened.sequence, &project.style);
     let ground = background_of(args, project);
     let times = |count| even_times(project.timing.from, project.timing.to, count);
-    Ok(match shown {
-        MapOrFilm::Frame(t) => {
+    Ok(match content {
+        StillContent::Frame(t) => {
             // Framed like the whole film, so that images of one project have the same scale.
-            let framed: Vec<f64> = times(17).into_iter().chain([t]).collect();
-            camera(args, opened, &framed, false)?.draw(t)
+            let framing_times: Vec<f64> = times(17).into_iter().chain([t]).collect();
+            camera(args, opened, &framing_times, false)?.draw(t)
         }
-        MapOrFilm::Sheet(count) => {
+        StillContent::Sheet(count) => {
             let times = times(count);
             let bounds = framing(sequence, &times);
             contact_sheet(sequence, style, &times, bounds, args.size, ground)
         }
-        MapOrFilm::Methods(_) if project.is_sequence() || project.follows_path() => {
+        StillContent::Methods(_) if project.is_sequence() || project.follows_path() => {
             return Err(CliError::Usage(
                 "--compare needs exactly two designs: name the two whose methods you want to see"
                     .to_owned(),
             ));
         }
-        MapOrFilm::Map(grid) => map(args, grid, progress)?.0,
-        MapOrFilm::Methods(count) => {
+        StillContent::Map(grid) => draw_map(args, grid, progress)?.0,
+        StillContent::Methods(count) => {
             let spec = opened.loaded.spec().map_err(CliError::failed)?;
             let rows = MethodRow::all(&spec, progress).map_err(CliError::failed)?;
             comparison_sheet(&rows, style, &times(count), ground).map_err(CliError::failed)?
@@ -356,7 +361,7 @@ fn draw(
 }
 
 /// Draws the map of all designs; also returns its notes.
-fn map(
+fn draw_map(
     args: &RenderArgs,
     grid: [usize; 2],
     progress: &dyn Progress,
@@ -378,20 +383,22 @@ fn map(
 }
 
 /// Writes a film or numbered images; returns the paths of the written files.
-fn film(
+fn write_frames(
     args: &RenderArgs,
     opened: &OpenedProject,
     target: ExportTarget,
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, CliError> {
-    let whole = whole_film(args, &opened.loaded.project, &target)?;
+    let full_film = full_film(args, &opened.loaded.project, &target)?;
     let rendered = match &args.frames_range {
-        Some(range) => whole.frame_range(range.clone()).map_err(CliError::usage)?,
-        None => whole.clone(),
+        Some(range) => full_film
+            .frame_range(range.clone())
+            .map_err(CliError::usage)?,
+        None => full_film.clone(),
     };
     let is_mp4 = matches!(target, ExportTarget::Film(FilmKind::Mp4, _));
     // Framed by the whole film, so that parts rendered separately fit together.
-    let camera = camera(args, opened, whole.times(), is_mp4)?;
+    let camera = camera(args, opened, full_film.times(), is_mp4)?;
     if args.size.is_some_and(|size| size != camera.view.size()) {
         output::message(&format!(
             "MP4 needs even sides: using {} pixels",
@@ -406,7 +413,7 @@ fn film(
 }
 
 /// Returns the times of all frames of the film, before `--frames-range` selects some of them.
-fn whole_film(
+fn full_film(
     args: &RenderArgs,
     project: &Project,
     target: &ExportTarget,
@@ -464,8 +471,8 @@ fn captions(args: &RenderArgs, opened: &OpenedProject) -> Captions {
 
 /// Returns the background colour, from the flag or the project; `None` for transparent.
 fn background_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {
-    let given = args.ground.map(|BackgroundColour(ground)| ground);
-    given.unwrap_or(Some(project.style.ground))
+    let requested = args.ground.map(|BackgroundColour(ground)| ground);
+    requested.unwrap_or(Some(project.style.ground))
 }
 
 /// Prints which files were written.

@@ -22,7 +22,7 @@ const CANCEL_TIME: Duration = Duration::from_millis(500);
 /// Progress line that overwrites itself on the terminal.
 #[derive(Debug)]
 pub(super) struct Terminal {
-    shown: Option<Mutex<String>>,
+    current_line: Option<Mutex<String>>,
 }
 
 impl Terminal {
@@ -43,18 +43,22 @@ impl Terminal {
             drop(installed);
         }
         Self {
-            shown: io::stderr().is_terminal().then(Mutex::default),
+            current_line: io::stderr().is_terminal().then(Mutex::default),
         }
     }
 
     /// Replaces the progress line; an empty line clears it.
     fn show(&self, line: String) {
-        let Some(shown) = &self.shown else { return };
-        let Ok(mut shown) = shown.lock() else { return };
-        if *shown != line {
+        let Some(current_line) = &self.current_line else {
+            return;
+        };
+        let Ok(mut current_line) = current_line.lock() else {
+            return;
+        };
+        if *current_line != line {
             // The work goes on even if the terminal no longer exists.
             write!(io::stderr().lock(), "\r\x1b[K{line}").unwrap_or_default();
-            *shown = line;
+            *current_line = line;
         }
     }
 }

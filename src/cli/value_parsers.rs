@@ -107,13 +107,13 @@ pub(super) fn grid(text: &str) -> Result<[usize; 2], String> {
 }
 
 /// Parses N numbers for the source and N for the target, separated by a colon.
-fn halves<const N: usize>(text: &str, wrong: ValueError) -> Result<[[f64; N]; 2], ValueError> {
+fn halves<const N: usize>(text: &str, error: ValueError) -> Result<[[f64; N]; 2], ValueError> {
     let (source, target) = text.split_once(':').ok_or(ValueError::Halves)?;
     let read = |half| numbers(half).and_then(|all| all.try_into().ok());
     read(source)
         .zip(read(target))
         .map(<[_; 2]>::from)
-        .ok_or(wrong)
+        .ok_or(error)
 }
 
 /// Parses finite numbers separated by commas.
@@ -129,32 +129,32 @@ mod tests {
 
     #[test]
     fn points_and_lines_are_parsed() {
-        let found = pin("1,-2: 3.5,4").expect("a pin");
-        assert_eq!(found.source, DVec2::new(1.0, -2.0));
-        assert_eq!(found.target, DVec2::new(3.5, 4.0));
-        let found = line("0,0,1,0:0,0,0,2").expect("a line");
-        assert_eq!(found.target[1], DVec2::new(0.0, 2.0));
-        for wrong in ["", "1,2", "1,2:3", "1,2:3,4,5", "1,nan:2,3", "a,b:c,d"] {
-            assert!(pin(wrong).is_err(), "{wrong}");
-            assert!(line(wrong).is_err(), "{wrong}");
+        let pin_pair = pin("1,-2: 3.5,4").expect("a pin");
+        assert_eq!(pin_pair.source, DVec2::new(1.0, -2.0));
+        assert_eq!(pin_pair.target, DVec2::new(3.5, 4.0));
+        let line_pair = line("0,0,1,0:0,0,0,2").expect("a line");
+        assert_eq!(line_pair.target[1], DVec2::new(0.0, 2.0));
+        for invalid in ["", "1,2", "1,2:3", "1,2:3,4,5", "1,nan:2,3", "a,b:c,d"] {
+            assert!(pin(invalid).is_err(), "{invalid}");
+            assert!(line(invalid).is_err(), "{invalid}");
         }
     }
 
     #[test]
     fn ranges_are_parsed() {
         assert_eq!(range("0..60"), Ok(0..60));
-        for wrong in [
+        for invalid in [
             "", "5", "5..", "..5", "5..5", "6..5", "-1..5", "0..=5", "a..b",
         ] {
-            assert!(range(wrong).is_err(), "{wrong}");
+            assert!(range(invalid).is_err(), "{invalid}");
         }
     }
 
     #[test]
     fn grids_are_parsed() {
         assert_eq!(grid("9x5"), Ok([9, 5]));
-        for wrong in ["", "9", "x", "9x", "0x4", "51x50", "-1x3", "9x9x9"] {
-            assert!(grid(wrong).is_err(), "{wrong}");
+        for invalid in ["", "9", "x", "9x", "0x4", "51x50", "-1x3", "9x9x9"] {
+            assert!(grid(invalid).is_err(), "{invalid}");
         }
     }
 

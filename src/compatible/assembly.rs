@@ -2,7 +2,7 @@
 
 use crate::geometry::DVec2;
 
-/// Mesh under assembly: vertices in source and target, and faces.
+/// Mesh under construction: the vertex positions in source and target, and the faces.
 #[derive(Default)]
 pub(super) struct MeshAssembly {
     pub(super) points: [Vec<DVec2>; 2],
@@ -10,8 +10,8 @@ pub(super) struct MeshAssembly {
 }
 
 impl MeshAssembly {
-    /// Appends a mesh. Its first vertices are already present, with the indices `shared`; the
-    /// others get new indices.
+    /// Appends a mesh with vertex positions `points` and faces `faces`. Its first vertices are
+    /// already present, with the indices `shared`; its other vertices get new indices.
     ///
     /// # Panics
     /// If the mesh has fewer vertices than `shared`.
@@ -22,7 +22,7 @@ impl MeshAssembly {
         faces: impl Iterator<Item = [u32; 3]>,
     ) {
         let offset = self.points[0].len() as u32;
-        // Vertices beyond the shared ones follow those that are already present.
+        // Vertices after the shared ones are appended to those that are already present.
         let new_index = |v: u32| match shared.get(v as usize) {
             Some(&existing) => existing,
             None => offset + v - shared.len() as u32,

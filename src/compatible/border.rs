@@ -1,15 +1,15 @@
-//! Evenly spaced points along a rectangle, the border of a whole-frame mesh.
+//! Evenly spaced points along the four sides of a rectangle, the border of a whole-frame mesh.
 
 use crate::geometry::{Bounds, DVec2, ring_edges};
 
-/// Returns points along the border of `frame`, at most `spacing` apart, counter-clockwise from its
-/// lower left corner.
+/// Returns points along the border of `frame`, counter-clockwise from its lower left corner.
+/// Neighbouring points are at most `spacing` apart.
 pub(super) fn border_points(frame: &Bounds, spacing: f64) -> Vec<DVec2> {
     let mut points = Vec::new();
     for (a, b) in ring_edges(&frame.corners()) {
         let pieces = (a.distance(b) / spacing).ceil().max(1.0) as u32;
-        // This form is exact on an axis-parallel side; a point off the side would leave a folded
-        // sliver.
+        // This form keeps points exactly on an axis-parallel side. A point off the side could leave
+        // a folded sliver.
         points.extend((0..pieces).map(|i| a + (b - a) * (f64::from(i) / f64::from(pieces))));
     }
     points

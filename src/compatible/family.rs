@@ -1,4 +1,5 @@
-//! Compatible mesh of many designs: one list of faces with an embedding for each design.
+//! Compatible mesh of many designs: one list of faces with an embedding (a position for every
+//! vertex) in each design.
 //!
 //! Guaranteed: any two designs of a family form a [`CompatibleMesh`], because every face is
 //! positively oriented in all embeddings, by exact predicates.
@@ -14,11 +15,11 @@ use crate::work::budget::WorkloadTooLarge;
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::sync::Arc;
 
-/// One connectivity with two or more embeddings.
+/// One list of faces with two or more embeddings.
 #[derive(Clone, Debug)]
 pub struct CompatibleFamily {
     faces: Arc<[[u32; 3]]>,
-    /// Vertices of each design.
+    /// Vertex positions, one list for each design.
     embeddings: Vec<Vec<DVec2>>,
     elements: Vec<BarElement>,
     connectivity: Connectivity,
@@ -28,44 +29,47 @@ pub struct CompatibleFamily {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FamilyError {
-    /// Fewer than two designs.
+    /// There are fewer than two designs; the number given.
     #[error("at least two designs are needed, not {0}")]
     TooFew(usize),
     /// A design is not compatible with the first one.
     #[error("design {} is not compatible with the first: {error}", design + 1)]
     Incompatible {
-        /// Index of the design.
+        /// Index of the design that is not compatible.
         design: usize,
-        /// Reason, with the first design as the source.
+        /// Reason; in it, the first design counts as the source.
         error: CompatibleError,
     },
-    /// A design has parts or holes that another one lacks, so some points have no counterpart.
+    /// A design has parts or holes that another design lacks, or the other way round, so some
+    /// points have no counterpart.
     #[error("design {} does not have the same parts and holes as design {}", design + 1, of + 1)]
     PartsDiffer {
-        /// Index of the design.
+        /// Index of the design that differs.
         design: usize,
-        /// Index of the design it is compared with.
+        /// Index of the design that it is compared with.
         of: usize,
     },
-    /// With the points of all designs added, a design's outline bounds no valid piece.
+    /// With the matched points of all designs added to it, a design's outline is not a valid
+    /// boundary.
     #[error("design {}: {error}", design + 1)]
     Outline {
-        /// Index of the design.
+        /// Index of the design with the invalid outline.
         design: usize,
-        /// Reason; the design counts as a source in it.
+        /// Reason; in it, the design counts as the source.
         error: PieceMeshError,
     },
-    /// No triangulation of one design was found that is valid in all others.
+    /// No triangulation was found that is free of folds in all designs.
     #[error(
         "no triangulation without folds was found for all designs; make them more alike, or change the matches"
     )]
     NoCommonTriangulation,
-    /// No two trusses have panels whose triangulation is valid in all trusses.
+    /// For every pair of trusses, the common triangulation of their panels is invalid in another
+    /// truss.
     #[error(
         "no triangulation of the panels is valid in all trusses; add bars, or make them more alike"
     )]
     NoCommonPanels,
-    /// Matching the outlines would exceed the limits on time or memory.
+    /// Matching the outlines would exceed the limit on time or memory.
     #[error(transparent)]
     TooMuch(#[from] WorkloadTooLarge),
     /// The work was cancelled.
@@ -74,12 +78,12 @@ pub enum FamilyError {
 }
 
 impl CompatibleFamily {
-    /// Creates a family from faces, embeddings of their vertices, and bars that lie in no face.
-    /// Faces that are clockwise in all embeddings are reversed.
+    /// Creates a family from faces, the positions of their vertices in each design, and bars that
+    /// lie in no face. Faces that are clockwise in all embeddings are reversed.
     ///
     /// # Errors
-    /// [`FamilyError::TooFew`] for fewer than two embeddings; [`FamilyError::Incompatible`] with the
-    /// error of [`CompatibleMesh::new`] if a design is not compatible with the first.
+    /// [`FamilyError::TooFew`] for fewer than two embeddings; [`FamilyError::Incompatible`] with
+    /// the error of [`CompatibleMesh::new`] if a design is not compatible with the first.
     ///
     /// ```
     /// use morphospace::{compatible::CompatibleFamily, geometry::DVec2};
@@ -97,8 +101,8 @@ impl CompatibleFamily {
         let [first, others @ ..] = embeddings.as_slice() else {
             return Err(FamilyError::TooFew(0));
         };
-        // A check of each design against the first is enough: orientation is a property of one
-        // embedding.
+        // Checking each design against the first is enough: faces that agree with the first in
+        // orientation agree with each other.
         let mut first_mesh = None;
         for (k, embedding) in others.iter().enumerate() {
             let pair = |faces| {
@@ -125,7 +129,8 @@ impl CompatibleFamily {
     /// Creates a family of meshes that have the same faces in the same order.
     ///
     /// # Errors
-    /// As [`Self::new`], and if the faces differ.
+    /// As [`Self::new`]; also [`FamilyError::Incompatible`] if the faces of a mesh differ from the
+    /// first one's.
     pub fn from_meshes(meshes: &[&TriangleMesh]) -> Result<Self, FamilyError> {
         let Some((first, others)) = meshes.split_first() else {
             return Err(FamilyError::TooFew(0));
@@ -141,18 +146,18 @@ impl CompatibleFamily {
 
     /// Creates a family of trusses with the same nodes and bars.
     ///
-    /// The faces triangulate the panels of the first pair of trusses whose triangulation is valid
-    /// in all trusses. Bars in no panel become elements.
+    /// The panels are triangulated for one pair of trusses after another, until a triangulation is
+    /// valid in all trusses. Bars that lie in no panel become two-point elements.
     ///
     /// # Errors
-    /// [`FamilyError`] names the first truss that differs from the first one, or reports that no
-    /// triangulation is valid in all.
+    /// [`FamilyError`] names the first truss that is incompatible with the first one, or reports
+    /// that no triangulation is valid in all trusses or that the work was cancelled.
     pub fn from_trusses(trusses: &[&Truss], progress: &dyn Progress) -> Result<Self, FamilyError> {
         let embeddings: Vec<_> = trusses.iter().map(|t| t.nodes().to_vec()).collect();
         let mut family: Option<Self> = None;
         for (a, first) in trusses.iter().enumerate() {
-            // Pairs with the first truss also check that all trusses are compatible with it, so all
-            // of these are visited.
+            // Pairs with the first truss also check that every truss is compatible with it. They
+            // are therefore all visited, even after a triangulation has been found.
             if a > 0 && family.is_some() {
                 break;
             }
@@ -189,25 +194,25 @@ impl CompatibleFamily {
         &self.faces
     }
 
-    /// Vertices of each design.
+    /// Vertex positions, one list for each design.
     #[must_use]
     pub fn embeddings(&self) -> &[Vec<DVec2>] {
         &self.embeddings
     }
 
-    /// Bars that lie in no face.
+    /// Bars that lie in no face, as pairs of vertex indices.
     #[must_use]
     pub fn elements(&self) -> &[BarElement] {
         &self.elements
     }
 
-    /// Closed boundary loops of the faces, as vertex indices.
+    /// Closed boundary loops of the faces, each as the indices of its vertices in order.
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
         self.connectivity.boundary_loops(&self.faces)
     }
 
-    /// Returns the compatible mesh of two of the designs.
+    /// Returns the compatible mesh of two of the designs, given by their indices.
     ///
     /// # Panics
     /// If an index is not below [`Self::count`].
@@ -216,8 +221,8 @@ impl CompatibleFamily {
         self.with_embeddings([source, target].map(|design| self.embeddings[design].clone()))
     }
 
-    /// Returns the mesh with other embeddings, such as two blends of the designs. Its faces may
-    /// fold.
+    /// Returns a mesh with the family's faces and the given embeddings, such as two blends of the
+    /// designs. Nothing is checked; its faces may be folded.
     pub(crate) fn with_embeddings(&self, [source, target]: [Vec<DVec2>; 2]) -> CompatibleMesh {
         CompatibleMesh {
             faces: Arc::clone(&self.faces),
@@ -228,7 +233,7 @@ impl CompatibleFamily {
         }
     }
 
-    /// Largest diameter of a design.
+    /// Largest diameter of a design, in units of the plane.
     #[must_use]
     pub fn diameter(&self) -> f64 {
         let diameters = self

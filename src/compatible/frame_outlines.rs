@@ -1,9 +1,9 @@
 //! Mesh of the whole frame in which matched outlines are mesh edges.
 //!
-//! The regions inside and outside the outlines are triangulated separately and joined along them.
-//! Such a mesh carries outlines exactly, and it exists for matches where a mesh around pins may
-//! not. Rings that close to a point or open from one are left out; the area they bound counts as
-//! inside.
+//! The regions inside and outside the outlines are triangulated separately and joined along the
+//! outlines. Such a mesh maps matched outlines onto each other exactly. It exists for some matches
+//! for which a mesh around pins (`CompatibleMesh::around_pins`) does not. Rings that close to a
+//! point or open from a point are left out; the area that they bound counts as inside.
 
 use super::assembly::MeshAssembly;
 use super::border::border_points;
@@ -13,21 +13,21 @@ use crate::geometry::{Bounds, DVec2, signed_area, winding};
 use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
-/// Number of points along the longer side of the frame: half as many as around pins, because
-/// outlines add points of their own (heuristic).
+/// Number of border points along the longer side of the frame (heuristic: half as many as in a mesh
+/// around pins, because the outlines contribute points of their own).
 const POINTS_ALONG: f64 = 12.0;
 
-/// Reason why the frame has no mesh around the outlines.
+/// Reason why the frame has no mesh in which the outlines are mesh edges.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrameOutlinesError {
-    /// The outlines are nested differently in the two designs, are cut open, or reach beyond the
+    /// The outlines are nested differently in the two designs, are cut open, or extend beyond the
     /// frame.
     #[error(
         "the outlines are nested differently in the two designs, are cut open, or reach beyond the frame"
     )]
     Nesting,
-    /// The cells do not fit together along the outlines.
+    /// The meshes of the cells do not form a valid mesh when they are joined along the outlines.
     #[error("the cells between the outlines do not fit together: {0}")]
     Assembly(#[from] CompatibleError),
     /// A cell could not be triangulated.
@@ -35,17 +35,18 @@ pub enum FrameOutlinesError {
     Cell(#[from] PieceMeshError),
 }
 
-/// Connected region of the plane between outlines: the ring around it, then the rings inside it.
-/// Each is a ring index and whether the ring runs backwards.
+/// Cell: a connected region of the plane between outlines. The first entry is the ring around it,
+/// the others are the rings inside it. An entry is the index of a ring and whether the cell runs
+/// along it backwards.
 struct FrameCell(Vec<(usize, bool)>);
 
 impl CompatibleMesh {
-    /// Triangulates a rectangle around the outlines of a match. Its border is the same in both
-    /// designs.
+    /// Triangulates the rectangle `frame` so that the outlines of a match are mesh edges. The
+    /// border of the rectangle is the same in both designs.
     ///
     /// # Errors
-    /// [`FrameOutlinesError`] if the outlines are nested differently in the two designs, or if the
-    /// work is cancelled.
+    /// [`FrameOutlinesError`] if the outlines are cut open, extend beyond the frame or are nested
+    /// differently in the two designs, if a cell has no valid mesh, or if the work is cancelled.
     ///
     /// # Panics
     /// If an outline of the match has no points.
@@ -58,7 +59,7 @@ impl CompatibleMesh {
         let border = border_points(frame, frame.size().max_element() / POINTS_ALONG);
         let mut rings = vec![[border.clone(), border]];
         let cells = cells(&matched.pieces, &mut rings).ok_or(FrameOutlinesError::Nesting)?;
-        // An outline on the border would leave cells without area.
+        // An outline that touches the border would leave cells without area.
         let inside = |p: &DVec2| frame.padded(-1e-6 * frame.diameter()).contains(*p);
         if !rings[1..].iter().flatten().flatten().all(inside) {
             return Err(FrameOutlinesError::Nesting);
@@ -82,12 +83,14 @@ impl CompatibleMesh {
     }
 }
 
-/// Returns the cells of the plane and adds their rings to `rings`, which holds the frame's border.
-/// Parts come first, then the voids around them: inside the frame, and inside each hole. `None` if
-/// a piece is cut open or nested differently in the two designs.
+/// Returns the cells of the frame and appends their rings to `rings`, which initially holds the
+/// frame's border alone. Cells inside parts come first, then the voids: the cell inside the frame
+/// around all outer parts, and the cell inside each hole. `None` if a piece is cut open, or if
+/// parts are nested differently in the two designs.
 fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<FrameCell>> {
     let mut parts = Vec::new();
-    // Voids are outside all parts: first the one inside the frame, then each hole, run backwards.
+    // Voids are the cells outside all parts: first the one inside the frame, then one inside each
+    // hole, whose ring is run backwards.
     let mut voids = vec![FrameCell(vec![(0, false)])];
     let mut outers = Vec::new();
     for piece in pieces {
@@ -97,7 +100,7 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
         if outer.kind != RingKind::Matched {
             continue;
         }
-        // A cut joins a hole with the outside, which are separate cells here.
+        // A cut would join a hole with the outside of its part. Here these are separate cells.
         if !piece.cuts.is_empty() {
             return None;
         }
@@ -115,7 +118,7 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
         }
         parts.push(FrameCell(part));
     }
-    // A part must lie in the same void in both designs, or their cells do not correspond.
+    // If a part lies in different voids in the two designs, the cells do not correspond.
     for outer in outers {
         let around = [0, 1].map(|side| surrounding(&parts, &voids, rings, outer, side));
         match around {
@@ -127,8 +130,9 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
     Some(parts)
 }
 
-/// Returns the void that contains a part on one side: the smallest hole around it, or else the
-/// frame (index 0). `None` if it lies inside another part.
+/// Returns the index in `voids` of the void that directly contains the part with the outer ring
+/// `outer`, in one design. This is the smallest hole around the part, or the void inside the frame
+/// (index 0). `None` if the part lies inside the filled area of another part.
 fn surrounding(
     parts: &[FrameCell],
     voids: &[FrameCell],
@@ -136,25 +140,26 @@ fn surrounding(
     outer: usize,
     side: usize,
 ) -> Option<usize> {
-    // Outlines do not cross, so one point decides for the whole outline.
+    // Outlines do not cross, so one point decides for the whole ring.
     let p = rings[outer][side][0];
     let encloses = |ring: usize| winding(&rings[ring][side], p) != 0;
-    // Counts the other parts around it.
+    // Counts the other parts whose outer rings enclose this part.
     let around_it = parts.iter().map(|part| part.0[0].0);
     let depth = around_it
         .filter(|&own| own != outer && encloses(own))
         .count();
     let ring = |void: usize| voids[void].0[0].0;
     let holes: Vec<usize> = (1..voids.len()).filter(|&k| encloses(ring(k))).collect();
-    // The smallest of the nested holes is the one directly around it.
+    // The smallest of the enclosing holes is the one directly around the part.
     let area = |k: usize| signed_area(&rings[ring(k)][side]).abs();
     let smallest = (holes.iter().copied()).min_by(|&j, &k| area(j).total_cmp(&area(k)));
-    // Each part around it must contribute a hole around it too, or it lies inside that part.
+    // Every enclosing part must have a hole that also encloses this part. Otherwise this part lies
+    // in the filled area of another one.
     (holes.len() == depth).then_some(smallest.unwrap_or(0))
 }
 
-/// Joins the cells into one mesh: the points of all rings once, then the inner vertices of each
-/// cell.
+/// Joins the meshes of all cells. The vertices of the result are the points of all rings, each
+/// once, then the inner vertices of each cell.
 fn join_cells(
     rings: &[[Vec<DVec2>; 2]],
     cells: &[FrameCell],
@@ -172,7 +177,7 @@ fn join_cells(
         let mut shared = Vec::new();
         for &(ring, backwards) in &cell.0 {
             let count = rings[ring][0].len() as u32;
-            // In the order in which the cell runs along the ring.
+            // Vertices of the ring in the order in which the cell runs along it.
             let vertices =
                 (0..count).map(|k| first[ring] + if backwards { count - 1 - k } else { k });
             shared.extend(vertices);
@@ -212,17 +217,17 @@ mod tests {
     ) -> Result<CompatibleMesh, FrameOutlinesError> {
         let [a, b] = [source, target]
             .map(|rings| Regions::from_rings(rings, FillRule::EvenOdd).expect("regions"));
-        let wanted = MatchSettings {
+        let settings = MatchSettings {
             holes: HoleRule::Close,
             keep_up: true,
             ..MatchSettings::default()
         };
-        let matched = match_regions(&a, &b, &wanted, &Silent).expect("a match");
+        let matched = match_regions(&a, &b, &settings, &Silent).expect("a match");
         CompatibleMesh::around_outlines(&FRAME, &matched, &PolygonOptions::default(), &Silent)
     }
 
-    /// Checks that each design's faces fill the frame once and that outlines are mesh edges: no
-    /// face has corners on both sides of one.
+    /// Checks that in each design the faces cover the frame exactly once, and that the outlines are
+    /// mesh edges: no face has area on both sides of an outline.
     fn assert_joined(mesh: &CompatibleMesh, outlines: [&[Vec<DVec2>]; 2]) {
         assert_eq!(mesh.boundary_loops().len(), 1, "joined without a gap");
         for (points, rings) in [mesh.source(), mesh.target()].into_iter().zip(outlines) {

@@ -1,4 +1,5 @@
-//! Compatible mesh of a whole match: its pieces are triangulated in parallel and merged.
+//! Compatible mesh of a whole match. Its pieces (matched connected parts) are triangulated in
+//! parallel and merged.
 
 use super::assembly::MeshAssembly;
 use super::{CompatibleMesh, PieceMeshError, PolygonOptions};
@@ -6,20 +7,21 @@ use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
-/// Error of a piece that could not be triangulated.
+/// Error of a match in which a piece could not be triangulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}{error}", self.place())]
 pub struct OutlineMeshError {
-    /// Index of the piece.
+    /// Index of the piece that could not be triangulated.
     pub piece: usize,
-    /// Number of pieces.
+    /// Number of pieces of the match.
     pub pieces: usize,
-    /// Reason.
+    /// Reason why that piece could not be triangulated.
     pub error: PieceMeshError,
 }
 
 impl OutlineMeshError {
-    /// Prefix that names the piece; empty for a single piece and for a cancel.
+    /// Prefix of the message that names the piece; empty if the match has a single piece or the
+    /// work was cancelled.
     fn place(&self) -> String {
         match self.error {
             PieceMeshError::Cancelled(_) => String::new(),
@@ -30,8 +32,8 @@ impl OutlineMeshError {
 }
 
 impl CompatibleMesh {
-    /// Triangulates all pieces of a match. Vertices are ordered piece by piece; in each piece the
-    /// ring points come first, in order.
+    /// Triangulates all pieces of a match. The vertices are ordered piece by piece. Within a piece
+    /// the points of its boundary rings come first, in order.
     ///
     /// # Errors
     /// [`OutlineMeshError`] names the piece that failed, or reports that the work was cancelled.
@@ -68,7 +70,7 @@ impl CompatibleMesh {
     }
 }
 
-/// Returns the compatible mesh of one piece.
+/// Returns the compatible mesh of one piece of a match.
 pub(crate) fn mesh_of_piece(
     piece: &PieceMatch,
     options: &PolygonOptions,
@@ -79,13 +81,13 @@ pub(crate) fn mesh_of_piece(
     CompatibleMesh::from_piece(&source, &target, options, progress)
 }
 
-/// Merges meshes into one, in order.
+/// Merges meshes that share no vertices into one, in the given order.
 pub(crate) fn merged_meshes<'a>(
     meshes: impl IntoIterator<Item = &'a CompatibleMesh>,
 ) -> CompatibleMesh {
     let mut whole = MeshAssembly::default();
     for mesh in meshes {
-        // Pieces lie apart, so no vertex is shared.
+        // Pieces share no vertices.
         whole.append(
             &[],
             [&mesh.source, &mesh.target],

@@ -1,23 +1,28 @@
-//! Common triangulation of two trusses with the same nodes and bars.
+//! Common triangulation of two trusses with the same nodes and bars: one list of triangles that is
+//! valid in both.
 //!
-//! Only areas enclosed by bars get faces; pockets of the outer contour stay open. The steps:
+//! Only areas enclosed by bars get faces; pockets that are open to the outside stay empty. The
+//! steps:
 //!
-//! 1. Bars that cross others without a node, in either design, cannot all be edges. The bar with
-//!    the most crossings is removed first (ties: the one listed last), until no two cross. If this
-//!    leads to no triangulation, all bars that cross any other are removed.
-//! 2. The remaining plane graph is split into blocks at bridges and cut nodes. A block of one bar,
-//!    a bridge or dangling end, becomes a two-point element. In every other block each bounded face
-//!    is a simple polygon, a panel.
+//! 1. Bars that cross without a common node, in either design, cannot all be edges of the
+//!    triangulation. The bar with the most crossings is removed first (ties: the one listed last),
+//!    until no two bars cross. If this leads to no valid triangulation, all bars that cross another
+//!    bar are removed instead.
+//! 2. The remaining plane graph is split into blocks at bridges (bars whose removal disconnects it)
+//!    and cut nodes (nodes whose removal does). A block of one bar, which is a bridge or a dangling
+//!    end, becomes a two-point element. In every other block each bounded face is a simple polygon,
+//!    called a panel.
 //! 3. Panels are triangulated by diagonals so that all triangles are positive in both designs, by
-//!    exact predicates, and the smallest angle over both is maximal: dynamic programming (Gilbert
-//!    1979, Klincsek 1980) in O(n³) for a panel of n nodes.
-//! 4. A removed bar whose nodes both belong to one block with panels is carried along by these; any
-//!    other becomes a two-point element.
+//!    exact predicates. Among all such triangulations, the smallest angle over both designs is
+//!    maximal. This takes dynamic programming (Gilbert 1979, Klincsek 1980) in O(n³) for a panel of
+//!    n nodes.
+//! 4. A removed bar whose two nodes belong to the same block with panels moves with these panels
+//!    and is dropped. Any other removed bar becomes a two-point element.
 //!
-//! Guaranteed: exchanging the designs gives the same triangles; every node is in a face or a
-//! two-point element. Not guaranteed: a triangulation where one is possible only with extra points
-//! inside a panel; and that a part that lies inside a panel, without a bar to it, moves with the
-//! panel.
+//! Guaranteed: exchanging the designs gives the same triangles; every node belongs to a face or a
+//! two-point element. Not guaranteed: that a triangulation is found where one needs extra points
+//! inside a panel; that a part of the truss that lies inside a panel, without a bar to it, moves
+//! with the panel.
 
 mod bar_conflicts;
 mod blocks;
@@ -34,40 +39,41 @@ pub use error::TrussError;
 pub(super) use error::list_first;
 use std::collections::HashSet;
 
-/// Faces, and the bars that become two-point elements.
+/// Faces as triples of node indices, and the bars that become two-point elements.
 pub(super) type PanelMesh = (Vec<[u32; 3]>, Vec<[u32; 2]>);
 
-/// Triangulates the panels between the bars, with triangles that are positive in both designs, and
-/// returns the bars that are in no panel.
+/// Triangulates the panels between the bars with triangles that are positive in both designs.
+/// Returns the triangles, and the bars that belong to no panel.
 ///
 /// # Errors
-/// [`TrussError`] names the first difference, or the nodes of a panel that cannot be triangulated,
-/// or reports that the work was cancelled.
+/// [`TrussError`] names the first difference between the trusses, or the nodes of a panel that
+/// cannot be triangulated, or reports that the work was cancelled.
 pub(super) fn triangulate_panels(
     source: &Truss,
     target: &Truss,
     progress: &dyn Progress,
 ) -> Result<PanelMesh, TrussError> {
-    check_same(source, target)?;
+    check_same_bars(source, target)?;
     let nodes = SourceTarget {
         source: source.nodes(),
         target: target.nodes(),
     };
     let bars = source.bars();
     let conflicts = bar_conflicts::find_conflicts(bars, nodes, progress)?;
-    let kept = bar_conflicts::remove_greedily(bars.len(), &conflicts, progress)?;
-    let first = triangulate_kept(bars, nodes, &kept, progress);
+    let selected = bar_conflicts::remove_greedily(bars.len(), &conflicts, progress)?;
+    let first = triangulate_selected(bars, nodes, &selected, progress);
     check_cancelled(progress)?;
     if first.is_ok() || conflicts.is_empty() {
         return first;
     }
     let uncrossed = bar_conflicts::keep_uncrossed(bars.len(), &conflicts);
-    // If both attempts fail, the first error is reported, because it concerns more of the bars.
-    triangulate_kept(bars, nodes, &uncrossed, progress).or(first)
+    // If both attempts fail, the error of the first attempt is reported, because that attempt used
+    // more bars.
+    triangulate_selected(bars, nodes, &uncrossed, progress).or(first)
 }
 
-/// Checks that both trusses have the same number of nodes and the same bars.
-fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
+/// Checks that both trusses have the same number of nodes and the same bars, in any order.
+fn check_same_bars(source: &Truss, target: &Truss) -> Result<(), TrussError> {
     let counts = [source.nodes().len(), target.nodes().len()];
     if counts[0] != counts[1] {
         return Err(TrussError::NodeCounts(counts));
@@ -76,7 +82,7 @@ fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
         (source, target, Side::Source),
         (target, source, Side::Target),
     ] {
-        // Bars have no direction, so their nodes may be listed either way round.
+        // Bars have no direction: their two nodes may be listed in either order.
         let others: HashSet<_> = other.bars().iter().map(|&b| undirected(b)).collect();
         let is_missing = |bar: &&[u32; 2]| !others.contains(&undirected(**bar));
         if let Some(&nodes) = truss.bars().iter().find(is_missing) {
@@ -86,15 +92,18 @@ fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
     Ok(())
 }
 
-/// Triangulates the panels between the bars marked in `kept`.
-fn triangulate_kept(
+/// Triangulates the panels that the bars marked in `selected` enclose.
+fn triangulate_selected(
     bars: &[[u32; 2]],
     nodes: SourceTarget<&[DVec2]>,
-    kept: &[bool],
+    selected: &[bool],
     progress: &dyn Progress,
 ) -> Result<PanelMesh, TrussError> {
-    let bars_where = |are_kept: bool| {
-        let selected = bars.iter().zip(kept).filter(move |(_, k)| **k == are_kept);
+    let bars_where = |is_selected: bool| {
+        let selected = bars
+            .iter()
+            .zip(selected)
+            .filter(move |(_, k)| **k == is_selected);
         selected.map(|(bar, _)| *bar)
     };
     let plane: Vec<[u32; 2]> = bars_where(true).collect();
@@ -111,12 +120,13 @@ fn triangulate_kept(
     Ok((faces, elements))
 }
 
-/// Checks that panels, which run counter-clockwise in the source, do so in the target. If none
-/// does, the target is a mirror image; otherwise the first that does not is reported.
+/// Checks that panels, which run counter-clockwise in the source, do so in the target too. If all
+/// panels are reversed, the target is a mirror image of the source; otherwise the first reversed
+/// panel is reported.
 fn check_sides(cycles: &[Vec<u32>], nodes: SourceTarget<&[DVec2]>) -> Result<(), TrussError> {
     let is_reversed = |cycle: &Vec<u32>| {
         let corners = cycle.iter().map(|&node| nodes.target[node as usize]);
-        // Where rounding decides the sign, the panel is flat and gets no triangles anyway.
+        // If rounding decides the sign, the panel is flat and cannot be triangulated anyway.
         signed_area(&corners.collect::<Vec<_>>()) < 0.0
     };
     if !cycles.is_empty() && cycles.iter().all(is_reversed) {
@@ -128,7 +138,7 @@ fn check_sides(cycles: &[Vec<u32>], nodes: SourceTarget<&[DVec2]>) -> Result<(),
     }
 }
 
-/// Triangulates one panel.
+/// Triangulates one panel, given by its nodes in counter-clockwise order.
 fn triangles(
     cycle: &[u32],
     nodes: SourceTarget<&[DVec2]>,

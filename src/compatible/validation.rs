@@ -1,33 +1,33 @@
-//! Checks faces, bars and vertices before they become a compatible mesh, and defines the errors for
+//! Checks faces, bars and vertices before they become a compatible mesh; defines the errors for
 //! invalid ones.
 
 use super::truss::{TrussError, list_first};
 use crate::geometry::{DVec2, Side, orient2d};
 use crate::mesh::MeshError;
 
-/// Bar as a two-point element of the energy, given by its two vertices.
+/// Bar of a truss as a two-point element of the energy: its two vertex indices.
 pub type BarElement = [u32; 2];
 
-/// Reason why two designs, as given, have no common triangulation. Messages count from 1, as the
-/// files do.
+/// Reason why two designs, as given, have no common triangulation. Messages count faces, vertices
+/// and bars from 1, as mesh files do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompatibleError {
-    /// The designs have different numbers of vertices.
+    /// The source and the target have these different numbers of vertices.
     #[error("the source has {} vertices and the target {}; both need the same vertices in the same order", .0[0], .0[1])]
     VertexCounts([usize; 2]),
-    /// The designs have different numbers of faces.
+    /// The source and the target have these different numbers of faces.
     #[error("the source has {} faces and the target {}; both need the same faces in the same order", .0[0], .0[1])]
     FaceCounts([usize; 2]),
-    /// A face differs between the designs.
+    /// The face with this index has different vertices in the two designs.
     #[error("face {} differs between source and target; both need the same faces in the same order", .0 + 1)]
     FacesDiffer(usize),
     /// A coordinate is NaN or infinite.
     #[error("vertex {} of the {side} is not a finite point; correct its coordinates", vertex + 1)]
     NotFinite {
-        /// Design with the coordinate.
+        /// Design that contains the vertex.
         side: Side,
-        /// Index of the vertex.
+        /// Index of the vertex with the invalid coordinate.
         vertex: usize,
     },
     /// The faces form no valid mesh.
@@ -38,21 +38,22 @@ pub enum CompatibleError {
         "the target is a mirror image of the source; mirror one of them (placement, mirror = true)"
     )]
     Mirrored,
-    /// Some faces have opposite orientation in the two designs.
+    /// The faces with these indices have opposite orientation in the two designs.
     #[error("{}; move their vertices in one design, or mirror it if nearly all faces are listed", list(.0, "turned over between source and target"))]
     Flipped(Vec<usize>),
-    /// Some faces have no area.
+    /// Some faces have no area in one design.
     #[error("{}; move the vertices apart", list(faces, &format!("flat in the {side}")))]
     Flat {
-        /// Design with the flat faces.
+        /// Design in which the faces are flat.
         side: Side,
         /// Indices of the faces.
         faces: Vec<usize>,
     },
-    /// A vertex belongs to no face and no bar.
+    /// The vertex with this index belongs to no face and no bar.
     #[error("vertex {} belongs to no face and no bar; remove it or connect it", .0 + 1)]
     LooseVertex(usize),
-    /// A bar refers to a missing vertex, joins a vertex to itself, or has no length.
+    /// The bar with this index refers to a missing vertex, joins a vertex to itself, or has no
+    /// length in one of the designs.
     #[error("bar {} does not join two different points in both designs; correct or remove it", .0 + 1)]
     BadBar(usize),
     /// There are no faces and no bars.
@@ -63,17 +64,18 @@ pub enum CompatibleError {
     Truss(#[from] TrussError),
 }
 
-/// Formats face indices as "face 3 is …" or "faces 3, 4, 5 and 9 more are …".
+/// Formats face indices, which count from 0, as "face 3 is …" or "faces 3, 4, … and 9 more are …",
+/// which count from 1.
 fn list(faces: &[usize], what: &str) -> String {
     let numbers: Vec<usize> = faces.iter().map(|f| f + 1).collect();
     match numbers[..] {
         [face] => format!("face {face} is {what}"),
-        // Five faces show the place; a fold of thousands would fill the screen.
+        // Five faces show where the problem is. A fold of thousands of faces would fill the screen.
         _ => format!("faces {} are {what}", list_first(&numbers, 5)),
     }
 }
 
-/// Checks that all coordinates are finite.
+/// Checks that all coordinates of one design are finite.
 pub(super) fn check_points(points: &[DVec2], side: Side) -> Result<(), CompatibleError> {
     let bad = points.iter().position(|p| !p.is_finite());
     bad.map_or(Ok(()), |vertex| {
@@ -81,7 +83,7 @@ pub(super) fn check_points(points: &[DVec2], side: Side) -> Result<(), Compatibl
     })
 }
 
-/// Checks that every bar joins two vertices that lie apart in both designs.
+/// Checks that every bar joins two existing vertices that lie at different points in both designs.
 pub(super) fn check_elements(
     elements: &[BarElement],
     source: &[DVec2],
@@ -95,10 +97,12 @@ pub(super) fn check_elements(
     bad.map_or(Ok(()), |bar| Err(CompatibleError::BadBar(bar)))
 }
 
-/// Returns the faces with counter-clockwise orientation in the source, and therefore in the target.
+/// Returns the faces, reversed where necessary so that all are counter-clockwise in the source. All
+/// are then counter-clockwise in the target too, or the result is an error.
 ///
 /// # Errors
-/// [`CompatibleError`] for faces without area and for faces with opposite orientation.
+/// [`CompatibleError`] if a face has no area in a design, or has opposite orientation in the two
+/// designs.
 pub(super) fn oriented(
     mut faces: Vec<[u32; 3]>,
     source: &[DVec2],
@@ -108,14 +112,15 @@ pub(super) fn oriented(
         let [a, b, c] = face.map(|v| points[v as usize]);
         orient2d(a, b, c)
     };
-    // Checked first, because a flat face has no orientation.
+    // This check comes first, because a flat face has no orientation.
     for (points, side) in [(source, Side::Source), (target, Side::Target)] {
         let flat = indices(&faces, |face| area(face, points) == 0.0);
         if !flat.is_empty() {
             return Err(CompatibleError::Flat { side, faces: flat });
         }
     }
-    // Counter-clockwise in the source, so that only the target can still disagree.
+    // After this loop all faces are counter-clockwise in the source; only the target can still
+    // disagree.
     for face in &mut faces {
         if area(face, source) < 0.0 {
             face.swap(1, 2);

@@ -184,7 +184,7 @@ struct PicturePaint<'a> {
     /// Fraction of the target in the mix.
     share: f32,
     /// Visible fraction of each column and of each row.
-    shown: [Vec<f32>; 2],
+    coverages: [Vec<f32>; 2],
     encoder: SrgbEncoder,
 }
 
@@ -193,14 +193,14 @@ impl<'a> PicturePaint<'a> {
         Self {
             layers: [0, 1].map(|k| pair.layers[k].sampler(raster.pixel_size)),
             share: pair.mix.target_fraction(t) as f32,
-            shown: coverage(pair.window(t), raster),
+            coverages: coverage(pair.window(t), raster),
             encoder: SrgbEncoder::new(),
         }
     }
 
     /// Returns the function that fills the pixels of a face, one run of a row at a time.
     fn filler(&self, facet: SourceFacet) -> impl FnMut(usize, usize, &mut [[u8; 4]]) {
-        let [columns, rows] = &self.shown;
+        let [columns, rows] = &self.coverages;
         // Maximum distance, in samples, between two samples of the output.
         let max_offset = columns.len().max(rows.len());
         let [source, target] = &self.layers;
@@ -239,7 +239,7 @@ fn coverage(window: Bounds, raster: &PictureRaster) -> [Vec<f32>; 2] {
     let high = raster.pixel_from_plane(DVec2::new(window.max.x, window.min.y));
     let fractions = |count: u32, low: f64, high: f64| {
         let pixels = 0..count;
-        pixels.map(|k| covered(k, low, high)).collect()
+        pixels.map(|k| pixel_coverage(k, low, high)).collect()
     };
     let [width, height] = raster.size;
     [
@@ -249,7 +249,7 @@ fn coverage(window: Bounds, raster: &PictureRaster) -> [Vec<f32>; 2] {
 }
 
 /// Fraction of pixel `k` between two edges.
-fn covered(k: u32, from: f64, to: f64) -> f32 {
+fn pixel_coverage(k: u32, from: f64, to: f64) -> f32 {
     let (low, high) = (f64::from(k), f64::from(k) + 1.0);
     // An edge within rounding of a pixel border counts as lying on it.
     let share = high.min(to) - low.max(from);

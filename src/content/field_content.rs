@@ -116,7 +116,7 @@ impl FieldContent {
         let whole = whole.with_blend(blend)?;
         let reblend = |painted: &PaintedFields| {
             let (stack, fields) = (painted.paint_layers.clone(), painted.fields.clone());
-            PaintedFields::blended(stack, fields, whole.grid(), blend)
+            PaintedFields::from_layer_fields(stack, fields, whole.grid(), blend)
         };
         let painted = self.painted.as_ref().map(reblend).transpose()?;
         Ok(Some(Self::new(whole, painted, self.is_carried)))
@@ -186,12 +186,12 @@ impl PaintedFields {
         let fields = fields
             .into_iter()
             .map(|ends| ends.map(|end| end.map(Arc::new)));
-        Self::blended(stack, fields.collect(), grid, blend)
+        Self::from_layer_fields(stack, fields.collect(), grid, blend)
     }
 
     /// Creates the pairs of all layers, with missing fields replaced by a field that is outside
     /// everywhere.
-    fn blended(
+    fn from_layer_fields(
         stack: PaintLayerStack,
         fields: Vec<[Option<Arc<DistanceField>>; 2]>,
         grid: &Grid,

@@ -95,7 +95,7 @@ impl PatchEdge {
 
     /// Columns of row `y` to the left of the edge, as an interval; empty if its start exceeds its
     /// end.
-    fn left_of(&self, y: f64) -> [f64; 2] {
+    fn columns_left_of(&self, y: f64) -> [f64; 2] {
         // Left of the edge: along.x (y - begin.y) - along.y (x - begin.x) >= 0.
         let slack = self.along.x * (y - self.begin.y) + self.reach;
         match self.per_rise {
@@ -133,7 +133,7 @@ pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
     let rows = out.par_chunks_mut(width * BAND).zip(bands);
     rows.enumerate().for_each(|(band, (rows, here))| {
         for k in here {
-            if let Some(patch) = patch(&placement.faces[k as usize], &places, placement) {
+            if let Some(patch) = scan_patch(&placement.faces[k as usize], &places, placement) {
                 fill_face(&patch, band * BAND, width, rows, &filler);
             }
         }
@@ -141,7 +141,7 @@ pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
 }
 
 /// Sets up a face for rasterisation; `None` if it has no area.
-fn patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Option<ScanPatch> {
+fn scan_patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Option<ScanPatch> {
     let at_corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
     let corners = at_corners(places);
     let [a, b, c] = corners;
@@ -239,7 +239,7 @@ fn next_above(x: f64) -> usize {
 
 /// Columns of row `y` inside all three edges, as an interval; empty if its start exceeds its end.
 fn covered_columns(edges: &[PatchEdge; 3], y: f64) -> [f64; 2] {
-    let [a, b, c] = edges.map(|edge| edge.left_of(y));
+    let [a, b, c] = edges.map(|edge| edge.columns_left_of(y));
     [a[0].max(b[0]).max(c[0]), a[1].min(b[1]).min(c[1])]
 }
 
@@ -298,11 +298,11 @@ mod tests {
                 let p = DVec2::new((k % 40) as f64, (k / 40) as f64);
                 let sides = [(a, b), (b, c), (c, a)]
                     .map(|(u, v)| det.signum() * (v - u).perp_dot(p - u) / u.distance(v));
-                let least = sides.into_iter().fold(f64::INFINITY, f64::min);
-                if least > 1e-6 {
+                let min_side = sides.into_iter().fold(f64::INFINITY, f64::min);
+                if min_side > 1e-6 {
                     let (source, _) = sample.expect("inside");
                     prop_assert!(source.distance(p) < 1e-6);
-                } else if least < -1e-3 {
+                } else if min_side < -1e-3 {
                     prop_assert!(sample.is_none());
                 }
             }

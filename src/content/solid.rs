@@ -121,7 +121,7 @@ impl SolidContent {
     /// Panics if a loop uses a vertex that has no position.
     #[must_use]
     pub fn rings_at(&self, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
-        let inked = self.inked_at(places, t).into_iter();
+        let inked = self.painted_rings_at(places, t).into_iter();
         inked.map(|ring| ring.points).collect()
     }
 
@@ -130,15 +130,15 @@ impl SolidContent {
     /// # Panics
     /// Panics if a loop uses a vertex that has no position.
     pub(crate) fn shared_loops_at(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
-        let specks = self
+        let seed_shapes = self
             .seed_shapes
             .iter()
-            .flat_map(|speck| &speck.loop_indices);
+            .flat_map(|shape| &shape.loop_indices);
         let swells = self
             .swelling_shapes
             .iter()
             .flat_map(SwellingShape::loop_indices);
-        let transient: BTreeSet<usize> = specks.chain(swells).copied().collect();
+        let transient: BTreeSet<usize> = seed_shapes.chain(swells).copied().collect();
         let shared = (0..self.loops.len()).filter(|loop_index| !transient.contains(loop_index));
         shared
             .map(|loop_index| self.loop_at(loop_index, places))
@@ -146,7 +146,7 @@ impl SolidContent {
     }
 
     /// Returns the rings of [`Self::rings_at`], each with its paint layer and group key.
-    fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<PaintedRing> {
+    fn painted_rings_at(&self, places: &[DVec2], t: f64) -> Vec<PaintedRing> {
         let stack = self.paint_layers.as_ref();
         let fading = stack.filter(|all| all.fades);
         let loop_ring = |loop_index: usize, points: Vec<DVec2>| PaintedRing {
@@ -165,7 +165,7 @@ impl SolidContent {
             .map(|loop_index| loop_ring(loop_index, self.loop_at(loop_index, places)));
         let swells = self.swelling(t).flat_map(|swell| {
             let loop_index = swell.loop_indices().first().copied().unwrap_or_default();
-            let rings = self.swollen(swell, places, t).into_iter();
+            let rings = self.swollen_rings(swell, places, t).into_iter();
             rings.map(move |ring| loop_ring(loop_index, ring))
         });
         // Parts with holes of only one design exist in both designs, so their holes do not fade.
@@ -228,7 +228,7 @@ impl SolidContent {
         };
         let mut groups_by_layer =
             vec![BTreeMap::<InkKey, Vec<Vec<DVec2>>>::new(); stack.layers.len()];
-        for ring in self.inked_at(places, t) {
+        for ring in self.painted_rings_at(places, t) {
             let group = groups_by_layer[ring.layer].entry(ring.key).or_default();
             group.push(ring.points);
         }
@@ -272,7 +272,7 @@ impl SolidContent {
         let Some(stack) = &self.paint_layers else {
             return crossings(&self.rings_at(places, t));
         };
-        let rings = self.inked_at(places, t);
+        let rings = self.painted_rings_at(places, t);
         let layer_crossings = |layer: usize| {
             let is_in_layer = |k: &usize| rings[*k].layer == layer;
             let members: Vec<usize> = (0..rings.len()).filter(is_in_layer).collect();
@@ -298,7 +298,7 @@ impl SolidContent {
     pub fn count_crossings(&self, places: &[DVec2], t: f64) -> usize {
         let mut rings_by_layer =
             vec![Vec::new(); self.paint_layers.as_ref().map_or(1, |all| all.layers.len())];
-        for ring in self.inked_at(places, t) {
+        for ring in self.painted_rings_at(places, t) {
             rings_by_layer[ring.layer].push(ring.points);
         }
         rings_by_layer
@@ -321,9 +321,9 @@ impl SolidContent {
         let absent = self
             .seed_shapes
             .iter()
-            .filter(move |speck| self.is_gone(speck, t));
+            .filter(move |shape| self.is_absent(shape, t));
         let replaced: BTreeSet<usize> = absent
-            .flat_map(|speck| &speck.loop_indices)
+            .flat_map(|shape| &shape.loop_indices)
             .chain(swelling)
             .copied()
             .collect();
@@ -339,14 +339,14 @@ impl SolidContent {
     }
 
     /// Whether a part grown from a seed shape is absent at `t`.
-    fn is_gone(&self, speck: &SeedShape, t: f64) -> bool {
-        speck
+    fn is_absent(&self, shape: &SeedShape, t: f64) -> bool {
+        shape
             .window
-            .is_absent(self.part_time(&speck.loop_indices, t))
+            .is_absent(self.part_time(&shape.loop_indices, t))
     }
 
     /// Rings of a swelling part at `t`; empty while it is absent.
-    fn swollen(&self, swell: &SwellingShape, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
+    fn swollen_rings(&self, swell: &SwellingShape, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let first = swell.loop_indices().first();
         let first = first.map(|&loop_index| self.loop_at(loop_index, places));
         swell.rings_at(
@@ -377,7 +377,7 @@ impl SolidContent {
         }
         let mut ring = ring - loops.len();
         for swell in self.swelling(t) {
-            let rings = self.swollen(swell, places, t).len();
+            let rings = self.swollen_rings(swell, places, t).len();
             if ring < rings {
                 return swell
                     .loop_indices()
@@ -399,13 +399,13 @@ impl SolidContent {
             .swelling_shapes
             .iter()
             .filter(|swell| thickness(swell) <= 0.0);
-        let specks = self
+        let seed_shapes = self
             .seed_shapes
             .iter()
-            .filter(|speck| self.is_gone(speck, t));
+            .filter(|shape| self.is_absent(shape, t));
         let transient_loops: usize = swells
             .map(|swell| swell.loop_indices().len())
-            .chain(specks.map(|speck| speck.loop_indices.len()))
+            .chain(seed_shapes.map(|shape| shape.loop_indices.len()))
             .sum();
         self.holes_at(t).filter(|(_, is_gone)| *is_gone).count() + transient_loops
     }

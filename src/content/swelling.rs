@@ -17,21 +17,21 @@ pub struct SwellingShape {
     /// Inset depth at which nothing is left, in units of the design.
     depth: f64,
     /// Time window in which it swells.
-    life: TimeWindow,
+    window: TimeWindow,
 }
 
 impl SwellingShape {
     /// Creates a part that replaces the boundary loops with the indices `loop_indices`. `rings` are
     /// the same loops in the design that has the part, the outer one first.
     #[must_use]
-    pub fn new(loop_indices: Vec<usize>, rings: &[Vec<DVec2>], life: TimeWindow) -> Self {
+    pub fn new(loop_indices: Vec<usize>, rings: &[Vec<DVec2>], window: TimeWindow) -> Self {
         let middle = rings.first().map_or(DVec2::ZERO, |ring| mean_point(ring));
         let relative = |ring: &Vec<DVec2>| ring.iter().map(|&p| p - middle).collect();
         Self {
             loop_indices,
             depth: inradius(rings),
             rings: rings.iter().map(relative).collect(),
-            life,
+            window,
         }
     }
 
@@ -42,7 +42,7 @@ impl SwellingShape {
 
     /// Fraction of its full thickness at `t`, from 0 to 1.
     pub(crate) fn thickness_fraction(&self, t: f64) -> f64 {
-        self.life.size(t)
+        self.window.size(t)
     }
 
     /// Returns its rings at `t`; empty while it is absent. `first_loop` are the positions of its
@@ -81,11 +81,11 @@ mod tests {
                 .to_vec()
         };
         let hole: Vec<DVec2> = ring(2.0).into_iter().rev().collect();
-        let life = TimeWindow {
+        let window = TimeWindow {
             from: 0.5,
             ..TimeWindow::whole(Side::Target)
         };
-        let frame = SwellingShape::new(vec![3, 4], &[ring(4.0), hole], life);
+        let frame = SwellingShape::new(vec![3, 4], &[ring(4.0), hole], window);
         let away = DVec2::new(10.0, 0.0);
         // A tiny ring, as where the part is absent: only its mean point matters.
         let tiny_loop: Vec<DVec2> = ring(0.01).into_iter().map(|p| p + away).collect();

@@ -70,7 +70,7 @@ impl TransientHole {
         &self.ring
     }
 
-    /// Creates a hole of the design that `life` names, drawn on `faces`. `places` are the vertex
+    /// Creates a hole of the design that `window` names, drawn on `faces`. `places` are the vertex
     /// positions in that design. Returns `None` if the faces have no area.
     ///
     /// # Panics
@@ -80,13 +80,13 @@ impl TransientHole {
         ring: &[DVec2],
         faces: &[[u32; 3]],
         places: &[DVec2],
-        life: TimeWindow,
+        window: TimeWindow,
     ) -> Option<Self> {
         let hosts = ring.iter().map(|&p| HostFaces::of(p, faces, places));
         Some(Self {
             hosts: hosts.collect::<Option<_>>()?,
             ring: ring.to_vec(),
-            window: life,
+            window,
         })
     }
 
@@ -131,12 +131,12 @@ impl TransientHole {
             return Some(self.ring.clone());
         }
         let ring = self.hosts.iter().map(|host| host.at(places));
-        Some(shrunk(ring.collect(), self.window.size(t)))
+        Some(scale_about_mean(ring.collect(), self.window.size(t)))
     }
 }
 
 /// Scales a ring by `size` about the mean of its points.
-fn shrunk(mut ring: Vec<DVec2>, size: f64) -> Vec<DVec2> {
+fn scale_about_mean(mut ring: Vec<DVec2>, size: f64) -> Vec<DVec2> {
     let reference = ring[0];
     let sum: DVec2 = ring.iter().map(|&p| p - reference).sum();
     let middle = reference + sum / ring.len() as f64;

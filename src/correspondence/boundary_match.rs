@@ -29,7 +29,7 @@ impl BoundaryMatch {
     }
 
     /// Returns the dissimilarity of the matched curves, dimensionless: 0 for similar curves, up to
-    /// about 0.3 for two poses of one shape, 0.4 and more for unlike shapes.
+    /// about 0.3 for two poses of one shape, 0.4 and more for dissimilar shapes.
     #[must_use]
     pub fn cost(&self) -> f64 {
         self.cost

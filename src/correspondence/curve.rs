@@ -65,9 +65,10 @@ impl BoundaryCurve {
             integral.push(integral[e] + direction * (places[e + 1] - places[e]));
         }
         let (first, last) = (edges[0], edges[edges.len() - 1]);
-        let gained = directions[edges.len() - 1] + exterior_angle(last, first) - directions[0];
+        let total_turning =
+            directions[edges.len() - 1] + exterior_angle(last, first) - directions[0];
         Ok(Self {
-            round: TAU * (gained / TAU).round(),
+            round: TAU * (total_turning / TAU).round(),
             points: ring.points().to_vec(),
             places,
             directions,
@@ -162,7 +163,13 @@ impl BoundaryCurve {
 
     /// Compares `best` with the point of edge `e` nearest to `p`, restricted to the fractions from
     /// `low` to `high` of the edge. Returns squared distance and place of the nearer one.
-    fn closer_candidate(&self, best: (f64, f64), p: DVec2, e: usize, [low, high]: [f64; 2]) -> (f64, f64) {
+    fn closer_candidate(
+        &self,
+        best: (f64, f64),
+        p: DVec2,
+        e: usize,
+        [low, high]: [f64; 2],
+    ) -> (f64, f64) {
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
         let along = nearest_segment_parameter(p, from, to).clamp(low, high);
         let distance = p.distance_squared(from.lerp(to, along));
@@ -210,8 +217,8 @@ impl BoundaryCurve {
         let whole = rounds * self.integral[self.directions.len()];
         // In round k the direction is larger by k · `round`. Over whole rounds that sums to 0 + 1 +
         // … + (rounds − 1); the last, partial round contributes `partial` of it.
-        let gained = self.round * rounds * (partial + 0.5 * (rounds - 1.0));
-        whole + gained + self.integral_within(partial)
+        let full_rounds = self.round * rounds * (partial + 0.5 * (rounds - 1.0));
+        whole + full_rounds + self.integral_within(partial)
     }
 
     /// Returns the same integral for a place within the first round.

@@ -132,7 +132,12 @@ impl CurveMatchProblem {
     }
 
     /// Returns the grid of sample pairs between two nodes, both included.
-    pub(super) fn grid(&self, dissimilarities: &[f64], from: [usize; 2], to: [usize; 2]) -> PathGrid {
+    pub(super) fn grid(
+        &self,
+        dissimilarities: &[f64],
+        from: [usize; 2],
+        to: [usize; 2],
+    ) -> PathGrid {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let mut window = Vec::with_capacity((to[0] + 1 - from[0]) * (to[1] + 1 - from[1]));
         for j in from[1]..=to[1] {

@@ -92,8 +92,9 @@ mod tests {
             let gaps = |k| prop::collection::vec(0.1f64..1.0, k);
             // Few distinct values, so that ties are common.
             let dissimilarities = prop::collection::vec((0u8..5).prop_map(f64::from), n * m);
-            (gaps(n), gaps(m), dissimilarities, 0.0f64..2.0)
-                .prop_map(move |(a, b, dissimilarities, stretch)| unrolled(&a, &b, &dissimilarities, stretch))
+            (gaps(n), gaps(m), dissimilarities, 0.0f64..2.0).prop_map(
+                move |(a, b, dissimilarities, stretch)| unrolled(&a, &b, &dissimilarities, stretch),
+            )
         })
     }
 

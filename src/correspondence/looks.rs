@@ -1,10 +1,10 @@
-//! Properties of parts besides their shape, which influence how parts are paired: paint, height,
-//! name and text.
+//! Appearance of parts: properties other than the shape that influence how parts are paired
+//! (paint, height, name and text).
 
 use crate::colour::Paint;
 use crate::geometry::Side;
 
-/// Look of one part.
+/// Appearance of one part.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PartLook {
     /// Index of the paint layer that contains the part; the bottom layer is 0.
@@ -21,7 +21,7 @@ pub(crate) struct PartLook {
     pub(crate) is_text: bool,
 }
 
-/// Looks of all parts of both designs. The default is empty: all parts look alike.
+/// Appearance of all parts of both designs. The default is empty: all parts look alike.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PartLooks(pub(crate) [Vec<PartLook>; 2]);
 
@@ -31,7 +31,8 @@ const PAINT_COST: f64 = 0.5;
 /// Pairing cost of the largest difference in height, bottom and top layer (heuristic).
 const HEIGHT_COST: f64 = 0.25;
 
-/// Reduction of the pairing cost for parts of the same name; it exceeds any other difference.
+/// Reduction of the pairing cost for parts of the same name (derived: it exceeds any other
+/// difference).
 const NAME_BONUS: f64 = 4.0;
 
 /// Pairing cost of a letter with something else, so that letters are paired with letters if
@@ -56,12 +57,12 @@ impl PartLooks {
         self.0[side].get(part).is_some_and(|look| look.is_lined)
     }
 
-    /// Returns whether a part is a letter of a text; `None` if no looks are given.
+    /// Returns whether a part is a letter of a text; `None` if no appearance is given.
     pub(in crate::correspondence) fn is_text(&self, side: Side, part: usize) -> Option<bool> {
         self.0[side].get(part).map(|look| look.is_text)
     }
 
-    /// Returns the paint layer of a part; 0 if no looks are given.
+    /// Returns the paint layer of a part; 0 if no appearance is given.
     pub(crate) fn paint_layer(&self, side: Side, part: usize) -> usize {
         self.0[side].get(part).map_or(0, |look| look.paint_layer)
     }

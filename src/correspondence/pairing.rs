@@ -1,8 +1,8 @@
 //! Pairs the parts of two designs, and the holes of two parts.
 //!
-//! The pairing is an assignment of minimum cost in position, size, shape and look. It has as many
-//! pairs as the smaller side has parts. The remaining parts are unmatched, at a cost that grows
-//! with their area. Pairs fixed by the user are preserved.
+//! The pairing is an assignment of minimum cost in position, size, shape and appearance. It has as
+//! many pairs as the smaller side has parts. The remaining parts are unmatched, at a cost that
+//! grows with their area. Pairs fixed by the user are preserved.
 //!
 //! Guarantees: the assignment is optimal and deterministic, and pairing B with A gives the same
 //! result as pairing A with B. It never splits one part into several.
@@ -61,8 +61,8 @@ pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
     design.iter().map(centre).collect()
 }
 
-/// Pairs the regions of two designs. `fixed` pairs are preserved; `taken` parts are neither paired
-/// nor listed as unmatched.
+/// Pairs the regions of two designs. `fixed` pairs are preserved; `excluded` parts are neither
+/// paired nor listed as unmatched.
 ///
 /// Positions are relative to each design's bounding box, so the designs' own positions and sizes do
 /// not matter.
@@ -73,7 +73,7 @@ pub(super) fn pair_parts(
     designs: [&Regions; 2],
     looks: &PartLooks,
     fixed: &[[usize; 2]],
-    taken: [&[usize]; 2],
+    excluded: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
     let [source, target] = Side::BOTH.map(|side| {
         let bounds = designs[side].bounds();
@@ -88,10 +88,10 @@ pub(super) fn pair_parts(
             .map(part)
             .collect::<Vec<_>>()
     });
-    pair(&source, &target, fixed, taken)
+    pair(&source, &target, fixed, excluded)
 }
 
-/// Pairs the holes of two regions. `fixed` pairs are preserved; `taken` holes are neither paired
+/// Pairs the holes of two regions. `fixed` pairs are preserved; `excluded` holes are neither paired
 /// nor listed as unmatched. `rotation`, in radians, is that of the match of their outer boundaries,
 /// from source to target.
 ///
@@ -102,7 +102,7 @@ pub(super) fn pair_holes(
     target: &Region,
     rotation: f64,
     fixed: &[[usize; 2]],
-    taken: [&[usize]; 2],
+    excluded: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
     let parts = |region: &Region, turn: f64| {
         // Origin and size must not depend on the region's rotation.
@@ -116,7 +116,7 @@ pub(super) fn pair_holes(
         &parts(source, 0.5 * rotation),
         &parts(target, -0.5 * rotation),
         fixed,
-        taken,
+        excluded,
     )
 }
 
@@ -221,12 +221,12 @@ fn pair(
     source: &[PartFeatures],
     target: &[PartFeatures],
     fixed: &[[usize; 2]],
-    taken: [&[usize]; 2],
+    excluded: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
     check(fixed, source.len(), target.len())?;
     let unpaired = |pairs: &[[usize; 2]], count: usize, side: usize| -> Vec<usize> {
         (0..count)
-            .filter(|k| pairs.iter().all(|pair| pair[side] != *k) && !taken[side].contains(k))
+            .filter(|k| pairs.iter().all(|pair| pair[side] != *k) && !excluded[side].contains(k))
             .collect()
     };
     let (a, b) = (

@@ -45,17 +45,20 @@ pub(super) struct GridPath {
 #[derive(Debug, Default)]
 pub(super) struct PathBuffers {
     /// Costs of the previous row; column i is stored at 1 + i.
-    above: Vec<f64>,
+    previous: Vec<f64>,
     /// Costs of the current row, stored likewise.
-    here: Vec<f64>,
+    current: Vec<f64>,
     /// Step by which each node in the windows was reached, row after row.
-    came: Vec<u8>,
-    /// Start of each row in `came`.
+    steps: Vec<u8>,
+    /// Start of each row in `steps`.
     starts: Vec<usize>,
 }
 
+/// Code of a step along both curves.
 const ALONG_BOTH: u8 = 0;
+/// Code of a step along the source alone.
 const ALONG_SOURCE: u8 = 1;
+/// Code of a step along the target alone.
 const ALONG_TARGET: u8 = 2;
 
 impl PathGrid {
@@ -120,14 +123,14 @@ impl StepCosts {
         let window = |j: usize| [window(j)[0].max(start), window(j)[1].min(end)];
         scratch.reset(self.width);
         // Emulate a row above the first from which only the start can be reached.
-        scratch.above[1 + start] = 0.0;
+        scratch.previous[1 + start] = 0.0;
         for j in 0..self.rows {
             let columns = window(j);
-            scratch.starts.push(scratch.came.len());
+            scratch.starts.push(scratch.steps.len());
             self.row(j, columns, scratch);
-            std::mem::swap(&mut scratch.above, &mut scratch.here);
+            std::mem::swap(&mut scratch.previous, &mut scratch.current);
         }
-        let cost = scratch.above[1 + end];
+        let cost = scratch.previous[1 + end];
         let rows = trace(scratch, self.rows, start, end, |j| window(j)[0]);
         GridPath { cost, rows }
     }
@@ -136,17 +139,20 @@ impl StepCosts {
     fn row(&self, j: usize, [low, high]: [usize; 2], scratch: &mut PathBuffers) {
         let (first, count) = (j * self.width + low, high + 1 - low);
         let PathBuffers {
-            above, here, came, ..
+            previous,
+            current,
+            steps,
+            ..
         } = scratch;
         // Nodes left of the window are unreachable; those to its right still hold infinity from the
         // reset.
-        here[low] = f64::INFINITY;
-        let here = &mut here[1 + low..][..count];
-        let came_start = came.len();
-        came.resize(came_start + count, ALONG_BOTH);
-        let came = &mut came[came_start..];
+        current[low] = f64::INFINITY;
+        let current = &mut current[1 + low..][..count];
+        let row_start = steps.len();
+        steps.resize(row_start + count, ALONG_BOTH);
+        let steps = &mut steps[row_start..];
         // Steps from the row above: all nodes are independent.
-        let (left, straight) = (&above[low..][..count], &above[1 + low..][..count]);
+        let (left, straight) = (&previous[low..][..count], &previous[1 + low..][..count]);
         let (both, target) = (&self.both[first..][..count], &self.target[first..][..count]);
         for i in 0..count {
             let (along_both, along_target) = if j == 0 {
@@ -155,20 +161,20 @@ impl StepCosts {
                 (left[i] + both[i], straight[i] + target[i])
             };
             let is_target = along_target < along_both;
-            here[i] = if is_target { along_target } else { along_both };
-            came[i] = if is_target { ALONG_TARGET } else { ALONG_BOTH };
+            current[i] = if is_target { along_target } else { along_both };
+            steps[i] = if is_target { ALONG_TARGET } else { ALONG_BOTH };
         }
         // Steps along the row: each node depends on its predecessor.
         let source = &self.source[first..][..count];
-        let mut previous = f64::INFINITY;
+        let mut left_cost = f64::INFINITY;
         for i in 0..count {
-            let cost = previous + source[i];
-            let wins_tie = cost == here[i] && came[i] == ALONG_TARGET;
-            if cost < here[i] || wins_tie {
-                here[i] = cost;
-                came[i] = ALONG_SOURCE;
+            let cost = left_cost + source[i];
+            let wins_tie = cost == current[i] && steps[i] == ALONG_TARGET;
+            if cost < current[i] || wins_tie {
+                current[i] = cost;
+                steps[i] = ALONG_SOURCE;
             }
-            previous = here[i];
+            left_cost = current[i];
         }
     }
 }
@@ -176,11 +182,11 @@ impl StepCosts {
 impl PathBuffers {
     /// Clears the buffers for a grid of `width` columns.
     fn reset(&mut self, width: usize) {
-        for row in [&mut self.above, &mut self.here] {
+        for row in [&mut self.previous, &mut self.current] {
             row.clear();
             row.resize(1 + width, f64::INFINITY);
         }
-        self.came.clear();
+        self.steps.clear();
         self.starts.clear();
     }
 }
@@ -196,11 +202,11 @@ fn trace(
     let mut rows = vec![[end, end]; count];
     let (mut i, mut j) = (end, count - 1);
     while (i, j) != (start, 0) {
-        match scratch.came[scratch.starts[j] + i - low(j)] {
+        match scratch.steps[scratch.starts[j] + i - low(j)] {
             ALONG_SOURCE => i -= 1,
-            came => {
+            step => {
                 j -= 1;
-                i -= usize::from(came == ALONG_BOTH);
+                i -= usize::from(step == ALONG_BOTH);
                 rows[j] = [i, i];
             }
         }

@@ -6,7 +6,7 @@ use super::features::PoseWeights;
 use rayon::prelude::*;
 
 /// Penalty on rotation, times 1 − cos of the rotation, relative to the cost and absolute. The
-/// relative penalty decides near ties of unlike symmetric designs, such as two flowers with six
+/// relative penalty decides near ties of dissimilar symmetric designs, such as two flowers with six
 /// petals. It vanishes if a design is matched with itself, which must succeed at any rotation
 /// (heuristic).
 const RELATIVE_ROTATION_PENALTY: f64 = 0.05;
@@ -51,27 +51,28 @@ pub(super) struct PathSolution {
 impl CurveMatchProblem {
     /// Returns the best path over the poses selected by a search with fewer samples.
     pub(super) fn posed_solution(&self) -> PathSolution {
-        let blind = self.invariant_dissimilarities();
+        let invariant = self.invariant_dissimilarities();
         if self.keep_up {
-            return self.path_for_pose(&blind, 0.0, PoseWeights::FIXED);
+            return self.path_for_pose(&invariant, 0.0, PoseWeights::FIXED);
         }
         // The coarse search selects the few poses that are worth a full search.
         let poses = match &self.coarse {
             Some(coarse) => coarse.likely_poses(),
-            None => self.candidate_poses(&blind),
+            None => self.candidate_poses(&invariant),
         };
-        let candidates = self.solutions(&blind, poses).into_iter();
+        let candidates = self.solutions(&invariant, poses).into_iter();
         let better = |best: PathSolution, next: PathSolution| {
             if next.score < best.score { next } else { best }
         };
         let best = candidates.reduce(better);
-        let mut best = best.unwrap_or_else(|| self.path_for_pose(&blind, 0.0, PoseWeights::FREE));
+        let mut best =
+            best.unwrap_or_else(|| self.path_for_pose(&invariant, 0.0, PoseWeights::FREE));
         for _ in 0..POSE_ROUNDS {
             if (best.rotation - best.pose).cos() > SAME_POSE.cos() {
                 break;
             }
             // The rotation of the match is a better estimate than the pose it was found with.
-            let next = self.path_for_pose(&blind, best.rotation, PoseWeights::FREE);
+            let next = self.path_for_pose(&invariant, best.rotation, PoseWeights::FREE);
             if next.score >= best.score {
                 break;
             }
@@ -82,8 +83,8 @@ impl CurveMatchProblem {
 
     /// Returns the rotation of the best match, and those of other matches almost as good.
     fn likely_poses(&self) -> Vec<f64> {
-        let blind = self.invariant_dissimilarities();
-        let mut solutions = self.solutions(&blind, self.candidate_poses(&blind));
+        let invariant = self.invariant_dissimilarities();
+        let mut solutions = self.solutions(&invariant, self.candidate_poses(&invariant));
         solutions.sort_by(|a, b| a.score.total_cmp(&b.score));
         let max_score = solutions.first().map_or(0.0, |best| NEAR_TIE * best.score);
         let accepted = solutions
@@ -94,12 +95,12 @@ impl CurveMatchProblem {
 
     /// Returns the dissimilarities for searches without pose estimation.
     pub(super) fn unposed(&self) -> Vec<f64> {
-        let blind = self.invariant_dissimilarities();
+        let invariant = self.invariant_dissimilarities();
         if !self.keep_up {
-            return blind;
+            return invariant;
         }
         let [a, b] = [&self.source_features, &self.target_features];
-        a.posed_dissimilarities(b, &blind, 0.0, PoseWeights::FIXED)
+        a.posed_dissimilarities(b, &invariant, 0.0, PoseWeights::FIXED)
     }
 
     /// Returns the rotation-invariant dissimilarities.
@@ -108,22 +109,22 @@ impl CurveMatchProblem {
     }
 
     /// Returns the best path for each of the given poses.
-    fn solutions(&self, blind: &[f64], poses: Vec<f64>) -> Vec<PathSolution> {
-        let posed = |pose| self.path_for_pose(blind, pose, PoseWeights::FREE);
+    fn solutions(&self, invariant: &[f64], poses: Vec<f64>) -> Vec<PathSolution> {
+        let posed = |pose| self.path_for_pose(invariant, pose, PoseWeights::FREE);
         poses.into_par_iter().map(posed).collect()
     }
 
     /// Returns the best path for one pose.
-    fn path_for_pose(&self, blind: &[f64], pose: f64, weights: PoseWeights) -> PathSolution {
+    fn path_for_pose(&self, invariant: &[f64], pose: f64, weights: PoseWeights) -> PathSolution {
         let [a, b] = [&self.source_features, &self.target_features];
-        let found = self.best_path(a.posed_dissimilarities(b, blind, pose, weights));
+        let found = self.best_path(a.posed_dissimilarities(b, invariant, pose, weights));
         PathSolution { pose, ..found }
     }
 
     /// Returns the rotations worth trying, most likely first, no two of them close to each other.
-    fn candidate_poses(&self, blind: &[f64]) -> Vec<f64> {
+    fn candidate_poses(&self, invariant: &[f64]) -> Vec<f64> {
         let mut likely: Vec<(f64, f64)> = Vec::new();
-        self.visit_paths(blind, |cost, nodes| {
+        self.visit_paths(invariant, |cost, nodes| {
             let rotation = self.rotation(&nodes());
             likely.push((score(cost, rotation), rotation));
         });

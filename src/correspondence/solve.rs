@@ -8,8 +8,8 @@ use super::curve_problem::CurveMatchProblem;
 use super::monotone_path::refine;
 use super::poses::PathSolution;
 
-/// Maximum distance of the refined path from the unit-step path, in samples: one more than the
-/// longest refined step.
+/// Maximum distance of the refined path from the unit-step path, in samples (derived: one
+/// more than the longest refined step).
 const REACH: usize = 9;
 
 impl CurveMatchProblem {
@@ -40,7 +40,8 @@ impl CurveMatchProblem {
         let fixed = self.fixed_nodes();
         if fixed.is_empty() {
             let start = self.most_distinctive_node(solution);
-            let first = self.refine_section(solution, &self.rotated_to_start(&solution.nodes, start));
+            let first =
+                self.refine_section(solution, &self.rotated_to_start(&solution.nodes, start));
             // The refined path has longer steps, so it is expanded before the second cut.
             let expanded = unit_steps(&first);
             let far = first[first.len() / 2];

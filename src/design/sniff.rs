@@ -15,7 +15,7 @@ pub enum UnknownFormat {
     Other {
         /// Name of the format.
         found: &'static str,
-        /// What the user should do.
+        /// Advice for the user.
         way_out: &'static str,
     },
     /// XML without an `<svg>` element.

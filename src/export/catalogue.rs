@@ -68,7 +68,7 @@ struct CatalogueEntry {
 }
 
 impl Catalogue {
-    /// Selects the places with at least `least_stars` stars and sorts them; ties keep the order in
+    /// Selects the places with at least `min_stars` stars and sorts them; ties keep the order in
     /// which they were saved. Places without a name are named after their blend.
     ///
     /// # Panics
@@ -78,7 +78,7 @@ impl Catalogue {
         space: &DesignSpace,
         map: &WeightMap,
         saved: &[SavedPlace],
-        least_stars: u8,
+        min_stars: u8,
         order: CatalogueOrder,
     ) -> Self {
         let mut sampler = BlendSampler::of(space);
@@ -95,8 +95,8 @@ impl Catalogue {
                 saved,
             }
         };
-        let wanted = saved.iter().filter(|saved| saved.stars >= least_stars);
-        let mut entries: Vec<CatalogueEntry> = wanted.map(entry).collect();
+        let selected = saved.iter().filter(|saved| saved.stars >= min_stars);
+        let mut entries: Vec<CatalogueEntry> = selected.map(entry).collect();
         let distortion =
             |entry: &CatalogueEntry| entry.measures.quality.conformal_p95.unwrap_or(1.0);
         entries.sort_by(|a, b| match order {

@@ -58,8 +58,8 @@ impl SheetLayout {
         let count = count.max(1);
         let cell = PixelSize::of_shape(bounds, CELL_PX).as_dvec2();
         match size {
-            Some(size) => largest_cells(count, cell, size),
-            None => free(count, cell),
+            Some(size) => filling_layout(count, cell, size),
+            None => balanced_layout(count, cell),
         }
     }
 
@@ -73,7 +73,7 @@ impl SheetLayout {
             Some(size) => Self::filling(size, [columns, rows], label),
             None => {
                 let cell = PixelSize::of_shape(bounds, CELL_PX).as_dvec2();
-                natural([columns, rows], cell, label)
+                natural_layout([columns, rows], cell, label)
             }
         }
     }
@@ -118,20 +118,20 @@ impl SheetLayout {
 }
 
 /// Rows of balanced length with cells of their natural size, on a sheet within the size limit.
-fn free(count: usize, cell: DVec2) -> SheetLayout {
+fn balanced_layout(count: usize, cell: DVec2) -> SheetLayout {
     let rows = count.div_ceil(MAX_COLUMNS);
-    natural([count.div_ceil(rows), rows], cell, LABEL_SHARE)
+    natural_layout([count.div_ceil(rows), rows], cell, LABEL_SHARE)
 }
 
 /// `columns` × `rows` cells of their natural size, on a sheet within the size limit.
-fn natural([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout {
+fn natural_layout([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout {
     let unit = f64::from(CELL_PX);
     let (label_px, gap_px) = (label * unit, GAP_SHARE * unit);
-    let whole = cell + DVec2::new(gap_px, gap_px + label_px);
-    let wanted = whole * DVec2::new(columns as f64, rows as f64);
+    let cell_with_gap = cell + DVec2::new(gap_px, gap_px + label_px);
+    let natural = cell_with_gap * DVec2::new(columns as f64, rows as f64);
     // Labels and gaps are scaled along with the cells.
-    let scale = (MAX_SHEET_SIDE_PX / wanted.max_element()).min(1.0);
-    let sides = (wanted * scale).round().max(DVec2::ONE);
+    let scale = (MAX_SHEET_SIDE_PX / natural.max_element()).min(1.0);
+    let sides = (natural * scale).round().max(DVec2::ONE);
     let size = PixelSize::rounded_up(sides)
         .unwrap_or_else(|error| unreachable!("the sheet was scaled to fit: {error}"));
     SheetLayout {
@@ -144,7 +144,7 @@ fn natural([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout 
 }
 
 /// Arrangement with the number of columns that gives the largest images.
-fn largest_cells(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
+fn filling_layout(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
     let layout = |columns: usize| {
         SheetLayout::filling(size, [columns, count.div_ceil(columns)], LABEL_SHARE)
     };

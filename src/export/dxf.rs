@@ -158,12 +158,13 @@ fn layer(Rgb([r, g, b]): Rgb) -> String {
 
 /// Layer table entry of a colour.
 fn layer_entry(colour: Rgb) -> String {
-    let (name, nearest) = (layer(colour), nearest(colour));
+    let (name, nearest) = (layer(colour), nearest_index(colour));
     format!("0\nLAYER\n2\n{name}\n70\n0\n62\n{nearest}\n6\nCONTINUOUS\n")
 }
 
 /// AutoCAD colour index (1 to 9) closest to a colour.
-fn nearest(Rgb(rgb): Rgb) -> usize {
+fn nearest_index(Rgb(rgb): Rgb) -> usize {
+    /// Colours of the AutoCAD indices 1 to 9 (AutoCAD Color Index).
     const INDEX_COLOURS: [[u8; 3]; 9] = [
         [255, 0, 0],
         [255, 255, 0],
@@ -215,19 +216,19 @@ mod tests {
             let twice: f64 = ring.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();
             0.5 * twice
         };
-        let wanted: f64 = figure.rings.iter().map(|ring| area(ring)).sum();
+        let expected: f64 = figure.rings.iter().map(|ring| area(ring)).sum();
         let actual: f64 = regions.rings().map(|ring| area(ring.points())).sum();
         assert!(
-            (wanted - actual).abs() < 1e-4 * wanted,
-            "{actual} instead of {wanted}"
+            (expected - actual).abs() < 1e-4 * expected,
+            "{actual} instead of {expected}"
         );
     }
 
     #[test]
     fn layers_are_named_after_their_colours() {
         assert_eq!(layer(Rgb([0x2f, 0x6f, 0xb3])), "PAINT_2F6FB3");
-        assert_eq!(nearest(Rgb([250, 4, 9])), 1);
-        assert_eq!(nearest(Rgb([20, 20, 20])), 7);
+        assert_eq!(nearest_index(Rgb([250, 4, 9])), 1);
+        assert_eq!(nearest_index(Rgb([20, 20, 20])), 7);
         assert_eq!(number(-0.0000001), "0");
         assert_eq!(number(12.5), "12.5");
     }

@@ -70,9 +70,9 @@ pub fn write_gif(
         &film.runs(),
         DRAWING_STAGE,
         &ProgressSpan::new(progress, PALETTE_FRACTION, DRAWN_FRACTION),
-        |drawing| Ok(indexed(rasterise(&drawing), &palette)),
+        |drawing| Ok(index_image(rasterise(&drawing), &palette)),
         |run, drawn| {
-            let mut frame = pictured(&drawn, canvas.as_mut(), is_still(run), &palette);
+            let mut frame = encode_next_frame(&drawn, canvas.as_mut(), is_still(run), &palette);
             frame.delay = u16::try_from(film.ticks(run, TICKS_PER_SEC)).unwrap_or(u16::MAX);
             let written = encoder.write_lzw_pre_encoded_frame(&frame);
             written.map_err(ExportError::encode(path))
@@ -137,23 +137,23 @@ fn film_palette(
 /// Counts the colours of the opaque pixels.
 fn histogram(image: &RgbaImage) -> ColourHistogram {
     let mut histogram = ColourHistogram::new();
-    for colour in image.pixels().filter_map(|pixel| opaque(pixel.0)) {
+    for colour in image.pixels().filter_map(|pixel| opaque_colour(pixel.0)) {
         *histogram.entry(colour).or_default() += 1;
     }
     histogram
 }
 
 /// Colour of a pixel that is at least half covered.
-fn opaque([r, g, b, a]: [u8; 4]) -> Option<[u8; 3]> {
+fn opaque_colour([r, g, b, a]: [u8; 4]) -> Option<[u8; 3]> {
     (a >= 128).then_some([r, g, b])
 }
 
 /// Maps an image to palette indices.
-fn indexed(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
+fn index_image(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
     // Frames have few distinct colours, so caching avoids comparing each pixel with up to 255
     // palette entries.
     let mut cache = HashMap::new();
-    let mut index_of = |pixel: &image::Rgba<u8>| match opaque(pixel.0) {
+    let mut index_of = |pixel: &image::Rgba<u8>| match opaque_colour(pixel.0) {
         None => TRANSPARENT,
         Some(colour) => *cache
             .entry(colour)
@@ -166,23 +166,23 @@ fn indexed(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
 /// Encodes the next frame. Over a background only the changes are stored. On a transparent
 /// background the opaque part of each frame is stored and erased afterwards, or the previous frame
 /// would show through.
-fn pictured(
+fn encode_next_frame(
     drawn: &IndexedFrame,
     canvas: Option<&mut GifCanvas>,
     is_still: bool,
     palette: &GifPalette,
 ) -> Frame<'static> {
     match canvas {
-        Some(canvas) => encoded(canvas.patch(drawn, is_still, palette), DisposalMethod::Keep),
+        Some(canvas) => encode_patch(canvas.patch(drawn, is_still, palette), DisposalMethod::Keep),
         None => {
             let patch = changes::crop_to_opaque(drawn.image.width(), &drawn.indices);
-            encoded(patch, DisposalMethod::Background)
+            encode_patch(patch, DisposalMethod::Background)
         }
     }
 }
 
 /// Compresses a patch.
-fn encoded(patch: FramePatch, dispose: DisposalMethod) -> Frame<'static> {
+fn encode_patch(patch: FramePatch, dispose: DisposalMethod) -> Frame<'static> {
     // Sides fit in 16 bits: `MAX_SIDE_PX` is 16,384.
     let mut frame = Frame {
         left: patch.left as u16,

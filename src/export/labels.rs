@@ -35,7 +35,7 @@ impl LabelStyle {
     /// Draws text from the upper left corner of `area` on, wrapped to its width and limited to its
     /// number of lines. Returns the number of lines drawn.
     pub fn push(self, drawing: &mut Drawing, words: &str, area: LabelBox, colour: Rgb) -> usize {
-        let lines = self.wrapped(words, area.width_px, area.max_lines);
+        let lines = self.wrap(words, area.width_px, area.max_lines);
         for (i, line) in lines.iter().enumerate() {
             let middle = 0.5 * glyph_outlines::width(line, self.font_px);
             // The last fifth of the line is for descenders.
@@ -45,9 +45,9 @@ impl LabelStyle {
         lines.len()
     }
 
-    /// Breaks text into at most `max_lines` lines of `width_px`; what does not fit becomes an
-    /// ellipsis. Words longer than a line are broken.
-    fn wrapped(self, words: &str, width_px: f64, max_lines: usize) -> Vec<String> {
+    /// Breaks text into at most `max_lines` lines of `width_px`; an ellipsis replaces the rest.
+    /// Words longer than a line are broken.
+    fn wrap(self, words: &str, width_px: f64, max_lines: usize) -> Vec<String> {
         let fits = |line: &str| glyph_outlines::width(line, self.font_px) <= width_px;
         let mut lines: Vec<String> = Vec::new();
         let mut line = String::new();
@@ -127,19 +127,19 @@ mod tests {
 
     #[test]
     fn words_are_wrapped_broken_and_cut() {
-        assert_eq!(STYLE.wrapped("", 100.0, 3), Vec::<String>::new());
-        assert_eq!(STYLE.wrapped("a  b\nc", 100.0, 3), ["a b c"]);
+        assert_eq!(STYLE.wrap("", 100.0, 3), Vec::<String>::new());
+        assert_eq!(STYLE.wrap("a  b\nc", 100.0, 3), ["a b c"]);
         let long = "x".repeat(200);
-        let lines = STYLE.wrapped(&long, 100.0, 3);
+        let lines = STYLE.wrap(&long, 100.0, 3);
         assert_eq!(lines.len(), 3);
         assert!(lines[2].ends_with('\u{2026}'));
-        for line in STYLE.wrapped("several words that do not fit", 60.0, 9) {
+        for line in STYLE.wrap("several words that do not fit", 60.0, 9) {
             assert!(
                 glyph_outlines::width(&line, STYLE.font_px) <= 60.0,
                 "{line}"
             );
         }
-        assert_eq!(STYLE.wrapped("narrow", 0.0, 2).len(), 2);
+        assert_eq!(STYLE.wrap("narrow", 0.0, 2).len(), 2);
     }
 
     #[test]

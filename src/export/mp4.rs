@@ -85,8 +85,8 @@ fn planes(image: &RgbaImage) -> Vec<u8> {
     let mode = YuvConversionMode::Balanced;
     let stride = 4 * width;
     // Fails only if the buffer sizes do not match, and they come from one image.
-    let made = rgba_to_yuv420(&mut planes, image.as_raw(), stride, range, matrix, mode);
-    debug_assert!(made.is_ok());
+    let conversion = rgba_to_yuv420(&mut planes, image.as_raw(), stride, range, matrix, mode);
+    debug_assert!(conversion.is_ok());
     let planes = [planes.y_plane, planes.u_plane, planes.v_plane];
     planes.each_ref().map(|plane| plane.borrow()).concat()
 }
@@ -118,15 +118,15 @@ impl FfmpegJob<'_> {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 return Err(ExportError::NoFfmpeg);
             }
-            Err(error) => return Err(self.failed(&error.to_string())),
+            Err(error) => return Err(self.ffmpeg_error(&error.to_string())),
             Ok(ended) => ended,
         };
         match ended.words {
             _ if self.progress.is_cancelled() => Err(Cancelled.into()),
             words if ended.status.success() => Ok(words),
-            words if words.report_full_disk => Err(self.full()),
-            words if words.last.is_empty() => Err(self.failed(&ended.status.to_string())),
-            words => Err(self.failed(&words.last)),
+            words if words.report_full_disk => Err(self.disk_full_error()),
+            words if words.last.is_empty() => Err(self.ffmpeg_error(&ended.status.to_string())),
+            words => Err(self.ffmpeg_error(&words.last)),
         }
     }
 
@@ -145,30 +145,30 @@ impl FfmpegJob<'_> {
                 Err(error) => error.to_string(),
             };
         Err(match words.last.as_str() {
-            _ if words.report_full_disk => self.full(),
+            _ if words.report_full_disk => self.disk_full_error(),
             "" => ExportError::corrupt(self.path, reason),
             last => {
-                let last = self.renamed(last);
+                let last = self.with_final_path(last);
                 ExportError::corrupt(self.path, format!("{reason} (ffmpeg said: {last})"))
             }
         })
     }
 
     /// Error for a full disk.
-    fn full(&self) -> ExportError {
+    fn disk_full_error(&self) -> ExportError {
         ExportError::write(self.path)(io::ErrorKind::StorageFull.into())
     }
 
     /// Error that quotes a message of ffmpeg.
-    fn failed(&self, words: &str) -> ExportError {
+    fn ffmpeg_error(&self, words: &str) -> ExportError {
         ExportError::Ffmpeg {
             path: self.path.to_owned(),
-            last_line: self.renamed(words),
+            last_line: self.with_final_path(words),
         }
     }
 
     /// Replaces the temporary path in a message by the final one, which the user knows.
-    fn renamed(&self, words: &str) -> String {
+    fn with_final_path(&self, words: &str) -> String {
         let [temporary, path] = [self.temporary, self.path].map(|path| path.display().to_string());
         words.replace(&temporary, &path)
     }

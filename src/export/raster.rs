@@ -45,8 +45,8 @@ fn paint(item: &DrawingItem, canvas: &mut PixmapMut<'_>) {
             gradient,
             ..
         } => {
-            let shaded = gradient.as_ref().and_then(shaded);
-            let paint = shaded.unwrap_or_else(|| plain(*paint));
+            let shaded = gradient.as_ref().and_then(gradient_paint);
+            let paint = shaded.unwrap_or_else(|| solid_paint(*paint));
             fill(path_of(outline), &paint, canvas);
         }
         DrawingItem::Stroke { outline, line } => draw_line(path_of(outline), line, canvas),
@@ -62,7 +62,7 @@ fn paint(item: &DrawingItem, canvas: &mut PixmapMut<'_>) {
         } => {
             for c in centres {
                 let disc = path_of(&disc(*c, *radius_px));
-                fill(disc, &plain((*colour).into()), canvas);
+                fill(disc, &solid_paint((*colour).into()), canvas);
             }
         }
         DrawingItem::Picture { image, corner } => picture(image, *corner, canvas),
@@ -112,7 +112,7 @@ fn stroke(segments: &[[DVec2; 2]], width_px: f64, colour: Rgb, canvas: &mut Pixm
     if let Some(path) = builder.finish().filter(|_| width_px > 0.0) {
         canvas.stroke_path(
             &path,
-            &plain(colour.into()),
+            &solid_paint(colour.into()),
             &stroke,
             Transform::identity(),
             None,
@@ -136,7 +136,7 @@ fn draw_line(path: Option<Path>, line: &StrokeStyle, canvas: &mut PixmapMut<'_>)
         ..Stroke::default()
     };
     if let Some(path) = path {
-        let paint = plain(line.paint);
+        let paint = solid_paint(line.paint);
         canvas.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
     }
 }
@@ -195,7 +195,7 @@ pub(crate) fn make_straight(pixel: &mut image::Rgba<u8>) {
 }
 
 /// Converts a gradient; `None` if tiny-skia rejects it as degenerate.
-fn shaded(gradient: &Gradient) -> Option<tiny_skia::Paint<'static>> {
+fn gradient_paint(gradient: &Gradient) -> Option<tiny_skia::Paint<'static>> {
     let stops = gradient.stops.iter().map(|stop| {
         let mut colour = color(stop.paint.colour);
         colour.set_alpha(stop.paint.opacity as f32);
@@ -225,7 +225,7 @@ fn shaded(gradient: &Gradient) -> Option<tiny_skia::Paint<'static>> {
     })
 }
 
-fn plain(paint: Paint) -> tiny_skia::Paint<'static> {
+fn solid_paint(paint: Paint) -> tiny_skia::Paint<'static> {
     let mut plain = tiny_skia::Paint::default();
     let mut colour = color(paint.colour);
     colour.set_alpha(paint.opacity as f32);

@@ -79,7 +79,7 @@ impl PixelSize {
     /// The shorter side is at least a tenth of it; both are even.
     pub fn of_shape(bounds: Bounds, longer_side_px: u32) -> Self {
         // 8192² is half of `MAX_PIXELS`, so no shape exceeds the limits.
-        let longer = even(longer_side_px.clamp(2, 8_192));
+        let longer = round_up_to_even(longer_side_px.clamp(2, 8_192));
         let size = bounds.size();
         // NaN if the bounds are a single point, which is shown in a square image.
         let ratio = size.min_element() / size.max_element();
@@ -88,7 +88,7 @@ impl PixelSize {
         } else {
             1.0
         };
-        let shorter = even((f64::from(longer) * ratio).round() as u32);
+        let shorter = round_up_to_even((f64::from(longer) * ratio).round() as u32);
         let (width, height) = if size.x >= size.y {
             (longer, shorter)
         } else {
@@ -110,8 +110,8 @@ impl PixelSize {
     /// Rounds each side up to an even number, as most video encoders require.
     pub fn to_even(self) -> Self {
         Self {
-            width: even(self.width),
-            height: even(self.height),
+            width: round_up_to_even(self.width),
+            height: round_up_to_even(self.height),
         }
     }
 
@@ -137,7 +137,7 @@ impl PixelSize {
 }
 
 /// Rounds up to an even number of at least 2. [`MAX_SIDE_PX`] is even, so legal sides stay legal.
-fn even(side_px: u32) -> u32 {
+fn round_up_to_even(side_px: u32) -> u32 {
     side_px.next_multiple_of(2).max(2)
 }
 

@@ -41,7 +41,7 @@ fn element(k: usize, item: &DrawingItem) -> String {
             paint,
             gradient: None,
             label,
-        } => fill(outline, &painted(paint), label.as_deref()),
+        } => fill(outline, &fill_attributes(paint), label.as_deref()),
         DrawingItem::Fill {
             outline,
             gradient: Some(gradient),
@@ -49,7 +49,7 @@ fn element(k: usize, item: &DrawingItem) -> String {
             ..
         } => {
             let fill = fill(outline, &format!("fill=\"url(#g{k})\""), label.as_deref());
-            format!("{}{fill}", shaded(k, gradient))
+            format!("{}{fill}", gradient_definition(k, gradient))
         }
         DrawingItem::Stroke { outline, line } => drawn_line(outline, line),
         DrawingItem::Bars {
@@ -84,7 +84,7 @@ fn fill(outline: &OutlinePath, ink: &str, label: Option<&str>) -> String {
 }
 
 /// Fill attributes of a plain paint.
-fn painted(paint: &Paint) -> String {
+fn fill_attributes(paint: &Paint) -> String {
     match paint.is_opaque() {
         true => format!("fill=\"{}\"", paint.colour),
         false => format!(
@@ -96,7 +96,7 @@ fn painted(paint: &Paint) -> String {
 }
 
 /// Definition of a gradient with the id `g{k}`.
-fn shaded(k: usize, gradient: &Gradient) -> String {
+fn gradient_definition(k: usize, gradient: &Gradient) -> String {
     let stop = |stop: &GradientStop| {
         let Paint { colour, opacity } = stop.paint;
         let opacity = match stop.paint.is_opaque() {
@@ -196,6 +196,7 @@ fn picture(image: &image::RgbaImage, UVec2 { x, y }: UVec2) -> String {
 
 /// Base64 encoding with padding (RFC 4648).
 fn base64(bytes: &[u8]) -> String {
+    /// Digits of the standard alphabet (RFC 4648, table 1).
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for chunk in bytes.chunks(3) {

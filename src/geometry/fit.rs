@@ -48,7 +48,7 @@ impl SimilarityFit {
 
 /// Points whose scatter matrix has a determinant below this fraction of its squared trace count as
 /// collinear (tolerance: above rounding).
-const FLAT: f64 = 1e-12;
+const COLLINEAR_RATIO: f64 = 1e-12;
 
 /// Fits the least-squares affine map from points to as many places. Collinear points give a
 /// similarity, a single point a translation.
@@ -63,7 +63,7 @@ pub(crate) fn fit_affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
     }
     // The trace scales with the squared size of the points.
     let size = scatter.x_axis.x + scatter.y_axis.y;
-    let linear = if scatter.determinant() > FLAT * size * size {
+    let linear = if scatter.determinant() > COLLINEAR_RATIO * size * size {
         cross_scatter * scatter.inverse()
     } else {
         SimilarityFit::of(points, places).map_or(DMat2::IDENTITY, |fit| {

@@ -1,4 +1,4 @@
-//! Insets a region: what remains of it when its boundary moves inwards.
+//! Insets a region: moves its boundary inwards by a given depth.
 
 use super::{DVec2, signed_area};
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
@@ -9,7 +9,7 @@ use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 const MIN_TIP_ANGLE: f64 = 0.2;
 
 /// Number of bisections in the search for the inset depth (derived: 2⁻¹⁰ is about a thousandth).
-const HALVINGS: u32 = 10;
+const BISECTIONS: u32 = 10;
 
 /// Returns the points of a region that are farther than `depth` from its boundary, as rings; holes
 /// run the other way round. Corners stay sharp.
@@ -32,7 +32,7 @@ pub(crate) fn inradius(rings: &[Vec<DVec2>]) -> f64 {
     let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
     // No disc in the region has more area than the region.
     let (mut inside, mut beyond) = (0.0, (area.max(0.0) / std::f64::consts::PI).sqrt());
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let depth = 0.5 * (inside + beyond);
         *(if inset(rings, depth).is_empty() {
             &mut beyond

@@ -1,4 +1,4 @@
-//! Overshoot: how much a quantity exceeds, on its way, what its values at the ends require.
+//! Overshoot: excess of a quantity during a motion over the range between its end values.
 
 /// Returns the largest relative excess of `[t, value]` samples over the straight line between the
 /// first and the last value; 0 if none exceeds it. `t` runs from 0 to 1.

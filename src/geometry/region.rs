@@ -138,7 +138,7 @@ impl Regions {
         let smallest = SliverLimits {
             area,
             edge: Self::MIN_RELATIVE_EDGE * extent,
-            drawn: SliverTest::of(rings, extent, area),
+            leftover_test: SliverTest::of(rings, extent, area),
         };
         let origin = bounds.centre(); // the grid is finest around zero
         let subject: Vec<Vec<[f64; 2]>> = rings
@@ -226,8 +226,8 @@ impl Regions {
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
         let place = |ring: &Ring| {
-            let moved = ring.mapped(|p| by.apply(p));
-            if by.mirror { moved.reversed() } else { moved }
+            let mapped = ring.mapped(|p| by.apply(p));
+            if by.mirror { mapped.reversed() } else { mapped }
         };
         Self(
             self.0
@@ -264,13 +264,13 @@ fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
 struct SliverLimits {
     area: f64,
     edge: f64,
-    drawn: SliverTest,
+    leftover_test: SliverTest,
 }
 
 impl SliverLimits {
     /// Returns whether a contour is too small or too thin to keep.
     fn is_sliver(&self, contour: &Ring) -> bool {
-        contour.signed_area().abs() <= self.area || self.drawn.is_leftover(contour)
+        contour.signed_area().abs() <= self.area || self.leftover_test.is_leftover(contour)
     }
 }
 

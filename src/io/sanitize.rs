@@ -24,13 +24,13 @@ pub(crate) struct SanitizedLine<T>(pub T);
 
 impl<T: fmt::Display> fmt::Display for SanitizedLine<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shown: String = self.0.to_string().chars().flat_map(visible).collect();
-        let count = shown.chars().count();
+        let escaped: String = self.0.to_string().chars().flat_map(escape_hidden).collect();
+        let count = escaped.chars().count();
         if count <= MAX_CHARS {
-            return f.write_str(&shown);
+            return f.write_str(&escaped);
         }
-        let head = shown.chars().take(MAX_CHARS - TAIL_CHARS - 1);
-        let tail = shown.chars().skip(count - TAIL_CHARS);
+        let head = escaped.chars().take(MAX_CHARS - TAIL_CHARS - 1);
+        let tail = escaped.chars().skip(count - TAIL_CHARS);
         f.write_str(&head.chain(['…']).chain(tail).collect::<String>())
     }
 }
@@ -44,7 +44,7 @@ pub(crate) fn is_hidden(c: char) -> bool {
 }
 
 /// Returns the character itself, or its escape sequence if it is hidden.
-fn visible(c: char) -> impl Iterator<Item = char> {
+fn escape_hidden(c: char) -> impl Iterator<Item = char> {
     let hidden = is_hidden(c);
     let escaped = hidden.then(|| c.escape_default());
     escaped.into_iter().flatten().chain((!hidden).then_some(c))

@@ -96,16 +96,22 @@ impl BlendSampler {
             Some(places) => (self.distortion(places), self.travel(places)),
             None => (Vec::new(), None),
         };
-        let p95 = distortions.iter().map(|of_design| of_design.conformal.p95);
+        let p95 = distortions
+            .iter()
+            .map(|distortion| distortion.conformal.p95);
         let mean_area: f64 = self.areas.iter().zip(weights).map(|(a, w)| a * w).sum();
-        let off = (shape.area - mean_area).abs() / mean_area;
+        let area_deviation = (shape.area - mean_area).abs() / mean_area;
         BlendMeasures {
             quality: BlendReport {
-                folds: distortions.first().map_or(0, |of_design| of_design.folds),
+                folds: distortions.first().map_or(0, |distortion| distortion.folds),
                 crossings: shape.crossings,
                 conformal_p95: p95.min_by(f64::total_cmp),
                 // Bars of width 0 have no area, which would give NaN.
-                area_off: if off.is_finite() { off } else { 0.0 },
+                area_off: if area_deviation.is_finite() {
+                    area_deviation
+                } else {
+                    0.0
+                },
             },
             area: shape.area,
             perimeter: shape.perimeter,
@@ -115,8 +121,8 @@ impl BlendSampler {
 
     /// Returns the distortion relative to each design.
     fn distortion(&self, places: &[DVec2]) -> Vec<Distortion> {
-        let each = self.meshes.iter();
-        each.filter_map(|mesh| distortion(mesh, places)).collect()
+        let meshes = self.meshes.iter();
+        meshes.filter_map(|mesh| distortion(mesh, places)).collect()
     }
 
     /// Returns the mean vertex distance from the nearest design.

@@ -160,11 +160,11 @@ pub(super) fn distribution(mut values: Vec<(f64, f64)>) -> Option<Distribution> 
     let worst = values.last()?.0;
     let quantile = |fraction: f64| {
         let mut sum = 0.0;
-        let reached = values.iter().find(|(_, weight)| {
+        let first_reaching = values.iter().find(|(_, weight)| {
             sum += weight;
             sum >= fraction * total
         });
-        reached.map_or(worst, |(value, _)| *value)
+        first_reaching.map_or(worst, |(value, _)| *value)
     };
     Some(Distribution {
         median: quantile(0.5),

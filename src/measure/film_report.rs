@@ -273,15 +273,16 @@ fn report(
 ) -> FilmReport {
     let folds = |s: &FilmSample| s.distortion.map(|d| d.folds);
     let crossings = |s: &FilmSample| s.crossings;
-    let worst = |of: &dyn Fn(&FilmSample) -> Option<usize>| samples.iter().filter_map(of).max();
-    let first = |of: &dyn Fn(&FilmSample) -> Option<usize>| {
-        let is_bad = |s: &&FilmSample| of(s).is_some_and(|n| n > 0);
-        samples.iter().find(is_bad).map(|s| s.t)
+    let worst =
+        |value: &dyn Fn(&FilmSample) -> Option<usize>| samples.iter().filter_map(value).max();
+    let first = |value: &dyn Fn(&FilmSample) -> Option<usize>| {
+        let has_defects = |s: &&FilmSample| value(s).is_some_and(|n| n > 0);
+        samples.iter().find(has_defects).map(|s| s.t)
     };
     let turning: Vec<_> = samples.iter().map(|s| [s.t, s.turning]).collect();
     let turning_of_both: Vec<_> = samples.iter().map(|s| [s.t, s.turning_of_both]).collect();
-    let peak = |of: fn(Distribution) -> f64| {
-        overshoot::peak_over_ends(samples.iter().map(|s| Some(of(s.distortion?.conformal))))
+    let peak = |value: fn(Distribution) -> f64| {
+        overshoot::peak_over_ends(samples.iter().map(|s| Some(value(s.distortion?.conformal))))
     };
     let dets = samples.iter().filter_map(|s| Some(s.distortion?.min_det));
     FilmReport {
@@ -322,12 +323,12 @@ fn asymmetry(
     };
     // The way back uses the same turns, whole turns included: this measures the symmetry of the
     // energy, not of the choice of turns.
-    let back = match arap.swapped(progress) {
-        Ok(back) => back,
+    let reversed = match arap.swapped(progress) {
+        Ok(reversed) => reversed,
         Err(ArapError::Cancelled(cancelled)) => return Err(cancelled),
         Err(_) => return Ok(None),
     };
-    let mut placer = transition.reversed_placer_for(&back);
+    let mut placer = transition.reversed_placer_for(&reversed);
     let mut worst = 0.0_f64;
     for (t, forwards) in evenly_spaced_times(paths.len()).zip(paths) {
         check_cancelled(progress)?;

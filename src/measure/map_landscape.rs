@@ -133,11 +133,11 @@ impl MapLandscape {
         let at = DVec2::new(place.x + self.reach, self.reach - place.y) / (2.0 * self.reach);
         let at = (at * self.side as f64 - 0.5).clamp(DVec2::ZERO, DVec2::splat(last));
         let low = at.floor();
-        let share = at - low;
+        let fraction = at - low;
         let (mut sum, mut total_weight) = (0.0, 0.0);
         for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
             let corner = (low + DVec2::new(dx, dy)).min(DVec2::splat(last));
-            let weight = (1.0 - (share.x - dx).abs()) * (1.0 - (share.y - dy).abs());
+            let weight = (1.0 - (fraction.x - dx).abs()) * (1.0 - (fraction.y - dy).abs());
             let index = corner.y as usize * self.side + corner.x as usize;
             if weight > 0.0
                 && let Some(measured) = self.blends[index].as_ref().and_then(&value)

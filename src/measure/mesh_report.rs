@@ -55,7 +55,7 @@ pub fn mesh_report(mesh: &CompatibleMesh) -> Option<MeshReport> {
     let (source, target) = (angles(mesh.source()), angles(mesh.target()));
     let pairs = source.iter().zip(&target);
     let thin = pairs.filter(|(a, b)| a.min(**b) < THIN_DEG).count();
-    let least = |angles: &[f64]| angles.iter().copied().fold(f64::INFINITY, f64::min);
+    let smallest = |angles: &[f64]| angles.iter().copied().fold(f64::INFINITY, f64::min);
     let boundary = boundary_vertices(mesh);
     let inner = mesh.source().len() - boundary;
     Some(MeshReport {
@@ -64,8 +64,8 @@ pub fn mesh_report(mesh: &CompatibleMesh) -> Option<MeshReport> {
         boundary_vertices: boundary,
         inner_vertices: inner,
         steiner_per_boundary_point: inner as f64 / boundary.max(1) as f64,
-        min_angle_source_deg: least(&source),
-        min_angle_target_deg: least(&target),
+        min_angle_source_deg: smallest(&source),
+        min_angle_target_deg: smallest(&target),
         thin_faces: thin as f64 / mesh.faces().len() as f64,
         boundary_stretch: stretch::stretch_distribution(mesh)?,
         distortion: distortion(mesh, mesh.target())?,

@@ -29,7 +29,7 @@ pub(super) fn motion_report(
     }
     let aligned: Vec<Vec<DVec2>> = samples
         .iter()
-        .map(|now| without_rigid(now, first))
+        .map(|sample| without_rigid(sample, first))
         .collect();
     let mut travel = vec![0.0; first.len()];
     for pair in aligned.windows(2) {
@@ -76,10 +76,10 @@ mod tests {
                 .collect()
         };
         let samples: Vec<_> = (0..9).map(|i| at(f64::from(i) / 8.0)).collect();
-        let found = motion_report(&samples, 0.125, 3.0).expect("samples");
+        let report = motion_report(&samples, 0.125, 3.0).expect("samples");
         assert!(
-            found.max_travel < 1e-12 && found.max_acceleration < 1e-10,
-            "{found:?}"
+            report.max_travel < 1e-12 && report.max_acceleration < 1e-10,
+            "{report:?}"
         );
     }
 
@@ -93,7 +93,7 @@ mod tests {
                 points
             })
             .collect();
-        let found = motion_report(&samples, 0.25, 2.0).expect("samples");
-        assert!((found.max_travel - 2.0).abs() < 0.1, "{found:?}");
+        let report = motion_report(&samples, 0.25, 2.0).expect("samples");
+        assert!((report.max_travel - 2.0).abs() < 0.1, "{report:?}");
     }
 }

@@ -60,9 +60,9 @@ mod tests {
 
     #[test]
     fn counts_are_compared_with_the_larger_end() {
-        let some = |counts: &[usize]| count_over_ends(counts.iter().map(|&c| Some(c)));
-        assert_eq!(some(&[1, 5, 3]), Some(2));
-        assert_eq!(some(&[3, 1, 2]), Some(0));
+        let excess = |counts: &[usize]| count_over_ends(counts.iter().map(|&c| Some(c)));
+        assert_eq!(excess(&[1, 5, 3]), Some(2));
+        assert_eq!(excess(&[3, 1, 2]), Some(0));
         assert_eq!(count_over_ends([Some(1), None].into_iter()), None);
         assert_eq!(count_over_ends(std::iter::empty()), None);
     }

@@ -6,7 +6,7 @@ use crate::work::progress::{Cancelled, Progress, checkpoint};
 use serde::Serialize;
 
 /// Number of blends measured on each edge (heuristic).
-const ON_EDGE: usize = 9;
+const BLENDS_PER_EDGE: usize = 9;
 
 /// Measures of a space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -66,17 +66,17 @@ pub fn space_report(
     let mut sampler = BlendSampler::of(space);
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
     let pairs: Vec<[usize; 2]> = pairs.collect();
-    let whole = (pairs.len() * ON_EDGE + blends) as f64;
+    let total = (pairs.len() * BLENDS_PER_EDGE + blends) as f64;
     let mut edges = Vec::new();
     for [a, b] in pairs {
         checkpoint(
             progress,
             "measuring",
-            (edges.len() * ON_EDGE) as f64 / whole,
+            (edges.len() * BLENDS_PER_EDGE) as f64 / total,
         )?;
         let mut worst = BlendReport::default();
-        for k in 1..=ON_EDGE {
-            let t = k as f64 / (ON_EDGE + 1) as f64;
+        for k in 1..=BLENDS_PER_EDGE {
+            let t = k as f64 / (BLENDS_PER_EDGE + 1) as f64;
             let mut weights = vec![0.0; count];
             (weights[a], weights[b]) = (1.0 - t, t);
             worst = worst.worst_of(sampler.measure(&weights).quality);
@@ -95,8 +95,8 @@ pub fn space_report(
         worst: BlendReport::default(),
     };
     for k in 0..blends {
-        let done = edges.len() * ON_EDGE + k;
-        checkpoint(progress, "measuring", done as f64 / whole)?;
+        let done = edges.len() * BLENDS_PER_EDGE + k;
+        checkpoint(progress, "measuring", done as f64 / total)?;
         let quality = sampler.measure(&weight_sample(k, count)).quality;
         all_over.folded += usize::from(quality.folds > 0);
         all_over.crossed += usize::from(quality.crossings > 0);
@@ -133,8 +133,8 @@ mod tests {
             rectangle(3.0, 1.0),
             rectangle(1.0, 2.0),
         ];
-        let built = DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space");
-        let report = space_report(&built, 20, &Silent).expect("measured");
+        let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space");
+        let report = space_report(&space, 20, &Silent).expect("measured");
         assert_eq!((report.edges.len(), report.all_over.folded), (3, 0));
         let worst = report.all_over.worst;
         assert_eq!((worst.folds, worst.crossings), (0, 0));

@@ -10,7 +10,7 @@ use crate::geometry::DVec2;
 
 /// Minimum window length: the sum of its fractions of the loop in source and target. This is about
 /// two edges of an outline with 120 points (heuristic).
-const WINDOW: f64 = 0.03;
+const MIN_WINDOW_LENGTH: f64 = 0.03;
 
 /// Stretch of the boundary around one vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +33,12 @@ impl EdgeStretch {
 /// Returns the stretch around each vertex of each boundary loop.
 pub(super) fn boundary_stretch(mesh: &CompatibleMesh) -> Vec<EdgeStretch> {
     let loops = mesh.boundary_loops();
-    let of_loop = |vertices: &Vec<u32>| {
+    let stretch_of_loop = |vertices: &Vec<u32>| {
         let [source, target] =
             [mesh.source(), mesh.target()].map(|points| edge_lengths(vertices, points));
         loop_stretch(vertices, &source, &target)
     };
-    loops.iter().flat_map(of_loop).collect()
+    loops.iter().flat_map(stretch_of_loop).collect()
 }
 
 /// Returns the distribution of the unevenness, weighted by length in the source.
@@ -57,17 +57,17 @@ fn edge_lengths(vertices: &[u32], points: &[DVec2]) -> Vec<f64> {
 /// Returns the stretch around each vertex of a loop with the given edge lengths.
 fn loop_stretch(vertices: &[u32], source: &[f64], target: &[f64]) -> Vec<EdgeStretch> {
     let n = vertices.len();
-    let (whole_source, whole_target) = (source.iter().sum::<f64>(), target.iter().sum::<f64>());
+    let (source_length, target_length) = (source.iter().sum::<f64>(), target.iter().sum::<f64>());
     let stretch_at = |i: usize| {
         // The window grows by one edge on either side until it is long enough.
         let (mut in_source, mut in_target) = (0.0, 0.0);
         for k in 0..n.div_ceil(2) {
             let (after, before) = ((i + k) % n, (i + 2 * n - 1 - k) % n);
-            in_source += (source[after] + source[before]) / whole_source;
-            in_target += (target[after] + target[before]) / whole_target;
+            in_source += (source[after] + source[before]) / source_length;
+            in_target += (target[after] + target[before]) / target_length;
             // Length in either design is enough: otherwise a squeezed section would be averaged
             // with its neighbours.
-            if in_source + in_target >= WINDOW {
+            if in_source + in_target >= MIN_WINDOW_LENGTH {
                 break;
             }
         }
@@ -86,10 +86,11 @@ mod tests {
 
     /// A square with 40 edges on its lower and upper side; `bottom` maps the lower side's x.
     fn mesh_with(bottom: impl Fn(f64) -> f64) -> CompatibleMesh {
-        const N: u32 = 40;
-        let point = |i: u32, j: u32| DVec2::new(f64::from(i) / f64::from(N), f64::from(j));
+        /// Number of edges along the lower side.
+        const COLUMNS: u32 = 40;
+        let point = |i: u32, j: u32| DVec2::new(f64::from(i) / f64::from(COLUMNS), f64::from(j));
         let source: Vec<_> = (0..=1)
-            .flat_map(|j| (0..=N).map(move |i| point(i, j)))
+            .flat_map(|j| (0..=COLUMNS).map(move |i| point(i, j)))
             .collect();
         let squeezed = |p: &DVec2| {
             if p.y == 0.0 {
@@ -99,16 +100,21 @@ mod tests {
             }
         };
         let target = source.iter().map(squeezed).collect();
-        let quad = |i: u32| [[i, i + 1, i + N + 2], [i, i + N + 2, i + N + 1]];
-        let faces = (0..N).flat_map(quad).collect();
+        let quad = |i: u32| {
+            [
+                [i, i + 1, i + COLUMNS + 2],
+                [i, i + COLUMNS + 2, i + COLUMNS + 1],
+            ]
+        };
+        let faces = (0..COLUMNS).flat_map(quad).collect();
         CompatibleMesh::new(faces, source, target, vec![]).expect("valid")
     }
 
     #[test]
     fn an_even_boundary_has_unevenness_one() {
         let mesh = mesh_with(|x| x);
-        let found = stretch_distribution(&mesh).expect("a boundary");
-        assert!((found.worst - 1.0).abs() < 1e-9, "{found:?}");
+        let distribution = stretch_distribution(&mesh).expect("a boundary");
+        assert!((distribution.worst - 1.0).abs() < 1e-9, "{distribution:?}");
     }
 
     #[test]

@@ -157,8 +157,8 @@ mod tests {
             lu.factor(1, &[2.0]);
             lu.factor(n, &a);
             lu.solve(&mut b);
-            for (found, &wanted) in b.iter().zip(x) {
-                prop_assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+            for (found, &expected) in b.iter().zip(x) {
+                prop_assert!((found - expected).abs() < 1e-12, "{found} {expected}");
             }
         }
     }

@@ -45,27 +45,27 @@ pub(super) struct RecordingInterval {
 
 impl RecordingInterval {
     /// Builds an interval from the positions at both ends and the coefficients block by block, the
-    /// first `kept_in_full` of which stay in double precision.
+    /// first `full_count` of which stay in double precision.
     pub(super) fn new(
         [from, to]: [f64; 2],
         ends: [&[BlockRow]; 2],
         coefficients: &[BlockRow],
-        kept_in_full: usize,
+        full_count: usize,
     ) -> Self {
         let blocks = ends[0].len();
         let n = coefficients.len().checked_div(blocks).unwrap_or(0);
-        let narrow = n - kept_in_full;
+        let narrow = n - full_count;
         let mut interval = Self {
             from,
             to,
             arch: Arch::new(),
-            counts: [kept_in_full, narrow],
-            full: Vec::with_capacity(blocks * (2 + kept_in_full)),
+            counts: [full_count, narrow],
+            full: Vec::with_capacity(blocks * (2 + full_count)),
             narrow: Vec::with_capacity(blocks * narrow),
         };
         for block in 0..blocks {
             interval.full.extend([ends[0][block], ends[1][block]]);
-            let (large, small) = coefficients[block * n..][..n].split_at(kept_in_full);
+            let (large, small) = coefficients[block * n..][..n].split_at(full_count);
             interval.full.extend_from_slice(large);
             interval
                 .narrow

@@ -40,12 +40,12 @@ const OMISSION_SHARE: f64 = 0.1;
 #[non_exhaustive]
 pub enum RecordingError {
     /// The coefficients would exceed the memory limit.
-    #[error("the recording would take {bytes} bytes; the limit is {most}")]
+    #[error("the recording would take {bytes} bytes; the limit is {limit}")]
     TooLarge {
         /// Size in bytes when recording stopped.
         bytes: usize,
         /// Limit in bytes.
-        most: usize,
+        limit: usize,
     },
     /// The warp jumps near a time, or its placements are too inexact there.
     #[error("the motion is not smooth near t = {t:.3}; each frame is solved instead")]
@@ -96,8 +96,8 @@ pub(super) fn record(
     Ok(RecordedIntervals {
         channels: recorder.moving,
         error: recorder.error / recorder.diameter,
-        evaluation_count: recorder.solves,
-        intervals: recorder.reels,
+        evaluation_count: recorder.evaluation_count,
+        intervals: recorder.intervals,
     })
 }
 
@@ -110,10 +110,10 @@ struct WarpRecorder<'a> {
     progress: &'a dyn Progress,
     /// Diameter of all moving positions at both ends; the scale of the tolerance.
     diameter: f64,
-    reels: Vec<RecordingInterval>,
+    intervals: Vec<RecordingInterval>,
     /// Largest error so far, in units of the plane.
     error: f64,
-    solves: usize,
+    evaluation_count: usize,
 }
 
 impl<'a> WarpRecorder<'a> {
@@ -149,9 +149,9 @@ impl<'a> WarpRecorder<'a> {
             options,
             progress,
             diameter: if diameter > 0.0 { diameter } else { 1.0 },
-            reels: Vec::new(),
+            intervals: Vec::new(),
             error: 0.0,
-            solves: breaks.len(),
+            evaluation_count: breaks.len(),
         }
     }
 
@@ -163,13 +163,13 @@ impl<'a> WarpRecorder<'a> {
     /// Returns the moving positions at `t`.
     fn at(&mut self, t: f64) -> PositionBlocks {
         // The ends are the designs themselves; nothing is solved there.
-        self.solves += usize::from(t > 0.0 && t < 1.0);
+        self.evaluation_count += usize::from(t > 0.0 && t < 1.0);
         places(&mut self.placers[0], self.moving, t)
     }
 
     /// Returns the moving positions at two times, computed in parallel.
     fn at_pair(&mut self, t: [f64; 2]) -> [PositionBlocks; 2] {
-        self.solves += 2;
+        self.evaluation_count += 2;
         let moving = self.moving;
         let [a, b] = &mut self.placers;
         let (a, b) = rayon::join(|| places(a, moving, t[0]), || places(b, moving, t[1]));
@@ -196,12 +196,12 @@ impl<'a> WarpRecorder<'a> {
             self.allow(ends[0].len() * (4 + samples.len()) * size_of::<BlockRow>())?;
             let pair = [nodes()[samples.len()], nodes()[samples.len() + 1]];
             let pair_positions = self.at_pair(pair.map(time));
-            let known = samples.len();
+            let node_count = samples.len();
             let mut off: f64 = 0.0;
             for (s, positions) in pair.into_iter().zip(pair_positions) {
                 let sample = deviation(positions, ends, s);
                 // Both nodes of the pair test the polynomial through the nodes before the pair.
-                off = off.max(residual(&samples[..known], &sample, s));
+                off = off.max(residual(&samples[..node_count], &sample, s));
                 samples.push(sample);
             }
             if off <= self.tolerance() {
@@ -231,13 +231,13 @@ impl<'a> WarpRecorder<'a> {
     fn allow(&self, extra: usize) -> Result<(), RecordingError> {
         let bytes = extra
             + self
-                .reels
+                .intervals
                 .iter()
                 .map(RecordingInterval::bytes)
                 .sum::<usize>();
-        let most = self.options.max_bytes;
-        if bytes > most {
-            return Err(RecordingError::TooLarge { bytes, most });
+        let limit = self.options.max_bytes;
+        if bytes > limit {
+            return Err(RecordingError::TooLarge { bytes, limit });
         }
         Ok(())
     }
@@ -258,48 +258,47 @@ impl<'a> WarpRecorder<'a> {
         check_cancelled(self.progress)?;
         let coefficients = coefficients(samples);
         let n = samples.len();
-        let largest = largest(&coefficients, n);
+        let largest = max_lengths(&coefficients, n);
         // Omit trailing coefficients as long as their sum stays small enough.
         let mut omitted = 0.0;
-        let mut kept = n;
-        while kept > 0 && omitted + largest[kept - 1] <= OMISSION_SHARE * self.tolerance() {
-            kept -= 1;
-            omitted += largest[kept];
+        let mut stored = n;
+        while stored > 0 && omitted + largest[stored - 1] <= OMISSION_SHARE * self.tolerance() {
+            stored -= 1;
+            omitted += largest[stored];
         }
         let half_a_bit = f64::from(f32::EPSILON) / 2.0;
-        let (mut rounding, mut in_full) = (0.0, kept);
-        while in_full > 0
-            && rounding + half_a_bit * largest[in_full - 1] <= ROUNDING_SHARE * self.tolerance()
+        let (mut rounding, mut full) = (0.0, stored);
+        while full > 0
+            && rounding + half_a_bit * largest[full - 1] <= ROUNDING_SHARE * self.tolerance()
         {
-            in_full -= 1;
-            rounding += half_a_bit * largest[in_full];
+            full -= 1;
+            rounding += half_a_bit * largest[full];
         }
         let blocks = ends[0].len();
         let row = size_of::<BlockRow>();
-        self.allow(blocks * (row * (2 + in_full) + row / 2 * (kept - in_full)))?;
+        self.allow(blocks * (row * (2 + full) + row / 2 * (stored - full)))?;
         let coefficients: Vec<BlockRow> = coefficients
             .chunks(n)
-            .flat_map(|of_block| &of_block[..kept])
+            .flat_map(|of_block| &of_block[..stored])
             .copied()
             .collect();
-        let interval =
-            RecordingInterval::new(times, ends.map(Vec::as_slice), &coefficients, in_full);
-        self.reels.push(interval);
+        let interval = RecordingInterval::new(times, ends.map(Vec::as_slice), &coefficients, full);
+        self.intervals.push(interval);
         self.error = self.error.max(off + omitted + rounding);
         Ok(())
     }
 }
 
-/// Returns whether an interval with `known` nodes will converge within the maximum number of nodes,
-/// if the residual goes on shrinking at least as fast as in the last step.
-fn will_converge(known: usize, off: f64, previous_off: f64, tolerance: f64) -> bool {
+/// Returns whether an interval with `node_count` nodes will converge within the maximum number of
+/// nodes, if the residual goes on shrinking at least as fast as in the last step.
+fn will_converge(node_count: usize, off: f64, previous_off: f64, tolerance: f64) -> bool {
     let shrink_factor = off / previous_off;
     if shrink_factor >= 1.0 {
         return false;
     }
     let pairs_needed = (tolerance / off).ln() / shrink_factor.ln();
     // Convergence only accelerates, so the estimate is pessimistic.
-    known as f64 + pairs_needed <= MAX_NODES as f64
+    node_count as f64 + pairs_needed <= MAX_NODES as f64
 }
 
 /// Evaluates a warp and packs its moving positions into blocks.
@@ -347,7 +346,7 @@ fn residual(samples: &[PositionBlocks], measured: &PositionBlocks, s: f64) -> f6
                 *x -= weight * y;
             }
         }
-        farthest(&off)
+        max_length(&off)
     };
     (0..measured.len())
         .into_par_iter()
@@ -356,7 +355,7 @@ fn residual(samples: &[PositionBlocks], measured: &PositionBlocks, s: f64) -> f6
 }
 
 /// Returns the length of the longest vector in a row; infinity if one is not a number.
-fn farthest(row: &BlockRow) -> f64 {
+fn max_length(row: &BlockRow) -> f64 {
     let squares = row.chunks(2).map(|xy| xy[0] * xy[0] + xy[1] * xy[1]);
     let finite = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
     squares.map(finite).fold(0.0, f64::max).sqrt()
@@ -382,13 +381,13 @@ fn coefficients(samples: &[PositionBlocks]) -> Vec<BlockRow> {
 }
 
 /// Returns, for each coefficient, the length of its longest vector over all vertices.
-fn largest(coefficients: &[BlockRow], n: usize) -> Vec<f64> {
+fn max_lengths(coefficients: &[BlockRow], n: usize) -> Vec<f64> {
     let none = || vec![0.0_f64; n];
     let of_blocks = coefficients.par_chunks(n.max(1));
     of_blocks
         .fold(none, |mut largest, of_block| {
             for (longest, row) in largest.iter_mut().zip(of_block) {
-                *longest = longest.max(farthest(row));
+                *longest = longest.max(max_length(row));
             }
             largest
         })

@@ -49,7 +49,7 @@ impl Recording {
         } else {
             0
         };
-        (0..count).map(move |interval| recording.0.single(interval, vertices, origin))
+        (0..count).map(move |interval| recording.0.convert_interval(interval, vertices, origin))
     }
 
     /// Returns the index of the interval that contains `t`, and the weights for its rows; `None`
@@ -65,7 +65,12 @@ impl Recording {
 
 impl RecordingData {
     /// Converts one interval to single precision relative to `origin`.
-    fn single(&self, interval: usize, vertices: usize, origin: DVec2) -> SinglePrecisionInterval {
+    fn convert_interval(
+        &self,
+        interval: usize,
+        vertices: usize,
+        origin: DVec2,
+    ) -> SinglePrecisionInterval {
         let interval = &self.intervals[interval];
         let coefficients = visible_coefficients(interval, vertices, origin);
         let blocks = block_count(vertices);
@@ -111,15 +116,15 @@ fn visible_coefficients(interval: &RecordingInterval, vertices: usize, origin: D
     };
     let rounding = RELATIVE_ROUNDING * longest(0, origin).max(longest(1, origin));
     let mut omitted = 0.0;
-    let mut kept = interval.coefficient_count();
-    while kept > 0 {
-        omitted += longest(1 + kept, DVec2::ZERO);
+    let mut count = interval.coefficient_count();
+    while count > 0 {
+        omitted += longest(1 + count, DVec2::ZERO);
         if omitted > rounding {
             break;
         }
-        kept -= 1;
+        count -= 1;
     }
-    kept
+    count
 }
 
 #[cfg(test)]
@@ -219,10 +224,10 @@ mod tests {
                 placer.place(t);
                 let (interval, weights) = recording.weights(t).expect("within");
                 let places = placer.placement().in_frame.iter().enumerate();
-                for (vertex, wanted) in places {
+                for (vertex, expected) in places {
                     let found =
                         DVec2::from(place(&singles[interval], &weights, vertex).map(f64::from));
-                    let off = found.distance(*wanted - middle);
+                    let off = found.distance(*expected - middle);
                     assert!(off < 1e-6, "{off} at {t}");
                 }
             }
@@ -241,12 +246,12 @@ mod tests {
             places.collect()
         };
         for t in [0.0, BREAK, 1.0] {
-            let wanted: Vec<[f32; 2]> = TurningStrips(DVec2::ZERO)
+            let expected: Vec<[f32; 2]> = TurningStrips(DVec2::ZERO)
                 .at(t)
                 .iter()
                 .map(single)
                 .collect();
-            assert_eq!(all(t), wanted, "{t}");
+            assert_eq!(all(t), expected, "{t}");
         }
         for k in 0..1000 {
             let t = f64::from(k) / 999.0;

@@ -27,19 +27,19 @@ fn strip(n: u32, turn: f64) -> CompatibleMesh {
     CompatibleMesh::new(faces.collect(), source, target, vec![]).expect("a mesh")
 }
 
-fn arap(mesh: &CompatibleMesh, homotopy: Homotopy, lives: &[Option<TimeWindow>]) -> Arap {
+fn arap(mesh: &CompatibleMesh, homotopy: Homotopy, time_windows: &[Option<TimeWindow>]) -> Arap {
     let options = ArapOptions {
         homotopy,
         ..ArapOptions::default()
     };
-    Arap::of_outlines(mesh, &options, lives, &Silent).expect("a film")
+    Arap::of_outlines(mesh, &options, time_windows, &Silent).expect("a solution")
 }
 
 /// Records a warp and returns both.
 fn recorded(warp: impl Warp + 'static) -> (Recording, Arc<dyn Warp>) {
     let warp: Arc<dyn Warp> = Arc::new(warp);
     let recording = Recording::record(Arc::clone(&warp), &RecordingOptions::default(), &Silent);
-    (recording.expect("a film"), warp)
+    (recording.expect("a recording"), warp)
 }
 
 /// Returns the largest distance between recording and warp, as a fraction of the diameter of the
@@ -153,7 +153,7 @@ fn a_rigid_target_moves_rigidly_and_an_equal_target_stands_still() {
 #[test]
 fn exchanging_the_designs_reverses_the_recording() {
     let there = arap(&strip(30, 3.0), Homotopy::Polar, &[]);
-    let back = there.swapped(&Silent).expect("a film");
+    let back = there.swapped(&Silent).expect("a reversed recording");
     let [(there, _), (back, _)] = [there, back].map(recorded);
     let [mut there, mut back] = [there.placer(), back.placer()];
     for k in 0..=20 {
@@ -181,18 +181,18 @@ fn with_an_appearing_part() -> (CompatibleMesh, [Option<TimeWindow>; 2]) {
         .copied()
         .chain(b.target().iter().map(|p| *p + away));
     let mesh = CompatibleMesh::new(faces.collect(), source.collect(), target.collect(), vec![]);
-    let life = TimeWindow {
+    let window = TimeWindow {
         side: Side::Target,
         from: 0.4,
         to: 0.8,
     };
-    (mesh.expect("a mesh"), [None, Some(life)])
+    (mesh.expect("a mesh"), [None, Some(window)])
 }
 
 #[test]
 fn a_part_that_starts_late_begins_a_new_interval() {
-    let (mesh, lives) = with_an_appearing_part();
-    let (recording, warp) = recorded(arap(&mesh, Homotopy::Polar, &lives));
+    let (mesh, time_windows) = with_an_appearing_part();
+    let (recording, warp) = recorded(arap(&mesh, Homotopy::Polar, &time_windows));
     assert_eq!(recording.interval_count(), 3);
     assert!(off(&recording, warp.as_ref()) <= recording.error() + 1e-14);
     let clock = PartClock {
@@ -200,7 +200,7 @@ fn a_part_that_starts_late_begins_a_new_interval() {
         to: 0.75,
         easing: NamedEasing::Smooth.into(),
     };
-    let arap = arap(&mesh, Homotopy::Polar, &lives);
+    let arap = arap(&mesh, Homotopy::Polar, &time_windows);
     let (recording, warp) = recorded(StaggeredArap::new(arap, &[clock], &[Some(0), Some(0)]));
     assert!(off(&recording, warp.as_ref()) <= recording.error() + 1e-14);
 }
@@ -228,7 +228,7 @@ fn too_large_and_cancelled_recordings_are_refused() {
     };
     let error = Recording::record(Arc::clone(&warp), &options, &Silent).expect_err("too large");
     assert!(
-        matches!(error, RecordingError::TooLarge { most: 10_000, .. }),
+        matches!(error, RecordingError::TooLarge { limit: 10_000, .. }),
         "{error}"
     );
     struct CancelledProgress;

@@ -54,18 +54,18 @@ pub trait Choice: Copy + PartialEq + 'static {
         let mut all = Self::CHOICES.iter().copied();
         all.find(|choice| choice.name().key == key)
             .ok_or_else(|| UnknownKey {
-                found: key.to_owned(),
-                known: choice_keys::<Self>().collect(),
+                given: key.to_owned(),
+                valid: choice_keys::<Self>().collect(),
             })
     }
 }
 
 /// A key that does not name any value of an option.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown value `{}`; use one of {}", found.escape_debug(), known.join(", "))]
+#[error("unknown value `{}`; use one of {}", given.escape_debug(), valid.join(", "))]
 pub struct UnknownKey {
-    found: String,
-    known: Vec<&'static str>,
+    given: String,
+    valid: Vec<&'static str>,
 }
 
 /// Returns the keys of an option in the order in which they are offered.

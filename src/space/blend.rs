@@ -51,7 +51,7 @@ pub(super) enum BlendContent {
     Solid {
         blend: ArapBlend,
         /// Boundary loops of the filled area, as vertex indices.
-        walks: Vec<Vec<u32>>,
+        boundary_loops: Vec<Vec<u32>>,
         /// Bars of trusses, as pairs of vertex indices.
         bars: Vec<[u32; 2]>,
     },
@@ -174,9 +174,9 @@ impl SpaceFrame {
         let finite = |&w: &f64| if w.is_finite() { w } else { 0.0 };
         let sum: f64 = weights.iter().map(finite).sum();
         let correction = (1.0 - sum) / weights.len() as f64;
-        for (own, weight) in self.weights.iter_mut().zip(weights) {
+        for (corrected, weight) in self.weights.iter_mut().zip(weights) {
             // A rounding error of the sum must not move a design from its corner.
-            *own = finite(weight)
+            *corrected = finite(weight)
                 + if correction.abs() < 1e-12 {
                     0.0
                 } else {
@@ -235,10 +235,19 @@ impl SpaceFrame {
     pub fn figure(&self) -> VectorFigure {
         let bar_width = self.space.0.bar_width;
         match (&self.space.0.content, self.places()) {
-            (BlendContent::Solid { walks, bars, .. }, Some(places)) => VectorFigure {
-                rings: walks
+            (
+                BlendContent::Solid {
+                    boundary_loops,
+                    bars,
+                    ..
+                },
+                Some(places),
+            ) => VectorFigure {
+                rings: boundary_loops
                     .iter()
-                    .map(|walk| walk.iter().map(|&v| places[v as usize]).collect())
+                    .map(|boundary_loop| {
+                        boundary_loop.iter().map(|&v| places[v as usize]).collect()
+                    })
                     .collect(),
                 bars: bars
                     .iter()

@@ -27,7 +27,7 @@ use std::sync::Arc;
 ///
 /// The full-quality matches with the first hub are tried before. Their points may be so close
 /// together that no common mesh without folds exists, while draft matches still allow one.
-const HUBS: usize = 3;
+const MAX_HUBS: usize = 3;
 
 /// Specification of a design space: designs placed in one frame, and options.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,8 +127,8 @@ impl DesignSpace {
             Some(Err(error)) if spec.content.is_some() => {
                 return Err(SpaceError::NoCommonMesh(error));
             }
-            other => {
-                if let Some(Err(error)) = other {
+            no_mesh => {
+                if let Some(Err(error)) = no_mesh {
                     notes.push(SpaceNote::AsFields(error.to_string()));
                 }
                 fields(spec, &first, bar_width, &content_progress)?
@@ -190,8 +190,8 @@ enum CommonForms {
 impl BuiltContent {
     /// Determines the common form and the distances of the designs.
     fn of(spec: &SpaceSpec, bar_width: f64, progress: &dyn Progress) -> Result<Self, SpaceError> {
-        if let Some(given) = Self::given(&spec.designs, progress)? {
-            return Ok(given);
+        if let Some(built) = Self::from_common_connectivity(&spec.designs, progress)? {
+            return Ok(built);
         }
         checkpoint(progress, "matching", 0.0)?;
         let outlines = spec
@@ -200,8 +200,8 @@ impl BuiltContent {
             .map(|design| outline(design, bar_width, progress));
         let outlines: Vec<Regions> = outlines.collect::<Result<_, _>>()?;
         // Designs are matched in pairs, so the limit applies to two designs at a time.
-        for two in outlines.windows(2) {
-            let rings = two.iter().flat_map(Regions::rings);
+        for pair in outlines.windows(2) {
+            let rings = pair.iter().flat_map(Regions::rings);
             let points = rings.map(|ring| ring.points().len()).sum();
             if let Err(error) = WorkloadKind::Points.check(points, progress) {
                 return Ok(Self {
@@ -218,11 +218,14 @@ impl BuiltContent {
 
     /// Returns the common form of trusses or of meshes with equal numbers of points; `None` for
     /// other designs.
-    fn given(designs: &[Arc<Design>], progress: &dyn Progress) -> Result<Option<Self>, SpaceError> {
+    fn from_common_connectivity(
+        designs: &[Arc<Design>],
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, SpaceError> {
         let trusses: Option<Vec<&Truss>> = designs.iter().map(truss).collect();
         let meshes: Option<Vec<&TriangleMesh>> = designs.iter().map(mesh).collect();
         let places: Vec<_> = designs.iter().filter_map(points).collect();
-        if places.windows(2).any(|two| two[0].len() != two[1].len()) {
+        if places.windows(2).any(|pair| pair[0].len() != pair[1].len()) {
             return Ok(None);
         }
         let form = if let Some(trusses) = trusses {
@@ -260,12 +263,16 @@ impl BuiltContent {
             Err(error) => return Ok(Err(error)),
         };
         let blend = ArapBlend::build(&family, &ProgressSpan::new(progress, 0.9, 1.0))?;
-        let walks = match bars.is_empty() {
+        let boundary_loops = match bars.is_empty() {
             true => family.boundary_loops(),
             // Of a truss only the bars are drawn, without a fill.
             false => Vec::new(),
         };
-        Ok(Ok(BlendContent::Solid { blend, walks, bars }))
+        Ok(Ok(BlendContent::Solid {
+            blend,
+            boundary_loops,
+            bars,
+        }))
     }
 
     /// Builds the common mesh of outlines by matching all of them with one hub design.
@@ -280,7 +287,7 @@ impl BuiltContent {
         let requested = spec.options.quality;
         let drafts = hubs
             .iter()
-            .take(HUBS)
+            .take(MAX_HUBS)
             .map(|&hub| (hub, BuildQuality::Draft));
         let best = hubs.first().map(|&hub| (hub, requested));
         let attempts: Vec<_> = best
@@ -321,7 +328,7 @@ fn matches(
 ) -> Result<Vec<Option<RegionMatch>>, SpaceError> {
     let count = spec.designs.len();
     let shares = ProgressShares::new(progress, count);
-    let matched = |design: usize| {
+    let match_with_hub = |design: usize| {
         if design == hub {
             return Ok(None);
         }
@@ -330,7 +337,7 @@ fn matches(
         let transition = Transition::build(&pair, &shares.part(design))?;
         Ok(transition.matched().cloned())
     };
-    let all: Vec<Result<_, BuildError>> = (0..count).into_par_iter().map(matched).collect();
+    let all: Vec<Result<_, BuildError>> = (0..count).into_par_iter().map(match_with_hub).collect();
     Ok(all.into_iter().collect::<Result<_, _>>()?)
 }
 
@@ -396,17 +403,17 @@ fn swept_bounds(ends: Bounds, blend: &ArapBlend, bar_width: f64) -> Bounds {
     let mut placer = blend.placer();
     let mut weights = vec![1.0 / count as f64; count];
     let mut bounds = ends;
-    let mut widen = |weights: &[f64]| {
-        if let Some(now) = Bounds::of(placer.place(weights).iter().copied()) {
-            bounds = bounds.union(&now.padded(0.5 * bar_width));
+    let mut include = |weights: &[f64]| {
+        if let Some(blend_bounds) = Bounds::of(placer.place(weights).iter().copied()) {
+            bounds = bounds.union(&blend_bounds.padded(0.5 * bar_width));
         }
     };
-    widen(&weights);
+    include(&weights);
     for a in 0..count {
         for b in a + 1..count {
             weights.fill(0.0);
             (weights[a], weights[b]) = (0.5, 0.5);
-            widen(&weights);
+            include(&weights);
         }
     }
     bounds

@@ -102,12 +102,12 @@ fn mean_cost(pieces: &[PieceMatch]) -> f64 {
     for piece in pieces {
         let weight: f64 = piece.rings.first().map_or(0.0, area);
         let holes = piece.rings.iter().skip(1).chain(&piece.lone);
-        let alone: f64 = holes
+        let unmatched_hole_area: f64 = holes
             .filter(|ring| ring.transient_side().is_some())
             .map(area)
             .sum();
         let cost = if piece.is_in_both() { piece.cost } else { 1.0 };
-        sum += weight * cost + alone;
+        sum += weight * cost + unmatched_hole_area;
         total += weight;
     }
     sum / total

@@ -41,7 +41,7 @@ impl MapLayout {
         match self {
             Self::Polygon => polygon(distances.count()),
             Self::Line => line(distances.count()),
-            Self::Likeness => scaled(distances),
+            Self::Likeness => multidimensional_scaling(distances),
         }
     }
 }
@@ -67,16 +67,18 @@ fn line(count: usize) -> Vec<DVec2> {
 
 /// Returns sites whose distances approximate those of the designs: classical multidimensional
 /// scaling (Torgerson 1952), with a minimum distance between sites.
-fn scaled(distances: &DesignDistances) -> Vec<DVec2> {
+fn multidimensional_scaling(distances: &DesignDistances) -> Vec<DVec2> {
     let count = distances.count();
     let squares: Vec<f64> = (0..count * count)
-        .map(|at| distances.between(at / count, at % count).powi(2))
+        .map(|index| distances.between(index / count, index % count).powi(2))
         .collect();
     let row = |k: usize| squares[k * count..(k + 1) * count].iter().sum::<f64>() / count as f64;
     let rows: Vec<f64> = (0..count).map(row).collect();
-    let whole = rows.iter().sum::<f64>() / count as f64;
+    let grand_mean = rows.iter().sum::<f64>() / count as f64;
     let centred: Vec<f64> = (0..count * count)
-        .map(|at| -0.5 * (squares[at] - rows[at / count] - rows[at % count] + whole))
+        .map(|index| {
+            -0.5 * (squares[index] - rows[index / count] - rows[index % count] + grand_mean)
+        })
         .collect();
     let Some(axes) = symmetric_eigen(count, &centred) else {
         return polygon(count);
@@ -138,7 +140,7 @@ fn push_apart(sites: &mut [DVec2]) {
     const ROUNDS: usize = 200;
     let min_distance = MIN_SITE_DISTANCE.min(CROWDED_DISTANCE / (sites.len() as f64).sqrt());
     for _ in 0..ROUNDS {
-        let mut moved = false;
+        let mut has_moved = false;
         for a in 0..sites.len() {
             for b in a + 1..sites.len() {
                 let offset = sites[b] - sites[a];
@@ -152,10 +154,10 @@ fn push_apart(sites: &mut [DVec2]) {
                     * (0.5 * (min_distance - distance) + 1e-3 * min_distance);
                 sites[a] -= push;
                 sites[b] += push;
-                moved = true;
+                has_moved = true;
             }
         }
-        if !moved {
+        if !has_moved {
             break;
         }
     }
@@ -182,13 +184,13 @@ mod tests {
                 .map(DVec2::from)
                 .to_vec()
         };
-        let likeness = DesignDistances::of_corresponding_points(&[
+        let distances = DesignDistances::of_corresponding_points(&[
             places(0.0),
             places(2.0),
             places(0.2),
             places(2.2),
         ]);
-        let sites = MapLayout::Likeness.sites(&likeness);
+        let sites = MapLayout::Likeness.sites(&distances);
         let distance = |a: usize, b: usize| sites[a].distance(sites[b]);
         assert!(distance(0, 2) < distance(0, 1) && distance(1, 3) < distance(1, 2));
         // An outlier does not push the others into a corner.

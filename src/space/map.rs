@@ -67,8 +67,8 @@ impl WeightMap {
         let size = self.bounds.size();
         let steps = DVec2::new(columns.max(2) as f64 - 1.0, rows.max(2) as f64 - 1.0);
         let step = size / steps;
-        let place = |at: usize| {
-            let (column, row) = (at % columns, at / columns);
+        let place = |index: usize| {
+            let (column, row) = (index % columns, index / columns);
             // A single row or column lies in the middle.
             let fraction = |k: usize, of: usize| match of {
                 1 => 0.5,
@@ -84,10 +84,10 @@ impl WeightMap {
             .map(|place| self.contains(place, reach).then_some(place))
             .collect();
         for &site in self.sites() {
-            let distance = |at: &usize| place(*at).distance_squared(site);
+            let distance = |index: &usize| place(*index).distance_squared(site);
             let nearest = (0..places.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            if let Some(at) = nearest {
-                places[at] = Some(site);
+            if let Some(index) = nearest {
+                places[index] = Some(site);
             }
         }
         places
@@ -104,7 +104,7 @@ mod tests {
         let map = WeightMap::new(&sites).expect("sites");
         let grid = map.grid(3, 5);
         assert_eq!(grid.len(), 15);
-        assert_eq!([0, 2, 14, 12].map(|at| grid[at]), sites.map(Some));
+        assert_eq!([0, 2, 14, 12].map(|index| grid[index]), sites.map(Some));
         assert_eq!(grid[7], Some(DVec2::ZERO));
     }
 

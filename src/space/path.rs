@@ -173,21 +173,21 @@ impl MapCurve {
     pub fn place(&self, segment: usize, fraction: f64) -> DVec2 {
         let spans = self.spans_of(segment);
         let (first, last) = (&spans[0], &spans[spans.len() - 1]);
-        let whole = self.length(segment);
+        let length = self.length(segment);
         if fraction <= 0.0 {
-            let onward = first.point(1.0 / STEPS as f64) - first.cubic[0];
-            return first.cubic[0] + onward.normalize_or_zero() * (fraction * whole);
+            let direction = first.point(1.0 / STEPS as f64) - first.cubic[0];
+            return first.cubic[0] + direction.normalize_or_zero() * (fraction * length);
         }
         if fraction >= 1.0 {
-            let onward = last.end - last.point(1.0 - 1.0 / STEPS as f64);
-            return last.end + onward.normalize_or_zero() * ((fraction - 1.0) * whole);
+            let direction = last.end - last.point(1.0 - 1.0 / STEPS as f64);
+            return last.end + direction.normalize_or_zero() * ((fraction - 1.0) * length);
         }
-        let mut left = fraction * whole;
+        let mut remaining = fraction * length;
         for span in spans {
-            if left <= span.length() {
-                return span.at(left);
+            if remaining <= span.length() {
+                return span.at(remaining);
             }
-            left -= span.length();
+            remaining -= span.length();
         }
         last.end
     }
@@ -238,22 +238,26 @@ fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
         1 => from,
         _ => places[k - 2],
     };
-    let behind = match k {
+    let after = match k {
         _ if k == last && is_closed => places[1],
         _ if k == last => to,
         _ => places[k + 1],
     };
     // Centripetal parametrisation: knot intervals are square roots of distances.
     let gap = |a: DVec2, b: DVec2| a.distance(b).sqrt();
-    let (left, own, right) = (gap(before, from), gap(from, to), gap(to, behind));
+    let (interval_before, interval, interval_after) =
+        (gap(before, from), gap(from, to), gap(to, after));
     let chord = to - from;
-    let tangent = |other: DVec2, gap: f64| match own > 0.0 && gap > 0.0 {
+    let tangent = |other: DVec2, gap: f64| match interval > 0.0 && gap > 0.0 {
         // Mean of the slopes on both sides, weighted towards the shorter interval and scaled to
         // this span.
-        true => (chord * gap / own + other * own / gap) * (own / (own + gap)),
+        true => (chord * gap / interval + other * interval / gap) * (interval / (interval + gap)),
         false => chord,
     };
-    let (start, end) = (tangent(from - before, left), tangent(behind - to, right));
+    let (start, end) = (
+        tangent(from - before, interval_before),
+        tangent(after - to, interval_after),
+    );
     let [square, cube] = [chord * 3.0 - start * 2.0 - end, start + end - chord * 2.0];
     [from, start, square, cube]
 }

@@ -74,33 +74,37 @@ impl DesignSpace {
             // Polynomials diverge quickly outside their interval.
             false => on_map(t, weights),
         };
-        let at = |t: f64| {
-            let mut own = vec![0.0; designs];
-            weights(t, &mut own);
-            own
+        let weights_at = |t: f64| {
+            let mut current = vec![0.0; designs];
+            weights(t, &mut current);
+            current
         };
-        let end = |k: usize| Arc::new(self.design(&at(k as f64), names[segment + k]));
+        let end = |k: usize| Arc::new(self.design(&weights_at(k as f64), names[segment + k]));
         let mut ends = BlendEnds {
             designs: [end(0), end(1)],
             bounds: self.bounds(),
             bar_width: self.bar_width(),
         };
         Ok(match self.content() {
-            BlendContent::Solid { blend, walks, bars } => {
+            BlendContent::Solid {
+                blend,
+                boundary_loops,
+                bars,
+            } => {
                 let warp = AlongBlend::new(blend.clone(), weights);
                 ends.bounds =
                     swept_bounds(&warp, if bars.is_empty() { 0.0 } else { ends.bar_width });
-                Transition::along_blend(ends, warp, self.solid_content(walks, bars))
+                Transition::along_blend(ends, warp, self.solid_content(boundary_loops, bars))
             }
             BlendContent::Field(set) => {
                 // 18 segments of 512² cells take 0.6 GB.
                 let cells = 2 * segments * set.grid().cells();
-                let allowed = WorkloadKind::Cells.check(cells, progress);
-                allowed.map_err(BuildError::from)?;
-                Transition::through_fields(ends, fields_along(set, at))
+                let check = WorkloadKind::Cells.check(cells, progress);
+                check.map_err(BuildError::from)?;
+                Transition::through_fields(ends, fields_along(set, weights_at))
             }
             BlendContent::Colours(pictures) => {
-                let weights = [at(0.0), at(1.0)];
+                let weights = [weights_at(0.0), weights_at(1.0)];
                 let [from, to] = &weights;
                 pictures.transition_between(ends.designs, [from, to], progress)?
             }
@@ -147,9 +151,13 @@ impl DesignSpace {
     }
 
     /// Returns the content drawn on the common mesh: filled boundary loops and bars.
-    pub(super) fn solid_content(&self, walks: &[Vec<u32>], bars: &[[u32; 2]]) -> SolidContent {
+    pub(super) fn solid_content(
+        &self,
+        boundary_loops: &[Vec<u32>],
+        bars: &[[u32; 2]],
+    ) -> SolidContent {
         SolidContent {
-            loops: walks.to_vec(),
+            loops: boundary_loops.to_vec(),
             bars: bars.to_vec(),
             bar_width: self.bar_width(),
             ..SolidContent::default()
@@ -160,13 +168,13 @@ impl DesignSpace {
     #[must_use]
     pub fn blend_label(&self, weights: &[f64]) -> String {
         let designs = self.designs().iter().zip(weights);
-        let mut shares: Vec<(&str, f64)> = designs
+        let mut percentages: Vec<(&str, f64)> = designs
             .map(|(design, &weight)| (design.name.as_str(), 100.0 * weight))
             .filter(|(_, percent)| percent.abs() >= 0.5)
             .collect();
         // The sort is stable: of equal weights the first design comes first.
-        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
-        match shares.as_slice() {
+        percentages.sort_by(|a, b| b.1.total_cmp(&a.1));
+        match percentages.as_slice() {
             [] => String::new(),
             [(only, _)] => (*only).to_owned(),
             [(first, percent), (second, second_percent), ..] => {
@@ -198,12 +206,12 @@ fn swept_bounds(warp: &AlongBlend, bar_width: f64) -> Bounds {
 }
 
 /// Blends the fields at evenly spaced t and returns them as consecutive pairs.
-fn fields_along(set: &FieldSet, at: impl Fn(f64) -> Vec<f64>) -> FieldContent {
-    let node = |k: usize| Arc::new(set.blended(&at(k as f64 / PIECES as f64)));
-    let nodes: Vec<_> = (0..=PIECES).map(node).collect();
+fn fields_along(set: &FieldSet, weights_at: impl Fn(f64) -> Vec<f64>) -> FieldContent {
+    let field = |k: usize| Arc::new(set.blended(&weights_at(k as f64 / PIECES as f64)));
+    let fields: Vec<_> = (0..=PIECES).map(field).collect();
     let pair =
         |two: &[Arc<_>]| FieldPair::new(Arc::clone(&two[0]), Arc::clone(&two[1]), set.blend());
-    let pairs = nodes.windows(2).map(pair).collect::<Result<Vec<_>, _>>();
-    let fields = pairs.ok().and_then(FieldContent::sequence);
-    fields.unwrap_or_else(|| unreachable!("all are on one grid, and the blend was checked"))
+    let pairs = fields.windows(2).map(pair).collect::<Result<Vec<_>, _>>();
+    let content = pairs.ok().and_then(FieldContent::sequence);
+    content.unwrap_or_else(|| unreachable!("all are on one grid, and the blend was checked"))
 }

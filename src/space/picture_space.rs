@@ -34,16 +34,16 @@ pub(super) struct PictureSpace {
     /// Warp of the plane for any weights.
     pub blend: PlaneBlend,
     /// Warp, features and options for the transitions along a path.
-    kind: WarpKind,
+    warp_kind: WarpKind,
     features: ManyFeatures,
     options: TransitionOptions,
 }
 
 impl PictureSpace {
-    /// Prepares the pictures of the designs, warped as `kind` says by the features common to all.
+    /// Prepares the pictures of the designs, which the warp aligns by the features common to all.
     pub fn of(
         designs: &[Arc<Design>],
-        kind: WarpKind,
+        warp_kind: WarpKind,
         features: &ManyFeatures,
         options: &TransitionOptions,
         progress: &dyn Progress,
@@ -64,7 +64,7 @@ impl PictureSpace {
         let bounds = bounds(&set);
         // The mesh extends beyond the visible area, so that its edge is never seen.
         let frame = bounds.padded(0.02 * bounds.diameter());
-        let (features, warp) = match kind {
+        let (features, warp) = match warp_kind {
             WarpKind::Lines => (features.clone(), ManyWarp::Lines(options.lines)),
             WarpKind::Scattered => (features.clone(), ManyWarp::Scattered(options.scattered)),
             WarpKind::Lattice => (features.clone(), ManyWarp::Lattice(options.lattice)),
@@ -83,7 +83,7 @@ impl PictureSpace {
         Ok(Self {
             set,
             blend: blend.map_err(BuildError::Unavailable)?,
-            kind,
+            warp_kind,
             features,
             options: options.clone(),
         })
@@ -157,7 +157,7 @@ impl PictureSpace {
         weights: [&[f64]; 2],
         progress: &dyn Progress,
     ) -> Result<Transition, SpaceError> {
-        let between = match self.kind {
+        let between = match self.warp_kind {
             WarpKind::Lines => self.options.lines.between,
             _ => LineInterpolation::Ends,
         };
@@ -170,13 +170,13 @@ impl PictureSpace {
         let [source, target] = ends;
         let mut spec = TransitionSpec::new(source, target);
         let has_features = !self.features.is_empty();
-        let kind = if has_features {
-            self.kind
+        let warp_kind = if has_features {
+            self.warp_kind
         } else {
             WarpKind::None
         };
         spec.method =
-            TransitionMethod::new(kind, ContentKind::Colours).map_err(BuildError::from)?;
+            TransitionMethod::new(warp_kind, ContentKind::Colours).map_err(BuildError::from)?;
         spec.options = TransitionOptions {
             matching: MatchSettings {
                 pins: pins.collect(),

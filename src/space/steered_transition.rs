@@ -42,7 +42,12 @@ impl SteeredTransition {
     /// Starts at the first design; returns `None` unless the space is blended as rigid parts.
     #[must_use]
     pub fn new(space: &DesignSpace) -> Option<Self> {
-        let BlendContent::Solid { blend, walks, bars } = space.content() else {
+        let BlendContent::Solid {
+            blend,
+            boundary_loops,
+            bars,
+        } = space.content()
+        else {
             return None;
         };
         let designs = space.designs();
@@ -50,9 +55,9 @@ impl SteeredTransition {
         first[0] = 1.0;
         let weights = Arc::new(Mutex::new(first));
         let shared = Arc::clone(&weights);
-        let warp = AlongBlend::new(blend.clone(), move |_, own: &mut [f64]| {
+        let warp = AlongBlend::new(blend.clone(), move |_, output: &mut [f64]| {
             let current = shared.lock().unwrap_or_else(PoisonError::into_inner);
-            own.copy_from_slice(&current);
+            output.copy_from_slice(&current);
         });
         let ends = BlendEnds {
             designs: [&designs[0], &designs[designs.len() - 1]].map(Arc::clone),
@@ -61,7 +66,11 @@ impl SteeredTransition {
         };
         Some(Self {
             space: space.clone(),
-            transition: Transition::along_blend(ends, warp, space.solid_content(walks, bars)),
+            transition: Transition::along_blend(
+                ends,
+                warp,
+                space.solid_content(boundary_loops, bars),
+            ),
             weights,
         })
     }
@@ -76,7 +85,7 @@ impl SteeredTransition {
     ///
     /// Returns `None`, and keeps the previous weights, if their number differs from that of the
     /// designs or one of them is not finite.
-    #[must_use = "frames show it when they are sought again"]
+    #[must_use = "frames show the blend when they are sought again"]
     pub fn set(&self, weights: &[f64]) -> Option<f64> {
         let count = self.space.designs().len();
         if weights.len() != count || !weights.iter().all(|weight| weight.is_finite()) {

@@ -54,9 +54,9 @@ fn space(designs: Vec<Arc<Design>>) -> DesignSpace {
     DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space")
 }
 
-fn corner(count: usize, at: usize) -> Vec<f64> {
+fn corner(count: usize, index: usize) -> Vec<f64> {
     let mut weights = vec![0.0; count];
-    weights[at] = 1.0;
+    weights[index] = 1.0;
     weights
 }
 
@@ -200,23 +200,23 @@ fn too_few_designs_and_cancellation_are_errors() {
     let build = |designs: Vec<Arc<Design>>, progress: &dyn Progress| {
         DesignSpace::build(&SpaceSpec::new(designs), progress)
     };
-    let one = build(vec![star("a", 5, 1.0)], &Silent);
-    assert!(matches!(one, Err(SpaceError::TooFew(1))));
+    let too_few = build(vec![star("a", 5, 1.0)], &Silent);
+    assert!(matches!(too_few, Err(SpaceError::TooFew(1))));
     #[derive(Debug)]
-    struct NeverReady;
-    impl Progress for NeverReady {
+    struct AlwaysCancelled;
+    impl Progress for AlwaysCancelled {
         fn report(&self, _: &'static str, _: f64) {}
         fn is_cancelled(&self) -> bool {
             true
         }
     }
     let designs = vec![star("a", 5, 1.0), star("b", 6, 1.0), frame("c", 1.0)];
-    let cancelled = build(designs, &NeverReady);
-    let is_cancel = matches!(
+    let cancelled = build(designs, &AlwaysCancelled);
+    let is_cancelled = matches!(
         cancelled,
         Err(SpaceError::Cancelled(Cancelled) | SpaceError::Build(BuildError::Cancelled(Cancelled)))
     );
-    assert!(is_cancel, "{cancelled:?}");
+    assert!(is_cancelled, "{cancelled:?}");
 }
 
 proptest! {
@@ -240,7 +240,7 @@ proptest! {
     }
 }
 
-fn walk(places: &[DVec2]) -> MapPath {
+fn path_through(places: &[DVec2]) -> MapPath {
     MapPath {
         name: String::new(),
         places: places.iter().copied().map(Waypoint::stop).collect(),
@@ -257,7 +257,7 @@ fn a_path_shows_the_blends_along_it() {
     ]);
     let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances())).expect("a map");
     let sites = map.sites();
-    let path = walk(&[sites[0], DVec2::new(0.1, 0.2), sites[2]]);
+    let path = path_through(&[sites[0], DVec2::new(0.1, 0.2), sites[2]]);
     let film = space.path_sequence(&map, &path, &Silent).expect("a film");
     assert_eq!(film.end(), 2.0);
     let curve = MapCurve::new(&path).expect("a curve");
@@ -298,7 +298,11 @@ fn a_path_through_fields_follows_the_map() {
     let space = DesignSpace::build(&spec, &Silent).expect("a space");
     let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances())).expect("a map");
     let sites = map.sites();
-    let film = space.path_sequence(&map, &walk(&[sites[1], sites[2], DVec2::ZERO]), &Silent);
+    let film = space.path_sequence(
+        &map,
+        &path_through(&[sites[1], sites[2], DVec2::ZERO]),
+        &Silent,
+    );
     let film = film.expect("a film");
     let (mut blend, mut frame) = (space.frame(), film.frame(0.0));
     frame.seek(0.0);
@@ -310,10 +314,10 @@ fn a_path_through_fields_follows_the_map() {
     };
     for t in [0.41, 1.0, 1.37, 2.0] {
         frame.seek(t);
-        let share = if t < 1.0 { t } else { t - 1.0 };
+        let fraction = if t < 1.0 { t } else { t - 1.0 };
         let place = match t < 1.0 {
-            true => sites[1].lerp(sites[2], share),
-            false => sites[2].lerp(DVec2::ZERO, share),
+            true => sites[1].lerp(sites[2], fraction),
+            false => sites[2].lerp(DVec2::ZERO, fraction),
         };
         // The curve bends near its stops, so areas are compared with a tolerance.
         let mut weights = vec![0.0; 3];
@@ -331,7 +335,11 @@ fn a_path_through_fields_follows_the_map() {
 fn a_path_through_trusses_keeps_their_bars() {
     let space = space(vec![truss("a", 1.0), truss("b", 2.0), truss("c", 3.0)]);
     let map = WeightMap::new(&MapLayout::Line.sites(space.distances())).expect("a map");
-    let film = space.path_sequence(&map, &walk(&[DVec2::NEG_X, DVec2::new(0.5, 0.0)]), &Silent);
+    let film = space.path_sequence(
+        &map,
+        &path_through(&[DVec2::NEG_X, DVec2::new(0.5, 0.0)]),
+        &Silent,
+    );
     let film = film.expect("a film");
     let frame = film.frame(1.0);
     assert_eq!(frame.frame().figure().bars.len(), 7);
@@ -340,9 +348,9 @@ fn a_path_through_trusses_keeps_their_bars() {
     };
     assert_eq!(end.bars().len(), 7);
     // An empty path, or a map with another number of sites, gives no film.
-    let none = space.path_sequence(&map, &MapPath::default(), &Silent);
-    assert!(matches!(none, Err(SpaceError::NoPath)));
+    let result = space.path_sequence(&map, &MapPath::default(), &Silent);
+    assert!(matches!(result, Err(SpaceError::NoPath)));
     let other = WeightMap::new(&[DVec2::ZERO, DVec2::X]).expect("a map");
-    let none = space.path_sequence(&other, &walk(&[DVec2::ZERO, DVec2::X]), &Silent);
-    assert!(matches!(none, Err(SpaceError::NoPath)));
+    let result = space.path_sequence(&other, &path_through(&[DVec2::ZERO, DVec2::X]), &Silent);
+    assert!(matches!(result, Err(SpaceError::NoPath)));
 }

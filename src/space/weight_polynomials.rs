@@ -27,11 +27,11 @@ fn node(k: usize) -> f64 {
 }
 
 impl WeightPolynomials {
-    /// Interpolates the weights that `at` writes for each node's t.
-    pub fn new(designs: usize, mut at: impl FnMut(f64, &mut [f64])) -> Self {
+    /// Interpolates the weights that `write` gives for each node's t.
+    pub fn new(designs: usize, mut write: impl FnMut(f64, &mut [f64])) -> Self {
         let mut weights = vec![0.0; NODES * designs];
-        for (k, own) in weights.chunks_exact_mut(designs).enumerate() {
-            at(node(k), own);
+        for (k, node_weights) in weights.chunks_exact_mut(designs).enumerate() {
+            write(node(k), node_weights);
         }
         Self { designs, weights }
     }
@@ -40,10 +40,10 @@ impl WeightPolynomials {
     pub fn at(&self, t: f64, weights: &mut [f64]) {
         weights.fill(0.0);
         let mut coefficient_sum = 0.0;
-        for (k, own) in self.weights.chunks_exact(self.designs).enumerate() {
+        for (k, node_weights) in self.weights.chunks_exact(self.designs).enumerate() {
             let gap = t - node(k);
             if gap == 0.0 {
-                weights.copy_from_slice(own);
+                weights.copy_from_slice(node_weights);
                 return;
             }
             // Barycentric weights of Chebyshev nodes alternate in sign and are halved at the ends.
@@ -51,8 +51,8 @@ impl WeightPolynomials {
             let sign = if k % 2 == 0 { half } else { -half };
             let coefficient = sign / gap;
             coefficient_sum += coefficient;
-            for (weight, own) in weights.iter_mut().zip(own) {
-                *weight += coefficient * own;
+            for (weight, node_weight) in weights.iter_mut().zip(node_weights) {
+                *weight += coefficient * node_weight;
             }
         }
         weights
@@ -67,24 +67,28 @@ mod tests {
 
     #[test]
     fn smooth_weights_are_reproduced_and_kinks_approximated() {
-        let smooth = WeightPolynomials::new(2, |t, own| own.copy_from_slice(&[t * t, 1.0 - t * t]));
-        let bent = WeightPolynomials::new(2, |t, own| {
-            let share = 0.5 + (t - 0.37).abs() * 0.4;
-            own.copy_from_slice(&[share, 1.0 - share]);
+        let smooth = WeightPolynomials::new(2, |t, weights| {
+            weights.copy_from_slice(&[t * t, 1.0 - t * t]);
         });
-        let mut own = [0.0; 2];
+        let with_kink = WeightPolynomials::new(2, |t, weights| {
+            let first = 0.5 + (t - 0.37).abs() * 0.4;
+            weights.copy_from_slice(&[first, 1.0 - first]);
+        });
+        let mut weights = [0.0; 2];
         for k in 0..=1000 {
             let t = f64::from(k) / 1000.0;
-            smooth.at(t, &mut own);
-            assert!((own[0] - t * t).abs() < 1e-14 && (own[0] + own[1] - 1.0).abs() < 1e-14);
-            bent.at(t, &mut own);
+            smooth.at(t, &mut weights);
             assert!(
-                (own[0] - 0.5 - (t - 0.37).abs() * 0.4).abs() < 0.01,
-                "{t}: {own:?}"
+                (weights[0] - t * t).abs() < 1e-14 && (weights[0] + weights[1] - 1.0).abs() < 1e-14
+            );
+            with_kink.at(t, &mut weights);
+            assert!(
+                (weights[0] - 0.5 - (t - 0.37).abs() * 0.4).abs() < 0.01,
+                "{t}: {weights:?}"
             );
         }
-        smooth.at(1.0, &mut own);
-        assert_eq!(own, [1.0, 0.0]);
+        smooth.at(1.0, &mut weights);
+        assert_eq!(weights, [1.0, 0.0]);
     }
 
     #[test]
@@ -94,11 +98,11 @@ mod tests {
         use crate::space::{DesignDistances, MapCurve, MapLayout, MapPath, Waypoint, WeightMap};
         let sites = MapLayout::Polygon.sites(&DesignDistances::uniform(6));
         let map = WeightMap::new(&sites).expect("a map");
-        let (mut bent, mut straight) = (0.0_f64, 0.0_f64);
-        for walk in 0..40 {
+        let (mut max_deviation, mut max_linear_deviation) = (0.0_f64, 0.0_f64);
+        for curve_index in 0..40 {
             let place = |k: u32| {
-                let at = f64::from(4 * walk + k + 1);
-                DVec2::from_angle(2.4 * at) * (0.618 * at).fract().sqrt()
+                let sample = f64::from(4 * curve_index + k + 1);
+                DVec2::from_angle(2.4 * sample) * (0.618 * sample).fract().sqrt()
             };
             let passed = (1..3).map(|k| Waypoint::via(place(k)));
             let first = std::iter::once(Waypoint::stop(place(0)));
@@ -108,28 +112,32 @@ mod tests {
                 places: first.chain(passed).chain(last).collect(),
             };
             let curve = MapCurve::new(&path).expect("a curve");
-            let on_map = |t: f64, own: &mut [f64]| map.weights(curve.place(0, t), own);
-            let course = WeightPolynomials::new(6, on_map);
+            let on_map = |t: f64, weights: &mut [f64]| map.weights(curve.place(0, t), weights);
+            let polynomials = WeightPolynomials::new(6, on_map);
             let at = |t: f64| {
-                let mut own = [0.0; 6];
-                course.at(t, &mut own);
-                own
+                let mut weights = [0.0; 6];
+                polynomials.at(t, &mut weights);
+                weights
             };
             for k in 0..=320 {
                 let t = f64::from(k) / 320.0;
-                let mut there = [0.0; 6];
-                on_map(t, &mut there);
-                let own = at(t);
+                let mut expected = [0.0; 6];
+                on_map(t, &mut expected);
+                let weights = at(t);
                 let pieces = PIECES as f64;
                 let from = (t * pieces).floor().min(pieces - 1.0);
-                let share = t * pieces - from;
+                let fraction = t * pieces - from;
                 let [a, b] = [from, from + 1.0].map(|k| at(k / pieces));
                 for d in 0..6 {
-                    bent = bent.max((own[d] - there[d]).abs());
-                    straight = straight.max((a[d] + (b[d] - a[d]) * share - own[d]).abs());
+                    max_deviation = max_deviation.max((weights[d] - expected[d]).abs());
+                    let linear = a[d] + (b[d] - a[d]) * fraction;
+                    max_linear_deviation = max_linear_deviation.max((linear - weights[d]).abs());
                 }
             }
         }
-        assert!(bent < 0.025 && straight < 0.06, "{bent} {straight}");
+        assert!(
+            max_deviation < 0.025 && max_linear_deviation < 0.06,
+            "{max_deviation} {max_linear_deviation}"
+        );
     }
 }

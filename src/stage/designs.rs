@@ -107,7 +107,7 @@ pub(super) fn start_designs(
     assets: Res<Assets<DesignAsset>>,
     mut read: MessageReader<AssetEvent<DesignAsset>>,
     mut failed: MessageReader<AssetLoadFailedEvent<DesignAsset>>,
-    shown: Query<(Entity, Ref<MorphDesigns>)>,
+    entities: Query<(Entity, Ref<MorphDesigns>)>,
 ) {
     let new_id = |event: &AssetEvent<DesignAsset>| match *event {
         AssetEvent::Added { id } | AssetEvent::Modified { id } => Some(id),
@@ -115,7 +115,7 @@ pub(super) fn start_designs(
     };
     let new: HashSet<AssetId<DesignAsset>> = read.read().filter_map(new_id).collect();
     let failed: Vec<_> = failed.read().collect();
-    for (entity, designs) in &shown {
+    for (entity, designs) in &entities {
         let ids = || designs.0.iter().map(Handle::id);
         for failure in failed.iter().filter(|f| ids().any(|id| id == f.id)) {
             let error = BuildError::Unavailable(failure.error.to_string());

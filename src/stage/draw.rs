@@ -42,7 +42,7 @@ pub(super) fn draw_morphs(
 ) {
     let start = Instant::now();
     let (mut any_played, mut any_read) = (false, false);
-    for (morph, style, children, sent) in &roots {
+    for (morph, style, children, upload) in &roots {
         let frame = morph.frame();
         let mut parts = parts.iter_many_mut(children);
         while let Some((mut part, mut visibility, mesh)) = parts.fetch_next() {
@@ -63,16 +63,16 @@ pub(super) fn draw_morphs(
                 paints.meshes.insert(mesh, make(frame)).ok();
             }
             // A part played by the graphics card stays stale, like a hidden one.
-            let is_played = part.is_played(sent, frame.t());
+            let is_played = part.is_played(upload, frame.t());
             any_played |= is_played;
-            any_read |= part.needs_positions(frame, frame.t(), &style, sent);
+            any_read |= part.needs_positions(frame, frame.t(), &style, upload);
             if part.is_stale
                 && !is_played
                 && let Some(mut mesh) = paints.meshes.get_mut(mesh)
             {
                 part.write(frame, &style, &mut mesh);
             }
-            paint(&part, frame, &style, sent, &mut paints);
+            paint(&part, frame, &style, upload, &mut paints);
         }
     }
     if !roots.is_empty() {
@@ -86,7 +86,7 @@ fn paint(
     part: &StagePart,
     frame: &Frame,
     style: &StageStyle,
-    sent: Option<&UploadState>,
+    upload: Option<&UploadState>,
     paints: &mut StagePaints,
 ) {
     let (t, origin) = (frame.t(), part.origin);
@@ -102,9 +102,9 @@ fn paint(
         (StagePaint::Played(played), _) => {
             let colour = linear(part.kind.colour(t, style));
             set_if_changed(&mut paints.played, played, |part| &mut part.colour, colour);
-            let sum = match sent.and_then(|sent| sent.at(t)) {
-                Some((reel, sum)) => {
-                    bind_interval(&mut paints.played, played, reel);
+            let sum = match upload.and_then(|upload| upload.at(t)) {
+                Some((rows, sum)) => {
+                    bind_interval(&mut paints.played, played, rows);
                     sum
                 }
                 None => RecordedSum::default(),
@@ -136,12 +136,12 @@ fn paint(
 fn bind_interval(
     materials: &mut Assets<RecordedMaterial>,
     handle: &Handle<RecordedMaterial>,
-    reel: &Buffer,
+    rows: &Buffer,
 ) {
     if let Some(mut material) = materials.get_mut(handle)
-        && material.bypass_change_detection().reel.id() != reel.id()
+        && material.bypass_change_detection().reel.id() != rows.id()
     {
-        material.reel = reel.clone();
+        material.reel = rows.clone();
     }
 }
 

@@ -174,7 +174,7 @@ impl FieldMaterial {
 }
 
 impl FieldLook {
-    /// Look of a pair at its own blend parameter `within`. Colours are those of the whole
+    /// Uniform of a pair at its own blend parameter `within`. Colours are those of the whole
     /// transition at `t`.
     pub(super) fn new(pair: &FieldPair, within: f64, t: f64, style: &StageStyle) -> Self {
         let blend = pair.blend();

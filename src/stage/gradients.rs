@@ -66,7 +66,7 @@ impl GradientTable {
         let focus = focus.as_vec2().extend(0.0).extend(0.0);
         let stops = gradient.stops.iter().flat_map(|stop| {
             let at = Vec4::new(stop.offset as f32, 0.0, 0.0, 0.0);
-            [encoded(stop.paint), at]
+            [encode_srgb(stop.paint), at]
         });
         let numbers: Vec<Vec4> = [head, focus].into_iter().chain(stops).collect();
         Some(GradientSlot {
@@ -108,7 +108,7 @@ impl GradientSlot {
 }
 
 /// sRGB with straight opacity, the space in which gradients are mixed.
-fn encoded(paint: Paint) -> Vec4 {
+fn encode_srgb(paint: Paint) -> Vec4 {
     let [red, green, blue] = paint.colour.0.map(|channel| f32::from(channel) / 255.0);
     Vec4::new(red, green, blue, paint.opacity as f32)
 }

@@ -101,7 +101,7 @@ impl LayerMesh {
             let gradients = inked.gradients.each_ref().map(Option::as_ref);
             let gradient = style.gradient_at(gradients, inked.paints, inked.t);
             let shaded = gradient.and_then(|gradient| table.insert(&gradient));
-            let flat = || LayerInkSlot::Flat(flat(style.paint_at(inked.paints, inked.t)));
+            let flat = || LayerInkSlot::Flat(linear_rgba(style.paint_at(inked.paints, inked.t)));
             shaded.map_or_else(flat, LayerInkSlot::Shaded)
         };
         let inks: Vec<LayerInkSlot> = groups.iter().map(&mut ink).collect();
@@ -219,7 +219,8 @@ impl LayerMeshBuilder {
             &mut self.positions,
             &mut self.indices,
         );
-        self.colours.resize(self.positions.len(), flat(line.paint));
+        self.colours
+            .resize(self.positions.len(), linear_rgba(line.paint));
         self.places.resize(self.positions.len(), [0.0; 2]);
     }
 
@@ -233,7 +234,7 @@ impl LayerMeshBuilder {
 }
 
 /// Colour of a paint in linear light with straight alpha.
-fn flat(paint: Paint) -> [f32; 4] {
+fn linear_rgba(paint: Paint) -> [f32; 4] {
     let [red, green, blue] = paint.colour.to_linear();
     [red, green, blue, paint.opacity as f32]
 }

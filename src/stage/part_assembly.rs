@@ -108,12 +108,12 @@ pub(super) struct PartAssets<'w, 's> {
     commands: Commands<'w, 's>,
     paints: StagePaints<'w>,
     parts: Query<'w, 's, (), With<StagePart>>,
-    card: Option<Res<'w, RecordingGpu>>,
+    gpu: Option<Res<'w, RecordingGpu>>,
 }
 
 impl PartAssets<'_, '_> {
     /// Despawns the render parts among the given children.
-    fn undress(&mut self, children: Option<&Children>) {
+    fn remove_parts(&mut self, children: Option<&Children>) {
         for &child in children.into_iter().flatten() {
             // A program may have added children of its own to the entity.
             if self.parts.contains(child) {
@@ -123,7 +123,7 @@ impl PartAssets<'_, '_> {
     }
 
     /// Spawns the render parts of a frame as children of `entity`.
-    fn dress(&mut self, entity: Entity, frame: &Frame) {
+    fn add_parts(&mut self, entity: Entity, frame: &Frame) {
         let transition = frame.transition();
         // The centre of the vertices, where single precision is finest.
         let origin = transition.bounds().centre();
@@ -202,13 +202,13 @@ impl PartFactory<'_, '_, '_> {
     /// the constructors without and with vertex indices.
     fn add_triangles(&mut self, kind: PartKind, mesh: [fn(&Frame) -> Mesh; 2]) {
         let [plain, numbered] = mesh;
-        let Some(card) = &self.assets.card else {
+        let Some(gpu) = &self.assets.gpu else {
             return self.add_inked(kind, plain);
         };
         let material = self.assets.paints.played.add(RecordedMaterial {
             colour: LinearRgba::NONE,
             sum: RecordedSum::default(),
-            reel: card.placeholder().clone(),
+            reel: gpu.placeholder().clone(),
             kind: kind.ink_kind(),
         });
         self.add(kind, numbered, material, StagePaint::Played);
@@ -276,10 +276,10 @@ pub(super) fn spawn_parts(
 ) {
     for (entity, morph, children) in &new_morphs {
         // Parts of an earlier transition that this one replaces.
-        assets.undress(children);
+        assets.remove_parts(children);
         let mut commands = assets.commands.entity(entity);
         commands.remove::<(WithoutParts, UploadState)>();
-        assets.dress(entity, morph.frame());
+        assets.add_parts(entity, morph.frame());
     }
 }
 
@@ -289,7 +289,7 @@ pub(super) fn despawn_parts(
     children: Query<&Children>,
     mut assets: PartAssets,
 ) {
-    assets.undress(children.get(removed.entity).ok());
+    assets.remove_parts(children.get(removed.entity).ok());
     assets
         .commands
         .entity(removed.entity)

@@ -149,9 +149,9 @@ impl PartKind {
 
 impl StagePart {
     /// Whether the graphics card evaluates its vertices at `t` from a recording.
-    pub(super) fn is_played(&self, sent: Option<&UploadState>, t: f64) -> bool {
-        let is_there = sent.is_some_and(|sent| sent.covers(t));
-        is_there && matches!(self.paint, StagePaint::Played(_))
+    pub(super) fn is_played(&self, upload: Option<&UploadState>, t: f64) -> bool {
+        let is_uploaded = upload.is_some_and(|upload| upload.covers(t));
+        is_uploaded && matches!(self.paint, StagePaint::Played(_))
     }
 
     /// Whether the part is shown and its vertices must be placed on the CPU for `t`.
@@ -160,10 +160,10 @@ impl StagePart {
         frame: &Frame,
         t: f64,
         style: &StageStyle,
-        sent: Option<&UploadState>,
+        upload: Option<&UploadState>,
     ) -> bool {
         let is_outdated = self.kind.is_outdated(true, false, frame);
-        self.kind.is_shown(style) && is_outdated && !self.is_played(sent, t)
+        self.kind.is_shown(style) && is_outdated && !self.is_played(upload, t)
     }
 
     /// Writes the vertices of the current frame.

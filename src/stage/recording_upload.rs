@@ -77,22 +77,22 @@ fn buffer(device: &RenderDevice, numbers: &[[f32; 2]]) -> Buffer {
 /// Starts uploading transitions that have been recorded since the last frame.
 pub(super) fn start_uploads(
     mut commands: Commands,
-    card: Option<Res<RecordingGpu>>,
+    gpu: Option<Res<RecordingGpu>>,
     morphs: Query<(Entity, &Morph, &Children), Without<UploadState>>,
     parts: Query<&StagePart>,
 ) {
-    let Some(card) = card else {
+    let Some(gpu) = gpu else {
         return;
     };
     for (entity, morph, children) in &morphs {
         let transition = morph.frame().transition();
         let mut parts = parts.iter_many(children);
         let played = parts.find(|part| matches!(part.paint, StagePaint::Played(_)));
-        if let (Some(Ok(film)), Some(part)) = (transition.recording(), played) {
-            let (card, film, origin) = (card.clone(), film.clone(), part.origin);
+        if let (Some(Ok(recording)), Some(part)) = (transition.recording(), played) {
+            let (gpu, recording, origin) = (gpu.clone(), recording.clone(), part.origin);
             let vertices = morph.frame().placement().in_frame.len();
             let task = AsyncComputeTaskPool::get()
-                .spawn(async move { card.upload(film, vertices, origin).await });
+                .spawn(async move { gpu.upload(recording, vertices, origin).await });
             commands
                 .entity(entity)
                 .try_insert(UploadState::Uploading(task));
@@ -101,12 +101,12 @@ pub(super) fn start_uploads(
 }
 
 /// Takes in finished uploads.
-pub(super) fn finish_uploads(mut films: Query<&mut UploadState>) {
-    for mut sent in &mut films {
-        if let UploadState::Uploading(task) = sent.bypass_change_detection()
+pub(super) fn finish_uploads(mut uploads: Query<&mut UploadState>) {
+    for mut state in &mut uploads {
+        if let UploadState::Uploading(task) = state.bypass_change_detection()
             && let Some(uploaded) = check_ready(task)
         {
-            *sent = uploaded.map_or(UploadState::Refused, UploadState::Ready);
+            *state = uploaded.map_or(UploadState::Refused, UploadState::Ready);
         }
     }
 }
@@ -115,22 +115,22 @@ impl RecordingGpu {
     /// Uploads a recording; `None` if the card has no room. Positions are relative to `origin`.
     async fn upload(
         self,
-        film: Recording,
+        recording: Recording,
         vertices: usize,
         origin: DVec2,
     ) -> Option<UploadedIntervals> {
         let device = self.device.wgpu_device();
         // Without a scope, running out of memory would end the program.
         let scope = device.push_error_scope(ErrorFilter::OutOfMemory);
-        let intervals = film.singles(vertices, origin);
-        let reels: Option<Vec<UploadedInterval>> = intervals
+        let intervals = recording.singles(vertices, origin);
+        let uploaded: Option<Vec<UploadedInterval>> = intervals
             .map(|single| self.upload_interval(&single))
             .collect();
         let error = scope.pop().await;
-        let reels = reels.filter(|reels| error.is_none() && !reels.is_empty())?;
+        let uploaded = uploaded.filter(|uploaded| error.is_none() && !uploaded.is_empty())?;
         Some(UploadedIntervals {
-            recording: film,
-            intervals: reels,
+            recording,
+            intervals: uploaded,
         })
     }
 

@@ -44,16 +44,16 @@ impl UploadState {
     /// not uploaded or does not cover `t`.
     pub(super) fn at(&self, t: f64) -> Option<(&Buffer, RecordedSum)> {
         let Self::Ready(UploadedIntervals {
-            recording: film,
-            intervals: reels,
+            recording,
+            intervals,
         }) = self
         else {
             return None;
         };
-        let (k, weights) = film.weights(t)?;
-        let reel = reels.get(k)?;
-        let sum = RecordedSum::new(&weights, reel.vertices, reel.coefficients);
-        Some((&reel.rows, sum))
+        let (k, weights) = recording.weights(t)?;
+        let interval = intervals.get(k)?;
+        let sum = RecordedSum::new(&weights, interval.vertices, interval.coefficients);
+        Some((&interval.rows, sum))
     }
 
     /// Whether the uploaded recording covers `t`.

@@ -57,7 +57,7 @@ fn with_numbers(mesh: Mesh) -> Mesh {
 pub(super) fn warm_up_pipelines(
     mut commands: Commands,
     mut paints: StagePaints,
-    card: Option<Res<RecordingGpu>>,
+    gpu: Option<Res<RecordingGpu>>,
     ready: Option<Res<PipelinesReady>>,
 ) {
     if ready.is_none() {
@@ -85,14 +85,14 @@ pub(super) fn warm_up_pipelines(
         (InkKind::Faces, with_numbers),
         (InkKind::Wire, |mesh| with_numbers(with_coordinates(mesh))),
     ];
-    for (card, (kind, layout)) in card.iter().flat_map(|card| played.map(|kind| (card, kind))) {
-        let film = paints.played.add(RecordedMaterial {
+    for (gpu, (kind, layout)) in gpu.iter().flat_map(|gpu| played.map(|kind| (gpu, kind))) {
+        let material = paints.played.add(RecordedMaterial {
             colour: LinearRgba::NONE,
             sum: RecordedSum::default(),
-            reel: card.placeholder().clone(),
+            reel: gpu.placeholder().clone(),
             kind,
         });
-        commands.spawn(drawn_mesh(paints.meshes.add(layout(nothing())), film));
+        commands.spawn(drawn_mesh(paints.meshes.add(layout(nothing())), material));
     }
     let carried = paints.meshes.add(with_colours(with_coordinates(nothing())));
     let grid = paints.grids.add(GridMaterial::default());

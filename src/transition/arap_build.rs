@@ -7,18 +7,18 @@ use crate::warp::{Arap, ArapOptions, ArapPath, TimeWindow};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::Progress;
 
-/// Builds the interpolation of a mesh of outlines; `lives` as for [`Arap::of_outlines`].
+/// Builds the interpolation of a mesh of outlines; `time_windows` as for [`Arap::of_outlines`].
 ///
 /// # Errors
 /// If the mesh is too large, the equations cannot be solved, or the work is cancelled.
 pub(super) fn build_arap(
     mesh: &CompatibleMesh,
     options: &ArapOptions,
-    lives: &[Option<TimeWindow>],
+    time_windows: &[Option<TimeWindow>],
     progress: &dyn Progress,
 ) -> Result<Arap, BuildError> {
     check_size(mesh, options, progress)?;
-    Ok(Arap::of_outlines(mesh, options, lives, progress)?)
+    Ok(Arap::of_outlines(mesh, options, time_windows, progress)?)
 }
 
 /// Checks that a mesh is not too large after subdivision.

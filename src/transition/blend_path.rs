@@ -24,7 +24,7 @@ pub(crate) struct BlendEnds {
 impl Transition {
     /// Creates a transition of rigid parts from one blend to another.
     pub(crate) fn along_blend(ends: BlendEnds, warp: AlongBlend, solid: SolidContent) -> Self {
-        Self::blended(
+        Self::from_blend(
             ends,
             TransitionMethod::RIGID_PARTS,
             AnyWarp::Along(warp),
@@ -37,11 +37,16 @@ impl Transition {
         let still = IdentityWarp::new(fields.first_pair().grid().bounds());
         let cell = TransitionMethod::new(WarpKind::None, ContentKind::Field)
             .unwrap_or_else(|_| unreachable!("it is in the table"));
-        Self::blended(ends, cell, AnyWarp::Still(still), Content::Field(fields))
+        Self::from_blend(ends, cell, AnyWarp::Still(still), Content::Field(fields))
     }
 
     /// Creates a transition without notes, match or cached data.
-    fn blended(ends: BlendEnds, cell: TransitionMethod, warp: AnyWarp, content: Content) -> Self {
+    fn from_blend(
+        ends: BlendEnds,
+        cell: TransitionMethod,
+        warp: AnyWarp,
+        content: Content,
+    ) -> Self {
         let BlendEnds {
             designs,
             bounds,

@@ -35,40 +35,40 @@ pub(super) fn paths(
         _ => None,
     }
     .map_or_else(
-        || matched(spec, bar_width, &ProgressSpan::new(progress, 0.0, 0.9)),
+        || match_outlines(spec, bar_width, &ProgressSpan::new(progress, 0.0, 0.9)),
         |parts| Ok((parts, None)),
     )?;
     let paths = BoundaryPaths::new(&parts, spec.options.paths)?;
     checkpoint(progress, "preparing frames", 0.9)?;
-    let coating = matched.as_ref().and_then(|(drawings, matched)| {
+    let paint_layers = matched.as_ref().and_then(|(drawings, matched)| {
         let pieces = parts.iter().enumerate();
         let placer = paths.placer();
-        let walks = PieceBoundaryLoops {
+        let loops = PieceBoundaryLoops {
             loops: paths.loops(),
             pieces: pieces
                 .flat_map(|(k, rings)| repeat_n(k, rings.len()))
                 .collect(),
             places: [&placer.placement().in_source, &placer.placement().in_target],
         };
-        piece_coating::coating(drawings, matched, &walks, &[])
+        piece_coating::coating(drawings, matched, &loops, &[])
     });
     let solid = SolidContent {
         loops: paths.loops(),
-        paint_layers: coating,
+        paint_layers,
         ..SolidContent::default()
     };
-    let moved = BuiltWarp {
+    let built = BuiltWarp {
         matched: matched.map(|(_, matched)| matched),
         ..AnyWarp::Paths(Arc::new(paths)).into()
     };
-    Ok((moved, solid))
+    Ok((built, solid))
 }
 
 /// The pairs of rings of each part, and, if they were matched, the drawings and their match.
 type MatchedBoundaries = (Vec<Vec<RingPair>>, Option<(DrawingPair, RegionMatch)>);
 
 /// Matches the outlines of two designs.
-fn matched(
+fn match_outlines(
     spec: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,

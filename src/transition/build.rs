@@ -74,25 +74,25 @@ fn build_data(
         WorkloadKind::Faces.check(children, progress)?;
     }
     let bar_width = bar_width(spec)?;
-    let (mut moved, content, bounds) = match spec.method.content() {
+    let (mut built, content, bounds) = match spec.method.content() {
         ContentKind::Solid => solids(spec, bar_width, progress)?,
         ContentKind::Field => fields(spec, bar_width, progress)?,
         ContentKind::Colours => colours(spec, progress)?,
     };
-    let of_match = moved.matched.iter().flat_map(TransitionNote::of_match);
-    moved.notes.extend(of_match);
-    let ridge = moved.warp.arap().and_then(Arap::ridge);
-    moved
+    let of_match = built.matched.iter().flat_map(TransitionNote::of_match);
+    built.notes.extend(of_match);
+    let ridge = built.warp.arap().and_then(Arap::ridge);
+    built
         .notes
         .extend(ridge.map(|ridge| TransitionNote::DiagonalAdded { share: ridge.share }));
-    let parts = moved.warp.arap().map_or(0, Arap::unflattened_count);
-    moved
+    let parts = built.warp.arap().map_or(0, Arap::unflattened_count);
+    built
         .notes
         .extend((parts > 0).then_some(TransitionNote::Unflattened { parts }));
     let data = TransitionData {
         method: spec.method,
         designs: [spec.source.clone(), spec.target.clone()],
-        built_warp: moved,
+        built_warp: built,
         content,
         bounds,
         bar_width,
@@ -107,7 +107,7 @@ fn solids(
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<BuiltParts, BuildError> {
-    let (moved, solid) = match spec.method.warp() {
+    let (built, solid) = match spec.method.warp() {
         WarpKind::Paths => boundary_paths::paths(spec, bar_width, progress)?,
         _ => solids::rigid_parts(spec, bar_width, progress)?,
     };
@@ -116,7 +116,7 @@ fn solids(
     } else {
         bar_width
     };
-    let warp = moved.warp.as_warp();
+    let warp = built.warp.as_warp();
     let placer = warp.placer();
     let placement = placer.placement();
     let ends = Bounds::of(
@@ -129,7 +129,7 @@ fn solids(
     .unwrap_or_else(|| unreachable!("a warp of solids has vertices"));
     let visible_box = |placement: &Placement, _| Bounds::of(placement.in_frame.iter().copied());
     let bounds = swept(ends, warp, visible_box, progress)?;
-    Ok((moved, Content::Solid(solid), bounds.padded(bar_margin)))
+    Ok((built, Content::Solid(solid), bounds.padded(bar_margin)))
 }
 
 /// Builds distance fields, the warp that carries them, and the box around all frames.
@@ -145,8 +145,8 @@ fn fields(
     let span = |from, to| ProgressSpan::new(progress, from, to);
     let whole = super::distance_fields::whole_fields(spec, grid, bar_width, &span(0.0, 0.4))?;
     // The margin of the grid is included, because carried fields are evaluated there too.
-    let mut moved = plane::warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
-    let placer = moved.warp.as_warp().placer();
+    let mut built = plane::warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
+    let placer = built.warp.as_warp().placer();
     let (painted, note) = super::distance_fields::painted_fields(
         spec,
         &grid,
@@ -154,22 +154,22 @@ fn fields(
         placer.placement(),
         &span(0.4, 0.7),
     )?;
-    moved.notes.extend(note);
+    built.notes.extend(note);
     let is_carried = spec.method.warp() != WarpKind::None;
     let fields = FieldContent::new(whole, painted, is_carried);
     if spec.options.field.needs_binary_boundary() {
         // Notes are in the order of the work, and the fields were computed before the warp.
-        moved.notes.insert(0, TransitionNote::BinaryBoundary);
+        built.notes.insert(0, TransitionNote::BinaryBoundary);
     }
     let bounds = if is_carried {
         let visible_box = |placement: &Placement, t| {
             Bounds::of(fields.contour(placement, t).into_iter().flatten())
         };
-        swept(frame, moved.warp.as_warp(), visible_box, progress)?
+        swept(frame, built.warp.as_warp(), visible_box, progress)?
     } else {
         frame
     };
-    Ok((moved, Content::Field(fields), bounds))
+    Ok((built, Content::Field(fields), bounds))
 }
 
 /// Builds a pair of pictures, the warp that carries them, and the box around all frames.
@@ -184,8 +184,8 @@ fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<BuiltParts,
     let pair = PicturePair::new(&source, &target, spec.options.colours)?;
     // The mesh extends beyond the visible area, so that its border is never seen.
     let frame = bounds.padded(0.02 * bounds.diameter());
-    let moved = plane::warp(spec, &frame, 0.0, progress)?;
-    Ok((moved, Content::Colours(pair), bounds))
+    let built = plane::warp(spec, &frame, 0.0, progress)?;
+    Ok((built, Content::Colours(pair), bounds))
 }
 
 /// Returns the box around `ends` and a few frames: a part that swings may leave the box of the

@@ -64,10 +64,10 @@ pub fn frame_similarity(
             offset: to_centre,
             ..Similarity::IDENTITY
         },
-        DesignFit::SameArea => scaled_to(first, design)?,
+        DesignFit::SameArea => similarity_to_size_of(first, design)?,
     };
     let centre = fitted.apply(form_centre(design));
-    let place = about(centre, place.checked()?);
+    let place = centred_at(centre, place.checked()?);
     if fitted == Similarity::IDENTITY {
         return Ok(place); // no rounding for the first design
     }
@@ -85,7 +85,7 @@ fn photographs(designs: [&Design; 2]) -> Option<[Bounds; 2]> {
 }
 
 /// Returns the similarity that aligns the centres and scales `design` to the size of `first`.
-fn scaled_to(first: &Design, design: &Design) -> Result<Similarity, SimilarityError> {
+fn similarity_to_size_of(first: &Design, design: &Design) -> Result<Similarity, SimilarityError> {
     let scale = (form_area(first) / form_area(design)).sqrt();
     Similarity {
         scale,
@@ -96,7 +96,7 @@ fn scaled_to(first: &Design, design: &Design) -> Result<Similarity, SimilarityEr
 }
 
 /// Returns the placement with `centre` in the role of the origin.
-fn about(centre: DVec2, placement: Similarity) -> Similarity {
+fn centred_at(centre: DVec2, placement: Similarity) -> Similarity {
     if placement == Similarity::IDENTITY {
         return placement; // no rounding for designs as drawn
     }

@@ -26,18 +26,18 @@ pub(super) struct LayerInk {
 
 impl DrawingPair {
     /// Combines paint layers, the lowest first; `None` if one design has none.
-    pub(super) fn of(coats: [Vec<PaintLayer>; 2]) -> Option<Self> {
-        let [source, target] = &coats;
-        let outlines = [stacked(source)?, stacked(target)?];
-        let ink = |coat: &PaintLayer| LayerInk {
-            paint: coat.paint,
-            gradient: coat.gradient.clone(),
-            line: coat.line,
+    pub(super) fn of(layers: [Vec<PaintLayer>; 2]) -> Option<Self> {
+        let [source, target] = &layers;
+        let outlines = [stacked_outlines(source)?, stacked_outlines(target)?];
+        let ink = |layer: &PaintLayer| LayerInk {
+            paint: layer.paint,
+            gradient: layer.gradient.clone(),
+            line: layer.line,
         };
         Some(Self {
             outlines,
-            looks: PartLooks(coats.each_ref().map(|coats| looks_of(coats))),
-            inks: coats.map(|coats| coats.iter().map(ink).collect()),
+            looks: PartLooks(layers.each_ref().map(|layers| part_appearances(layers))),
+            inks: layers.map(|layers| layers.iter().map(ink).collect()),
         })
     }
 
@@ -52,24 +52,24 @@ impl DrawingPair {
 }
 
 /// Returns the outlines of all layers as one list of parts.
-fn stacked(coats: &[PaintLayer]) -> Option<Regions> {
-    Regions::stacked(coats.iter().map(|coat| coat.regions.clone()))
+fn stacked_outlines(layers: &[PaintLayer]) -> Option<Regions> {
+    Regions::stacked(layers.iter().map(|layer| layer.regions.clone()))
 }
 
 /// Returns the appearance of each part of each layer.
-fn looks_of(coats: &[PaintLayer]) -> Vec<PartLook> {
-    let top_index = coats.len().saturating_sub(1).max(1) as f64;
-    let coats = coats.iter().enumerate();
-    let looks = coats.flat_map(|(k, coat)| {
+fn part_appearances(layers: &[PaintLayer]) -> Vec<PartLook> {
+    let top_index = layers.len().saturating_sub(1).max(1) as f64;
+    let layers = layers.iter().enumerate();
+    let looks = layers.flat_map(|(k, layer)| {
         let look = PartLook {
             paint_layer: k,
             height: k as f64 / top_index,
-            paint: coat.paint,
-            is_lined: coat.line.is_some(),
-            name: author_name(&coat.name),
-            is_text: coat.is_text,
+            paint: layer.paint,
+            is_lined: layer.line.is_some(),
+            name: author_name(&layer.name),
+            is_text: layer.is_text,
         };
-        std::iter::repeat_n(look, coat.regions.len())
+        std::iter::repeat_n(look, layer.regions.len())
     });
     looks.collect()
 }

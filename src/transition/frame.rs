@@ -128,13 +128,13 @@ impl Frame {
     #[must_use]
     pub fn figure(&self) -> VectorFigure {
         match self.transition.content() {
-            Content::Solid(solid) => self.coated(VectorFigure {
+            Content::Solid(solid) => self.with_paint_layers(VectorFigure {
                 bars: solid.bars_at(&self.placement().in_frame),
                 bar_paints: solid.bar_paints.clone(),
                 bar_width: solid.bar_width,
                 ..VectorFigure::default()
             }),
-            Content::Field(_) => self.coated(VectorFigure::default()),
+            Content::Field(_) => self.with_paint_layers(VectorFigure::default()),
             Content::Colours(pair) => VectorFigure {
                 rings: vec![pair.window(self.t()).corners().to_vec()],
                 ..VectorFigure::default()
@@ -143,7 +143,7 @@ impl Frame {
     }
 
     /// Adds the rings of this frame, paint layer by paint layer.
-    fn coated(&self, mut figure: VectorFigure) -> VectorFigure {
+    fn with_paint_layers(&self, mut figure: VectorFigure) -> VectorFigure {
         let content = self.transition.content();
         for inked in content.layers_at(self.placement(), self.t()) {
             let first = figure.rings.len();

@@ -9,7 +9,7 @@
 use crate::warp::{Placement, Placer};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// A placer and the t at which its placement is wanted.
+/// A placer and the t of the placement to return.
 #[derive(Debug)]
 pub(super) struct LazyPlacement {
     t: f64,

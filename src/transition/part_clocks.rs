@@ -39,8 +39,8 @@ impl TransitionData {
             return self;
         }
         let clocks: Vec<PartClock> = times.iter().map(PartTime::clock).collect();
-        let of_parts = of_parts(&arap, self.built_warp.matched.as_ref(), times);
-        let (clocks, of_parts) = in_use(&clocks, &of_parts);
+        let of_parts = clock_of_parts(&arap, self.built_warp.matched.as_ref(), times);
+        let (clocks, of_parts) = used_clocks(&clocks, &of_parts);
         solid.put_clocks(&arap, &clocks, &of_parts);
         self.built_warp.warp = AnyWarp::Staggered(StaggeredArap::new(arap, &clocks, &of_parts));
         self
@@ -48,7 +48,7 @@ impl TransitionData {
 }
 
 /// Returns the distinct clocks in use, and for each part the index of its own.
-fn in_use(
+fn used_clocks(
     clocks: &[PartClock],
     of_parts: &[Option<usize>],
 ) -> (Vec<PartClock>, Vec<Option<usize>>) {
@@ -69,7 +69,11 @@ fn in_use(
 }
 
 /// Returns, for each connected part of the mesh, the index of its timing; the last one wins.
-fn of_parts(arap: &Arap, matched: Option<&RegionMatch>, times: &[PartTime]) -> Vec<Option<usize>> {
+fn clock_of_parts(
+    arap: &Arap,
+    matched: Option<&RegionMatch>,
+    times: &[PartTime],
+) -> Vec<Option<usize>> {
     let of_vertices = arap.mesh().components();
     let count = of_vertices
         .iter()
@@ -128,11 +132,11 @@ impl SolidContent {
     /// Removes all clocks.
     fn take_clocks(&mut self) {
         self.part_clocks = None;
-        // A coating without paint exists only for the clocks.
+        // Paint layers without paint exist only for the clocks.
         self.paint_layers = self
             .paint_layers
             .take()
-            .filter(|coating| !is_plain(coating));
+            .filter(|layers| !has_no_paint(layers));
     }
 
     /// Assigns a clock to each loop, hole and vertex. Parts in one colour also become paint layers,
@@ -163,8 +167,9 @@ impl SolidContent {
     }
 }
 
-/// Returns whether a coating has no paint.
-fn is_plain(coating: &PaintLayerStack) -> bool {
-    let is_plain = |coat: &PlacedPaintLayer| coat.paints == [None; 2] && coat.strokes == [None; 2];
-    coating.layers.iter().all(is_plain)
+/// Returns whether all layers are without paint.
+fn has_no_paint(layers: &PaintLayerStack) -> bool {
+    let is_plain =
+        |layer: &PlacedPaintLayer| layer.paints == [None; 2] && layer.strokes == [None; 2];
+    layers.layers.iter().all(is_plain)
 }

@@ -13,9 +13,9 @@ use crate::geometry::{DVec2, Side};
 impl TransitionData {
     /// Applies options for paint layers.
     pub(super) fn coated(mut self, options: &PaintLayerOptions) -> Self {
-        if let Some(coating) = self.content.paint_layers_mut() {
-            coating.reorder_t = options.reorder_at;
-            coating.fades = options.fade;
+        if let Some(layers) = self.content.paint_layers_mut() {
+            layers.reorder_t = options.reorder_at;
+            layers.fades = options.fade;
         }
         self
     }
@@ -35,11 +35,12 @@ impl<'a> PieceBoundaryLoops<'a> {
     /// Returns the loops of a mesh whose connected components are the pieces.
     pub fn of_mesh(mesh: &'a CompatibleMesh) -> Self {
         let parts = mesh.components();
-        let walks = mesh.boundary_loops();
-        let piece = |walk: &Vec<u32>| walk.first().map_or(0, |&v| parts[v as usize] as usize);
+        let loops = mesh.boundary_loops();
+        let piece =
+            |vertices: &Vec<u32>| vertices.first().map_or(0, |&v| parts[v as usize] as usize);
         Self {
-            pieces: walks.iter().map(piece).collect(),
-            loops: walks,
+            pieces: loops.iter().map(piece).collect(),
+            loops,
             places: [mesh.source(), mesh.target()],
         }
     }
@@ -57,9 +58,9 @@ pub(super) fn coating(
     }
     let layers = PieceLayers::of(matched, &drawings.looks);
     let pieces = loops.pieces.iter();
-    let of_walks: Vec<usize> = pieces.map(|&piece| layers.of_piece(piece)).collect();
+    let of_loops: Vec<usize> = pieces.map(|&piece| layers.of_piece(piece)).collect();
     let loop_vertices = |layer: usize| {
-        let all = loops.loops.iter().zip(&of_walks);
+        let all = loops.loops.iter().zip(&of_loops);
         let in_layer = all.filter(|&(_, layer_of_loop)| *layer_of_loop == layer);
         let vertices = in_layer.flat_map(|(boundary_loop, _)| boundary_loop.iter().copied());
         vertices.collect()
@@ -73,16 +74,16 @@ pub(super) fn coating(
         unmatched_loops: loops
             .pieces
             .iter()
-            .map(|&piece| alone(matched.pieces.get(piece)?))
+            .map(|&piece| unmatched_side(matched.pieces.get(piece)?))
             .collect(),
-        of_loops: of_walks,
+        of_loops,
         fades: false,
         reorder_t: PaintLayerOptions::default().reorder_at,
     })
 }
 
 /// Returns the design that has an unmatched piece; `None` for a matched one.
-fn alone(piece: &PieceMatch) -> Option<Side> {
+fn unmatched_side(piece: &PieceMatch) -> Option<Side> {
     match [piece.source_part, piece.target_part] {
         [Some(_), None] => Some(Side::Source),
         [None, Some(_)] => Some(Side::Target),
@@ -94,29 +95,29 @@ fn alone(piece: &PieceMatch) -> Option<Side> {
 /// for a layer; `places` are the positions of all vertices in the designs.
 pub(super) fn coats(
     drawings: &DrawingPair,
-    levels: &PieceLayers,
+    layers: &PieceLayers,
     vertices_along: impl Fn(usize) -> Vec<u32>,
     places: [&[DVec2]; 2],
 ) -> Vec<PlacedPaintLayer> {
-    let heights = Side::BOTH.map(|side| heights(&levels.layers, side));
-    let coat = |level: usize| {
-        let ink = |side: Side| Some(&drawings.inks[side][levels.layers[level][side]?]);
+    let z_indices = Side::BOTH.map(|side| z_indices(&layers.layers, side));
+    let layer_at = |layer: usize| {
+        let ink = |side: Side| Some(&drawings.inks[side][layers.layers[layer][side]?]);
         let inks = Side::BOTH.map(ink);
         // An unmatched layer keeps its paint, while its stroke grows with it.
         let paint = |side: Side| inks[side].or(inks[side.other()])?.paint;
         PlacedPaintLayer {
             paints: Side::BOTH.map(paint),
-            shading: shading(inks, vertices_along(level), places),
+            shading: shading(inks, vertices_along(layer), places),
             strokes: inks.map(|ink| ink?.line),
-            z_indices: [heights[0][level], heights[1][level]],
-            only_in: match levels.layers[level] {
+            z_indices: [z_indices[0][layer], z_indices[1][layer]],
+            only_in: match layers.layers[layer] {
                 [Some(_), None] => Some(Side::Source),
                 [None, Some(_)] => Some(Side::Target),
                 _ => None,
             },
         }
     };
-    (0..levels.layers.len()).map(coat).collect()
+    (0..layers.layers.len()).map(layer_at).collect()
 }
 
 /// Returns the gradients of a layer with these vertices; an unmatched layer keeps its own.
@@ -149,19 +150,19 @@ fn shading(
 
 /// Returns the stacking height of each layer in one design. A layer that this design lacks lies
 /// directly above the layer that is next below it in the other design.
-fn heights(levels: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
+fn z_indices(layers: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
     let other = side.other();
-    let mut order: Vec<usize> = (0..levels.len())
-        .filter(|&k| levels[k][side].is_some())
+    let mut order: Vec<usize> = (0..layers.len())
+        .filter(|&k| layers[k][side].is_some())
         .collect();
-    order.sort_by_key(|&k| (levels[k][side], levels[k][other]));
-    let mut unmatched: Vec<usize> = (0..levels.len())
-        .filter(|&k| levels[k][side].is_none())
+    order.sort_by_key(|&k| (layers[k][side], layers[k][other]));
+    let mut unmatched: Vec<usize> = (0..layers.len())
+        .filter(|&k| layers[k][side].is_none())
         .collect();
-    unmatched.sort_by_key(|&k| levels[k][other]);
+    unmatched.sort_by_key(|&k| layers[k][other]);
     for k in unmatched {
         let is_below = |&placed: &usize| {
-            levels[placed][other].is_some() && levels[placed][other] < levels[k][other]
+            layers[placed][other].is_some() && layers[placed][other] < layers[k][other]
         };
         let index = order
             .iter()
@@ -169,11 +170,11 @@ fn heights(levels: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
             .map_or(0, |below| below + 1);
         // Appearing layers lie above disappearing ones at the same height, in both designs.
         let is_disappearing =
-            |&&placed: &&usize| side == Side::Source && levels[placed][other].is_none();
+            |&&placed: &&usize| side == Side::Source && layers[placed][other].is_none();
         let disappearing_count = order[index..].iter().take_while(is_disappearing).count();
         order.insert(index + disappearing_count, k);
     }
-    let mut heights = vec![0; levels.len()];
+    let mut heights = vec![0; layers.len()];
     order
         .iter()
         .enumerate()
@@ -188,18 +189,18 @@ mod tests {
     #[test]
     fn unmatched_layers_lie_above_their_neighbour_and_appearing_above_disappearing_ones() {
         // Sky and sun in both designs; a sea disappears in front of them, and a word appears.
-        let levels = [
+        let layers = [
             [Some(0), Some(0)],
             [Some(1), Some(1)],
             [Some(2), None],
             [None, Some(2)],
         ];
         for side in Side::BOTH {
-            assert_eq!(heights(&levels, side), [0, 1, 2, 3], "{side:?}");
+            assert_eq!(z_indices(&layers, side), [0, 1, 2, 3], "{side:?}");
         }
         // The sun sinks behind the sky, and a layer between them exists in only one design.
-        let levels = [[Some(0), Some(1)], [Some(1), Some(0)], [None, Some(2)]];
-        assert_eq!(heights(&levels, Side::Source), [0, 1, 2]);
-        assert_eq!(heights(&levels, Side::Target), [1, 0, 2]);
+        let layers = [[Some(0), Some(1)], [Some(1), Some(0)], [None, Some(2)]];
+        assert_eq!(z_indices(&layers, Side::Source), [0, 1, 2]);
+        assert_eq!(z_indices(&layers, Side::Target), [1, 0, 2]);
     }
 }

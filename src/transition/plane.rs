@@ -231,7 +231,7 @@ fn about_outlines(
         None => (matched, *frame),
     };
     // An outline must lie within the frame to become an edge of its mesh.
-    let frame = around(matched, &frame);
+    let frame = padded_frame(matched, &frame);
     let attempt =
         CompatibleMesh::around_outlines(&frame, matched, &options.triangulation, progress);
     let mesh = match attempt {
@@ -250,7 +250,7 @@ fn about_outlines(
 }
 
 /// Returns the frame extended by all outlines and a margin.
-fn around(matched: &RegionMatch, frame: &Bounds) -> Bounds {
+fn padded_frame(matched: &RegionMatch, frame: &Bounds) -> Bounds {
     let rings = matched.pieces.iter().flat_map(|piece| &piece.rings);
     let points = rings.flat_map(|ring| ring.source.iter().chain(&ring.target));
     let all = Bounds::of(points.copied()).map_or(*frame, |outlines| outlines.union(frame));

@@ -47,31 +47,31 @@ impl PlaneFeatures {
         bar_width: f64,
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
-        let requested = &spec.options.matching;
-        let given = Self {
-            points: requested.pins.clone(),
-            lines: requested.lines.clone(),
+        let settings = &spec.options.matching;
+        let requested = Self {
+            points: settings.pins.clone(),
+            lines: settings.lines.clone(),
             ..Self::default()
         };
         // The outline of a picture is invisible.
         if spec.method.content() != ContentKind::Field {
-            return Ok(given);
+            return Ok(requested);
         }
         // A map of the plane cannot cut a ring open or split a part.
         let matching = MatchSettings {
             holes: HoleRule::Close,
             parts: PartRule::Transient,
-            ..requested.clone()
+            ..settings.clone()
         };
         let outlines = spec.outlines(bar_width, progress)?;
-        if given.points.is_empty() && given.lines.is_empty() {
+        if requested.points.is_empty() && requested.lines.is_empty() {
             return Self::automatic_features(spec.method.warp(), &outlines, &matching, progress);
         }
         // Pins that the user has moved along the outlines still match them.
-        if spec.method.warp() == WarpKind::Arap && given.are_on(&outlines) {
-            return given.with_match(&outlines, &matching, progress);
+        if spec.method.warp() == WarpKind::Arap && requested.are_on(&outlines) {
+            return requested.with_match(&outlines, &matching, progress);
         }
-        Ok(given)
+        Ok(requested)
     }
 
     /// Returns automatic features along matched outlines.

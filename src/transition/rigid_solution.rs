@@ -92,7 +92,7 @@ fn without_collisions(
     let (mut sample_times, mut first) = (SampleTimes::default(), None);
     let mut previous_collisions = Vec::new();
     loop {
-        let placed = placed(
+        let placed = place_unmatched_parts(
             solution.clone(),
             layers,
             &sample_times,
@@ -151,7 +151,7 @@ pub(super) fn with_requested_options(
 ///
 /// # Errors
 /// If the motion cannot be solved or the work is cancelled.
-fn placed(
+fn place_unmatched_parts(
     solution: RigidSolution,
     layers: &PieceLayers,
     sample_times: &SampleTimes,

@@ -86,7 +86,7 @@ pub(super) fn separate(
     progress: &dyn Progress,
 ) -> Result<Separation, BuildError> {
     if spec.options.quality == BuildQuality::Draft {
-        return apart(prepared, spec, &as_asked, progress);
+        return unpair_until_separate(prepared, spec, &requested_matches, progress);
     }
     // Unpairing with cheap matches first avoids half of the search for best matches.
     let [drafting, joining, searching] = [
@@ -95,10 +95,10 @@ pub(super) fn separate(
         (JOIN_PROGRESS, 1.0),
     ]
     .map(|(from, to)| ProgressSpan::new(progress, from, to));
-    let mut drafts = apart(prepared, spec, &as_asked, &drafting)?;
+    let mut drafts = unpair_until_separate(prepared, spec, &requested_matches, &drafting)?;
     if let Some(mut joined) = prepared.shared_out(&joining) {
         // A failed attempt is no better: a result exists already.
-        let candidate = apart(&mut joined, spec, &as_asked, &joining).ok();
+        let candidate = unpair_until_separate(&mut joined, spec, &requested_matches, &joining).ok();
         check_cancelled(&joining)?;
         let is_better = |candidate: &Separation| {
             drafts.unmatched_share() - candidate.unmatched_share() > MIN_SAVING
@@ -112,7 +112,7 @@ pub(super) fn separate(
         let drafts = drafts.groups.get(&group.prepared.groups()[group.index]);
         best_of_group(group, drafts, progress)
     };
-    apart(prepared, spec, &best, &searching)
+    unpair_until_separate(prepared, spec, &best, &searching)
 }
 
 /// Chooses the matches of the pieces of a group.
@@ -120,7 +120,10 @@ type PieceChooser<'a> =
     dyn Fn(&GroupSearch, &dyn Progress) -> Result<Vec<PieceResult>, BuildError> + Sync + 'a;
 
 /// Chooses the requested match of each piece.
-fn as_asked(group: &GroupSearch, progress: &dyn Progress) -> Result<Vec<PieceResult>, BuildError> {
+fn requested_matches(
+    group: &GroupSearch,
+    progress: &dyn Progress,
+) -> Result<Vec<PieceResult>, BuildError> {
     drafts_of_group(group, progress)
 }
 
@@ -129,13 +132,13 @@ fn as_asked(group: &GroupSearch, progress: &dyn Progress) -> Result<Vec<PieceRes
 ///
 /// # Errors
 /// As [`separate`].
-fn apart(
+fn unpair_until_separate(
     prepared: &mut MatchPlan,
     spec: &TransitionSpec,
     choice: &PieceChooser,
     progress: &dyn Progress,
 ) -> Result<Separation, BuildError> {
-    let mut known = ChosenGroups::new();
+    let mut chosen_groups = ChosenGroups::new();
     let (mut round, mut repairs) = (0, 0);
     loop {
         // Most motions need one round; each further one gets half of the remaining progress.
@@ -143,9 +146,9 @@ fn apart(
         let progress = &ProgressSpan::new(progress, done(round), done(round + 1));
         let [matching, solving] = [(0.0, MATCH_PROGRESS), (MATCH_PROGRESS, 1.0)]
             .map(|(from, to)| ProgressSpan::new(progress, from, to));
-        let groups = chosen(prepared, &known, spec, choice, &matching)?;
-        let matched = match_of(&groups);
-        known = prepared
+        let groups = choose_pieces(prepared, &chosen_groups, spec, choice, &matching)?;
+        let matched = combined_match(&groups);
+        chosen_groups = prepared
             .groups()
             .iter()
             .cloned()
@@ -155,7 +158,7 @@ fn apart(
             repairs += 1;
             continue;
         }
-        let candidates = all_meshed(groups.concat())?;
+        let candidates = require_meshes(groups.concat())?;
         let mesh = merged_meshes(candidates.iter().map(|best| &best.mesh));
         check_size(&mesh, &spec.options.arap, progress)?;
         let coarse = unsubdivided(&spec.options.arap);
@@ -168,7 +171,7 @@ fn apart(
                 matched,
                 arap,
                 pieces: candidates,
-                groups: known,
+                groups: chosen_groups,
             });
         }
         round += 1;
@@ -178,21 +181,21 @@ fn apart(
 /// The groups of parts whose pieces have been chosen.
 type ChosenGroups = BTreeMap<PartGroup, Vec<PieceResult>>;
 
-/// Chooses the pieces of each group that is not in `known`.
+/// Chooses the pieces of each group that is not in `chosen_groups`.
 ///
 /// # Errors
 /// The first error in the order of the groups.
-fn chosen(
+fn choose_pieces(
     prepared: &MatchPlan,
-    known: &ChosenGroups,
+    chosen_groups: &ChosenGroups,
     spec: &TransitionSpec,
     choice: &PieceChooser,
     progress: &dyn Progress,
 ) -> Result<Vec<Vec<PieceResult>>, BuildError> {
     let shares = ProgressShares::new(progress, prepared.groups().len());
     let groups = prepared.groups().par_iter().enumerate();
-    let chosen = groups.map(|(k, group)| match known.get(group) {
-        Some(known) => Ok(known.clone()),
+    let chosen = groups.map(|(k, group)| match chosen_groups.get(group) {
+        Some(pieces) => Ok(pieces.clone()),
         None => {
             let group = GroupSearch {
                 prepared,
@@ -208,7 +211,7 @@ fn chosen(
 }
 
 /// Returns the match of all pieces.
-fn match_of(groups: &[Vec<PieceResult>]) -> RegionMatch {
+fn combined_match(groups: &[Vec<PieceResult>]) -> RegionMatch {
     let piece_of = |chosen: &PieceResult| match chosen {
         Ok(best) => best.matched.clone(),
         Err((piece, _)) => piece.clone(),
@@ -237,7 +240,7 @@ fn failed_pieces(groups: &[Vec<PieceResult>], repairs: u32) -> Vec<usize> {
 }
 
 /// Returns all pieces, or the error of the first one that could not be triangulated.
-fn all_meshed(chosen: Vec<PieceResult>) -> Result<Vec<MatchCandidate>, BuildError> {
+fn require_meshes(chosen: Vec<PieceResult>) -> Result<Vec<MatchCandidate>, BuildError> {
     let pieces = chosen.len();
     let candidates = chosen.into_iter().enumerate().map(|(piece, chosen)| {
         chosen.map_err(|(_, error)| {

@@ -76,13 +76,13 @@ pub(super) fn rigid_parts(
             .collect();
         (solid.swelling_shapes, solid.seed_shapes) = shapes::drawn(&arap, &solution.swelling);
     }
-    let moved = BuiltWarp {
+    let built = BuiltWarp {
         matched: solution.map(|solution| solution.matched.clone()),
         notes: solution.map_or_else(Vec::new, |solution| solution.notes.clone()),
         solution: solved,
         ..AnyWarp::Rigid(arap).into()
     };
-    Ok((moved, solid))
+    Ok((built, solid))
 }
 
 /// Returns the paints of the bars of two trusses, in the order of the first truss; empty without
@@ -112,14 +112,12 @@ fn cached_or_best(
     progress: &dyn Progress,
 ) -> Result<KeyedSolution, BuildError> {
     let key = cached_match::cache_key(&spec.options, drawings);
-    let film = match solution_cache::restore(&spec.cached_match, &key, &spec.options, progress)? {
-        Some(film) => film,
+    let solution = match solution_cache::restore(&spec.cached_match, &key, &spec.options, progress)?
+    {
+        Some(solution) => solution,
         None => rigid_solution::solve_best(spec, drawings, progress)?,
     };
-    Ok(KeyedSolution {
-        key,
-        solution: film,
-    })
+    Ok(KeyedSolution { key, solution })
 }
 
 /// Builds the interpolation of a triangulation that the designs bring along.

@@ -41,7 +41,7 @@ pub(in crate::transition) struct KeyedSolution {
 impl KeyedSolution {
     /// Packs the motion as text for a document.
     pub fn cached_match(&self) -> CachedMatch {
-        let packed = SolutionRecord::of(&self.solution).and_then(|record| record.packed());
+        let packed = SolutionRecord::of(&self.solution).and_then(|record| record.encode());
         CachedMatch {
             of: self.key.clone(),
             film: SharedText(packed.unwrap_or_default().into()),
@@ -60,7 +60,7 @@ pub(in crate::transition) fn restore(
     progress: &dyn Progress,
 ) -> Result<Option<RigidSolution>, BuildError> {
     let record = if found.is_for(key) {
-        SolutionRecord::unpacked(&found.film.0)
+        SolutionRecord::decode(&found.film.0)
     } else {
         None
     };
@@ -107,7 +107,7 @@ impl SolutionRecord {
     }
 
     /// Serialises, compresses and encodes the record.
-    fn packed(&self) -> Option<String> {
+    fn encode(&self) -> Option<String> {
         let bytes = rmp_serde::to_vec(self).ok()?;
         let mut packed = Vec::new();
         let mut encoder = ZlibEncoder::new(&bytes[..], Compression::best());
@@ -121,7 +121,7 @@ impl SolutionRecord {
     }
 
     /// Decodes, decompresses and deserialises a record; `None` if it is invalid.
-    fn unpacked(text: &str) -> Option<Self> {
+    fn decode(text: &str) -> Option<Self> {
         let text: Vec<u8> = text.bytes().filter(|b| !b.is_ascii_whitespace()).collect();
         let packed = STANDARD.decode(text).ok()?;
         let mut bytes = Vec::new();
@@ -152,11 +152,11 @@ impl SolutionRecord {
         }
         check_size(&mesh, &options.arap, progress)?;
         let options = unsubdivided(&options.arap);
-        let settled = OutlineParameters {
+        let parameters = OutlineParameters {
             time_windows: &self.lives,
             stiffness: &self.stiffness,
         };
-        let arap = Arap::with_outline_parameters(&mesh, &options, settled, progress);
+        let arap = Arap::with_outline_parameters(&mesh, &options, parameters, progress);
         let Ok(arap) = arap else {
             return Ok(None);
         };
@@ -284,10 +284,10 @@ mod tests {
         let mut spec = spec();
         let first = built(&spec);
         let found = found(&first);
-        let mut record = SolutionRecord::unpacked(&found.film.0).expect("a record");
+        let mut record = SolutionRecord::decode(&found.film.0).expect("a record");
         record.guard = guard(record.places[0].len());
         spec.cached_match = CachedMatch {
-            film: record.packed().expect("text").into(),
+            film: record.encode().expect("text").into(),
             ..found
         };
         let again = built(&spec);
@@ -326,9 +326,9 @@ mod tests {
         // Drafts, because many transitions are built.
         spec.options.quality = BuildQuality::Draft;
         let first = built(&spec);
-        let wanted = rings(&first);
+        let expected = rings(&first);
         let found = found(&first);
-        let record = || SolutionRecord::unpacked(&found.film.0).expect("a record");
+        let record = || SolutionRecord::decode(&found.film.0).expect("a record");
         let mut changed: Vec<SolutionRecord> = Vec::new();
         let mut change = |by: &dyn Fn(&mut SolutionRecord)| {
             let mut record = record();
@@ -353,30 +353,30 @@ mod tests {
         change(&|record| record.swelling = vec![99]);
         change(&|record| record.stiffness = vec![-1.0]);
         change(&|record| record.guard = guard(1 << 20));
-        let texts = changed.iter().map(|record| record.packed().expect("text"));
+        let texts = changed.iter().map(|record| record.encode().expect("text"));
         let cut = |k: usize| found.film.0[..found.film.0.len() * k / 8].to_owned();
         for text in texts.chain((1..8).map(cut)).chain(["-".to_owned()]) {
             spec.cached_match = CachedMatch {
                 of: found.of.clone(),
                 film: text.into(),
             };
-            assert_eq!(rings(&built(&spec)), wanted);
+            assert_eq!(rings(&built(&spec)), expected);
         }
         // A valid record is used, so the ones above were really rejected.
         let mut record = record();
         change_life(&mut record, &|life| [life.from, life.to] = [0.3, 0.4]);
         spec.cached_match = CachedMatch {
             of: found.of.clone(),
-            film: record.packed().expect("text").into(),
+            film: record.encode().expect("text").into(),
         };
-        assert_ne!(rings(&built(&spec)), wanted);
+        assert_ne!(rings(&built(&spec)), expected);
     }
 
     #[test]
     fn random_bytes_give_a_finite_motion_or_none() {
         let mut spec = spec();
         spec.options.quality = BuildQuality::Draft;
-        let record = SolutionRecord::unpacked(&found(&built(&spec)).film.0).expect("a record");
+        let record = SolutionRecord::decode(&found(&built(&spec)).film.0).expect("a record");
         let bytes = rmp_serde::to_vec(&record).expect("bytes");
         let mut state = 1_u64;
         let mut random = |below: usize| {

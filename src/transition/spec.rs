@@ -70,8 +70,8 @@ impl TransitionSpec {
                 | (DesignForm::Truss(_), DesignForm::Truss(_))
         );
         let is_matched = self.method == TransitionMethod::RIGID_PARTS && !have_a_common_mesh;
-        let is_wanted = is_matched && self.options.quality != BuildQuality::Draft;
-        (is_wanted && !self.has_cached_match(progress)).then(|| {
+        let needs_draft = is_matched && self.options.quality != BuildQuality::Draft;
+        (needs_draft && !self.has_cached_match(progress)).then(|| {
             let mut draft = self.clone();
             draft.options.quality = BuildQuality::Draft;
             draft
@@ -127,7 +127,8 @@ impl TransitionSpec {
         if self.options.paint == PaintRule::One || !is_painted {
             return Ok(DrawingPair::plain(self.outlines(bar_width, progress)?));
         }
-        let [source, target] = designs.map(|design| coats_of(design, bar_width, progress));
+        let [source, target] =
+            designs.map(|design| separated_paint_layers(design, bar_width, progress));
         let drawings = DrawingPair::of([source?, target?]).ok_or(RegionsError::Empty)?;
         self.allow(&drawings.outlines, progress)?;
         Ok(drawings)
@@ -211,12 +212,12 @@ pub(crate) fn outline(
 }
 
 /// Returns the paint layers of a design; a single layer without paint if it has none.
-fn coats_of(
+fn separated_paint_layers(
     design: &Arc<Design>,
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<Vec<PaintLayer>, BuildError> {
-    let coats = if design.paint_layers.is_empty() {
+    let layers = if design.paint_layers.is_empty() {
         vec![PaintLayer {
             regions: outline(design, bar_width, progress)?,
             paint: None,
@@ -228,9 +229,9 @@ fn coats_of(
     } else {
         design.paint_layers.clone()
     };
-    let separated = coats.into_iter().map(|coat| PaintLayer {
-        regions: coat.regions.with_contacts_separated(),
-        ..coat
+    let separated = layers.into_iter().map(|layer| PaintLayer {
+        regions: layer.regions.with_contacts_separated(),
+        ..layer
     });
     Ok(separated.collect())
 }

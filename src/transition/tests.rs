@@ -144,9 +144,12 @@ fn boundary_paths_show_the_designs_at_the_ends_and_unmatched_rings_as_points() {
     spec.options.matching.holes = HoleRule::Close;
     let transition = Transition::build(&spec, &Silent).unwrap();
     assert!(transition.arap().is_none() && transition.matched().is_some());
-    for (t, wanted) in [(0.0, 6400.0), (1.0, 1876.0)] {
+    for (t, expected) in [(0.0, 6400.0), (1.0, 1876.0)] {
         let found = area(&transition.frame(t).figure().rings);
-        assert!((found - wanted).abs() < 1e-9 * wanted, "t = {t}: {found}");
+        assert!(
+            (found - expected).abs() < 1e-9 * expected,
+            "t = {t}: {found}"
+        );
     }
     let first = transition.frame(0.0).figure().rings;
     assert_eq!(first.len(), 3);
@@ -390,10 +393,10 @@ fn rigid_parts_carry_a_rotated_field_rigidly() {
         let (seen, source) = (&placement.in_frame, &placement.in_source);
         for k in (0..seen.len()).step_by(7) {
             let apart = seen[0].distance(seen[k]);
-            let wanted = source[0].distance(source[k]);
+            let expected = source[0].distance(source[k]);
             assert!(
-                (apart - wanted).abs() < 1e-4 * 200.0,
-                "{apart}, not {wanted}, at {t}"
+                (apart - expected).abs() < 1e-4 * 200.0,
+                "{apart}, not {expected}, at {t}"
             );
         }
     }

@@ -128,21 +128,21 @@ impl Arap {
     ///
     /// In contrast to [`Self::build`], boundary edges are elements of the energy, and sides that
     /// are straight and equally divided in both designs stay straight. Connected parts that are
-    /// points in one of the designs have a time window in `lives`, in which they change their
-    /// size; other parts, and parts beyond the end of the list, have none. The position and
+    /// points in one of the designs have a time window in `time_windows`, in which they change
+    /// their size; other parts, and parts beyond the end of the list, have none. The position and
     /// rotation of the design as a whole are determined by the other parts. Waiting parts move with
-    /// the whole, except with the linear homotopy, where they stay where they are points.
+    /// the whole design, except with the linear homotopy, where they stay where they are points.
     ///
     /// # Errors
     /// As [`Self::build`].
     pub fn of_outlines(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        lives: &[Option<TimeWindow>],
+        time_windows: &[Option<TimeWindow>],
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let parameters = OutlineParameters {
-            time_windows: lives,
+            time_windows,
             ..OutlineParameters::default()
         };
         Self::with_outline_parameters(mesh, options, parameters, progress)
@@ -349,18 +349,23 @@ impl Arap {
         let inner = &*self.0;
         let mesh = inner.mesh.swapped();
         let windows = inner.translations.time_windows().iter();
-        let lives: Vec<_> = windows
+        let time_windows: Vec<_> = windows
             .map(|window| window.map(TimeWindow::backwards))
             .collect();
-        let maps = LocalMaps::new(&mesh, &inner.options, &lives)?
+        let maps = LocalMaps::new(&mesh, &inner.options, &time_windows)?
             .with_stiffness(self.stiffness())
-            .with_boundary_edges(&mesh, &lives, &inner.options, inner.outline_constraints)
+            .with_boundary_edges(
+                &mesh,
+                &time_windows,
+                &inner.options,
+                inner.outline_constraints,
+            )
             .with_reversed_angles(&inner.maps);
         let swapped = Self::from_maps(
             mesh,
             maps,
             inner.options.clone(),
-            lives,
+            time_windows,
             inner.outline_constraints,
             progress,
         )?;
@@ -389,7 +394,7 @@ impl Arap {
     /// As [`Self::build`].
     pub(crate) fn with_time_windows(
         &self,
-        lives: Vec<Option<TimeWindow>>,
+        time_windows: Vec<Option<TimeWindow>>,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let inner = &*self.0;
@@ -397,7 +402,7 @@ impl Arap {
             inner.mesh.clone(),
             inner.maps.clone(),
             inner.options.clone(),
-            lives,
+            time_windows,
             inner.outline_constraints,
             progress,
         )

@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
 /// 1.5 · 2⁵². Adding and subtracting it rounds to an integer, which appears in the low bits of
 /// the sum.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+const ROUNDING_OFFSET: f64 = 6_755_399_441_055_744.0;
 
 /// 2⁵², whose last bit has the value 1.
 const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
@@ -35,7 +35,7 @@ const HALF_PI: [f64; 4] = [
 const LN_2_PARTS: [f64; 2] = [leading_bits(LN_2), 7.440617110012397e-11];
 
 /// Largest |x| for which eˣ is a normal number.
-const LARGEST_EXPONENT: f64 = 708.0;
+const MAX_EXPONENT: f64 = 708.0;
 
 /// Coefficients 1/3!, −1/5!, 1/7!, …; the first omitted term is below 1e-19 at π/4.
 const SINE: [f64; 8] = reciprocal_factorials(3, 2, -1.0);
@@ -92,8 +92,8 @@ fn polynomial<const N: usize>(x: f64, a: &[f64; N]) -> f64 {
 /// Returns the sine and cosine of `x` radians.
 #[inline(always)]
 pub(super) fn sin_cos(x: f64) -> (f64, f64) {
-    let rounded = x * FRAC_2_PI + ROUNDER;
-    let (n, quadrant) = (rounded - ROUNDER, rounded.to_bits());
+    let rounded = x * FRAC_2_PI + ROUNDING_OFFSET;
+    let (n, quadrant) = (rounded - ROUNDING_OFFSET, rounded.to_bits());
     // The first two subtractions are exact.
     let x = ((x - n * HALF_PI[0]) - n * HALF_PI[1]) - n * HALF_PI[2] - n * HALF_PI[3];
     let square = x * x;
@@ -117,9 +117,9 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
 #[inline(always)]
 pub(super) fn exp(x: f64) -> f64 {
     // The exponent field has 11 bits and would wrap around; a clamp needs no branch.
-    let x = x.clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
-    let rounded = x * LOG2_E + ROUNDER;
-    let n = rounded - ROUNDER;
+    let x = x.clamp(-MAX_EXPONENT, MAX_EXPONENT);
+    let rounded = x * LOG2_E + ROUNDING_OFFSET;
+    let n = rounded - ROUNDING_OFFSET;
     let x = (x - n * LN_2_PARTS[0]) - n * LN_2_PARTS[1];
     let power_of_two = f64::from_bits(rounded.to_bits().wrapping_add(1023) << 52);
     (1.0 + (x + x * x * polynomial(x, &EXPONENTIAL))) * power_of_two

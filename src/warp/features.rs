@@ -16,7 +16,7 @@ pub const MAX_FEATURES: usize = 512;
 
 /// Limit of a feature's distance from the frame centre, in frame diameters, and of |t|
 /// (tolerance: squared coordinates must not overflow).
-const FAR: f64 = 1e6;
+const MAX_DISTANCE: f64 = 1e6;
 
 /// Reason why features are rejected.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -71,8 +71,12 @@ impl WarpFeatures {
         let unit = if diameter > 0.0 { diameter } else { 1.0 };
         // Distant pins are clamped, not rejected: a pin dragged off the screen is no error.
         let centre = frame.centre();
-        let clamp_point = |p: DVec2| p.clamp(centre - FAR * unit, centre + FAR * unit);
-        let pairs = points.iter().copied().chain(lines.iter().flat_map(sampled));
+        let clamp_point =
+            |p: DVec2| p.clamp(centre - MAX_DISTANCE * unit, centre + MAX_DISTANCE * unit);
+        let pairs = points
+            .iter()
+            .copied()
+            .chain(lines.iter().flat_map(sample_line));
         let clamp_pair = |pair: PointPair| PointPair {
             source: clamp_point(pair.source),
             target: clamp_point(pair.target),
@@ -88,7 +92,11 @@ impl WarpFeatures {
     /// The source displacement is exactly zero at t = 0, the target displacement at t = 1.
     pub(super) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone {
         // Without this clamp (1 − t) p + t q could be infinite.
-        let t = if t.is_nan() { 0.0 } else { t.clamp(-FAR, FAR) };
+        let t = if t.is_nan() {
+            0.0
+        } else {
+            t.clamp(-MAX_DISTANCE, MAX_DISTANCE)
+        };
         self.pairs.iter().map(move |pair| {
             let at = pair.source * (1.0 - t) + pair.target * t;
             (at, [pair.source - at, pair.target - at])
@@ -113,7 +121,7 @@ pub(super) fn check(points: &[PointPair], lines: &[LinePair]) -> Result<(), Feat
 }
 
 /// Returns [`LINE_SAMPLES`] evenly spaced point pairs along a line pair.
-fn sampled(line: &LinePair) -> impl Iterator<Item = PointPair> + '_ {
+fn sample_line(line: &LinePair) -> impl Iterator<Item = PointPair> + '_ {
     (0..LINE_SAMPLES).map(|k| {
         let s = k as f64 / (LINE_SAMPLES - 1) as f64;
         let on = |[a, b]: [DVec2; 2]| a * (1.0 - s) + b * s;
@@ -140,8 +148,8 @@ mod tests {
         };
         let features = WarpFeatures::new(&frame, &[], &[line])?;
         let halfway: Vec<DVec2> = features.at(0.5).map(|(at, _)| at).collect();
-        let wanted = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x| DVec2::new(x, 0.5));
-        assert_eq!(halfway, wanted);
+        let expected = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x| DVec2::new(x, 0.5));
+        assert_eq!(halfway, expected);
         let far = PointPair {
             source: DVec2::ZERO,
             target: DVec2::X * 1e9,

@@ -41,7 +41,7 @@ use super::features::{FeatureError, check};
 use super::plane::{PlaneWarp, in_chunks};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
-use kernel::{LARGEST_A, LEAST_A};
+use kernel::{MAX_A, MIN_A};
 use line::{FieldLine, LineFeature};
 use moving_line::MovingLine;
 use options::BeierNeelyConstants;
@@ -152,7 +152,7 @@ impl LinesAtTime {
         self.plane = ScaledPlane::around(features.clone());
         let (plane, a) = (self.plane, self.constants.a * self.plane.per_unit);
         // The kernel's weights are finite only for a in this range.
-        self.a = a.clamp(LEAST_A, LARGEST_A);
+        self.a = a.clamp(MIN_A, MAX_A);
         self.lines.clear();
         let lines = features.map(|feature| FieldLine::new(&plane.feature(&feature), a));
         self.lines.extend(lines);

@@ -214,8 +214,9 @@ mod tests {
                     for side in &both {
                         for (k, p) in side.iter().enumerate() {
                             for (l, q) in side.iter().enumerate() {
-                                let (apart, wanted) = (p.distance(*q), frame[k].distance(frame[l]));
-                                assert!((apart - wanted).abs() < 1e-9, "turn {turn} at {t}");
+                                let (apart, expected) =
+                                    (p.distance(*q), frame[k].distance(frame[l]));
+                                assert!((apart - expected).abs() < 1e-9, "turn {turn} at {t}");
                             }
                         }
                     }

@@ -180,7 +180,7 @@ mod tests {
     use crate::work::progress::Silent;
 
     /// Returns an interpolation of two distant triangles that rotate and move up.
-    fn film() -> Arap {
+    fn arap() -> Arap {
         let triangle = [DVec2::ZERO, DVec2::X, DVec2::Y];
         let source: Vec<DVec2> = triangle
             .iter()
@@ -191,7 +191,7 @@ mod tests {
         let target = source.iter().map(|&p| turn * p + 3.0 * DVec2::Y).collect();
         let faces = vec![[0, 1, 2], [3, 4, 5]];
         let mesh = CompatibleMesh::new(faces, source, target, vec![]).expect("two faces");
-        Arap::build(&mesh, &ArapOptions::default(), &Silent).expect("a film")
+        Arap::build(&mesh, &ArapOptions::default(), &Silent).expect("a solution")
     }
 
     fn positions(warp: &dyn Warp, t: f64) -> Vec<DVec2> {
@@ -208,23 +208,23 @@ mod tests {
 
     #[test]
     fn a_part_follows_the_plain_motion_at_the_time_of_its_clock() {
-        let film = film();
-        let late = StaggeredArap::new(film.clone(), &[LATE], &[None, Some(0)]);
+        let arap = arap();
+        let late = StaggeredArap::new(arap.clone(), &[LATE], &[None, Some(0)]);
         for t in [0.0, 0.3, 0.5, 0.8, 1.0, 1.2, -0.4] {
-            let (plain, delayed) = (positions(&film, t), positions(&film, LATE.part_time(t)));
+            let (plain, delayed) = (positions(&arap, t), positions(&arap, LATE.part_time(t)));
             let expected: Vec<DVec2> = plain[..3].iter().chain(&delayed[3..]).copied().collect();
             assert_eq!(positions(&late, t), expected, "{t}");
         }
-        let mesh = film.mesh();
+        let mesh = arap.mesh();
         assert_eq!(positions(&late, 0.2)[3..], mesh.source()[3..]);
         assert_eq!(positions(&late, 1.0), mesh.target());
     }
 
     #[test]
     fn the_reversed_motion_shows_the_same_frames() {
-        let film = film();
-        let late = StaggeredArap::new(film.clone(), &[LATE], &[Some(0)]);
-        let back = film.swapped(&Silent).expect("the film backwards");
+        let arap = arap();
+        let late = StaggeredArap::new(arap.clone(), &[LATE], &[Some(0)]);
+        let back = arap.swapped(&Silent).expect("a reversed solution");
         let back = late.backwards(back);
         for t in [0.1, 0.5, 0.75, 0.9] {
             for (p, q) in positions(&late, t)

@@ -101,14 +101,14 @@ pub fn run_cancellable<T: Send + 'static>(
     progress: &dyn Progress,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Cancelled> {
-    let (sender, answer) = channel();
+    let (sender, receiver) = channel();
     let is_shared = rayon::current_thread_index().is_some();
     let thread = std::thread::spawn(move || {
         let result = if is_shared { in_own_pool(work) } else { work() };
         sender.send(result).is_ok()
     });
     loop {
-        match answer.recv_timeout(CANCEL_POLL_INTERVAL) {
+        match receiver.recv_timeout(CANCEL_POLL_INTERVAL) {
             Ok(result) => return Ok(result),
             Err(RecvTimeoutError::Timeout) => check_cancelled(progress)?,
             // The sender is dropped without sending only if the call panics.
@@ -324,13 +324,13 @@ mod tests {
     fn cancelling_returns_while_the_call_still_runs() {
         let cancelled = RecordedProgress::default();
         cancelled.1.store(true, Ordering::Relaxed);
-        let begun = Instant::now();
+        let started = Instant::now();
         let long = Duration::from_secs(20);
         assert_eq!(
             run_cancellable(&cancelled, move || std::thread::sleep(long)),
             Err(Cancelled)
         );
-        assert!(begun.elapsed() < long / 4);
+        assert!(started.elapsed() < long / 4);
     }
 
     #[test]

@@ -3,14 +3,15 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use morphospace::app::{Autosave, Intent, RecoveryAnswer};
+use morphospace::app::testing::{Autosave, Intent, RecoveryAnswer};
 
 use crate::headless_window::{HeadlessWindow, gallery_names};
 
-/// Maximum time to wait for a state.
+/// Maximum time that [`wait_until`] waits.
 const TIMEOUT: Duration = Duration::from_secs(20);
 
-/// Updates until a condition holds.
+/// Updates the window until a condition holds; panics with the name `state` if it takes longer than
+/// [`TIMEOUT`].
 fn wait_until(
     window: &mut HeadlessWindow,
     state: &str,
@@ -24,7 +25,7 @@ fn wait_until(
     }
 }
 
-/// Makes a window autosave to a folder.
+/// Returns the window with autosaving to a folder enabled.
 fn with_autosave(mut window: HeadlessWindow, folder: &Path) -> HeadlessWindow {
     let autosave = Autosave::enter(folder).expect("a folder");
     window.0.insert_resource(autosave);
@@ -44,7 +45,8 @@ fn offered_title(window: &HeadlessWindow) -> Option<String> {
     autosave.recoverable().map(|(title, _)| title.to_owned())
 }
 
-/// Changes a project and ends without closing, like a killed process; returns its title.
+/// Changes a project and drops the window without closing it, like a killed process; returns the
+/// title of the project.
 fn leave_unsaved_project(folder: &Path) -> String {
     let mut window = with_autosave(HeadlessWindow::with_gallery(), folder);
     window.send(Intent::CyclePlayMode);

@@ -1,16 +1,19 @@
-//! A second method shown next to the stage, and the measures of the film on the stage.
+//! The comparison (a second method, shown next to the stage at the same t), and the measures of the
+//! film on the stage.
 
 use std::time::Duration;
 
 use crate::headless_window::HeadlessWindow;
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{Entity, With};
-use morphospace::app::{Comparison, ComparisonMethod, Intent, OnComparison, StageMeasures};
+use morphospace::app::testing::{
+    Comparison, ComparisonMethod, Intent, OnComparison, StageMeasures,
+};
 use morphospace::content::ContentKind;
 use morphospace::stage::{Blend, StageTransition};
 use morphospace::transition::TransitionMethod;
 
-/// Updates until the second method is built.
+/// Updates the window until the comparison's transition is built.
 fn wait_for_comparison(window: &mut HeadlessWindow) {
     window.update();
     while window.0.world().resource::<Comparison>().is_busy() {
@@ -38,7 +41,7 @@ fn the_second_method_is_shown_at_the_same_t_as_the_stage() {
     let mut compared = world.query_filtered::<(&StageTransition, &Blend), With<OnComparison>>();
     let (StageTransition(linear), blend) = compared.single(world).expect("one compared entity");
     assert_eq!(blend.t, 0.5);
-    // The default second method moves every vertex on a straight line: at ½ it is at the midpoint.
+    // By default the comparison moves every vertex on a straight line: at t = ½ a vertex is midway.
     let mesh = linear.compatible().expect("triangles");
     let frame = linear.frame(0.5);
     let size = mesh.diameter();
@@ -60,7 +63,7 @@ fn the_second_method_is_shown_at_the_same_t_as_the_stage() {
     assert_eq!(compared.iter(world).count(), 0);
 }
 
-/// Updates until the film on the stage is measured.
+/// Updates the window until the film on the stage is measured.
 fn wait_for_measures(window: &mut HeadlessWindow) {
     for _ in 0..20_000 {
         window.update();

@@ -1,11 +1,12 @@
-//! Opening, dropping, saving and closing: effects, questions about unsaved changes, and refusals.
+//! Opening, dropping, replacing, saving and closing files: effects, questions about unsaved
+//! changes, and errors. Also changes of settings during a build, and cancelling a build.
 
 use std::path::Path;
 
 use crate::headless_window::{HeadlessWindow, gallery_names};
 use bevy::prelude::{Entity, With};
 use bevy::window::{FileDragAndDrop, WindowCloseRequested};
-use morphospace::app::{Intent, OnStage, UnsavedAnswer, UnsavedQuestion};
+use morphospace::app::testing::{Intent, OnStage, UnsavedAnswer, UnsavedQuestion};
 use morphospace::content::Content;
 use morphospace::stage::{Blend, StageTransition};
 
@@ -245,7 +246,7 @@ fn cancelling_a_build_restores_the_previous_settings() {
     assert!(after == before || window.session().is_dirty());
 }
 
-/// Drops files on the window and waits until they are open.
+/// Drops files on the window and waits until the builds that this starts have ended.
 fn drop_files(window: &mut HeadlessWindow, paths: &[&Path]) {
     for path in paths {
         window
@@ -262,7 +263,7 @@ fn drop_files(window: &mut HeadlessWindow, paths: &[&Path]) {
     window.wait();
 }
 
-/// Writes an SVG with a square and returns its path.
+/// Writes an SVG file with a square and returns the path of the file.
 fn write_square(folder: &Path, name: &str, side: u32) -> std::path::PathBuf {
     let path = folder.join(name);
     let svg = format!(

@@ -1,19 +1,20 @@
-//! The first minute: the invitation and the film at the start, and what plays when it is opened.
+//! The first minute with the program: the invitation to open files and the film above it, when the
+//! invitation closes, and which films play as soon as they are opened.
 
 use std::path::{Path, PathBuf};
 
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::Entity;
 use bevy::window::FileDragAndDrop;
-use morphospace::app::{Intent, Invitation, RecoveryAnswer, START_PROJECT, StageArea};
+use morphospace::app::testing::{Intent, Invitation, RecoveryAnswer, START_PROJECT, StageArea};
 
 use crate::headless_window::HeadlessWindow;
 use crate::hidden_panels::{overlay, with_overlay_record};
 
-/// Text on the invitation.
+/// Headline of the invitation.
 const HEADLINE: &str = "Drop two or more files here";
 
-/// A window as it starts without files.
+/// A window as it is after the program starts without files: with the invitation.
 fn started() -> HeadlessWindow {
     let mut window = HeadlessWindow::new();
     window.send(Intent::Welcome);
@@ -24,7 +25,7 @@ fn is_invited(window: &HeadlessWindow) -> bool {
     window.0.world().resource::<Invitation>().is_shown()
 }
 
-/// Files with rectangles of width 1, 2, …
+/// Writes `count` files with rectangles of width 1, 2, …; returns their paths.
 fn rectangles(folder: &Path, count: usize) -> Vec<PathBuf> {
     let file = |k: usize| {
         let path = folder.join(format!("r{k}.json"));
@@ -76,7 +77,7 @@ fn the_invitation_closes_when_anything_is_opened() {
         };
         window.0.world_mut().write_message(drop);
     }
-    // A drop is read in the first frame and opened in the same or the next one.
+    // The drop is read in the first frame; its files are opened in the same frame or the next.
     (0..2).for_each(|_| window.update());
     assert!(!is_invited(&window), "dropped files");
 }
@@ -148,7 +149,7 @@ fn the_card_is_drawn_below_the_film_until_it_is_closed() {
         assert!(overlay(&mut window).has_text(text), "{text}");
     }
     let height_above_card = stage_height(&window);
-    // With hidden panels only the drawing is left.
+    // Hiding the panels hides the invitation as well.
     window.type_char(KeyCode::KeyH, "h");
     assert_eq!(overlay(&mut window).shape_count, 0);
     window.type_char(KeyCode::KeyH, "h");

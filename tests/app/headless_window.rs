@@ -1,4 +1,5 @@
-//! The app without a screen: its systems, driven by injected keys and intents, one frame at a time.
+//! The app without a screen, for tests: its systems are driven by injected keys and intents, one
+//! frame at a time.
 
 use std::time::Duration;
 
@@ -11,7 +12,7 @@ use bevy::render::settings::{RenderCreation, WgpuSettings};
 use bevy::time::TimeUpdateStrategy;
 use bevy::window::PrimaryWindow;
 use bevy::winit::{WinitPlugin, WinitSettings};
-use morphospace::app::{
+use morphospace::app::testing::{
     EditorAction, GalleryEntries, Intent, LogicPlugin, MatchEditor, MatchSheet, NoticeKind,
     Notices, Playback, Preferences, Session, WindowPlugins,
 };
@@ -19,10 +20,10 @@ use morphospace::correspondence::MatchSettings;
 use morphospace::project::gallery;
 use morphospace::stage::MorphPlugin;
 
-/// Time that passes between two updates.
+/// Time that passes in the app between two updates.
 pub const FRAME: Duration = Duration::from_millis(20);
 
-/// The app's systems, advanced by hand; by default without egui and rendering.
+/// The app's systems; each call of [`Self::update`] runs one frame.
 pub struct HeadlessWindow(pub App);
 
 impl HeadlessWindow {
@@ -48,7 +49,7 @@ impl HeadlessWindow {
         let plugins = DefaultPlugins.set(without_gpu);
         app.add_plugins(plugins.disable::<WinitPlugin>().disable::<LogPlugin>());
         app.insert_resource(WinitSettings::default())
-            // With gallery entries their thumbnail strips would be drawn during the tests.
+            // Gallery entries would make the app draw their thumbnail strips during the tests.
             .insert_resource(GalleryEntries(Vec::new()))
             .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
             .insert_resource(TimeUpdateStrategy::ManualDuration(FRAME));
@@ -59,7 +60,7 @@ impl HeadlessWindow {
         window
     }
 
-    /// Has the first gallery project on the stage.
+    /// Creates a window without panels that shows the first gallery project on the stage.
     pub fn with_gallery() -> Self {
         let mut window = Self::new();
         window.open_first_gallery_project();
@@ -82,7 +83,7 @@ impl HeadlessWindow {
         self.0.update();
     }
 
-    /// Updates until the session has no work left.
+    /// Updates until the session has no more transitions to build.
     pub fn wait(&mut self) {
         self.update();
         while self.session().work().is_some() {
@@ -113,7 +114,7 @@ impl HeadlessWindow {
         self.0.world().resource()
     }
 
-    /// Texts of the problem notices now shown.
+    /// Texts of the problems that the window shows at the moment.
     pub fn problems(&self) -> Vec<String> {
         let notices = self.0.world().resource::<Notices>().list();
         notices
@@ -123,7 +124,7 @@ impl HeadlessWindow {
             .collect()
     }
 
-    /// Sends one keyboard event and updates.
+    /// Sends one keyboard event to the window and updates.
     pub fn key(&mut self, state: ButtonState, key_code: KeyCode, logical_key: Key, repeat: bool) {
         let mut windows = self
             .0

@@ -1,20 +1,21 @@
-//! With hidden panels the window shows only the drawing, and cards that the user opens by key.
+//! Hidden panels: only the drawing is left, notices wait until the panels are shown again, and the
+//! help and questions to the user still appear.
 
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{IntoScheduleConfigs, PostUpdate, Query, ResMut, Resource};
 use bevy_egui::egui::Shape;
 use bevy_egui::{EguiFullOutput, EguiPostUpdateSet};
-use morphospace::app::{
+use morphospace::app::testing::{
     Comparison, Intent, NoticeTopic, Notices, StageMeasures, UnsavedAnswer, UnsavedQuestion,
 };
 
 use crate::headless_window::HeadlessWindow;
 
-/// Texts and shapes that egui drew over the stage in the last frame.
+/// Record of the texts and shapes that egui drew in the last frame.
 #[derive(Resource, Default)]
 pub struct Overlay {
     texts: Vec<String>,
-    /// Number of all shapes, texts included.
+    /// Number of shapes, including texts.
     pub shape_count: usize,
 }
 
@@ -45,7 +46,7 @@ impl Overlay {
     }
 }
 
-/// A window with panels that records its overlay after each frame.
+/// A window with panels that stores an [`Overlay`] after each frame.
 pub fn with_overlay_record() -> HeadlessWindow {
     let mut window = HeadlessWindow::with_panels();
     let record_overlay = record_overlay
@@ -57,16 +58,17 @@ pub fn with_overlay_record() -> HeadlessWindow {
     window
 }
 
-/// The overlay once the last input has taken effect.
+/// Updates until the last input has taken effect, and returns the overlay of the last frame.
 pub fn overlay(window: &mut HeadlessWindow) -> &Overlay {
-    // A key takes effect in the next frame, and egui hides a new card while it measures it.
+    // A key takes effect in the next frame, and egui hides a new area in the frame in which it
+    // measures its size.
     for _ in 0..3 {
         window.update();
     }
     window.0.world().resource()
 }
 
-/// Opens the frame times and the comparison, and adds a problem and a confirmation.
+/// Shows the frame times, the comparison, a problem and a confirmation.
 fn show_all_messages(window: &mut HeadlessWindow) {
     window.press(KeyCode::F3, Key::F3);
     window.type_char(KeyCode::KeyV, "v");
@@ -103,7 +105,7 @@ fn notices_wait_until_the_panels_are_shown_again() {
     let mut window = with_overlay_record();
     window.type_char(KeyCode::KeyH, "h");
     show_all_messages(&mut window);
-    // Longer than a confirmation stays visible.
+    // 20 s, longer than a confirmation is shown.
     for _ in 0..1000 {
         window.update();
     }

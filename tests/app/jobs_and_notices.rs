@@ -1,11 +1,13 @@
-//! Problems are reported until they are solved; long work shows a draft and can be cancelled.
+//! Problems are shown until their cause is removed; methods that fail are replaced. Long builds
+//! show a draft or a field blend and can be cancelled, refused ones start on request. Exports and
+//! measuring run in the background.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{
+use morphospace::app::testing::{
     CaptureFolder, FilmExportOptions, FilmExporter, Intent, Preferences, Session, StageMeasures,
     UnsavedAnswer, UnsavedQuestion,
 };
@@ -31,7 +33,7 @@ fn write_outline(folder: &Path, name: &str, d: &str) -> PathBuf {
     path
 }
 
-/// A window with a square and an L.
+/// A window with a transition from a square to an L.
 fn with_outlines(folder: &Path) -> HeadlessWindow {
     with_pair(folder, SQUARE, TALL_L)
 }
@@ -46,7 +48,7 @@ fn with_pair(folder: &Path, source: &str, target: &str) -> HeadlessWindow {
     window
 }
 
-/// Applies a change to the project and waits for the build.
+/// Changes the project of the window and waits until its transition is built.
 fn edit(window: &mut HeadlessWindow, change: impl FnOnce(&mut Project)) {
     let mut project = window.session().project().cloned().expect("a project");
     change(&mut project);
@@ -111,7 +113,7 @@ fn a_problem_disappears_with_its_cause() {
     window.wait();
 }
 
-/// Exports a film to a folder and waits until it ends.
+/// Exports a film to a folder and waits until the export ends.
 fn export_film(window: &mut HeadlessWindow, folder: PathBuf) {
     window.0.insert_resource(CaptureFolder(folder));
     window.send(Intent::ExportFilm);
@@ -159,7 +161,7 @@ fn an_exported_film_has_the_chosen_aspect_ratio() {
     let file = File::open(written.expect("a film").expect("readable").path());
     let film = gif::Decoder::new(file.expect("a film")).expect("a GIF");
     assert_eq!((film.width(), film.height()), (90, 160));
-    // Esc returns from the export settings to the panel of the transition.
+    // Escape closes the export settings.
     window.press(KeyCode::Escape, Key::Escape);
     assert!(!window.0.world().resource::<Preferences>().film_options);
 }
@@ -193,7 +195,8 @@ fn discarding_changes_does_not_stop_an_export_and_closing_asks_about_it() {
         window.update();
     }
     assert!(is_exporting(&window));
-    // Closing asks about the export, and waits until the partial file is removed.
+    // Closing the window asks about the running export. If the user closes anyway, the window
+    // waits until the partial file is removed.
     window.send(Intent::Close);
     assert!(
         window
@@ -244,7 +247,7 @@ fn a_slow_build_shows_a_field_blend_meanwhile() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_pair(folder.path(), &star(11, 10.0), &star(4, 30.0));
     let mut project = window.session().project().cloned().expect("a project");
-    // Almost 400,000 triangles, a little less than the limit.
+    // Almost 400,000 triangles, slightly below the limit.
     project.options.arap.subdivisions = 5;
     window.send(Intent::ReplaceSettings(Box::new(project.clone())));
     let path = folder.path().join("fine.morph");
@@ -267,7 +270,7 @@ fn a_slow_build_shows_a_field_blend_meanwhile() {
         .project()
         .map(|p| p.options.arap.subdivisions);
     assert_eq!(requested, Some(5));
-    // A change of style does not restart the build.
+    // A change of style does not restart the build, which can still be cancelled.
     let mut restyled = reopened.session().project().cloned().expect("a project");
     restyled.style.joints = !restyled.style.joints;
     reopened.send(Intent::ReplaceSettings(Box::new(restyled)));
@@ -292,13 +295,13 @@ fn star(tips: u32, inner: f64) -> String {
     format!("M{}Z", &corners[1..])
 }
 
-/// Quality of the film on the stage.
+/// Quality with which the film on the stage was built.
 fn staged_quality(window: &HeadlessWindow) -> Option<BuildQuality> {
     let settings = window.session().staged_settings();
     settings.map(|settings| settings.options.quality)
 }
 
-/// A window with a draft on the stage while the final film is still being built.
+/// A window that shows a draft on the stage while the final film is built.
 fn with_draft(folder: &Path) -> HeadlessWindow {
     let source = write_outline(folder, "source.svg", &star(11, 10.0));
     let target = write_outline(folder, "target.svg", &star(4, 30.0));
@@ -319,7 +322,7 @@ fn with_draft(folder: &Path) -> HeadlessWindow {
 fn a_draft_plays_until_the_final_film_replaces_it_at_an_end() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_draft(folder.path());
-    // The draft may be ready before the work has lasted long enough to be shown.
+    // Work is shown only after some time; the draft may be ready earlier.
     wait_for_shown_work(&mut window);
     let stage = window.session().visible_work().map(|(stage, _)| stage);
     assert_eq!(stage, Some("Improving film"));
@@ -353,7 +356,7 @@ fn cancelling_the_improvement_keeps_the_draft() {
     assert_eq!(settings, Some(BuildQuality::Draft), "the setting follows");
 }
 
-/// Updates until the work has lasted long enough to be shown.
+/// Updates the window until it shows the work in progress.
 fn wait_for_shown_work(window: &mut HeadlessWindow) {
     while window.session().visible_work().is_none() {
         assert!(
@@ -390,7 +393,7 @@ fn a_refused_long_build_starts_on_request_and_escape_cancels_it() {
 #[test]
 fn a_build_refused_on_opening_starts_on_request() {
     let folder = tempfile::tempdir().expect("a folder");
-    // More parts than are matched without confirmation.
+    // So many parts are matched only after the user confirms it.
     let squares = |name: &str, side: f64| {
         let square = |k: usize| {
             let [x, y] = [k % 40, k / 40].map(|c| c * 10);
@@ -436,7 +439,7 @@ fn a_build_refused_on_opening_starts_on_request() {
 fn measuring_can_be_cancelled_and_restarted() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path());
-    // 16,000 faces, which take many seconds to measure.
+    // The mesh has 16,000 faces, which take many seconds to measure.
     edit(&mut window, |project| project.options.arap.subdivisions = 4);
     let state = |window: &HeadlessWindow| {
         let measured: &StageMeasures = window.0.world().resource();
@@ -456,7 +459,7 @@ fn measuring_can_be_cancelled_and_restarted() {
     }
     window.press(KeyCode::Escape, Key::Escape);
     assert_eq!(state(&window), (false, true));
-    // Measuring does not restart by itself.
+    // Cancelled measuring does not restart by itself.
     window.update();
     assert_eq!(state(&window), (false, true));
     window.send(Intent::MeasureAgain);

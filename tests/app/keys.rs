@@ -1,9 +1,10 @@
-//! Effects of keys on time, stops, panels and the method.
+//! Keyboard shortcuts: their effects on time, speed, stops, panels and the method, on different
+//! keyboard layouts and while a text field has the focus.
 
 use crate::headless_window::{HeadlessWindow, is_close};
 use bevy::input::ButtonState;
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{Intent, KeyboardFocus};
+use morphospace::app::testing::{Intent, KeyboardFocus};
 use morphospace::content::ContentKind;
 use morphospace::transition::{PlayMode, TransitionMethod};
 
@@ -200,7 +201,7 @@ fn tab_cycles_through_the_available_methods() {
         assert!(!seen.contains(&next), "a method appears twice");
         seen.push(next);
     }
-    // Two outlines have no colours; every other method is available.
+    // Two outlines have no pictures, so methods that blend colours are unavailable.
     let is_available = |cell: &TransitionMethod| cell.content() != ContentKind::Colours;
     assert_eq!(
         seen.len(),

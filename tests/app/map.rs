@@ -1,10 +1,10 @@
-//! The map of all designs: building it, moving the marker, layouts, paths and saved places.
+//! The map of all designs: building it, moving the marker, layouts, paths and saved blends.
 
 use std::path::PathBuf;
 
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::math::Vec2;
-use morphospace::app::{Intent, MapView, StageArea};
+use morphospace::app::testing::{Intent, MapView, StageArea};
 use morphospace::geometry::DVec2;
 use morphospace::space::MapLayout;
 use tempfile::TempDir;
@@ -15,12 +15,12 @@ fn map_view(window: &HeadlessWindow) -> &MapView {
     window.0.world().resource::<MapView>()
 }
 
-/// Updates until the map and its pictures are complete.
+/// Updates the window until the map and its pictures are complete.
 fn wait_for_map(window: &mut HeadlessWindow) {
     for _ in 0..20_000 {
         window.update();
         let view = map_view(window);
-        let is_drawn = view.pictures().is_some_and(|made| made.ground().is_some());
+        let is_drawn = view.pictures().is_some_and(|made| made.thumbnails().is_some());
         if !view.is_busy() && (is_drawn || view.problem().is_some()) {
             return;
         }
@@ -29,7 +29,7 @@ fn wait_for_map(window: &mut HeadlessWindow) {
     panic!("the map is not complete in time");
 }
 
-/// Opens the map on a small stage.
+/// Opens the map on a stage of 160 × 120 pixels and waits until it is drawn.
 fn with_map(mut window: HeadlessWindow) -> HeadlessWindow {
     let area = StageArea {
         size: Vec2::new(160.0, 120.0),
@@ -41,7 +41,8 @@ fn with_map(mut window: HeadlessWindow) -> HeadlessWindow {
     window
 }
 
-/// A window with the map of rectangles of width 1, 2, …; the last may have a hole.
+/// A window with the map of `count` rectangles of width 1, 2, …; if `has_hole`, the last one has a
+/// hole.
 fn with_rectangles(count: usize, has_hole: bool) -> (TempDir, HeadlessWindow) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |k: usize| {
@@ -60,7 +61,7 @@ fn with_rectangles(count: usize, has_hole: bool) -> (TempDir, HeadlessWindow) {
     window.send(Intent::Open(files));
     window.wait();
     assert_eq!(window.problems(), Vec::<String>::new());
-    // The film plays at once, and the marker would follow it.
+    // The film plays as soon as it is opened, and the marker would follow it.
     window.send(Intent::TogglePlay);
     window.send(Intent::SeekStart);
     (folder, with_map(window))
@@ -102,7 +103,7 @@ fn the_marker_sets_the_weights_and_the_blend() {
         .pictures()
         .and_then(|made| made.blend().cloned());
     assert!(before.is_some() && before != after);
-    // An arrow key moves the marker, and not t.
+    // On the map an arrow key moves the marker and leaves t unchanged.
     let (t, marker) = (window.t(), map_view(&window).marker());
     window.press(KeyCode::ArrowLeft, Key::ArrowLeft);
     window.update();
@@ -129,13 +130,13 @@ fn designs_are_laid_out_on_a_line_and_moved_by_hand() {
     window.send(Intent::MoveMapDesign(1, new_site));
     wait_for_map(&mut window);
     assert_eq!(sites(&window)[1], new_site);
-    // A site cannot be moved onto another one, and a design 99 does not exist.
+    // The window ignores a move onto another site, and a move of design 99, which does not exist.
     let first_site = sites(&window)[0];
     window.send(Intent::MoveMapDesign(1, first_site));
     window.send(Intent::MoveMapDesign(99, new_site));
     wait_for_map(&mut window);
     assert_eq!(sites(&window)[1], new_site);
-    // Moved sites are stored in the project, and moving one can be undone.
+    // Moved sites are stored in the project, and a move can be undone.
     let stored_sites = |window: &HeadlessWindow| {
         window
             .session()
@@ -151,7 +152,7 @@ fn designs_are_laid_out_on_a_line_and_moved_by_hand() {
     assert!(stored_sites(&window).is_empty());
 }
 
-/// Updates until the film and the map are complete.
+/// Updates the window until the film and the map are complete.
 fn wait_for_film(window: &mut HeadlessWindow) {
     window.wait();
     wait_for_map(window);
@@ -199,7 +200,7 @@ fn a_path_is_drawn_played_and_undone() {
     window.update();
     window.update();
     assert_eq!(weights(&window), [0.0, 0.0, 1.0]);
-    // A film along a path blends all designs, so there is no match of two to edit.
+    // A film along a path blends all designs, so there is no match of two designs to edit.
     assert!(!window.session().has_match_editor());
     window.send(Intent::RemoveLastPathStop);
     wait_for_film(&mut window);
@@ -255,10 +256,10 @@ fn marker_movement_is_recorded_as_a_path_and_places_are_saved() {
     assert_eq!(saved.len(), 1);
     assert!(saved[0].name.contains('%'), "{}", saved[0].name);
     let made = map_view(&window).pictures().expect("a map");
-    assert!(made.kept(saved[0].at).is_some());
-    // The grid of the measures is refined in the background, up to 64 × 64.
+    assert!(made.saved_blend(saved[0].at).is_some());
+    // The map is measured on a grid that is refined in the background, up to 64 × 64 points.
     let grid_side = made
-        .land()
+        .contours()
         .found()
         .map(morphospace::measure::MapLandscape::side);
     assert_eq!(grid_side, Some(64));
@@ -272,7 +273,7 @@ fn designs_without_a_common_mesh_are_blended_as_fields_and_escape_closes_the_map
     window.send(Intent::Escape);
     window.update();
     assert!(!map_view(&window).is_shown);
-    // Another project has another map.
+    // Opening another project replaces the map.
     window.send(Intent::OpenGallery("girder-to-arch".to_owned()));
     window.wait();
     let window = with_map(window);

@@ -1,11 +1,12 @@
-//! The match editor: pins, cuts and part pairs set by pointer and keys.
+//! The match editor: pins, cuts, part pairs and part times set by pointer and keys, and the views
+//! of its panes.
 
 use std::path::Path;
 
 use crate::headless_window::HeadlessWindow;
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{ButtonInput, MouseButton, Vec2};
-use morphospace::app::{
+use morphospace::app::testing::{
     EditorAction, EditorHandle, EditorPane, EditorPointer, EditorTool, Intent, PaneView, PieceFate,
 };
 use morphospace::content::Content;
@@ -14,7 +15,7 @@ use morphospace::geometry::{DVec2, Side};
 use morphospace::project::Project;
 use morphospace::transition::{EasingFunction, PaintRule, PartTime};
 
-/// Writes an SVG with one path and returns its file.
+/// Writes an SVG file with the path data `d`; returns the path of the file.
 fn write_outline(folder: &Path, name: &str, d: &str) -> std::path::PathBuf {
     let path = folder.join(name);
     let svg = format!(
@@ -24,14 +25,14 @@ fn write_outline(folder: &Path, name: &str, d: &str) -> std::path::PathBuf {
     path
 }
 
-/// SVG path of an L.
+/// SVG path data of an L.
 const L: &str = "M10 10 H40 V60 H90 V90 H10 Z";
-/// SVG path of the same L, narrower and taller.
+/// SVG path data of an L that is narrower and taller than [`L`].
 const TALL_L: &str = "M10 5 H30 V70 H80 V95 H10 Z";
-/// SVG path of two separate squares.
+/// SVG path data of two separate squares.
 const TWO_SQUARES: &str = "M10 10 H40 V40 H10 Z M60 60 H90 V90 H60 Z";
 
-/// A window with two outlines and the match editor open.
+/// A window with a transition between two outlines and an open match editor.
 fn with_outlines(folder: &Path, source: &str, target: &str) -> HeadlessWindow {
     let source = write_outline(folder, "source.svg", source);
     let target = write_outline(folder, "target.svg", target);
@@ -45,7 +46,7 @@ fn with_outlines(folder: &Path, source: &str, target: &str) -> HeadlessWindow {
     window
 }
 
-/// A pointer at a position of one design.
+/// A pointer over one of the two designs, at a position in the plane of the design.
 fn pointer_at(side: Side, x: f64, y: f64) -> EditorPointer {
     EditorPointer {
         side,
@@ -55,7 +56,7 @@ fn pointer_at(side: Side, x: f64, y: f64) -> EditorPointer {
     }
 }
 
-/// The corner of a design that is nearest to a point.
+/// The corner of the design on `side` that is nearest to the point `near`.
 fn corner(window: &HeadlessWindow, side: Side, near: DVec2) -> DVec2 {
     let sides = window.sheet().sides.as_ref().expect("outlines");
     let corners = sides[side].corners.iter().copied();
@@ -90,7 +91,7 @@ fn a_click_on_a_boundary_pins_it_to_its_match() {
     let mut window = with_outlines(folder.path(), L, TALL_L);
     let at = corner(&window, Side::Source, DVec2::new(100.0, 0.0));
     let partner = window.sheet().partner(Side::Source, at).expect("a partner");
-    // A click on a handle would select it; away from handles it sets a pin.
+    // A click on a handle selects the handle; only a click away from handles sets a pin.
     let away_from_handles = at + DVec2::new(-12.0, 0.0);
     let on = window
         .sheet()
@@ -138,8 +139,8 @@ fn points_keep_their_letters_when_one_is_pinned() {
         .iter()
         .filter(|(_, p)| before.iter().any(|(_, q)| p.distance(*q) < 0.5))
         .collect();
-    // At least the five corners without the pin; points between corners move with the length of
-    // the outline.
+    // At least five corners of the L stay. Labelled points between corners move, since pinning
+    // changes their spacing along the outline.
     assert!(unmoved.len() >= 5, "{before:?} {after:?}");
     for (letter, p) in unmoved {
         let nearest = before
@@ -292,7 +293,7 @@ fn two_clicks_pair_parts_and_remove_unpairs_them() {
         source.x,
         source.y,
     )));
-    // A click inside a part selects the part tool, since nothing else can be clicked there.
+    // A click inside a part switches to the part tool, since no other tool acts there.
     assert_eq!(window.editor().tool, EditorTool::Parts);
     assert!(window.editor().first_part.is_some());
     window.act(EditorAction::Click(pointer_at(
@@ -341,7 +342,7 @@ fn two_clicks_pair_parts_and_remove_unpairs_them() {
         pieces.any(|piece| piece.fate == PieceFate::Disappears && piece.is_linked)
     };
     assert!(disappears(&window));
-    // The boundary of an unmatched part cannot be pinned: a click there selects the part instead.
+    // The boundary of an unmatched part cannot be pinned; a click there selects the part.
     let corner = window.sheet().sides.as_ref().expect("outlines")[Side::Source].parts[0][0][0];
     window.act(EditorAction::Tool(EditorTool::Pins));
     window.act(EditorAction::Click(pointer_at(
@@ -384,13 +385,13 @@ fn a_click_on_painted_parts_selects_the_visible_one() {
     window.type_char(KeyCode::KeyE, "e");
     window.act(EditorAction::Tool(EditorTool::Parts));
     assert_eq!(window.sheet().pieces.len(), 3);
-    // The label of each part lies where the part is visible.
+    // The label of each part lies where no other part covers it.
     for piece in 0..3 {
         let at = window.sheet().pieces[piece].label_at[0];
         let part = window.sheet().part(Side::Source, at, 0.0);
         assert_eq!(part, window.sheet().pieces[piece].parts[0], "{piece}");
     }
-    // Links of two parts on the same background: gold with teal, and teal with gold.
+    // Pair the gold disc of the source with the teal one of the target, then teal with gold.
     let [gold, teal] = [1, 2].map(|part| {
         let mut pieces = window.sheet().pieces.iter();
         let of_disc = pieces.find(|piece| piece.parts[0] == Some(part));
@@ -410,7 +411,7 @@ fn a_click_on_painted_parts_selects_the_visible_one() {
     let linked: Vec<_> = linked_pieces.map(|piece| piece.parts).collect();
     assert_eq!(linked.len(), 2, "{linked:?}");
     assert!(linked.contains(&[Some(1), Some(2)]) && linked.contains(&[Some(2), Some(1)]));
-    // Painted in one colour, all shapes are one part, even before the film is built.
+    // If all shapes are painted in one colour, they are one part.
     let mut project = window.session().project().cloned().expect("a project");
     project.options.paint = PaintRule::One;
     window.send(Intent::ReplaceSettings(Box::new(project)));
@@ -516,7 +517,8 @@ fn the_editor_zooms_at_the_pointer_and_fits_the_view() {
     let at = Vec2::new(40.0, -30.0);
     let (pane, factor) = (EditorPane::Design(Side::Source), 2.0);
     window.act(EditorAction::Zoom { pane, at, factor });
-    // The point under the pointer stays there: at = pan + zoom · p before and after.
+    // Zooming keeps the point under the pointer in place: with the old pan 0 and the old zoom 1,
+    // pan + zoom · at = at.
     let view = window.editor().panes.view(pane);
     assert_eq!(view.zoom, 2.0);
     assert!((view.pan + 2.0 * at - at).length() < 1e-4);

@@ -1,9 +1,10 @@
-//! The search for the best method runs in the background and applies its result.
+//! The search for the best method: it runs in the background, can be cancelled, and its result is
+//! applied and can be undone.
 
 use std::path::Path;
 use std::time::Duration;
 
-use morphospace::app::{Intent, MethodSearch};
+use morphospace::app::testing::{Intent, MethodSearch};
 use morphospace::{Transition, TransitionMethod};
 
 use crate::headless_window::HeadlessWindow;
@@ -21,7 +22,7 @@ fn is_searching(window: &HeadlessWindow) -> bool {
         .is_some()
 }
 
-/// Two crossed bars shown as a field blend, in which pieces break off on the way.
+/// A window with a field blend of a horizontal and a vertical bar, which breaks into pieces midway.
 fn with_field_blend(folder: &Path) -> HeadlessWindow {
     let outline = |name: &str, d: &str| {
         let path = folder.join(name);

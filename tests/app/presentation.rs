@@ -1,12 +1,13 @@
-//! Presentation mode: shows only the drawing, starts at the first stop, and reacts to few keys.
+//! Presentation mode: it shows only the drawing, starts at the first stop and reacts to few keys.
+//! Also presentations started from the command line.
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{Intent, Presentation, UnsavedQuestion};
+use morphospace::app::testing::{Intent, Presentation, UnsavedQuestion};
 use morphospace::transition::TransitionStop;
 
 use crate::headless_window::HeadlessWindow;
 
-/// A window whose project has stops at t = 0.25, named "here", and 0.75.
+/// A window whose project has a stop named "here" at t = 0.25, and one without a name at t = 0.75.
 fn with_stops() -> HeadlessWindow {
     let mut window = HeadlessWindow::with_gallery();
     let mut project = window.session().project().expect("a project").clone();
@@ -20,7 +21,7 @@ fn presentation(window: &HeadlessWindow) -> &Presentation {
     window.0.world().resource()
 }
 
-/// Starts a presentation by key.
+/// Starts a presentation with the key F5.
 fn start_presentation(window: &mut HeadlessWindow) {
     window.press(KeyCode::F5, Key::F5);
     window.update();
@@ -91,7 +92,8 @@ fn keys_toggle_the_black_screen_and_the_captions() {
     assert_eq!(caption(&window), Some("here".to_owned()));
 }
 
-/// A new window that opens something and presents it, as `--present` does.
+/// A new window that opens the files or the project of the intent `open` and presents them, as
+/// `--present` on the command line does.
 fn with_presentation_of(open: Intent) -> HeadlessWindow {
     let mut window = HeadlessWindow::new();
     window.0.world_mut().write_message(open);

@@ -1,4 +1,5 @@
-//! The window redraws while something moves, and not at all while it is idle.
+//! The rate of redraws: continuous while something moves, seldom during background work, and none
+//! while the window is idle or hidden.
 
 use std::time::Duration;
 
@@ -6,7 +7,7 @@ use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::Entity;
 use bevy::window::WindowOccluded;
 use bevy::winit::{UpdateMode, WinitSettings};
-use morphospace::app::{Notices, RedrawPace, StageMeasures};
+use morphospace::app::testing::{Notices, RedrawPace, StageMeasures};
 
 use crate::headless_window::HeadlessWindow;
 
@@ -23,7 +24,7 @@ fn is_moving(window: &HeadlessWindow) -> bool {
     mode(window) == UpdateMode::Continuous
 }
 
-/// Time until the next frame without input.
+/// Time until the next frame if there is no input.
 fn frame_wait(window: &HeadlessWindow) -> Duration {
     match mode(window) {
         UpdateMode::Continuous => Duration::ZERO,
@@ -31,10 +32,10 @@ fn frame_wait(window: &HeadlessWindow) -> Duration {
     }
 }
 
-/// A longer wait counts as idle.
+/// Wait between two frames above which the window counts as idle.
 const IDLE: Duration = Duration::from_secs(60);
 
-/// Updates until the window is idle; returns the number of frames.
+/// Updates the window until it is idle; returns the number of frames that this took.
 fn wait_for_idle(window: &mut HeadlessWindow) -> usize {
     (0..5_000)
         .find(|_| {
@@ -126,7 +127,7 @@ fn a_hidden_window_does_not_redraw_and_work_redraws_seldom() {
         frame: Duration::ZERO,
     };
     assert_ne!(hidden.update_mode(), UpdateMode::Continuous);
-    // A clock alone is redrawn twice a second.
+    // If only a clock changes, the window is redrawn twice a second.
     let clock = RedrawPace {
         is_moving: false,
         is_waiting: false,
@@ -136,7 +137,7 @@ fn a_hidden_window_does_not_redraw_and_work_redraws_seldom() {
     };
     let low_power = |millis| UpdateMode::reactive_low_power(Duration::from_millis(millis));
     assert_eq!(clock.update_mode(), low_power(500));
-    // During background work, redraws leave at least half of the time to the work.
+    // During background work, redraws take at most half of the time.
     for (frame_millis, wait_millis) in [(16, 50), (40, 100), (150, 400), (5_000, 400)] {
         let work = RedrawPace {
             is_waiting: true,

@@ -1,16 +1,17 @@
-//! Saving: every way to save ends with a notice that says where, or that it was cancelled.
+//! Saving: every save is confirmed with its path or reported as cancelled, existing files are not
+//! overwritten by accident, and the match is saved. Also the file dialog.
 
 use std::path::{Path, PathBuf};
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{
+use morphospace::app::testing::{
     DialogPurpose, FileDialogRequest, Intent, NoticeKind, Notices, UnsavedAnswer,
 };
 use morphospace::work::progress::Silent;
 
 use crate::headless_window::{HeadlessWindow, gallery_names};
 
-/// Purpose of the open file dialog.
+/// Purpose of the file dialog; `None` if no dialog is open.
 fn open_dialog(window: &HeadlessWindow) -> Option<DialogPurpose> {
     window
         .0
@@ -20,7 +21,7 @@ fn open_dialog(window: &HeadlessWindow) -> Option<DialogPurpose> {
         .cloned()
 }
 
-/// Texts of the confirmations now shown.
+/// Texts of the confirmations that the window shows at the moment.
 fn confirmations(window: &HeadlessWindow) -> Vec<String> {
     let notices = window.0.world().resource::<Notices>().list();
     let done = notices
@@ -29,7 +30,7 @@ fn confirmations(window: &HeadlessWindow) -> Vec<String> {
     done.map(|notice| notice.text.clone()).collect()
 }
 
-/// Answers the file dialog with paths; returns whether the window closes.
+/// Answers the file dialog with paths, none if it is cancelled; returns whether the window closes.
 fn choose(window: &mut HeadlessWindow, paths: &[&Path]) -> bool {
     let paths = paths.iter().map(|path| path.to_path_buf()).collect();
     window.send(Intent::AnswerDialog(paths));
@@ -73,12 +74,12 @@ fn a_saved_match_is_reused_when_the_project_is_reopened() {
         .expect("a film")
         .spec()
         .expect("settings");
-    assert!(!spec.found.is_none());
+    assert!(!spec.cached_match.is_none());
     assert!(
         spec.draft(&Silent).is_none(),
         "the saved match makes a draft unnecessary"
     );
-    // After a change the match is searched again, and saving stores the new one.
+    // After a change of settings the window searches for a new match, and saving stores that match.
     let before = std::fs::read_to_string(&path).expect("text");
     let mut project = reopened.session().project().cloned().expect("a project");
     project.options.arap.symmetric = false;
@@ -90,7 +91,7 @@ fn a_saved_match_is_reused_when_the_project_is_reopened() {
     assert!(saved_match(&after).is_some() && saved_match(&after) != saved_match(&before));
 }
 
-/// File name that the dialog suggests for the first gallery project.
+/// File name that the save dialog suggests for the first gallery project.
 fn suggested_name() -> String {
     format!("{}.morph", gallery_names().remove(0))
 }
@@ -110,7 +111,8 @@ fn saving_a_new_project_asks_for_a_file_and_confirms_where_it_is() {
     assert!(path.is_file() && !window.session().is_dirty());
     assert!(confirmations(&window).contains(&format!("Saved {}", path.display())));
     assert_eq!(open_dialog(&window), None);
-    // Now the project has a file: saving asks no more, and the next dialog opens in its folder.
+    // Now that the project has a file, saving opens no dialog, and the next dialog starts in the
+    // folder of the file.
     window.send(Intent::CyclePlayMode);
     window.send(Intent::Save);
     assert!(open_dialog(&window).is_none() && !window.session().is_dirty());
@@ -133,7 +135,7 @@ fn cancelling_the_save_dialog_is_reported_and_cancels_closing() {
             .any(|text| text.contains("Save cancelled"))
     );
     assert!(window.session().is_dirty());
-    // The close request was dropped: a later save does not close the window.
+    // Cancelling the dialog cancels the request to close: a later save leaves the window open.
     let folder = tempfile::tempdir().expect("a folder");
     window.send(Intent::SaveTo(folder.path().join("later.morph")));
     window.update();
@@ -180,7 +182,7 @@ fn a_name_that_gets_the_extension_of_an_existing_file_does_not_overwrite_it() {
         open_dialog(&window),
         Some(DialogPurpose::Save("taken.morph".into()))
     );
-    // Selecting the existing file itself means that it may be replaced.
+    // If the user selects the existing file itself, it is replaced.
     choose(&mut window, &[&taken]);
     assert!(!window.session().is_dirty() && window.problems().is_empty());
     assert_ne!(std::fs::read_to_string(&taken).expect("text"), "precious");
@@ -202,14 +204,14 @@ fn the_file_selected_in_the_dialog_is_opened() {
     assert_eq!(reopened.session().path(), Some(path.as_path()));
 }
 
-/// Keys go to the file dialog while it is open.
+/// While the file dialog is open, it receives all keys.
 #[test]
 fn escape_cancels_the_dialog_and_enter_accepts_its_suggestion() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = HeadlessWindow::with_panels();
     window.send(Intent::SaveTo(folder.path().join("first.morph")));
     let press = |window: &mut HeadlessWindow, code: KeyCode, key: Key| {
-        // The dialog lists its folder in the background.
+        // The dialog reads its folder in the background before it reacts to keys.
         for _ in 0..20 {
             std::thread::sleep(std::time::Duration::from_millis(5));
             window.update();
@@ -228,7 +230,8 @@ fn escape_cancels_the_dialog_and_enter_accepts_its_suggestion() {
     );
     window.send(Intent::SaveAs);
     press(&mut window, KeyCode::Enter, Key::Enter);
-    // A file with the suggested name exists: the dialog asks, and Enter confirms.
+    // A file with the suggested name exists, so the dialog asks whether to replace it; Enter
+    // confirms.
     press(&mut window, KeyCode::Enter, Key::Enter);
     assert_eq!(open_dialog(&window), None);
     let is_saved = |text: &String| text.ends_with("first.morph");

@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use bevy::prelude::With;
-use morphospace::app::{Intent, OnStage};
+use morphospace::app::testing::{Intent, OnStage};
 use morphospace::project::LoadedProject;
 use morphospace::stage::{Blend, StageTransition};
 use tempfile::TempDir;
 
 use crate::headless_window::HeadlessWindow;
 
-/// Files d0.json, d1.json, … with rectangles of width 1, 2, …
+/// Writes files d0.json, d1.json, … with rectangles of width 1, 2, …; returns their folder and
+/// paths.
 fn designs(count: usize) -> (TempDir, Vec<PathBuf>) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = |k: usize| {
@@ -23,7 +24,7 @@ fn designs(count: usize) -> (TempDir, Vec<PathBuf>) {
     (folder, files)
 }
 
-/// A window with `count` rectangles open.
+/// A window with a paused film through `count` rectangles, and the folder of their files.
 fn with_designs(count: usize) -> (TempDir, HeadlessWindow) {
     let (folder, files) = designs(count);
     let mut window = HeadlessWindow::new();
@@ -34,14 +35,14 @@ fn with_designs(count: usize) -> (TempDir, HeadlessWindow) {
     (folder, window)
 }
 
-/// Stops the film of designs that were just opened, which plays at once.
+/// Pauses the film, which plays as soon as its designs are opened, and returns to its start.
 fn pause_at_start(window: &mut HeadlessWindow) {
     assert!(window.playback().is_playing());
     window.send(Intent::TogglePlay);
     window.send(Intent::SeekStart);
 }
 
-/// Names of the two designs on the stage, and the blend parameter between them.
+/// Names of the two designs of the segment on the stage, and the blend parameter between them.
 fn on_stage(window: &mut HeadlessWindow) -> (String, f64) {
     let world = window.0.world_mut();
     let mut staged = world.query_filtered::<(&StageTransition, &Blend), With<OnStage>>();
@@ -108,12 +109,12 @@ fn settings_of_a_segment_stay_with_its_two_designs() {
         (0..whole.segment_count()).map(of_segment).collect()
     };
     assert_eq!(keeps_upright(&window), [false, false, true]);
-    // With the first design moved to the end, the remaining segments keep their settings.
+    // After the first design moves to the end, each remaining segment keeps its settings.
     let mut order = window
         .session()
         .whole_project()
         .expect("a project")
-        .in_order();
+        .designs_with_indices();
     order.rotate_left(1);
     window.send(Intent::ReorderDesigns(order));
     window.wait();
@@ -136,7 +137,7 @@ fn t_follows_its_design_when_designs_are_removed_or_inserted() {
         .session()
         .whole_project()
         .expect("a project")
-        .in_order();
+        .designs_with_indices();
     order.remove(1);
     window.send(Intent::ReorderDesigns(order));
     window.wait();

@@ -1,14 +1,15 @@
-//! The transition on the stage is recorded and proved in the background.
+//! Background recording of the transition on the stage, and the proof that the recording has no
+//! folds and no crossings. Also the memory limit of recordings, and their cancellation.
 
 use std::time::Duration;
 
-use morphospace::app::{Intent, StageRecording};
+use morphospace::app::testing::{Intent, StageRecording};
 use morphospace::recording::RecordingError;
 use morphospace::transition::Transition;
 
 use crate::headless_window::HeadlessWindow;
 
-/// Updates until recording and proof have ended.
+/// Updates the window until the recording of the transition and its proof have ended.
 fn wait_for_recording(window: &mut HeadlessWindow) {
     for _ in 0..10_000 {
         window.update();
@@ -42,7 +43,7 @@ fn the_transition_on_the_stage_is_recorded_and_proved() {
     );
     let proved = window.0.world().resource::<StageRecording>().proved();
     assert!(proved.expect("an answer").holds(), "{proved:?}");
-    // The next transition is recorded in its turn.
+    // The transition that replaces it is recorded as well.
     window.send(Intent::OpenGallery("letters".to_owned()));
     window.wait();
     wait_for_recording(&mut window);
@@ -92,7 +93,7 @@ fn opening_another_project_cancels_the_recording() {
         .transition()
         .and_then(Transition::recording);
     assert!(matches!(film, Some(Ok(_))), "{film:?}");
-    // The recording stops where it next checks for cancellation, and stores nothing.
+    // The cancelled recording ends at its next check for cancellation, and stores nothing.
     std::thread::sleep(Duration::from_secs(2));
     assert!(first.recording().is_none());
 }

@@ -1,9 +1,10 @@
-//! Undo and redo of every change to the project.
+//! Undo and redo of changes to the project. Also reuse of distance fields when a setting that does
+//! not affect them changes.
 
 use crate::headless_window::{HeadlessWindow, gallery_names};
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{ButtonInput, MouseButton};
-use morphospace::app::Intent;
+use morphospace::app::testing::Intent;
 use morphospace::content::{Content, ContentKind};
 
 #[test]

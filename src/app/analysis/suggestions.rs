@@ -331,7 +331,7 @@ pub fn follow(
     // Not for a path over the map: the changes apply to a pair of designs.
     let is_pair = session
         .whole_project()
-        .is_some_and(|whole| !whole.follows_path());
+        .is_some_and(|project| !project.follows_path());
     match defective.filter(|_| is_pair && session.work().is_none()) {
         None => (now.search, now.since) = (None, None),
         Some(defective) if now.search.is_none() && !now.is_done => {

@@ -210,12 +210,12 @@ impl FilmRequest {
         let (one, some) = (cost(&part(1)?, "one")?, cost(&part(TRIAL_FRAMES)?, "some")?);
         // Linear extrapolation from one frame to all distinct frames: the first frame carries the
         // fixed costs.
-        let more =
+        let ratio =
             (film.runs().len() - 1) as f64 / (part(TRIAL_FRAMES)?.runs().len().max(2) - 1) as f64;
-        let whole = |one: f64, some: f64| one + (some - one).max(0.0) * more;
+        let extrapolate = |one: f64, some: f64| one + (some - one).max(0.0) * ratio;
         Ok(FilmCost {
-            secs: whole(one.secs, some.secs),
-            bytes: whole(one.bytes, some.bytes),
+            secs: extrapolate(one.secs, some.secs),
+            bytes: extrapolate(one.bytes, some.bytes),
         })
     }
 

@@ -1,4 +1,4 @@
-//! Resources from which images of the stage are made.
+//! System parameter with the resources that images of the stage are drawn from.
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::{Res, Single, With};

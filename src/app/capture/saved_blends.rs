@@ -47,13 +47,13 @@ pub fn export(
     mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
-        let (Intent::ExportSavedBlends, Some(pictures), Some(whole)) =
+        let (Intent::ExportSavedBlends, Some(pictures), Some(project)) =
             (intent, map.pictures(), session.whole_project())
         else {
             continue;
         };
         let (space, map) = (pictures.space().clone(), pictures.map().clone());
-        let saved_places = whole.map.kept.clone();
+        let saved_places = project.map.kept.clone();
         let style = session.style();
         let ground = (!preferences.capture_transparent).then_some(style.ground);
         let (folder, stem) = (folder.0.clone(), format!("{}-kept", session.file_stem()));

@@ -292,7 +292,8 @@ impl MatchEditor {
         match self.first_part.take() {
             Some((side, _, first)) if side != touch.side => {
                 let link = sheet.to_designs(&SourceTarget::with_side(side, first, touch.position));
-                let parts = Side::BOTH.map(|side| sheet.part(side, sheet.to_frame(&link, side), 0.0));
+                let parts =
+                    Side::BOTH.map(|side| sheet.part(side, sheet.to_frame(&link, side), 0.0));
                 unlink(sheet, matching, parts);
                 matching.links.push(link);
             }
@@ -342,9 +343,9 @@ fn make_explicit(grab: EditorGrab, sheet: &MatchSheet, matching: &mut MatchSetti
         },
         EditorGrab::NewLine(from) => {
             adopt_automatic_pins(sheet, matching);
-            matching
-                .lines
-                .push(SourceTarget::from_fn(|side| [sheet.to_design(side, from); 2]));
+            matching.lines.push(SourceTarget::from_fn(|side| {
+                [sheet.to_design(side, from); 2]
+            }));
             EditorGrab::NewLineEnd(matching.lines.len() - 1)
         }
         other => other,

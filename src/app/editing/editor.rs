@@ -111,7 +111,7 @@ impl MatchEditor {
         self.is_open && self.panes.film
     }
 
-    /// Handles Esc: drops a half-made pair of parts, or closes the editor; returns `false` if
+    /// Handles Esc: drops an incomplete pair of parts, or closes the editor; returns `false` if
     /// neither applies.
     pub fn back(&mut self) -> bool {
         if self.first_part.take().is_some() {

@@ -173,7 +173,8 @@ fn pieces_of_times(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
             return Vec::new();
         };
         // A time set for a part applies to all its pieces.
-        let is_of_part = |&k: &usize| k == topmost || (part(k).is_some() && part(k) == part(topmost));
+        let is_of_part =
+            |&k: &usize| k == topmost || (part(k).is_some() && part(k) == part(topmost));
         (0..rings_of_piece.len()).filter(is_of_part).collect()
     };
     times.iter().map(pieces_of_time).collect()

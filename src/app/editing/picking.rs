@@ -24,7 +24,7 @@ impl MatchSheet {
         }
     }
 
-    /// The cut to draw: where the user wants it while it is dragged, otherwise where it was made.
+    /// The cut to draw: the requested one while it is dragged, otherwise the actual one.
     #[must_use]
     pub fn drawn(&self, cut: &SheetCut, grab: Option<EditorGrab>) -> RingCut {
         let is_dragged =
@@ -78,7 +78,11 @@ impl MatchSheet {
             let foot = self.on_boundary(touch.side, touch.position)?;
             let snaps_to_boundary = !self.has_free_pins()
                 || foot.distance <= touch.pick_radius && snaps && !touch.ignores_snapping;
-            Some(if snaps_to_boundary { foot.point } else { touch.position })
+            Some(if snaps_to_boundary {
+                foot.point
+            } else {
+                touch.position
+            })
         };
         corner.or_else(on_boundary)
     }

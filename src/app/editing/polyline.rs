@@ -89,7 +89,9 @@ pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2>
                 .into_iter()
                 .map(move |[a, b]| (b - a, DVec2::new(0.5 * (a + b), y)))
         });
-        free_intervals.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at)
+        free_intervals
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, at)| at)
     };
     // If the middle runs along an edge or through a hole, another height has more room; nearly
     // covered shapes are visible at few heights only.

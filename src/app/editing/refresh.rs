@@ -71,7 +71,8 @@ impl MatchSheet {
             // The user's first pin disables automatic ones, while the stage may still show them.
             let has_no_pins = sheet.pins.is_empty() && sheet.lines.is_empty();
             let with_automatic_pins = transition.filter(|_| has_no_pins);
-            sheet.features = with_automatic_pins.map_or_else(Vec::new, |t| t.automatic_pins().to_vec());
+            sheet.features =
+                with_automatic_pins.map_or_else(Vec::new, |t| t.automatic_pins().to_vec());
         }
         Some(sheet)
     }

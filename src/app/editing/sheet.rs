@@ -30,7 +30,7 @@ pub struct MatchSheet {
     pub pieces: Vec<SheetPiece>,
     /// Pins of the project, in frame coordinates.
     pub pins: Vec<PointPair>,
-    /// Indices of the pins that made the match fail.
+    /// Indices of the pins that caused the match to fail.
     pub faulty: Vec<usize>,
     /// Automatically matched points that are shown.
     pub features: Vec<PointPair>,
@@ -38,7 +38,7 @@ pub struct MatchSheet {
     pub letters: Vec<usize>,
     /// Points of the previous sheet missing here, with their letters: they may return, as when a
     /// draft is replaced by the best film.
-    pub earlier: Vec<(PointPair, usize)>,
+    pub missing_points: Vec<(PointPair, usize)>,
     /// Pairs of lines of the project, in frame coordinates.
     pub lines: Vec<LinePair>,
     /// Content of the film; it decides what pins are for.
@@ -73,7 +73,7 @@ pub struct SheetPiece {
     pub fate: PieceFate,
     /// Position of its label in the source and in the target.
     pub label_at: [DVec2; 2],
-    /// Whether the user paired it, or said that it has no partner.
+    /// Whether the user paired it, or marked it as unmatched.
     pub is_linked: bool,
     /// Indices of its parts in the source and in the target.
     pub parts: [Option<usize>; 2],
@@ -93,7 +93,7 @@ pub enum PieceFate {
 /// A cut that opens a ring around a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheetCut {
-    /// The cut as made.
+    /// The actual cut.
     pub cut: RingCut,
     /// The cut as requested by the user, if it was.
     pub requested: Option<RingCut>,
@@ -134,7 +134,7 @@ impl MatchSheet {
             links: placed.links,
             faulty: Vec::new(),
             letters: Vec::new(),
-            earlier: Vec::new(),
+            missing_points: Vec::new(),
             frame_from_design: similarities,
         }
     }
@@ -148,12 +148,12 @@ impl MatchSheet {
             let letters = before.letters.iter().copied();
             before.features.iter().copied().zip(letters).collect()
         });
-        let missing_before = before.map_or(&[][..], |before| &before.earlier);
+        let missing_before = before.map_or(&[][..], |before| &before.missing_points);
         let lettered = [&shown[..], missing_before].concat();
         self.letters = labels::stable_letters(&self.features, &lettered, labels::SAME * largest);
         let missing = shown.into_iter();
         let missing = missing.filter(|(_, letter)| !self.letters.contains(letter));
-        self.earlier = missing.collect();
+        self.missing_points = missing.collect();
     }
 
     /// Whether pins and lines may lie anywhere, because they move the plane and not a boundary.
@@ -205,7 +205,8 @@ impl MatchSheet {
         // Containing wins over near: a part may lie in the hole of another.
         uppermost(parts, p).or_else(|| {
             let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
-            let distance = |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
+            let distance =
+                |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
             let nearest = (0..parts.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
             (distance(nearest) <= reach).then_some(nearest)
         })
@@ -347,7 +348,9 @@ fn cuts(pieces: &[PieceMatch], requests: &[RingCut], diameter: f64) -> Vec<Sheet
         let nearest = open_requests
             .iter()
             .copied()
-            .filter(|&k| requests[k].side == cut.side && gap(&requests[k], cut) < CUT_SHIFT * diameter)
+            .filter(|&k| {
+                requests[k].side == cut.side && gap(&requests[k], cut) < CUT_SHIFT * diameter
+            })
             .min_by(|&a, &b| gap(&requests[a], cut).total_cmp(&gap(&requests[b], cut)));
         // Each request is answered by at most one cut.
         open_requests.retain(|k| Some(*k) != nearest);

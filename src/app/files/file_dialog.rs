@@ -196,7 +196,11 @@ mod tests {
             let (_, extensions) = &filters[0];
             for format in Format::ALL {
                 let read = format.extensions();
-                assert!(read.iter().all(|e| extensions.contains(e)), "{}", format.name());
+                assert!(
+                    read.iter().all(|e| extensions.contains(e)),
+                    "{}",
+                    format.name()
+                );
                 assert!(filters.iter().any(|(name, _)| name == format.name()));
             }
         }

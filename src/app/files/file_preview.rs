@@ -72,7 +72,9 @@ pub fn follow(
         let file = path.clone();
         *now = FilePreview {
             path: Some(path.clone()),
-            job: Some(BackgroundJob::start("the preview", move |_| draw_preview(&file))),
+            job: Some(BackgroundJob::start("the preview", move |_| {
+                draw_preview(&file)
+            })),
             picture: None,
         };
     }

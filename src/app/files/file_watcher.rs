@@ -1,6 +1,6 @@
 //! Reloads designs whose files another program changes while they are open.
 //!
-//! A thread polls the files: this lets the window rest and works on network drives, which send no
+//! A thread polls the files: this lets the window stay idle and works on network drives, which send no
 //! change events. A file is reloaded once it has stayed the same from one poll to the next, because
 //! saving takes a while.
 
@@ -53,7 +53,12 @@ impl FileWatcher {
     /// Polls all files; returns whether any has changed since it was read.
     pub fn poll(&self) -> bool {
         // Without holding the lock, because network drives may be slow.
-        let paths: Vec<PathBuf> = self.files().watched.iter().map(|file| file.path.clone()).collect();
+        let paths: Vec<PathBuf> = self
+            .files()
+            .watched
+            .iter()
+            .map(|file| file.path.clone())
+            .collect();
         let stamps: Vec<FileStamp> = paths.iter().map(|path| stamp(path)).collect();
         let mut files = self.files();
         let mut changed = Vec::new();
@@ -99,7 +104,9 @@ pub fn follow(mut session: ResMut<Session>, watch: Res<FileWatcher>, mut notices
     let mut files = watch.files();
     if session.is_changed() {
         let paths = session.files();
-        files.watched.retain(|watched| paths.contains(&watched.path));
+        files
+            .watched
+            .retain(|watched| paths.contains(&watched.path));
         for path in paths {
             if files.watched.iter().all(|watched| watched.path != path) {
                 let now = stamp(&path);

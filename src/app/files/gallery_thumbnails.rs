@@ -53,7 +53,9 @@ impl FromWorld for GalleryThumbnails {
         names.sort_by_key(|name| !EXAMPLES.contains(&name.as_str()));
         let drawing_tasks = names.into_iter().map(|name| StripTask::Draw(name.clone()));
         Self {
-            waiting: std::iter::once(StripTask::Read).chain(drawing_tasks).collect(),
+            waiting: std::iter::once(StripTask::Read)
+                .chain(drawing_tasks)
+                .collect(),
             running: None,
             done: StripsByName::new(),
         }

@@ -81,7 +81,9 @@ mod tests {
         }
         let names = |typed: &str| -> Vec<String> {
             let completions = completions(typed, here, &["svg", "png"]);
-            let relative = completions.iter().filter_map(|path| path.strip_prefix(here).ok());
+            let relative = completions
+                .iter()
+                .filter_map(|path| path.strip_prefix(here).ok());
             relative.map(|path| path.display().to_string()).collect()
         };
         assert_eq!(names("dr"), ["Drawings", "drum.svg"]);

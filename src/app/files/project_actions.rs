@@ -221,7 +221,11 @@ fn next_method(session: &Session) -> Option<(WarpKind, ContentKind)> {
     let current = (project.warp?, project.content?);
     let current = methods.iter().position(|method| *method == current)?;
     // Without the current method, which would come up again after a full round.
-    let after = methods.iter().cycle().skip(current + 1).take(methods.len() - 1);
+    let after = methods
+        .iter()
+        .cycle()
+        .skip(current + 1)
+        .take(methods.len() - 1);
     after
         .copied()
         .find(|(warp, content)| session.available(*warp, *content).is_ok())

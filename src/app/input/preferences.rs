@@ -219,7 +219,7 @@ impl ComparisonMethod {
 
     /// The cell of the method table that builds this comparison.
     #[must_use]
-    pub fn method(self) -> TransitionMethod {
+    pub fn cell(self) -> TransitionMethod {
         match self {
             Self::Straight => TransitionMethod::RIGID_PARTS,
             Self::Cell(method) => method,

@@ -88,7 +88,8 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
         let (sender, receiver) = channel();
         let tracker = Arc::new(JobTracker::default());
         let thread_tracker = Arc::clone(&tracker);
-        // If the thread cannot be started, the sender is dropped here and `poll` returns `Panicked`.
+        // If the thread cannot be started, the sender is dropped here and `poll` returns
+        // `Panicked`.
         std::thread::Builder::new()
             .name(name.to_owned())
             .spawn(move || {

@@ -88,7 +88,11 @@ impl MapContours {
             is_new = true;
         }
         let drawn = (shown, ink, sampled);
-        if let Some(landscape) = self.landscape.as_ref().filter(|_| self.drawn != Some(drawn)) {
+        if let Some(landscape) = self
+            .landscape
+            .as_ref()
+            .filter(|_| self.drawn != Some(drawn))
+        {
             let landscape = landscape.clone();
             self.drawn = Some(drawn);
             self.drawing = Some(BackgroundJob::start("drawing the map", move |_| {

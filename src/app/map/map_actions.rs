@@ -43,7 +43,9 @@ pub fn apply(
                 None => notices.done("Recording a path: move the marker, then press W to finish"),
             },
             Intent::ExtendPath(through) => {
-                let path = session.whole_project().map(|whole| whole.map.path.clone());
+                let path = session
+                    .whole_project()
+                    .map(|project| project.map.path.clone());
                 let path = path.map(|path| extend_path(path, through, &view));
                 if let Some(path) = path.filter(|path| path.places.len() <= MAX_PLACES) {
                     let last = path.places.last().map(|place| place.at);
@@ -57,7 +59,12 @@ pub fn apply(
 }
 
 /// Applies those intents that only change the project.
-fn change_project(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: Option<u64>) {
+fn change_project(
+    intent: &Intent,
+    view: &MapView,
+    session: &mut ResMut<Session>,
+    mark: Option<u64>,
+) {
     match intent {
         Intent::SetMapLayout(layout) => session.change_whole(mark, |project| {
             (project.map.layout, project.map.sites) = (*layout, Vec::new());
@@ -126,7 +133,7 @@ fn new_stop(at: DVec2, path: &MapPath, view: &MapView) -> Waypoint {
         .unwrap_or(at);
     Waypoint {
         name: blend_name(at, view),
-        ..Waypoint::new_stop(at)
+        ..Waypoint::stop(at)
     }
 }
 

@@ -24,7 +24,7 @@ use crate::stage::DurationHistory;
 use crate::transition::{BuildQuality, Timing, TransitionStyle, segment_at};
 
 /// Distance that an arrow key moves the marker, as a fraction of the map's half side (heuristic).
-const STEP: f64 = 0.02;
+const MARKER_STEP: f64 = 0.02;
 
 /// Why the map could not be built.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -47,7 +47,7 @@ pub struct MapView {
     /// Playback position in the previous frame.
     t: Option<f64>,
     /// The project that the map shows.
-    project: Option<LoadedProject>,
+    loaded: Option<LoadedProject>,
     curve: Option<MapCurve>,
     /// Whether the space being built is a draft.
     is_draft: bool,
@@ -121,7 +121,7 @@ impl MapView {
             Intent::NormalSpeed if self.is_drawing_path => return Some(Intent::RemoveLastPathStop),
             _ => return None,
         };
-        Some(Intent::MoveMarker(self.marker + by * STEP * REACH))
+        Some(Intent::MoveMarker(self.marker + by * MARKER_STEP * REACH))
     }
 
     /// Moves the marker, clamped to the map.
@@ -148,11 +148,11 @@ impl MapView {
         if !(is_new && self.is_shown) {
             return false;
         }
-        let to = match (&self.curve, &self.pictures, &self.project) {
+        let to = match (&self.curve, &self.pictures, &self.loaded) {
             (Some(curve), ..) => Some(curve.at(t)),
-            (None, Some(pictures), Some(project)) => {
-                let (segment, within) = segment_at(project.project.pair_count(), t);
-                let [from, to] = project.project.pair_designs(segment);
+            (None, Some(pictures), Some(loaded)) => {
+                let (segment, within) = segment_at(loaded.project.pair_count(), t);
+                let [from, to] = loaded.project.pair_designs(segment);
                 let sites = pictures.map().sites();
                 let ends = sites.get(from).zip(sites.get(to));
                 ends.map(|(from, to)| from.lerp(*to, within))
@@ -165,22 +165,22 @@ impl MapView {
 
     /// Builds the map of the open project and its images; returns whether something is new.
     pub fn work(&mut self, session: &Session, is_new: bool) -> bool {
-        let mut is_changed = self.take();
+        let mut is_changed = self.collect_space();
         if !self.is_shown {
             return is_changed;
         }
         if is_new && session.work().is_none() {
             match session.loaded_project() {
-                Some(project) => is_changed |= self.follow(project),
+                Some(loaded) => is_changed |= self.adopt_project(loaded),
                 None => {
-                    (self.pictures, self.project, self.curve) = (None, None, None);
+                    (self.pictures, self.loaded, self.curve) = (None, None, None);
                     (self.job, self.is_draft) = (None, false);
                 }
             }
         }
-        if let (Some(pictures), Some(project)) = (&mut self.pictures, &self.project) {
+        if let (Some(pictures), Some(loaded)) = (&mut self.pictures, &self.loaded) {
             let is_final = self.job.is_none();
-            let saved_places = &project.project.map.kept;
+            let saved_places = &loaded.project.map.kept;
             is_changed |= pictures.work(session.style(), saved_places, self.measure, is_final);
         }
         is_changed
@@ -204,73 +204,76 @@ impl MapView {
     }
 
     /// Adopts a newly built space and lays out its map.
-    fn place(&mut self, space: DesignSpace) {
-        let Some(project) = &self.project else {
+    fn adopt_space(&mut self, space: DesignSpace) {
+        let Some(loaded) = &self.loaded else {
             return;
         };
         // The old thumbnails stay until the new ones are drawn.
-        let ground = self.pictures.take().and_then(|pictures| pictures.thumbnails().cloned());
-        let ground = ground.filter(|ground| ground.count == space.designs().len());
-        match project.map_of(&space) {
-            Ok(map) => self.pictures = Some(MapPictures::new(space, map, ground)),
-            Err(error) => self.refuse(JobError::Failed(MapBuildError(Arc::new(error)))),
+        let thumbnails = self
+            .pictures
+            .take()
+            .and_then(|pictures| pictures.thumbnails().cloned());
+        let thumbnails = thumbnails.filter(|thumbnails| thumbnails.count == space.designs().len());
+        match loaded.map_of(&space) {
+            Ok(map) => self.pictures = Some(MapPictures::new(space, map, thumbnails)),
+            Err(error) => self.fail(JobError::Failed(MapBuildError(Arc::new(error)))),
         }
     }
 
     /// Adopts the project's current settings; returns whether the map changes.
-    fn follow(&mut self, project: LoadedProject) -> bool {
-        let before = self.project.replace(project.clone());
+    fn adopt_project(&mut self, loaded: LoadedProject) -> bool {
+        let before = self.loaded.replace(loaded.clone());
         let is_same = before.is_some_and(|before| {
-            let same_space = have_same_space(&before.project, &project.project);
-            let designs = before.designs.iter().zip(&project.designs);
+            let same_space = have_same_space(&before.project, &loaded.project);
+            let designs = before.designs.iter().zip(&loaded.designs);
             same_space && designs.into_iter().all(|(a, b)| Arc::ptr_eq(a, b))
         });
-        self.curve = MapCurve::new(&project.project.map.path);
+        self.curve = MapCurve::new(&loaded.project.map.path);
         if is_same && self.problem.is_none() {
             if let Some(pictures) = &self.pictures {
-                let is_elsewhere = project
+                let is_elsewhere = loaded
                     .map_of(pictures.space())
                     .is_ok_and(|map| map.sites() != pictures.map().sites());
                 if is_elsewhere {
-                    self.place(pictures.space().clone());
+                    self.adopt_space(pictures.space().clone());
                 }
             }
             return true;
         }
         self.problem = None;
         // A draft first, so that a map appears at once.
-        self.is_draft = project.project.options.quality != BuildQuality::Draft;
-        self.start(project, self.is_draft.then_some(BuildQuality::Draft));
+        self.is_draft = loaded.project.options.quality != BuildQuality::Draft;
+        self.start(loaded, self.is_draft.then_some(BuildQuality::Draft));
         true
     }
 
     /// Starts building the space, as a draft or in the project's own quality.
-    fn start(&mut self, project: LoadedProject, quality: Option<BuildQuality>) {
+    fn start(&mut self, loaded: LoadedProject, quality: Option<BuildQuality>) {
         self.job = Some(BackgroundJob::start("the map", move |progress| {
-            let built = project.build_space(quality, progress);
+            let built = loaded.build_space(quality, progress);
             built.map_err(|error| MapBuildError(Arc::new(error)))
         }));
     }
 
     /// Replaces the map by the reason why there is none.
-    fn refuse(&mut self, problem: JobError<MapBuildError>) {
+    fn fail(&mut self, problem: JobError<MapBuildError>) {
         (self.problem, self.pictures, self.is_draft) = (Some(problem), None, false);
     }
 
     /// Collects a space that was built; returns whether there was a result.
-    fn take(&mut self) -> bool {
+    fn collect_space(&mut self) -> bool {
         match BackgroundJob::take(&mut self.job) {
             None => return false,
             Some(Ok(space)) => {
-                self.place(space);
+                self.adopt_space(space);
                 // Spaces of fields and of given meshes have no draft.
                 let is_matched = self.pictures.as_ref().is_some_and(MapPictures::is_matched);
                 let is_draft = std::mem::take(&mut self.is_draft);
-                if let Some(project) = self.project.clone().filter(|_| is_draft && is_matched) {
-                    self.start(project, None);
+                if let Some(loaded) = self.loaded.clone().filter(|_| is_draft && is_matched) {
+                    self.start(loaded, None);
                 }
             }
-            Some(Err(problem)) => self.refuse(problem),
+            Some(Err(problem)) => self.fail(problem),
         }
         true
     }

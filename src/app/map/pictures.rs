@@ -31,16 +31,16 @@ pub struct MapPictures {
     map: WeightMap,
     frame: SpaceFrame,
     /// Thumbnails of blends and designs.
-    ground: Option<MapThumbnails>,
+    thumbnails: Option<MapThumbnails>,
     drawing: Option<BackgroundJob<MapThumbnails, PixelSizeError>>,
     /// Colours used for the thumbnails.
     style: Option<TransitionStyle>,
     /// The blend under the marker.
     blend: Option<BlendPicture>,
     /// Contours of a measure.
-    land: MapContours,
+    contours: MapContours,
     /// Thumbnails of the saved blends, by their place on the map.
-    kept: Vec<(DVec2, Arc<RgbaImage>)>,
+    saved_blends: Vec<(DVec2, Arc<RgbaImage>)>,
     /// Whether some of them are not drawn yet.
     lacks_saved_blends: bool,
 }
@@ -48,24 +48,24 @@ pub struct MapPictures {
 /// The blend under the marker as drawn last.
 #[derive(Debug)]
 struct BlendPicture {
-    of: (Vec<f64>, PixelSize, TransitionStyle),
+    key: (Vec<f64>, PixelSize, TransitionStyle),
     picture: Arc<RgbaImage>,
 }
 
 impl MapPictures {
-    /// A map without images, except for thumbnails `ground` of the previous map, if any.
+    /// A map without images, except for the `thumbnails` of the previous map, if any.
     #[must_use]
-    pub fn new(space: DesignSpace, map: WeightMap, ground: Option<MapThumbnails>) -> Self {
+    pub fn new(space: DesignSpace, map: WeightMap, thumbnails: Option<MapThumbnails>) -> Self {
         Self {
             map,
             frame: space.frame(),
             space,
-            ground,
+            thumbnails,
             drawing: None,
             style: None,
             blend: None,
-            land: MapContours::default(),
-            kept: Vec::new(),
+            contours: MapContours::default(),
+            saved_blends: Vec::new(),
             lacks_saved_blends: false,
         }
     }
@@ -91,13 +91,13 @@ impl MapPictures {
     /// Thumbnails of blends and designs, once they are drawn.
     #[must_use]
     pub fn thumbnails(&self) -> Option<&MapThumbnails> {
-        self.ground.as_ref()
+        self.thumbnails.as_ref()
     }
 
     /// Contours of a measure.
     #[must_use]
     pub fn contours(&self) -> &MapContours {
-        &self.land
+        &self.contours
     }
 
     /// Image of the blend under the marker.
@@ -117,8 +117,8 @@ impl MapPictures {
     /// Thumbnail of the saved blend at a place.
     #[must_use]
     pub fn saved_blend(&self, at: DVec2) -> Option<&Arc<RgbaImage>> {
-        let found = self.kept.iter().find(|(place, _)| *place == at);
-        found.map(|(_, picture)| picture)
+        let saved = self.saved_blends.iter().find(|(place, _)| *place == at);
+        saved.map(|(_, thumbnail)| thumbnail)
     }
 
     /// Draws thumbnails of saved blends that lack one; returns whether it drew any.
@@ -126,24 +126,24 @@ impl MapPictures {
         let Ok(size) = PixelSize::new(SAVED_BLEND_PX, SAVED_BLEND_PX) else {
             return false;
         };
-        self.kept
-            .retain(|(at, _)| places.iter().any(|kept| kept.at == *at));
-        let before = self.kept.len();
+        self.saved_blends
+            .retain(|(at, _)| places.iter().any(|place| place.at == *at));
+        let before = self.saved_blends.len();
         let mut weights = vec![0.0; self.space.designs().len()];
         self.lacks_saved_blends = false;
         for place in places {
             if self.saved_blend(place.at).is_none() {
-                if self.kept.len() >= before + SAVED_BLENDS_PER_FRAME {
+                if self.saved_blends.len() >= before + SAVED_BLENDS_PER_FRAME {
                     self.lacks_saved_blends = true;
                     break;
                 }
                 self.map.weights(place.at, &mut weights);
                 self.frame.seek(&weights);
                 let picture = rasterise(&self.drawing(size, style, None));
-                self.kept.push((place.at, Arc::new(picture)));
+                self.saved_blends.push((place.at, Arc::new(picture)));
             }
         }
-        let is_new = self.kept.len() > before;
+        let is_new = self.saved_blends.len() > before;
         if is_new {
             // The frame was moved off the marker; the blend must be drawn again.
             self.blend = None;
@@ -157,33 +157,33 @@ impl MapPictures {
         &self,
         size: PixelSize,
         style: &TransitionStyle,
-        ground: Option<Rgb>,
+        background: Option<Rgb>,
     ) -> Drawing {
         let bounds = self.space.bounds();
         let view = PlaneView::fit(bounds.padded(0.04 * bounds.diameter()), size);
-        let mut drawing = Drawing::new(size, ground);
+        let mut drawing = Drawing::new(size, background);
         drawing.push_blend(&self.frame, style, &view);
         drawing
     }
 
     /// Draws the blend at a place unless the current image shows it; returns whether it drew.
-    pub fn look(&mut self, puck: DVec2, size: PixelSize, style: TransitionStyle) -> bool {
+    pub fn look(&mut self, marker: DVec2, size: PixelSize, style: TransitionStyle) -> bool {
         let mut weights = vec![0.0; self.space.designs().len()];
-        self.map.weights(puck, &mut weights);
-        let of = (weights, size, style);
-        if self.blend.as_ref().is_some_and(|blend| blend.of == of) {
+        self.map.weights(marker, &mut weights);
+        let key = (weights, size, style);
+        if self.blend.as_ref().is_some_and(|blend| blend.key == key) {
             return false;
         }
-        self.frame.seek(&of.0);
+        self.frame.seek(&key.0);
         let picture = Arc::new(rasterise(&self.drawing(size, &style, None)));
-        self.blend = Some(BlendPicture { of, picture });
+        self.blend = Some(BlendPicture { key, picture });
         true
     }
 
     /// Whether something is still being drawn or measured.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.drawing.is_some() || self.lacks_saved_blends || self.land.is_busy()
+        self.drawing.is_some() || self.lacks_saved_blends || self.contours.is_busy()
     }
 
     /// Draws whatever is missing or outdated: thumbnails, saved blends and, if no better map is
@@ -191,31 +191,31 @@ impl MapPictures {
     pub fn work(
         &mut self,
         style: TransitionStyle,
-        kept: &[SavedPlace],
+        saved_places: &[SavedPlace],
         shown: Option<MapMeasure>,
         is_final: bool,
     ) -> bool {
         let mut is_new = self.update_thumbnails(style);
-        is_new |= self.draw_saved_blends(kept, &style);
+        is_new |= self.draw_saved_blends(saved_places, &style);
         // Thumbnails first, measures afterwards.
-        if is_final && self.ground.is_some() && self.drawing.is_none() {
+        if is_final && self.thumbnails.is_some() && self.drawing.is_none() {
             let ink = text_colour_on(Some(style.ground));
-            is_new |= self.land.work(&self.space, &self.map, shown, ink);
+            is_new |= self.contours.work(&self.space, &self.map, shown, ink);
         }
         is_new
     }
 
     /// Starts or finishes drawing the thumbnails; returns whether they are new.
     fn update_thumbnails(&mut self, style: TransitionStyle) -> bool {
-        if let Some(answer) = BackgroundJob::take(&mut self.drawing) {
+        if let Some(thumbnails) = BackgroundJob::take(&mut self.drawing) {
             // If thumbnails fail, the map still shows the designs' places and the marker.
-            self.ground = answer.ok();
+            self.thumbnails = thumbnails.ok();
             return true;
         }
         if self.style == Some(style) {
             return false;
         }
-        self.kept.clear();
+        self.saved_blends.clear();
         self.style = Some(style);
         let (space, map) = (self.space.clone(), self.map.clone());
         self.drawing = Some(BackgroundJob::start("the map", move |_| {

@@ -48,21 +48,22 @@ pub fn draw_thumbnails(
     let px = f64::from(SIDE_PX) / (2.0 * REACH);
     let mut frame = space.frame();
     let mut weights = vec![0.0; space.designs().len()];
-    let mut picture = |places: &[DVec2], wide: f64| {
+    let mut picture = |places: &[DVec2], scale: f64| {
         let mut drawing = Drawing::new(size, None);
         for &place in places {
             map.weights(place, &mut weights);
             frame.seek(&weights);
-            let side = DVec2::splat(0.86 * wide * cell * px);
+            let side = DVec2::splat(0.86 * scale * cell * px);
             let middle = DVec2::new(place.x + REACH, REACH - place.y) * px;
-            let seen = square(space.bounds());
-            let view = PlaneView::fit_cell(seen, size, middle - 0.5 * side, side);
+            let bounds = square(space.bounds());
+            let view = PlaneView::fit_cell(bounds, size, middle - 0.5 * side, side);
             drawing.push_blend(&frame, style, &view);
         }
         Arc::new(rasterise(&drawing))
     };
-    let steps = (0..CELLS * CELLS).map(|at| {
-        let [column, row] = [at % CELLS, at / CELLS].map(|k| (f64::from(k) + 0.5) * cell - REACH);
+    let grid_points = (0..CELLS * CELLS).map(|index| {
+        let [column, row] =
+            [index % CELLS, index / CELLS].map(|k| (f64::from(k) + 0.5) * cell - REACH);
         DVec2::new(column, row)
     });
     // No blend is drawn under a design's thumbnail or its name.
@@ -72,7 +73,7 @@ pub fn draw_thumbnails(
             across > 0.9 * cell || !(-0.9 * cell..1.3 * cell).contains(&below)
         })
     };
-    let blend_places = steps.filter(|place| map.contains(*place, 0.3 * cell));
+    let blend_places = grid_points.filter(|place| map.contains(*place, 0.3 * cell));
     let blend_places: Vec<DVec2> = blend_places.filter(is_free).collect();
     Ok(MapThumbnails {
         count: map.sites().len(),

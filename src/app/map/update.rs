@@ -30,10 +30,10 @@ pub fn follow(
     is_changed |= map.follow_playback(playback.t());
     if map.is_shown {
         let scale = window.single().map_or(1.0, Window::scale_factor);
-        let seen = area.size * scale;
-        let wanted = seen * (MAX_SIDE_PX / seen.max_element()).min(1.0);
-        let wanted = wanted.max(Vec2::ONE).as_uvec2();
-        if let Ok(size) = PixelSize::new(wanted.x, wanted.y) {
+        let area_px = area.size * scale;
+        let size_px = area_px * (MAX_SIDE_PX / area_px.max_element()).min(1.0);
+        let size_px = size_px.max(Vec2::ONE).as_uvec2();
+        if let Ok(size) = PixelSize::new(size_px.x, size_px.y) {
             is_changed |= map.look(size, session.style());
         }
     }

@@ -20,7 +20,7 @@ use crate::project::Project;
 
 /// Minimum interval between two autosaves: with the time for writing, at most five seconds of work
 /// are lost (heuristic).
-const PERIOD: Duration = Duration::from_secs(2);
+const MIN_INTERVAL: Duration = Duration::from_secs(2);
 
 /// Folder for autosaves; `None` if the system has no such folder.
 #[must_use]
@@ -35,19 +35,19 @@ pub struct Autosave {
     /// Current slot of this window; `None` switches autosave off, as in tests.
     slot: Option<AutosaveSlot>,
     /// Slot that this window started with, after it has taken over a recovered one.
-    first: Option<AutosaveSlot>,
+    initial_slot: Option<AutosaveSlot>,
     /// Slot of the project being recovered; it becomes this window's once the project is open.
-    opening: Option<AutosaveSlot>,
+    opening_slot: Option<AutosaveSlot>,
     /// Autosaves left behind by windows that ended without saving.
-    lost: Vec<AbandonedProject>,
+    abandoned: Vec<AbandonedProject>,
     /// The project written last, and when.
     written: Option<(Project, Instant)>,
     /// Whether the open project differs from the autosave.
     is_behind: bool,
     /// Whether the slot contains changes of the open project.
-    is_own: bool,
+    slot_is_ours: bool,
     /// Whether those changes have been saved or discarded, so that the slot can be cleared.
-    is_over: bool,
+    is_resolved: bool,
     job: Option<BackgroundJob<(), io::Error>>,
     /// Whether a failed autosave has been reported; reported only once.
     is_reported: bool,
@@ -59,10 +59,10 @@ impl Autosave {
     /// # Errors
     /// The folder cannot be created or written to.
     pub fn enter(folder: &Path) -> io::Result<Self> {
-        let (slot, lost) = AutosaveSlot::enter(folder)?;
-        let mut entered = Self::default();
-        (entered.slot, entered.lost) = (Some(slot), lost);
-        Ok(entered)
+        let (slot, abandoned) = AutosaveSlot::enter(folder)?;
+        let mut autosave = Self::default();
+        (autosave.slot, autosave.abandoned) = (Some(slot), abandoned);
+        Ok(autosave)
     }
 
     /// Scratch folder of this window for long-running exports.
@@ -74,11 +74,11 @@ impl Autosave {
     /// The newest autosave to recover: its title and its age.
     #[must_use]
     pub fn recoverable(&self) -> Option<(&str, Option<Duration>)> {
-        let lost = self.lost.first()?;
-        let age = lost
+        let abandoned = self.abandoned.first()?;
+        let age = abandoned
             .when
             .and_then(|when| SystemTime::now().duration_since(when).ok());
-        Some((&lost.kept.title, age))
+        Some((&abandoned.kept.title, age))
     }
 
     /// Whether changes are not autosaved yet.
@@ -92,14 +92,14 @@ impl Drop for Autosave {
     /// Waits for the last write, which may belong to changes saved or discarded since, and then
     /// clears the slot.
     fn drop(&mut self) {
-        let began = Instant::now();
+        let started = Instant::now();
         while self.job.is_some()
             && BackgroundJob::take(&mut self.job).is_none()
-            && began.elapsed() < PERIOD
+            && started.elapsed() < MIN_INTERVAL
         {
-            std::thread::sleep(PERIOD / 200);
+            std::thread::sleep(MIN_INTERVAL / 200);
         }
-        self.clear_where_over();
+        self.clear_if_resolved();
     }
 }
 
@@ -118,21 +118,21 @@ pub fn rescue(
             Intent::Escape if question.text().is_none() => RecoveryAnswer::Later,
             _ => continue,
         };
-        if autosave.lost.is_empty() {
+        if autosave.abandoned.is_empty() {
             continue;
         }
         match answer {
             // Stays in its slot for the next start.
-            RecoveryAnswer::Later => autosave.lost.clear(),
-            RecoveryAnswer::Discard => autosave.lost.remove(0).slot.clear(),
+            RecoveryAnswer::Later => autosave.abandoned.clear(),
+            RecoveryAnswer::Discard => autosave.abandoned.remove(0).slot.clear(),
             RecoveryAnswer::Restore if session.is_dirty() => {
                 notices.done("Save or undo your changes first, then recover the project");
             }
             RecoveryAnswer::Restore => {
-                let lost = autosave.lost.remove(0);
-                session.open(LoadRequest::Recovered(Box::new(lost.kept)));
+                let abandoned = autosave.abandoned.remove(0);
+                session.open(LoadRequest::Recovered(Box::new(abandoned.kept)));
                 // Keeps the lock: the autosave is still the only copy of these changes.
-                autosave.opening = Some(lost.slot);
+                autosave.opening_slot = Some(abandoned.slot);
             }
         }
     }
@@ -142,7 +142,7 @@ pub fn rescue(
 pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices: ResMut<Notices>) {
     // Change detection is not used for this resource.
     let autosave = autosave.bypass_change_detection();
-    autosave.take_up(&session);
+    autosave.take_over_recovered_slot(&session);
     let Some(slot) = &autosave.slot else {
         return;
     };
@@ -157,22 +157,22 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
         let written = autosave.written.as_ref().map(|(project, _)| project);
         if session.is_dirty() {
             autosave.is_behind = session.whole_project() != written;
-            (autosave.is_own, autosave.is_over) = (true, false);
+            (autosave.slot_is_ours, autosave.is_resolved) = (true, false);
         } else {
             autosave.is_behind = false;
             // Only an autosave written for this project may be deleted.
-            autosave.is_over = autosave.is_own;
+            autosave.is_resolved = autosave.slot_is_ours;
         }
     }
-    autosave.clear_where_over();
-    autosave.write_where_due(&session);
+    autosave.clear_if_resolved();
+    autosave.write_if_due(&session);
 }
 
 /// Text of the notice about a failed autosave.
 fn autosave_problem(path: &Path, error: &JobError<io::Error>) -> String {
     let reason = match error {
         JobError::Failed(error) => write_error_reason(error),
-        broken => broken.to_string(),
+        panicked => panicked.to_string(),
     };
     format!(
         "Cannot autosave to {} ({reason}). Save the project regularly",
@@ -183,41 +183,41 @@ fn autosave_problem(path: &Path, error: &JobError<io::Error>) -> String {
 impl Autosave {
     /// Takes over the slot of a recovered project, so that its autosave stays until the project is
     /// saved. If it could not be opened, the slot stays for the next start.
-    fn take_up(&mut self, session: &Session) {
+    fn take_over_recovered_slot(&mut self, session: &Session) {
         if session.is_opening() {
             // Still unknown whether it can be opened.
         } else if session.is_rescued() {
-            if let Some(slot) = self.opening.take() {
+            if let Some(slot) = self.opening_slot.take() {
                 let own = self.slot.replace(slot);
-                self.first = self.first.take().or(own);
-                (self.is_own, self.is_over, self.written) = (true, false, None);
+                self.initial_slot = self.initial_slot.take().or(own);
+                (self.slot_is_ours, self.is_resolved, self.written) = (true, false, None);
             }
         } else {
-            self.opening = None;
+            self.opening_slot = None;
         }
     }
 
     /// Deletes the autosave once its changes are saved or discarded and nothing is being written.
-    fn clear_where_over(&mut self) {
-        if self.is_over && self.job.is_none() {
+    fn clear_if_resolved(&mut self) {
+        if self.is_resolved && self.job.is_none() {
             self.slot.iter().for_each(AutosaveSlot::clear);
-            (self.is_own, self.is_over, self.written) = (false, false, None);
+            (self.slot_is_ours, self.is_resolved, self.written) = (false, false, None);
         }
     }
 
     /// Starts writing an autosave if changes are pending and the last one is old enough.
-    fn write_where_due(&mut self, session: &Session) {
+    fn write_if_due(&mut self, session: &Session) {
         let last = self.written.as_ref().map(|(_, when)| when.elapsed());
-        let is_due = last.is_none_or(|last| last >= PERIOD) && self.job.is_none();
+        let is_due = last.is_none_or(|last| last >= MIN_INTERVAL) && self.job.is_none();
         if !(self.is_behind && is_due) {
             return;
         }
-        let kept = session.unsaved_project().and_then(Result::ok);
-        if let (Some(slot), Some(kept), Some(project)) = (&self.slot, kept, session.whole_project())
-        {
+        let unsaved = session.unsaved_project().and_then(Result::ok);
+        let project = session.whole_project();
+        if let (Some(slot), Some(unsaved), Some(project)) = (&self.slot, unsaved, project) {
             let path = slot.path.clone();
             self.job = Some(BackgroundJob::start("the autosave", move |_| {
-                kept.write(&path)
+                unsaved.write(&path)
             }));
             self.written = Some((project.clone(), Instant::now()));
         }

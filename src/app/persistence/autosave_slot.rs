@@ -35,7 +35,7 @@ pub struct AbandonedProject {
 
 impl AutosaveSlot {
     /// Locks slot `number`; `None` if another window holds it.
-    fn take(folder: &Path, number: u32) -> io::Result<Option<Self>> {
+    fn try_lock(folder: &Path, number: u32) -> io::Result<Option<Self>> {
         let file = File::create(folder.join(format!("{number}.lock")))?;
         match file.try_lock() {
             Ok(()) => Ok(Some(Self {
@@ -55,33 +55,33 @@ impl AutosaveSlot {
     pub fn enter(folder: &Path) -> io::Result<(Self, Vec<AbandonedProject>)> {
         fs::create_dir_all(folder)?;
         let mut free = None;
-        let mut lost = Vec::new();
+        let mut abandoned = Vec::new();
         for number in 0..MAX_SLOTS {
-            let is_used = ["json", "making"]
+            let is_occupied = ["json", "making"]
                 .iter()
                 .any(|kind| folder.join(format!("{number}.{kind}")).exists());
             // One free slot is enough; all others only matter if they hold something.
-            if free.is_some() && !is_used {
+            if free.is_some() && !is_occupied {
                 continue;
             }
-            let Some(slot) = Self::take(folder, number)? else {
+            let Some(slot) = Self::try_lock(folder, number)? else {
                 continue;
             };
             // Exports of the window that ended will not be finished.
             fs::remove_dir_all(slot.workshop()).ok();
             match UnsavedProject::read(&slot.path) {
-                Ok(kept) => lost.push(AbandonedProject {
+                Ok(project) => abandoned.push(AbandonedProject {
                     when: fs::metadata(&slot.path).and_then(|m| m.modified()).ok(),
-                    kept,
+                    kept: project,
                     slot,
                 }),
                 // A file that is no valid autosave is overwritten.
                 Err(_) => free = free.or(Some(slot)),
             }
         }
-        lost.sort_by_key(|lost| std::cmp::Reverse(lost.when));
+        abandoned.sort_by_key(|abandoned| std::cmp::Reverse(abandoned.when));
         let free = free.ok_or_else(|| io::Error::other("too many windows are open"))?;
-        Ok((free, lost))
+        Ok((free, abandoned))
     }
 
     /// Folder for unfinished exports of the window.
@@ -114,19 +114,19 @@ mod tests {
         let folder = tempfile::tempdir()?;
         let name = gallery::list()?.remove(0).name;
         let loaded = gallery::load(&name)?;
-        let kept = UnsavedProject::new("a".to_owned(), &ProjectOrigin::Gallery(name), &loaded)?;
-        let (first, lost) = AutosaveSlot::enter(folder.path())?;
-        assert!(lost.is_empty());
-        kept.write(&first.path)?;
-        let (second, lost) = AutosaveSlot::enter(folder.path())?;
-        assert!(lost.is_empty() && first.path != second.path);
+        let unsaved = UnsavedProject::new("a".to_owned(), &ProjectOrigin::Gallery(name), &loaded)?;
+        let (first, abandoned) = AutosaveSlot::enter(folder.path())?;
+        assert!(abandoned.is_empty());
+        unsaved.write(&first.path)?;
+        let (second, abandoned) = AutosaveSlot::enter(folder.path())?;
+        assert!(abandoned.is_empty() && first.path != second.path);
         drop((first, second));
-        let (third, lost) = AutosaveSlot::enter(folder.path())?;
-        assert_eq!(lost.len(), 1);
-        assert_eq!(lost[0].kept, kept);
-        assert_ne!(third.path, lost[0].slot.path);
-        lost[0].slot.clear();
-        drop((third, lost));
+        let (third, abandoned) = AutosaveSlot::enter(folder.path())?;
+        assert_eq!(abandoned.len(), 1);
+        assert_eq!(abandoned[0].kept, unsaved);
+        assert_ne!(third.path, abandoned[0].slot.path);
+        abandoned[0].slot.clear();
+        drop((third, abandoned));
         assert!(AutosaveSlot::enter(folder.path())?.1.is_empty());
         Ok(())
     }

@@ -61,8 +61,8 @@ impl StoredPresets {
     #[must_use]
     pub fn in_use(&self, preferences: &Preferences, content: Option<ContentKind>) -> Option<&str> {
         let now = preset(preferences, content);
-        let same = self.presets.0.iter().find(|(_, preset)| **preset == now);
-        same.map(|(name, _)| name.as_str())
+        let matching = self.presets.0.iter().find(|(_, preset)| **preset == now);
+        matching.map(|(name, _)| name.as_str())
     }
 }
 
@@ -86,7 +86,7 @@ fn preset(preferences: &Preferences, content: Option<ContentKind>) -> FilmPreset
 /// Saves, applies and removes presets.
 pub fn apply(
     mut intents: MessageReader<Intent>,
-    mut kept: ResMut<StoredPresets>,
+    mut stored: ResMut<StoredPresets>,
     mut preferences: ResMut<Preferences>,
     session: Res<Session>,
     mut notices: ResMut<Notices>,
@@ -94,7 +94,7 @@ pub fn apply(
     for intent in intents.read() {
         let changed = match intent {
             Intent::UsePreset(name) => {
-                if let Some(preset) = kept.presets.0.get(name) {
+                if let Some(preset) = stored.presets.0.get(name) {
                     preferences.film.layout = preset.layout();
                     preferences.film.fps = preset.fps;
                     let file = preset
@@ -107,19 +107,19 @@ pub fn apply(
             Intent::SavePreset(name) => {
                 let content = session.project().and_then(|project| project.content);
                 let now = preset(&preferences, content);
-                let keep = |all: &mut FilmPresets| {
+                let insert = |all: &mut FilmPresets| {
                     all.0.insert(name.clone(), now);
                 };
-                kept.change(keep)
+                stored.change(insert)
             }
-            Intent::RemovePreset(name) => kept.change(|all| {
+            Intent::RemovePreset(name) => stored.change(|all| {
                 all.0.remove(name);
             }),
             _ => continue,
         };
         if let Err(error) = changed {
-            let words = format!("The preset was not saved: {error}");
-            notices.problem(NoticeTopic::Film, words);
+            let text = format!("The preset was not saved: {error}");
+            notices.problem(NoticeTopic::Film, text);
         }
     }
 }

@@ -18,29 +18,29 @@ use crate::io::atomic_file::AtomicFile;
 #[derive(Resource, Clone, Debug, Default)]
 pub struct GalleryStripCache {
     /// `None` if nothing is cached, as in tests.
-    place: Option<StripCacheFolder>,
+    cache_folder: Option<StripCacheFolder>,
 }
 
 /// Cache folder, with one subfolder per version of the program, because versions draw differently.
 #[derive(Clone, Debug)]
 struct StripCacheFolder {
-    all: PathBuf,
-    program: String,
+    root: PathBuf,
+    version: String,
 }
 
 impl StripCacheFolder {
     /// Subfolder of this version.
-    fn own(&self) -> PathBuf {
-        self.all.join(&self.program)
+    fn version_folder(&self) -> PathBuf {
+        self.root.join(&self.version)
     }
 
     /// Creates the subfolder and deletes those of other versions, which would never be cleaned up.
-    fn make(&self) -> io::Result<()> {
-        fs::create_dir_all(self.own())?;
-        for other in fs::read_dir(&self.all)?.flatten() {
+    fn create(&self) -> io::Result<()> {
+        fs::create_dir_all(self.version_folder())?;
+        for other in fs::read_dir(&self.root)?.flatten() {
             let name = other.file_name();
-            let is_program = name.to_str().is_some_and(is_program);
-            if is_program && name != *self.program {
+            let is_version = name.to_str().is_some_and(is_version_id);
+            if is_version && name != *self.version {
                 // Another installed version draws its strips again.
                 fs::remove_dir_all(other.path()).ok();
             }
@@ -53,10 +53,10 @@ impl GalleryStripCache {
     /// Cache of this program version in the user's cache folder.
     #[must_use]
     pub fn usual() -> Self {
-        let all = dirs::cache_dir().map(|cache| cache.join("morphospace").join("strips"));
-        let place = all.zip(program());
+        let root = dirs::cache_dir().map(|cache| cache.join("morphospace").join("strips"));
+        let cache_folder = root.zip(version());
         Self {
-            place: place.map(|(all, program)| StripCacheFolder { all, program }),
+            cache_folder: cache_folder.map(|(root, version)| StripCacheFolder { root, version }),
         }
     }
 
@@ -64,9 +64,9 @@ impl GalleryStripCache {
     #[must_use]
     pub fn read(&self, size: (u32, u32)) -> HashMap<String, RgbaImage> {
         let files = self
-            .place
+            .cache_folder
             .iter()
-            .filter_map(|it| fs::read_dir(it.own()).ok());
+            .filter_map(|folder| fs::read_dir(folder.version_folder()).ok());
         let strips = files.flatten().flatten().filter_map(|file| {
             let path = file.path();
             let strip = image::open(&path).ok()?.into_rgba8();
@@ -81,12 +81,12 @@ impl GalleryStripCache {
     /// # Errors
     /// The file cannot be written.
     pub fn keep(&self, name: &str, strip: &RgbaImage) -> io::Result<()> {
-        let Some(place) = &self.place else {
+        let Some(cache_folder) = &self.cache_folder else {
             return Ok(());
         };
-        let folder = place.own();
+        let folder = cache_folder.version_folder();
         if !folder.exists() {
-            place.make()?;
+            cache_folder.create()?;
         }
         let mut png = io::Cursor::new(Vec::new());
         let encoded = strip.write_to(&mut png, ImageFormat::Png);
@@ -98,7 +98,7 @@ impl GalleryStripCache {
 }
 
 /// Identifies this version of the program by version number, file size and modification time.
-fn program() -> Option<String> {
+fn version() -> Option<String> {
     let file = std::env::current_exe().and_then(fs::metadata).ok()?;
     let since = file.modified().ok()?.duration_since(SystemTime::UNIX_EPOCH);
     let mut hasher = FnvHasher::default();
@@ -109,7 +109,7 @@ fn program() -> Option<String> {
 }
 
 /// Whether a name is such an identifier; nothing else is deleted.
-fn is_program(name: &str) -> bool {
+fn is_version_id(name: &str) -> bool {
     name.len() == 16 && name.bytes().all(|byte| byte.is_ascii_hexdigit())
 }
 
@@ -121,12 +121,14 @@ mod tests {
     /// Width and height of the test strips, in pixels.
     const SIZE: (u32, u32) = (6, 2);
 
-    fn within(folder: &tempfile::TempDir) -> GalleryStripCache {
-        let place = StripCacheFolder {
-            all: folder.path().to_owned(),
-            program: "0123456789abcdef".to_owned(),
+    fn cache_in(folder: &tempfile::TempDir) -> GalleryStripCache {
+        let cache_folder = StripCacheFolder {
+            root: folder.path().to_owned(),
+            version: "0123456789abcdef".to_owned(),
         };
-        GalleryStripCache { place: Some(place) }
+        GalleryStripCache {
+            cache_folder: Some(cache_folder),
+        }
     }
 
     #[test]
@@ -135,11 +137,11 @@ mod tests {
         let [other, foreign] = ["fedcba9876543210", "mine"].map(|name| folder.path().join(name));
         fs::create_dir_all(&other)?;
         fs::create_dir_all(&foreign)?;
-        let kept = within(&folder);
-        assert!(kept.read(SIZE).is_empty());
+        let cache = cache_in(&folder);
+        assert!(cache.read(SIZE).is_empty());
         let strip = RgbaImage::from_fn(SIZE.0, SIZE.1, |x, y| Rgba([x as u8, y as u8, 7, 128]));
-        kept.keep("gears", &strip)?;
-        assert_eq!(kept.read(SIZE), HashMap::from([("gears".into(), strip)]));
+        cache.keep("gears", &strip)?;
+        assert_eq!(cache.read(SIZE), HashMap::from([("gears".into(), strip)]));
         assert!(!other.exists(), "strips of other versions are deleted");
         assert!(foreign.exists(), "other folders are kept");
         Ok(())
@@ -148,19 +150,19 @@ mod tests {
     #[test]
     fn invalid_strips_are_left_out() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
-        let kept = within(&folder);
-        kept.keep("small", &RgbaImage::new(1, 1))?;
-        let own = folder.path().join("0123456789abcdef");
-        fs::write(own.join("broken.png"), "not a picture")?;
-        assert!(kept.read(SIZE).is_empty());
+        let cache = cache_in(&folder);
+        cache.keep("small", &RgbaImage::new(1, 1))?;
+        let version_folder = folder.path().join("0123456789abcdef");
+        fs::write(version_folder.join("broken.png"), "not a picture")?;
+        assert!(cache.read(SIZE).is_empty());
         Ok(())
     }
 
     #[test]
     fn without_a_folder_nothing_is_cached() -> io::Result<()> {
-        let kept = GalleryStripCache::default();
-        kept.keep("gears", &RgbaImage::new(SIZE.0, SIZE.1))?;
-        assert!(kept.read(SIZE).is_empty());
+        let cache = GalleryStripCache::default();
+        cache.keep("gears", &RgbaImage::new(SIZE.0, SIZE.1))?;
+        assert!(cache.read(SIZE).is_empty());
         Ok(())
     }
 }

@@ -87,8 +87,8 @@ impl StoredRecentFiles {
     pub fn of_file(path: Option<PathBuf>) -> Self {
         let mut recent = path.as_deref().map(RecentFiles::read).unwrap_or_default();
         // Missing files are dropped; checked once and not in each frame.
-        let is_there = |opened: &RecentEntry| opened.files.iter().all(|file| file.exists());
-        recent.opened.retain(is_there);
+        let exists = |opened: &RecentEntry| opened.files.iter().all(|file| file.exists());
+        recent.opened.retain(exists);
         Self { recent, path }
     }
 
@@ -171,13 +171,13 @@ mod tests {
     fn missing_and_broken_files_are_left_out() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("state").join("recent.toml");
-        let mut kept = StoredRecentFiles::of_file(Some(path.clone()));
+        let mut stored = StoredRecentFiles::of_file(Some(path.clone()));
         let here = RecentEntry {
             files: vec![folder.path().to_owned()],
         };
-        kept.add(opened("gone")).expect("a file");
-        kept.add(here.clone()).expect("a file");
-        assert_eq!(kept.opened().len(), 2);
+        stored.add(opened("gone")).expect("a file");
+        stored.add(here.clone()).expect("a file");
+        assert_eq!(stored.opened().len(), 2);
         assert_eq!(
             StoredRecentFiles::of_file(Some(path.clone())).opened(),
             [here]

@@ -16,7 +16,7 @@ pub const SAME_T: f64 = 1e-6;
 
 /// Distance in t from a design within which two films of the same designs look the same
 /// (heuristic).
-const SAME_FILM_T: f64 = 0.03;
+const SWAP_DISTANCE_T: f64 = 0.03;
 
 /// Playback speeds that `[` and `]` step through, as factors (heuristic).
 pub const SPEEDS: [f64; 10] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
@@ -26,11 +26,11 @@ pub const SPEEDS: [f64; 10] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10
 enum PlaybackMotion {
     Still,
     /// Plays the film; `secs` is the time since its start.
-    Pass {
+    Film {
         secs: f64,
     },
     /// Plays to a stop.
-    Leg(SegmentToStop),
+    ToStop(SegmentToStop),
 }
 
 /// Motion to a stop, eased over `secs`.
@@ -81,7 +81,7 @@ impl Playback {
     #[must_use]
     pub fn can_swap_film(&self, timing: &Timing) -> bool {
         // At the designs all films of a segment are equal.
-        let is_end = |t: f64| t < SAME_FILM_T || (t - t.round()).abs() < SAME_FILM_T;
+        let is_end = |t: f64| t < SWAP_DISTANCE_T || (t - t.round()).abs() < SWAP_DISTANCE_T;
         let meets_an_end = [timing.from, timing.to].into_iter().any(is_end);
         !self.is_playing() || is_end(self.t) || !meets_an_end
     }
@@ -113,10 +113,10 @@ impl Playback {
         }
         self.t = t;
         self.motion = match self.motion {
-            PlaybackMotion::Pass { .. } => PlaybackMotion::Pass {
+            PlaybackMotion::Film { .. } => PlaybackMotion::Film {
                 secs: timing.secs_at(t, stops),
             },
-            PlaybackMotion::Still | PlaybackMotion::Leg(_) => PlaybackMotion::Still,
+            PlaybackMotion::Still | PlaybackMotion::ToStop(_) => PlaybackMotion::Still,
         };
     }
 
@@ -134,39 +134,39 @@ impl Playback {
             self.motion = PlaybackMotion::Still;
             return;
         }
-        let pass = timing.pass_secs(stops);
+        let film_secs = timing.pass_secs(stops);
         let secs = timing.secs_at(self.t, stops);
         // Where the film starts, in seconds, and where it ends, in t, in the current direction.
         let (start, end) = if self.backwards {
-            (pass, timing.from)
+            (film_secs, timing.from)
         } else {
             (0.0, timing.to)
         };
-        let at_end = (self.t - end).abs() < SAME_T;
+        let is_at_end = (self.t - end).abs() < SAME_T;
         // Ping-pong has no end: the film turns round by itself.
-        let secs = if at_end && timing.play != PlayMode::PingPong {
+        let secs = if is_at_end && timing.play != PlayMode::PingPong {
             start
         } else {
             secs
         };
-        self.motion = PlaybackMotion::Pass { secs };
+        self.motion = PlaybackMotion::Film { secs };
     }
 
     /// Reverses the direction; a motion to a stop returns to where it started.
     pub fn reverse(&mut self) {
         self.backwards = !self.backwards;
-        if let PlaybackMotion::Leg(leg) = &mut self.motion {
+        if let PlaybackMotion::ToStop(motion) = &mut self.motion {
             // Time at which the eased motion back has the same t as now.
-            let there = if leg.secs > 0.0 {
-                leg.easing.apply(leg.elapsed / leg.secs)
+            let progress = if motion.secs > 0.0 {
+                motion.easing.apply(motion.elapsed / motion.secs)
             } else {
                 1.0
             };
-            *leg = SegmentToStop {
-                from: leg.to,
-                to: leg.from,
-                elapsed: leg.secs * leg.easing.inverse(1.0 - there),
-                ..*leg
+            *motion = SegmentToStop {
+                from: motion.to,
+                to: motion.from,
+                elapsed: motion.secs * motion.easing.inverse(1.0 - progress),
+                ..*motion
             };
         }
     }
@@ -176,7 +176,7 @@ impl Playback {
         // As fast as the film covers the same distance.
         let middle = 0.5 * (self.t + to);
         let secs = (to - self.t).abs() / timing.speed_at(middle, stops);
-        self.motion = PlaybackMotion::Leg(SegmentToStop {
+        self.motion = PlaybackMotion::ToStop(SegmentToStop {
             from: self.t,
             to,
             elapsed: 0.0,
@@ -189,8 +189,8 @@ impl Playback {
     fn heading(&self) -> f64 {
         match self.motion {
             // Pressing twice in a row means the stop after the next.
-            PlaybackMotion::Leg(leg) => leg.to,
-            PlaybackMotion::Still | PlaybackMotion::Pass { .. } => self.t,
+            PlaybackMotion::ToStop(motion) => motion.to,
+            PlaybackMotion::Still | PlaybackMotion::Film { .. } => self.t,
         }
     }
 
@@ -223,59 +223,60 @@ impl Playback {
         let step = dt_secs * self.speed;
         match self.motion {
             PlaybackMotion::Still => {}
-            PlaybackMotion::Leg(leg) => {
-                let elapsed = leg.elapsed + step;
-                self.advance_leg(SegmentToStop { elapsed, ..leg });
+            PlaybackMotion::ToStop(motion) => {
+                let elapsed = motion.elapsed + step;
+                self.advance_to_stop(SegmentToStop { elapsed, ..motion });
             }
-            PlaybackMotion::Pass { secs } => {
-                let signed = if self.backwards { -step } else { step };
-                self.advance_pass(secs + signed, timing, stops);
+            PlaybackMotion::Film { secs } => {
+                let signed_step = if self.backwards { -step } else { step };
+                self.advance_film(secs + signed_step, timing, stops);
             }
         }
     }
 
-    fn advance_leg(&mut self, leg: SegmentToStop) {
+    fn advance_to_stop(&mut self, motion: SegmentToStop) {
         // Also if the motion takes no time, so that the division below is safe.
-        if leg.elapsed >= leg.secs {
-            self.t = leg.to;
+        if motion.elapsed >= motion.secs {
+            self.t = motion.to;
             self.motion = PlaybackMotion::Still;
             return;
         }
-        self.t = leg.from + (leg.to - leg.from) * leg.easing.apply(leg.elapsed / leg.secs);
-        self.motion = PlaybackMotion::Leg(leg);
+        let progress = motion.easing.apply(motion.elapsed / motion.secs);
+        self.t = motion.from + (motion.to - motion.from) * progress;
+        self.motion = PlaybackMotion::ToStop(motion);
     }
 
     /// Moves along the film to time `raw`, in seconds, and handles its ends.
-    fn advance_pass(&mut self, raw: f64, timing: &Timing, stops: &[TransitionStop]) {
-        let pass = timing.pass_secs(stops);
-        let over = if self.backwards {
-            raw <= 0.0
+    fn advance_film(&mut self, unclamped_secs: f64, timing: &Timing, stops: &[TransitionStop]) {
+        let film_secs = timing.pass_secs(stops);
+        let is_past_end = if self.backwards {
+            unclamped_secs <= 0.0
         } else {
-            raw >= pass
+            unclamped_secs >= film_secs
         };
         let secs = match timing.play {
             // A film without duration ends at once; nothing may be divided by it.
-            _ if pass <= 0.0 => 0.0,
-            PlayMode::Once => raw.clamp(0.0, pass),
-            PlayMode::Loop => raw.rem_euclid(pass),
+            _ if film_secs <= 0.0 => 0.0,
+            PlayMode::Once => unclamped_secs.clamp(0.0, film_secs),
+            PlayMode::Loop => unclamped_secs.rem_euclid(film_secs),
             PlayMode::PingPong => {
                 // A slow frame at tenfold speed may pass several ends.
-                let turns = (raw / pass).floor();
-                let along = raw - turns * pass;
+                let turns = (unclamped_secs / film_secs).floor();
+                let secs_from_end = unclamped_secs - turns * film_secs;
                 if turns.rem_euclid(2.0) == 0.0 {
-                    along
+                    secs_from_end
                 } else {
                     self.backwards = !self.backwards;
-                    pass - along
+                    film_secs - secs_from_end
                 }
             }
         };
         self.t = timing.t_at(secs, stops);
-        let ends = pass <= 0.0 || (over && timing.play == PlayMode::Once);
+        let ends = film_secs <= 0.0 || (is_past_end && timing.play == PlayMode::Once);
         self.motion = if ends {
             PlaybackMotion::Still
         } else {
-            PlaybackMotion::Pass { secs }
+            PlaybackMotion::Film { secs }
         };
     }
 }
@@ -345,10 +346,10 @@ impl Playback {
             Intent::Seek(t) => self.seek(*t, timing, stops),
             Intent::SeekStart => self.seek(timing.from, timing, stops),
             Intent::SeekEnd => self.seek(timing.to, timing, stops),
-            Intent::JumpToNextStop => self.jump(false, timing, stops),
-            Intent::JumpToPreviousStop => self.jump(true, timing, stops),
-            Intent::PlayToNextStop => self.slide(false, timing, stops),
-            Intent::PlayToPreviousStop => self.slide(true, timing, stops),
+            Intent::JumpToNextStop => self.jump_to_neighbour(false, timing, stops),
+            Intent::JumpToPreviousStop => self.jump_to_neighbour(true, timing, stops),
+            Intent::PlayToNextStop => self.play_to_neighbour(false, timing, stops),
+            Intent::PlayToPreviousStop => self.play_to_neighbour(true, timing, stops),
             Intent::Faster => self.change_speed(true),
             Intent::Slower => self.change_speed(false),
             Intent::NormalSpeed => self.set_speed(1.0),
@@ -358,7 +359,7 @@ impl Playback {
     }
 
     /// Jumps to the next or previous stop.
-    fn jump(&mut self, backwards: bool, timing: &Timing, stops: &[TransitionStop]) {
+    fn jump_to_neighbour(&mut self, backwards: bool, timing: &Timing, stops: &[TransitionStop]) {
         if let Some(t) = next_landmark(self.t, backwards, timing, stops) {
             self.motion = PlaybackMotion::Still;
             self.t = t;
@@ -366,7 +367,7 @@ impl Playback {
     }
 
     /// Plays to the next or previous stop.
-    fn slide(&mut self, backwards: bool, timing: &Timing, stops: &[TransitionStop]) {
+    fn play_to_neighbour(&mut self, backwards: bool, timing: &Timing, stops: &[TransitionStop]) {
         if let Some(t) = next_landmark(self.heading(), backwards, timing, stops) {
             self.play_to(t, timing, stops);
         }

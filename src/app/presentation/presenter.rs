@@ -44,7 +44,7 @@ struct ActiveTalk {
     captions: Option<bool>,
     began: Instant,
     /// Seconds since the pointer last moved.
-    rest_secs: f32,
+    idle_secs: f32,
     /// Preferences and window mode to restore afterwards.
     before: (Preferences, Option<WindowMode>),
 }
@@ -69,9 +69,9 @@ impl Presentation {
         let stops = session.stops();
         let is_named = stops.iter().any(|stop| !stop.name.is_empty());
         let names = session.names_along_path();
-        let are_wanted = talk.captions.unwrap_or(is_named) && !names.is_empty();
+        let are_visible = talk.captions.unwrap_or(is_named) && !names.is_empty();
         let names = names.iter().map(String::as_str);
-        are_wanted.then(|| Captions::new(stops, names, session.style().ground))
+        are_visible.then(|| Captions::new(stops, names, session.style().ground))
     }
 
     /// Duration of the talk so far.
@@ -85,7 +85,7 @@ impl Presentation {
     #[must_use]
     pub fn has_pending_change(&self) -> bool {
         let talk = self.talk.as_ref();
-        talk.is_some_and(|talk| !talk.has_begun || talk.rest_secs < POINTER_SECS)
+        talk.is_some_and(|talk| !talk.has_begun || talk.idle_secs < POINTER_SECS)
     }
 
     /// Starts a talk; `before` is restored when it ends.
@@ -96,7 +96,7 @@ impl Presentation {
             is_black: false,
             captions: None,
             began: Instant::now(),
-            rest_secs: 0.0,
+            idle_secs: 0.0,
             before,
         });
     }
@@ -189,12 +189,12 @@ pub fn begin(
     mut playback: ResMut<Playback>,
     mut intents: MessageWriter<Intent>,
 ) {
-    let waits = |talk: &&mut ActiveTalk| !talk.has_begun;
+    let has_not_begun = |talk: &&mut ActiveTalk| !talk.has_begun;
     let waiting = presentation
         .bypass_change_detection()
         .talk
         .as_mut()
-        .filter(waits);
+        .filter(has_not_begun);
     let Some(talk) = waiting else {
         return;
     };
@@ -227,14 +227,14 @@ pub fn hide_pointer(
         return;
     };
     if is_moved {
-        talk.rest_secs = 0.0;
+        talk.idle_secs = 0.0;
     } else {
-        talk.rest_secs += time.delta_secs();
+        talk.idle_secs += time.delta_secs();
     }
     if let Ok(mut cursor) = cursors.single_mut() {
-        let is_seen = talk.rest_secs < POINTER_SECS;
-        if cursor.visible != is_seen {
-            cursor.visible = is_seen;
+        let is_visible = talk.idle_secs < POINTER_SECS;
+        if cursor.visible != is_visible {
+            cursor.visible = is_visible;
         }
     }
 }

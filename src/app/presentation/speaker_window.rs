@@ -143,27 +143,31 @@ pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playbac
         speaker.picture = picture.ok().map(Arc::new);
     }
     let next = playback.next_stop(session.timing(), session.stops());
-    let wanted = session.sequence().zip(next);
-    let is_same = match (&wanted, &speaker.shown) {
+    let next_shown = session.sequence().zip(next);
+    let is_same = match (&next_shown, &speaker.shown) {
         (Some((new, t)), Some((old, shown))) => t == shown && new.is_same(old),
-        (wanted, shown) => wanted.is_none() && shown.is_none(),
+        (next_shown, shown) => next_shown.is_none() && shown.is_none(),
     };
     if is_same {
         return;
     }
-    speaker.shown.clone_from(&wanted);
+    speaker.shown.clone_from(&next_shown);
     speaker.picture = None;
     let style = session.style();
-    speaker.job = wanted.map(|(sequence, t)| {
-        BackgroundJob::start("the next stop", move |_| drawn(sequence, style, t))
+    speaker.job = next_shown.map(|(sequence, t)| {
+        BackgroundJob::start("the next stop", move |_| draw_next_stop(sequence, style, t))
     });
 }
 
 /// Draws the film at `t`.
-fn drawn(sequence: Sequence, style: TransitionStyle, t: f64) -> Result<RgbaImage, PixelSizeError> {
+fn draw_next_stop(
+    sequence: Sequence,
+    style: TransitionStyle,
+    t: f64,
+) -> Result<RgbaImage, PixelSizeError> {
     let bounds = sequence.bounds();
-    let room = bounds.padded(0.04 * bounds.diameter());
-    let view = PlaneView::fit(room, PixelSize::new(PICTURE_PX.0, PICTURE_PX.1)?);
+    let padded = bounds.padded(0.04 * bounds.diameter());
+    let view = PlaneView::fit(padded, PixelSize::new(PICTURE_PX.0, PICTURE_PX.1)?);
     let ground: Option<Rgb> = Some(style.ground);
     let camera = FilmCamera {
         sequence,

@@ -33,11 +33,11 @@ pub struct OpenDocument {
     /// Whether it was recovered from an autosave.
     pub is_recovered: bool,
     /// The segments on the stage: one for each pair of consecutive designs.
-    legs: Vec<BuiltSegment>,
+    segments: Vec<BuiltSegment>,
     /// Index of the current segment: the one at the current t.
-    leg: usize,
+    segment_index: usize,
     /// Current settings of the current segment.
-    seen: Project,
+    segment_settings: Project,
     origin: ProjectOrigin,
     /// Settings as last opened or saved.
     saved: Project,
@@ -49,14 +49,14 @@ impl OpenDocument {
     pub fn new(loaded: BuiltProject, origin: ProjectOrigin) -> Self {
         let project = loaded.project.project.clone();
         Self {
-            seen: project.segment(0),
+            segment_settings: project.segment(0),
             loaded: loaded.project,
             staged: loaded.settings,
             history: UndoHistory::default(),
             must_reread: false,
             is_recovered: false,
-            legs: loaded.segments,
-            leg: 0,
+            segments: loaded.segments,
+            segment_index: 0,
             origin,
             saved: project,
         }
@@ -92,32 +92,31 @@ impl OpenDocument {
     /// Index of the current segment.
     #[must_use]
     pub fn segment(&self) -> usize {
-        self.leg
+        self.segment_index
     }
 
     /// Number of segments on the stage.
     #[must_use]
     pub fn segment_count(&self) -> usize {
-        self.legs.len()
+        self.segments.len()
     }
 
     /// Makes another segment the current one.
-    pub fn select_segment(&mut self, leg: usize) {
-        self.leg = leg.min(self.legs.len().saturating_sub(1));
+    pub fn select_segment(&mut self, segment_index: usize) {
+        self.segment_index = segment_index.min(self.segments.len().saturating_sub(1));
         self.refresh_segment();
     }
 
-    /// Updates `seen`, the settings of the current segment, or of the last one if that no longer
-    /// exists.
+    /// Updates the settings of the current segment, or of the last one if that no longer exists.
     fn refresh_segment(&mut self) {
         let last = self.loaded.project.segment_count() - 1;
-        self.seen = self.loaded.project.segment(self.leg.min(last));
+        self.segment_settings = self.loaded.project.segment(self.segment_index.min(last));
     }
 
     /// Current settings of the current segment.
     #[must_use]
     pub fn segment_project(&self) -> &Project {
-        &self.seen
+        &self.segment_settings
     }
 
     /// The whole project, with the designs and settings on the stage.
@@ -129,16 +128,16 @@ impl OpenDocument {
     /// The current segment, with the designs and settings on the stage.
     #[must_use]
     pub fn staged_segment(&self) -> LoadedProject {
-        let mut legs = self.staged_project().segments();
-        let leg = self.leg.min(legs.len() - 1);
-        legs.swap_remove(leg)
+        let mut segments = self.staged_project().segments();
+        let index = self.segment_index.min(segments.len() - 1);
+        segments.swap_remove(index)
     }
 
     /// The two designs of the current segment.
     #[must_use]
     pub fn designs(&self) -> [&Arc<Design>; 2] {
         self.staged
-            .segment_designs(self.leg)
+            .segment_designs(self.segment_index)
             .map(|k| &self.loaded.designs[k])
     }
 
@@ -151,24 +150,25 @@ impl OpenDocument {
     /// The same, with the settings it was built from.
     #[must_use]
     pub fn stage(&self) -> Option<&PlayableSegment> {
-        self.legs.get(self.leg)?.playable.as_ref()
+        self.segments.get(self.segment_index)?.playable.as_ref()
     }
 
     /// All transitions on the stage; `None` unless every segment has one.
     #[must_use]
     pub fn sequence(&self) -> Option<Sequence> {
-        let legs = self
-            .legs
+        let segments = self
+            .segments
             .iter()
-            .map(|leg| Some(leg.playable.as_ref()?.transition.clone()));
-        let sequence = Sequence::new(legs.collect::<Option<_>>()?)?;
+            .map(|segment| Some(segment.playable.as_ref()?.transition.clone()));
+        let sequence = Sequence::new(segments.collect::<Option<_>>()?)?;
         Some(sequence.closed(self.staged.ends_where_it_starts()))
     }
 
     /// Approximate bounding box of all frames of all segments; frames are sampled.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
-        let stages = self.legs.iter().filter_map(|leg| leg.playable.as_ref());
+        let segments = self.segments.iter();
+        let stages = segments.filter_map(|segment| segment.playable.as_ref());
         let boxes = stages.map(|stage| stage.transition.bounds());
         boxes.reduce(|a, b| a.union(&b))
     }
@@ -177,14 +177,21 @@ impl OpenDocument {
     /// first one.
     #[must_use]
     pub fn problem(&self) -> Option<&TransitionProblem> {
-        let here = self.legs.get(self.leg).and_then(|leg| leg.problem.as_ref());
-        here.or_else(|| self.legs.iter().find_map(|leg| leg.problem.as_ref()))
+        let current = self
+            .segments
+            .get(self.segment_index)
+            .and_then(|segment| segment.problem.as_ref());
+        current.or_else(|| {
+            self.segments
+                .iter()
+                .find_map(|segment| segment.problem.as_ref())
+        })
     }
 
     /// Clears the problems of all segments.
     pub fn forget_problems(&mut self) {
-        for leg in &mut self.legs {
-            leg.problem = None;
+        for segment in &mut self.segments {
+            segment.problem = None;
         }
     }
 
@@ -273,10 +280,10 @@ impl OpenDocument {
 
     /// Replaces the settings of the current segment, as [`Self::edit`] does.
     pub fn edit_segment(&mut self, pair: Project, mark: Option<u64>) {
-        let mut whole = self.loaded.project.clone();
-        let last = whole.segment_count() - 1;
-        whole.replace_segment(self.leg.min(last), pair);
-        self.edit(whole, mark);
+        let mut project = self.loaded.project.clone();
+        let last = project.segment_count() - 1;
+        project.replace_segment(self.segment_index.min(last), pair);
+        self.edit(project, mark);
     }
 
     /// Applies an undo or redo step; returns `false` if there is none.
@@ -314,8 +321,12 @@ impl OpenDocument {
 
     /// Clears the problems of all segments that have something to show.
     fn clear_problems_of_shown_segments(&mut self) {
-        for leg in self.legs.iter_mut().filter(|leg| leg.playable.is_some()) {
-            leg.problem = None;
+        for segment in self
+            .segments
+            .iter_mut()
+            .filter(|segment| segment.playable.is_some())
+        {
+            segment.problem = None;
         }
     }
 
@@ -326,9 +337,9 @@ impl OpenDocument {
             requested: self.loaded.clone(),
             staged: self.staged.clone(),
             segments: self
-                .legs
+                .segments
                 .iter()
-                .filter_map(|leg| leg.playable.clone())
+                .filter_map(|segment| segment.playable.clone())
                 .collect(),
             must_reread: self.must_reread,
         }
@@ -339,18 +350,23 @@ impl OpenDocument {
     /// The settings are kept, because they may have changed again; so is any segment on the stage
     /// whose replacement could not be built.
     pub fn restage(&mut self, built: BuiltProject) -> bool {
-        let can_stay = built.segments.len() == self.legs.len();
-        if can_stay && built.segments.iter().all(|leg| leg.problem.is_some()) {
+        let can_stay = built.segments.len() == self.segments.len();
+        if can_stay
+            && built
+                .segments
+                .iter()
+                .all(|segment| segment.problem.is_some())
+        {
             // Every replacement failed: what is on the stage is at least as good.
-            let new = self.legs.iter_mut().zip(built.segments);
-            new.for_each(|(leg, built)| leg.problem = built.problem);
+            let new = self.segments.iter_mut().zip(built.segments);
+            new.for_each(|(segment, built)| segment.problem = built.problem);
             return false;
         }
         // The current settings may be newer than those that were built.
         self.loaded.designs = built.project.designs;
         self.staged = built.settings;
         self.must_reread = false;
-        let mut before = std::mem::take(&mut self.legs).into_iter();
+        let mut before = std::mem::take(&mut self.segments).into_iter();
         let merged = |built: BuiltSegment| {
             let old = before
                 .next()
@@ -360,20 +376,20 @@ impl OpenDocument {
                 problem: built.problem,
             }
         };
-        self.legs = built.segments.into_iter().map(merged).collect();
-        self.select_segment(self.leg);
+        self.segments = built.segments.into_iter().map(merged).collect();
+        self.select_segment(self.segment_index);
         true
     }
 
     /// Resets the settings to those on the stage; the change leaves no undo step.
     pub fn reset_settings(&mut self) {
         self.must_reread = false;
-        let cell = self.cell_on_stage();
+        let method = self.method_on_stage();
         self.amend(|now, staged| {
             now.clone_from(staged);
             // If the requested method was refused on opening, the stage shows another one.
-            if let Some(cell) = cell {
-                (now.warp, now.content) = (Some(cell.warp()), Some(cell.content()));
+            if let Some(method) = method {
+                (now.warp, now.content) = (Some(method.warp()), Some(method.content()));
             }
         });
         // The failed settings are no longer requested.
@@ -381,11 +397,11 @@ impl OpenDocument {
     }
 
     /// Method by which all segments are shown; `None` if they differ.
-    fn cell_on_stage(&self) -> Option<TransitionMethod> {
-        let cell = |leg: &BuiltSegment| Some(leg.playable.as_ref()?.transition.method());
-        let first = cell(self.legs.first()?)?;
-        let is_same = |leg: &BuiltSegment| cell(leg) == Some(first);
-        self.legs.iter().all(is_same).then_some(first)
+    fn method_on_stage(&self) -> Option<TransitionMethod> {
+        let method = |segment: &BuiltSegment| Some(segment.playable.as_ref()?.transition.method());
+        let first = method(self.segments.first()?)?;
+        let is_same = |segment: &BuiltSegment| method(segment) == Some(first);
+        self.segments.iter().all(is_same).then_some(first)
     }
 
     /// Resets the designs to those on the stage, because a file cannot be read.
@@ -418,13 +434,13 @@ impl OpenDocument {
     pub fn save(&mut self, path: PathBuf) -> Result<(), SaveError> {
         // Results of the search are saved only if the stage shows what the settings ask for.
         if !load::needs_build(&self.staged, &self.loaded.project) {
-            for (k, leg) in self.legs.iter().enumerate() {
-                if let Some(found) = leg
+            for (k, segment) in self.segments.iter().enumerate() {
+                if let Some(cached) = segment
                     .playable
                     .as_ref()
                     .and_then(|s| s.transition.cached_match())
                 {
-                    self.loaded.project.cache_match(k, found);
+                    self.loaded.project.cache_match(k, cached);
                 }
             }
         }
@@ -434,8 +450,8 @@ impl OpenDocument {
         // Only paths changed, which requires no rebuild.
         if self.staged.designs.len() == self.saved.designs.len() {
             self.staged.designs.clone_from(&self.saved.designs);
-            for (k, leg) in self.legs.iter_mut().enumerate() {
-                if let Some(stage) = &mut leg.playable {
+            for (k, segment) in self.segments.iter_mut().enumerate() {
+                if let Some(stage) = &mut segment.playable {
                     stage.settings.rename(&self.staged, k);
                 }
             }

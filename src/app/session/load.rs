@@ -55,23 +55,23 @@ pub struct SegmentSettings {
     /// the first design, and fields share one grid. Empty otherwise.
     all_designs: Vec<DesignEntry>,
     /// Index of the segment, if it belongs to a path on the map.
-    path_leg: Option<usize>,
+    path_segment: Option<usize>,
 }
 
 impl SegmentSettings {
     /// Settings of one segment of a project.
     #[must_use]
-    pub fn of(whole: &LoadedProject, segment: usize) -> Self {
-        let project = &whole.project;
-        let has_bars = |design: &Arc<Design>| matches!(design.form, DesignForm::Truss(_));
+    pub fn of(loaded: &LoadedProject, segment: usize) -> Self {
+        let project = &loaded.project;
+        let is_truss = |design: &Arc<Design>| matches!(design.form, DesignForm::Truss(_));
         let stands_alone = project.follows_path()
             || !project.is_sequence()
             || (project.content == Some(ContentKind::Solid)
                 && project.fit == DesignFit::AsDrawn
-                && !whole.designs.iter().any(has_bars));
+                && !loaded.designs.iter().any(is_truss));
         Self {
             segment_project: project.segment(segment),
-            path_leg: project.follows_path().then_some(segment),
+            path_segment: project.follows_path().then_some(segment),
             all_designs: if stands_alone {
                 Vec::new()
             } else {
@@ -81,18 +81,18 @@ impl SegmentSettings {
     }
 
     /// Adopts new file names of unchanged designs, as after saving to another folder.
-    pub fn rename(&mut self, whole: &Project, leg: usize) {
-        self.segment_project.designs = whole.segment(leg).designs;
+    pub fn rename(&mut self, project: &Project, segment_index: usize) {
+        self.segment_project.designs = project.segment(segment_index).designs;
         if !self.all_designs.is_empty() {
-            self.all_designs.clone_from(&whole.designs);
+            self.all_designs.clone_from(&project.designs);
         }
     }
 
     /// Whether the settings `now` require another transition.
     fn needs_build(&self, now: &Self) -> bool {
-        let context = (&self.all_designs, self.path_leg);
+        let context = (&self.all_designs, self.path_segment);
         needs_build(&self.segment_project, &now.segment_project)
-            || context != (&now.all_designs, now.path_leg)
+            || context != (&now.all_designs, now.path_segment)
     }
 }
 
@@ -150,7 +150,7 @@ impl RebuildRequest {
     fn carry_out(
         self,
         progress: &dyn Progress,
-        meanwhile: &mut dyn FnMut(InterimResult),
+        on_interim: &mut dyn FnMut(InterimResult),
     ) -> Result<BuiltProject, LoadError> {
         // Shortcut for sliders being dragged: distance transforms take far longer than the blend.
         if !self.must_reread
@@ -158,24 +158,24 @@ impl RebuildRequest {
                 .with_new_field_blend()
                 .or_else(|| self.with_new_part_times())
         {
-            return Ok(all_built(self.requested, stages));
+            return Ok(fully_built(self.requested, stages));
         }
-        let (mut project, mut known) = (self.requested, self.segments);
+        let (mut project, mut reusable) = (self.requested, self.segments);
         if self.must_reread {
             project = project.reread()?;
             // Segments built from the old files cannot be reused.
-            known.clear();
-            choose_cell(&mut project);
+            reusable.clear();
+            choose_method(&mut project);
         } else if reads_differently(&self.staged, &project.project) {
             project = project.reread_changed(&self.staged)?;
-            choose_cell(&mut project);
+            choose_method(&mut project);
         }
         Ok(build_in_steps(
             project,
-            &known,
+            &reusable,
             Vec::new(),
             progress,
-            meanwhile,
+            on_interim,
         ))
     }
 
@@ -185,8 +185,8 @@ impl RebuildRequest {
             options.parts.clone_from(&now.parts);
             options.coats = now.coats;
         };
-        self.reuse_segments(change, |leg, transition| {
-            let TransitionOptions { parts, coats, .. } = leg.spec().ok()?.options;
+        self.reuse_segments(change, |segment, transition| {
+            let TransitionOptions { parts, coats, .. } = segment.spec().ok()?.options;
             Some(transition.with_paint_layers(&coats).with_part_times(&parts))
         })
     }
@@ -214,22 +214,22 @@ impl RebuildRequest {
         if self.requested.project.segment_count() != self.segments.len() {
             return None;
         }
-        let legs = self.requested.segments();
-        let pairs = legs.iter().zip(&self.segments).enumerate();
-        let reused = pairs.map(|(k, (leg, stage))| {
-            let (mut was, settings) = (
+        let segments = self.requested.segments();
+        let pairs = segments.iter().zip(&self.segments).enumerate();
+        let reused = pairs.map(|(k, (segment, stage))| {
+            let (mut staged_settings, settings) = (
                 stage.settings.clone(),
                 SegmentSettings::of(&self.requested, k),
             );
             change(
-                &mut was.segment_project.options,
+                &mut staged_settings.segment_project.options,
                 &settings.segment_project.options,
             );
-            if was.needs_build(&settings) {
+            if staged_settings.needs_build(&settings) {
                 return None;
             }
             Some(PlayableSegment {
-                transition: make(leg, &stage.transition)?,
+                transition: make(segment, &stage.transition)?,
                 settings,
             })
         });
@@ -255,7 +255,7 @@ impl LoadRequest {
         Some(match self {
             Self::Gallery(name) => ProjectOrigin::Gallery(name.clone()),
             Self::File(path) => ProjectOrigin::File(path.clone()),
-            Self::Recovered(kept) => kept.origin(),
+            Self::Recovered(unsaved) => unsaved.origin(),
             Self::Designs(_) => ProjectOrigin::Unsaved,
             Self::Rebuild(_) => return None,
         })
@@ -272,7 +272,7 @@ impl LoadRequest {
 
     /// Carries out the request.
     ///
-    /// When opening, `meanwhile` receives the project built by the plainest method, and then a
+    /// When opening, `on_interim` receives the project built by the plainest method, and then a
     /// draft, while the requested transition is being built. If that fails, the last of these is
     /// returned.
     ///
@@ -282,49 +282,53 @@ impl LoadRequest {
     pub fn carry_out(
         self,
         progress: &dyn Progress,
-        mut meanwhile: impl FnMut(InterimResult),
+        mut on_interim: impl FnMut(InterimResult),
     ) -> Result<BuiltProject, LoadError> {
         checkpoint(progress, "Reading", 0.0)?;
         let mut project = match self {
             Self::Gallery(name) => gallery::load(&name)?,
             Self::File(path) => LoadedProject::open(&path)?,
-            Self::Recovered(kept) => kept.load()?,
+            Self::Recovered(unsaved) => unsaved.load()?,
             Self::Designs(paths) => {
                 let project = Project::from_paths(paths.iter().map(|path| absolute(path)));
                 LoadedProject::load(project, Some(PathBuf::new()))?
             }
-            Self::Rebuild(rebuild) => return rebuild.carry_out(progress, &mut meanwhile),
+            Self::Rebuild(rebuild) => return rebuild.carry_out(progress, &mut on_interim),
         };
-        choose_cell(&mut project);
+        choose_method(&mut project);
         let plain = build_plainest(&project, progress);
         let stages = plain.as_ref().map_or_else(Vec::new, |plain| plain.stages());
         if let Some(plain) = plain {
-            meanwhile(InterimResult::Plain(plain));
+            on_interim(InterimResult::Plain(plain));
         }
         Ok(build_in_steps(
             project,
             &[],
             stages,
             progress,
-            &mut meanwhile,
+            &mut on_interim,
         ))
     }
 }
 
 /// Replaces an unspecified or unsupported method by one that suits the designs, so that the panel
 /// names the method that the stage shows.
-fn choose_cell(loaded: &mut LoadedProject) {
-    let legs = loaded.segments();
-    let suits_all = |cell: &TransitionMethod| {
-        let suits = |leg: &LoadedProject| leg.check_available(cell.warp(), cell.content()).is_ok();
-        legs.iter().all(suits)
+fn choose_method(loaded: &mut LoadedProject) {
+    let segments = loaded.segments();
+    let suits_all = |method: &TransitionMethod| {
+        let suits = |segment: &LoadedProject| {
+            segment
+                .check_available(method.warp(), method.content())
+                .is_ok()
+        };
+        segments.iter().all(suits)
     };
-    let asked = legs[0].method().ok().filter(suits_all);
+    let requested = segments[0].method().ok().filter(suits_all);
     // Methods with the strictest requirements come first; the last one suits any designs.
-    let suited = asked.or_else(|| TransitionMethod::all().find(suits_all));
-    if let Some(cell) = suited {
-        loaded.project.warp = Some(cell.warp());
-        loaded.project.content = Some(cell.content());
+    let chosen = requested.or_else(|| TransitionMethod::all().find(suits_all));
+    if let Some(method) = chosen {
+        loaded.project.warp = Some(method.warp());
+        loaded.project.content = Some(method.content());
     }
 }
 
@@ -333,20 +337,20 @@ impl BuiltProject {
     fn stages(&self) -> Vec<Option<PlayableSegment>> {
         self.segments
             .iter()
-            .map(|leg| leg.playable.clone())
+            .map(|segment| segment.playable.clone())
             .collect()
     }
 }
 
 /// A project whose segments are all built as requested.
-fn all_built(project: LoadedProject, stages: Vec<PlayableSegment>) -> BuiltProject {
-    let leg = |stage| BuiltSegment {
+fn fully_built(project: LoadedProject, stages: Vec<PlayableSegment>) -> BuiltProject {
+    let built_segment = |stage| BuiltSegment {
         playable: Some(stage),
         problem: None,
     };
     BuiltProject {
         settings: project.project.clone(),
-        segments: stages.into_iter().map(leg).collect(),
+        segments: stages.into_iter().map(built_segment).collect(),
         project,
     }
 }
@@ -356,54 +360,56 @@ const DRAFT_SHARE: f64 = 0.25;
 
 /// Builds the segments of a project, with drafts first where they are quicker.
 ///
-/// Segments that are `known` are reused. One that cannot be built is replaced by its draft, or else
+/// Segments in `reusable` are reused. One that cannot be built is replaced by its draft, or else
 /// by the `plain` one, if given.
 fn build_in_steps(
     project: LoadedProject,
-    known: &[PlayableSegment],
+    reusable: &[PlayableSegment],
     plain: Vec<Option<PlayableSegment>>,
     progress: &dyn Progress,
-    meanwhile: &mut dyn FnMut(InterimResult),
+    on_interim: &mut dyn FnMut(InterimResult),
 ) -> BuiltProject {
-    let legs = project.segments();
-    let known: Vec<Option<PlayableSegment>> = (0..legs.len())
-        .map(|leg| find_reusable(known, &SegmentSettings::of(&project, leg)))
+    let segments = project.segments();
+    let reusable: Vec<Option<PlayableSegment>> = (0..segments.len())
+        .map(|index| find_reusable(reusable, &SegmentSettings::of(&project, index)))
         .collect();
-    let drafting = ProgressShares::new(progress, legs.len());
-    let draft = |leg: usize| {
-        let part = drafting.part(leg);
-        let is_known = known[leg].is_some();
+    let drafting = ProgressShares::new(progress, segments.len());
+    let draft = |index: usize| {
+        let part = drafting.part(index);
+        let is_known = reusable[index].is_some();
         let span = ProgressSpan::new(&part, 0.0, DRAFT_SHARE);
-        let draft = (!is_known).then(|| draft(&project, leg, &legs[leg], &span));
+        let draft = (!is_known).then(|| draft(&project, index, &segments[index], &span));
         draft.flatten()
     };
-    let drafts: Vec<Option<PlayableSegment>> = (0..legs.len()).map(draft).collect();
+    let drafts: Vec<Option<PlayableSegment>> = (0..segments.len()).map(draft).collect();
     let has_drafts = drafts.iter().any(Option::is_some);
     // Shown for a segment until, or unless, it is built.
-    let fallback = |leg: usize| {
-        let before = plain.get(leg).cloned().flatten();
-        known[leg].clone().or(drafts[leg].clone()).or(before)
+    let fallback = |index: usize| {
+        let before = plain.get(index).cloned().flatten();
+        reusable[index].clone().or(drafts[index].clone()).or(before)
     };
     if has_drafts {
-        let stages = (0..legs.len()).map(fallback).collect();
+        let stages = (0..segments.len()).map(fallback).collect();
         let mut settings = project.project.clone();
         settings.options.quality = BuildQuality::Draft;
-        meanwhile(InterimResult::Draft(interim(&project, settings, stages)));
+        on_interim(InterimResult::Draft(with_interim_segments(
+            &project, settings, stages,
+        )));
     }
     let from = if has_drafts { DRAFT_SHARE } else { 0.0 };
     let building = ProgressSpan::new(progress, from, 1.0);
-    let building = ProgressShares::new(&building, legs.len());
-    let built = (0..legs.len()).map(|leg| match &known[leg] {
+    let building = ProgressShares::new(&building, segments.len());
+    let built = (0..segments.len()).map(|index| match &reusable[index] {
         Some(stage) => BuiltSegment {
             playable: Some(stage.clone()),
             problem: None,
         },
         None => build_segment(
             &project,
-            leg,
-            &legs[leg],
-            fallback(leg),
-            &building.part(leg),
+            index,
+            &segments[index],
+            fallback(index),
+            &building.part(index),
         ),
     });
     BuiltProject {
@@ -415,8 +421,8 @@ fn build_in_steps(
 
 /// Builds one segment; if that fails, `fallback` takes its place.
 fn build_segment(
-    whole: &LoadedProject,
-    leg: usize,
+    whole_project: &LoadedProject,
+    index: usize,
     project: &LoadedProject,
     fallback: Option<PlayableSegment>,
     progress: &dyn Progress,
@@ -424,7 +430,7 @@ fn build_segment(
     match transition_of(project, progress) {
         Ok(transition) => BuiltSegment {
             playable: Some(PlayableSegment {
-                settings: SegmentSettings::of(whole, leg),
+                settings: SegmentSettings::of(whole_project, index),
                 transition,
             }),
             problem: None,
@@ -437,40 +443,43 @@ fn build_segment(
 }
 
 /// A segment that was built from the same settings before.
-fn find_reusable(known: &[PlayableSegment], settings: &SegmentSettings) -> Option<PlayableSegment> {
-    let same = known
+fn find_reusable(
+    candidates: &[PlayableSegment],
+    settings: &SegmentSettings,
+) -> Option<PlayableSegment> {
+    let same = candidates
         .iter()
         .find(|stage| !stage.settings.needs_build(settings));
     same.cloned()
 }
 
 /// A project with interim segments.
-fn interim(
+fn with_interim_segments(
     project: &LoadedProject,
     settings: Project,
     stages: Vec<Option<PlayableSegment>>,
 ) -> BuiltProject {
-    let leg = |stage| BuiltSegment {
+    let built_segment = |stage| BuiltSegment {
         playable: stage,
         problem: None,
     };
     BuiltProject {
         project: project.clone(),
         settings,
-        segments: stages.into_iter().map(leg).collect(),
+        segments: stages.into_iter().map(built_segment).collect(),
     }
 }
 
 /// Draft of a segment, if its settings ask for the best of several films; `None` otherwise, or if
 /// it cannot be built.
 fn draft(
-    whole: &LoadedProject,
-    leg: usize,
+    whole_project: &LoadedProject,
+    index: usize,
     project: &LoadedProject,
     progress: &dyn Progress,
 ) -> Option<PlayableSegment> {
     let (quality, transition) = project.draft(progress)?;
-    let mut settings = SegmentSettings::of(whole, leg);
+    let mut settings = SegmentSettings::of(whole_project, index);
     settings.segment_project.options.quality = quality;
     Some(PlayableSegment {
         settings,
@@ -481,22 +490,26 @@ fn draft(
 /// Segments built by the method without a warp, which suits almost any two designs and takes no
 /// time; `None` if the project asks for that method anyway.
 fn build_plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<BuiltProject> {
-    let asked = project.segments()[0].method().ok()?;
-    let cell = asked.fallback();
-    if cell == asked {
+    let requested = project.segments()[0].method().ok()?;
+    let method = requested.fallback();
+    if method == requested {
         return None;
     }
     let mut plain = project.clone();
-    plain.project.warp = Some(cell.warp());
-    plain.project.content = Some(cell.content());
-    let stage = |(leg, pair): (usize, &LoadedProject)| {
+    plain.project.warp = Some(method.warp());
+    plain.project.content = Some(method.content());
+    let stage = |(index, pair): (usize, &LoadedProject)| {
         Some(PlayableSegment {
-            settings: SegmentSettings::of(&plain, leg),
+            settings: SegmentSettings::of(&plain, index),
             transition: transition_of(pair, &CancelOnlyProgress(progress)).ok()?,
         })
     };
     let stages = plain.segments().iter().enumerate().map(stage).collect();
-    Some(interim(project, plain.project.clone(), stages))
+    Some(with_interim_segments(
+        project,
+        plain.project.clone(),
+        stages,
+    ))
 }
 
 /// Forwards cancellation but hides progress; otherwise the progress bar would run twice.

@@ -77,7 +77,7 @@ fn write_bundled_design(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveEr
     };
     let bytes = gallery::bytes(bundled).ok_or_else(|| failed(io::ErrorKind::NotFound.into()))?;
     // Otherwise each save would write the designs again under new names.
-    if std::fs::read(folder.join(bundled)).is_ok_and(|there| there == bytes) {
+    if std::fs::read(folder.join(bundled)).is_ok_and(|existing| existing == bytes) {
         return Ok(bundled.to_owned());
     }
     let text =
@@ -115,10 +115,13 @@ mod tests {
 
     #[test]
     fn paths_are_relative() {
-        let way = |folder, file| relative(Path::new(folder), Path::new(file));
-        assert_eq!(way("/a/b", "/a/b/c.svg"), Path::new("c.svg"));
-        assert_eq!(way("/a/b", "/a/c.svg"), Path::new("../c.svg"));
-        assert_eq!(way("/a/b", "/d/c.svg"), Path::new("../../d/c.svg"));
+        let relative_path = |folder, file| relative(Path::new(folder), Path::new(file));
+        assert_eq!(relative_path("/a/b", "/a/b/c.svg"), Path::new("c.svg"));
+        assert_eq!(relative_path("/a/b", "/a/c.svg"), Path::new("../c.svg"));
+        assert_eq!(
+            relative_path("/a/b", "/d/c.svg"),
+            Path::new("../../d/c.svg")
+        );
     }
 
     #[test]

@@ -108,8 +108,8 @@ impl Session {
     #[must_use]
     pub fn names_along_path(&self) -> Vec<String> {
         self.open.as_ref().map_or_else(Vec::new, |open| {
-            let whole = open.staged_project();
-            let names = whole.stop_names().into_iter();
+            let project = open.staged_project();
+            let names = project.stop_names().into_iter();
             names.map(str::to_owned).collect()
         })
     }
@@ -159,14 +159,14 @@ impl Session {
     /// Index of the segment that is shown at `t`.
     #[must_use]
     pub fn segment_at(&self, t: f64) -> usize {
-        let legs = self.open.as_ref().map_or(1, OpenDocument::segment_count);
-        segment_at(legs, t).0
+        let segment_count = self.open.as_ref().map_or(1, OpenDocument::segment_count);
+        segment_at(segment_count, t).0
     }
 
     /// Makes another segment the current one.
-    pub fn select_segment(&mut self, leg: usize) {
+    pub fn select_segment(&mut self, segment: usize) {
         if let Some(open) = &mut self.open {
-            open.select_segment(leg);
+            open.select_segment(segment);
         }
     }
 
@@ -269,8 +269,8 @@ impl Session {
     /// The reason why not, as tooltip of a disabled button.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), MethodUnavailable> {
         let open = self.open.as_ref().ok_or(MethodUnavailable::NothingOpen)?;
-        for leg in open.staged_project().segments() {
-            leg.check_available(warp, content)?;
+        for segment in open.staged_project().segments() {
+            segment.check_available(warp, content)?;
         }
         Ok(())
     }
@@ -482,13 +482,13 @@ impl Session {
     #[must_use]
     pub fn visible_work(&self) -> Option<(&'static str, f64)> {
         let work = self.work.as_ref()?;
-        let (stage, share) = work.job.progress();
+        let (stage, fraction) = work.job.progress();
         let stage = if work.has_draft {
             IMPROVING_FILM
         } else {
             stage
         };
-        (work.job.elapsed() > SHOWN_AFTER).then_some((stage, share))
+        (work.job.elapsed() > SHOWN_AFTER).then_some((stage, fraction))
     }
 
     /// Builds a transition that was refused for its cost, and lifts the limits for this project
@@ -534,7 +534,7 @@ impl Session {
         let must_wait = |work: &TransitionWork| work.has_draft && !may_change;
         let outcome = match &self.work {
             Some(work) if must_wait(work) => None,
-            _ => self.take_work().or_else(|| self.take_meanwhile()),
+            _ => self.adopt_result().or_else(|| self.adopt_interim()),
         };
         // A build continues while a slider is dragged, so that intermediate results appear; but not
         // for long.
@@ -555,7 +555,7 @@ impl Session {
     }
 
     /// Adopts an interim result that is due.
-    fn take_meanwhile(&mut self) -> Option<WorkOutcome> {
+    fn adopt_interim(&mut self) -> Option<WorkOutcome> {
         let work = self.work.as_mut()?;
         let opened = work.opened();
         let (loaded, origin) = work.take_meanwhile()?;
@@ -572,11 +572,11 @@ impl Session {
     }
 
     /// Adopts the result of finished work.
-    fn take_work(&mut self) -> Option<WorkOutcome> {
-        let answer = self.work.as_ref()?.job.poll()?;
+    fn adopt_result(&mut self) -> Option<WorkOutcome> {
+        let result = self.work.as_ref()?.job.poll()?;
         let work = self.work.take()?;
         let (opened, origin) = (work.opened(), work.origin);
-        Some(match (answer, origin, &mut self.open) {
+        Some(match (result, origin, &mut self.open) {
             (Ok(loaded), Some(origin), open) => {
                 self.is_stale = false;
                 *open = Some(opened(loaded, origin));

@@ -14,7 +14,7 @@ use crate::project::Project;
 
 /// A rebuild older than this is abandoned when the settings change again. Shorter, and builds of a
 /// second would never appear while a slider moves; longer, and the slider seems stuck (heuristic).
-const PATIENCE: Duration = Duration::from_millis(1500);
+const ABANDON_AFTER: Duration = Duration::from_millis(1500);
 
 /// A project being opened is shown by the plainest method after this time. Sooner, and every
 /// project would appear twice; later, and the stage stays empty needlessly (heuristic).
@@ -41,7 +41,7 @@ pub struct TransitionWork {
     /// Origin of the project being opened; `None` for a rebuild of the open one.
     pub origin: Option<ProjectOrigin>,
     /// Settings being built, as far as they are known.
-    pub wanted: Option<Project>,
+    pub settings: Option<Project>,
     /// The background job.
     pub job: BackgroundJob<BuiltProject, LoadError>,
     /// Whether the project being opened has unsaved changes.
@@ -49,9 +49,9 @@ pub struct TransitionWork {
     /// Whether a draft of the result is on the stage.
     pub has_draft: bool,
     /// Channel for interim results.
-    meanwhile: Mutex<Receiver<InterimResult>>,
+    interim_results: Mutex<Receiver<InterimResult>>,
     /// Latest interim result not shown yet.
-    waiting: Option<InterimResult>,
+    pending_interim: Option<InterimResult>,
 }
 
 impl TransitionWork {
@@ -61,18 +61,18 @@ impl TransitionWork {
         let (sender, receiver) = channel();
         Self {
             origin: request.origin(),
-            wanted: request.settings().cloned(),
+            settings: request.settings().cloned(),
             is_unsaved: matches!(request, LoadRequest::Recovered(_)),
             job: BackgroundJob::start("the transition", move |progress| {
                 // Sending fails once the work has been abandoned.
-                request.carry_out(progress, |meanwhile| {
-                    drop(sender.send(meanwhile));
+                request.carry_out(progress, |interim| {
+                    drop(sender.send(interim));
                     job::wake();
                 })
             }),
             has_draft: false,
-            meanwhile: Mutex::new(receiver),
-            waiting: None,
+            interim_results: Mutex::new(receiver),
+            pending_interim: None,
         }
     }
 
@@ -89,31 +89,31 @@ impl TransitionWork {
     /// Whether the work may be abandoned for newer settings.
     #[must_use]
     pub fn can_be_given_up(&self) -> bool {
-        self.origin.is_none() && self.job.elapsed() > PATIENCE
+        self.origin.is_none() && self.job.elapsed() > ABANDON_AFTER
     }
 
     /// Whether the work builds something else than these settings ask for.
     #[must_use]
     pub fn builds_other_than(&self, project: &Project) -> bool {
-        let wanted = self.wanted.as_ref();
-        wanted.is_none_or(|wanted| needs_build(wanted, project))
+        let settings = self.settings.as_ref();
+        settings.is_none_or(|settings| needs_build(settings, project))
     }
 
     /// Interim result that is due to be shown. The first one of a project being opened comes with
     /// its origin: from then on the project is open, and the work counts as its rebuild.
     pub fn take_meanwhile(&mut self) -> Option<(BuiltProject, Option<ProjectOrigin>)> {
-        let receiver = self.meanwhile.get_mut();
+        let receiver = self.interim_results.get_mut();
         let receiver = receiver.unwrap_or_else(PoisonError::into_inner);
         // Only the latest: a draft is better than the plainest method.
-        self.waiting = receiver.try_iter().last().or(self.waiting.take());
-        let lasts = self.job.elapsed();
+        self.pending_interim = receiver.try_iter().last().or(self.pending_interim.take());
+        let elapsed = self.job.elapsed();
         let is_opening = self.origin.is_some();
-        let is_due = |m: &mut InterimResult| lasts >= m.is_shown_after(is_opening);
-        let shown = self.waiting.take_if(is_due)?;
-        self.has_draft |= matches!(shown, InterimResult::Draft(_));
-        let (InterimResult::Plain(loaded) | InterimResult::Draft(loaded)) = shown;
+        let is_due = |result: &mut InterimResult| elapsed >= result.is_shown_after(is_opening);
+        let interim = self.pending_interim.take_if(is_due)?;
+        self.has_draft |= matches!(interim, InterimResult::Draft(_));
+        let (InterimResult::Plain(loaded) | InterimResult::Draft(loaded)) = interim;
         // The settings are known only now that the project has been read.
-        self.wanted = Some(loaded.project.project.clone());
+        self.settings = Some(loaded.project.project.clone());
         Some((loaded, self.origin.take()))
     }
 }

@@ -108,15 +108,15 @@ mod tests {
     #[test]
     fn written_data_is_read_back() -> Result<(), Box<dyn std::error::Error>> {
         let folder = tempfile::tempdir()?;
-        let path = folder.path().join("kept.json");
+        let path = folder.path().join("unsaved.json");
         let name = gallery::list()?.remove(0).name;
         let mut loaded = gallery::load(&name)?;
         loaded.project.title = "changed".to_owned();
         let origin = ProjectOrigin::Gallery(name);
-        let kept = UnsavedProject::new("changed".to_owned(), &origin, &loaded)?;
-        kept.write(&path)?;
+        let unsaved = UnsavedProject::new("changed".to_owned(), &origin, &loaded)?;
+        unsaved.write(&path)?;
         let again = UnsavedProject::read(&path)?;
-        assert_eq!((&again, again.origin()), (&kept, origin));
+        assert_eq!((&again, again.origin()), (&unsaved, origin));
         assert_eq!(again.load()?.project, loaded.project);
         fs::write(&path, "nothing of ours")?;
         assert!(UnsavedProject::read(&path).is_err());

@@ -57,7 +57,7 @@ impl Plugin for UiPlugin {
             .init_resource::<PanelRepaint>()
             .add_systems(
                 PostUpdate,
-                note_repaint
+                record_repaint
                     .after(EguiPostUpdateSet::EndPass)
                     // ProcessOutput consumes the output.
                     .before(EguiPostUpdateSet::ProcessOutput),
@@ -66,11 +66,11 @@ impl Plugin for UiPlugin {
 }
 
 /// Window width, in points, from which the gallery fits next to the stage (heuristic).
-const ROOMY: f32 = 880.0;
+const MIN_WIDTH_WITH_GALLERY: f32 = 880.0;
 
 /// Window widths, in points, from which the gallery fits next to the match editor: without and with
 /// the editor's film pane.
-const ROOMY_EDITOR: [f32; 2] = [1200.0, 1600.0];
+const MIN_EDITOR_WIDTH_WITH_GALLERY: [f32; 2] = [1200.0, 1600.0];
 
 /// Installs theme and fonts before the first frame: fonts take effect in the next pass, and egui
 /// panics on a font family it does not know.
@@ -80,7 +80,7 @@ fn install_theme(added: On<Add, EguiContext>, mut contexts: Query<&mut EguiConte
 }
 
 /// Stops egui from waking the window by itself: only the frame pacing decides when the next frame
-/// is drawn, and it learns of egui's requests from [`note_repaint`].
+/// is drawn, and it learns of egui's requests from [`record_repaint`].
 fn silence_repaints(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
     for mut context in &mut contexts {
         context.get_mut().set_request_repaint_callback(|_| {});
@@ -104,7 +104,7 @@ fn keep_keys_from_widgets(
 }
 
 /// Records when the panels want to be drawn again, for example while a switch slides.
-fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepaint>) {
+fn record_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepaint>) {
     let outputs = outputs.iter().filter_map(|output| output.0.as_ref());
     let delays = outputs.flat_map(|output| output.viewport_output.values());
     let soonest = delays.map(|viewport| viewport.repaint_delay).min();
@@ -117,7 +117,7 @@ struct UiOutputs<'w> {
     /// Whether a text field, a menu or the file dialog receives all keys.
     typing: ResMut<'w, KeyboardFocus>,
     /// Whether text in a panel is selected.
-    marked: ResMut<'w, TextSelected>,
+    text_selected: ResMut<'w, TextSelected>,
     /// Rectangle of the stage.
     area: ResMut<'w, StageArea>,
     /// Intents that the user triggered.
@@ -146,7 +146,7 @@ fn draw(
         panels(&mut root, &state, &mut textures, &mut intents);
     }
     let stage = root.available_rect_before_wrap();
-    let visible = middle(&mut root, &state, stage, &mut intents);
+    let visible = stage_content(&mut root, &state, stage, &mut intents);
     overlays(&ctx, &state, stage, &mut intents);
     file_dialog::show(&ctx, &state, &mut files, &mut intents);
     outputs
@@ -160,7 +160,7 @@ fn draw(
     ));
     let selection = ctx.plugin_or_default::<egui::text_selection::LabelSelectionState>();
     outputs
-        .marked
+        .text_selected
         .set_if_neq(TextSelected(selection.lock().has_selection()));
     // Handled in the next frame, because the panels are drawn after the systems have run.
     outputs.intents.write_batch(intents);
@@ -170,7 +170,7 @@ fn draw(
 /// Draws what fills the space between the panels: stage, comparison, map, match editor or talk.
 ///
 /// Returns the rectangle that the stage takes.
-fn middle(
+fn stage_content(
     root: &mut egui::Ui,
     state: &UiState,
     stage: egui::Rect,
@@ -212,11 +212,11 @@ fn panels(
         plots::show(root, state, intents);
     }
     // In a small window the stage and the match editor need the gallery's space.
-    let roomy = match state.editor.is_open {
-        true => ROOMY_EDITOR[usize::from(state.editor.shows_film())],
-        false => ROOMY,
+    let min_width = match state.editor.is_open {
+        true => MIN_EDITOR_WIDTH_WITH_GALLERY[usize::from(state.editor.shows_film())],
+        false => MIN_WIDTH_WITH_GALLERY,
     };
-    if root.available_width() >= roomy {
+    if root.available_width() >= min_width {
         gallery::show(root, state, textures, intents);
     }
     inspector::show(root, state, intents);

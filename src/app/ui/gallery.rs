@@ -101,8 +101,8 @@ fn card(
         .rect(rect, CARD_RADIUS, fill, (1.0, line), StrokeKind::Inside);
     let picture = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT)).shrink(4.0);
     thumbnail(ui, state, textures, &entry.name, picture);
-    let text_at = rect.left_top() + vec2(8.0, PICTURE_HEIGHT + 4.0);
-    ui.painter().galley(text_at, title, ink);
+    let title_corner = rect.left_top() + vec2(8.0, PICTURE_HEIGHT + 4.0);
+    ui.painter().galley(title_corner, title, ink);
     response.on_hover_text(&entry.description)
 }
 
@@ -134,10 +134,10 @@ pub fn thumbnail(ui: &Ui, state: &UiState, textures: &mut GalleryTextures, name:
         let pixels = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
         ui.ctx().load_texture(name, pixels, TextureOptions::LINEAR)
     });
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let full_uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     let fitted = fit(rect, STRIP_PX.0 as f32 / STRIP_PX.1 as f32);
     ui.painter()
-        .image(texture.id(), fitted, whole, Color32::WHITE);
+        .image(texture.id(), fitted, full_uv, Color32::WHITE);
 }
 
 fn fit(rect: Rect, aspect: f32) -> Rect {

@@ -1,7 +1,7 @@
 //! Match editor: source and target side by side, optionally with the film in a third pane.
 //!
 //! The designs are drawn with egui; the film is the stage itself. Pointer input becomes
-//! [`EditorAct`](crate::app::EditorAct)s in the common frame of both designs. Matched boundary
+//! [`EditorAction`](crate::app::EditorAction)s in the common frame of both designs. Matched boundary
 //! points have the same colour on both sides. Numbers (pins, in the project's order) and letters
 //! (automatic points) repeat this, so that no meaning depends on colour alone.
 

@@ -63,12 +63,12 @@ pub fn draw(
             let half = (ui.available_width() - 3.0 * GRID) / 2.0;
             ui.vertical(|ui| {
                 ui.set_width(half);
-                here(ui, SpeakerMoment::new(playback.t(), stops, &names));
+                show_current(ui, SpeakerMoment::new(playback.t(), stops, &names));
             });
             ui.add_space(2.0 * GRID);
             ui.vertical(|ui| {
                 ui.set_width(half);
-                upcoming(
+                show_next(
                     ui,
                     next.map(|t| SpeakerMoment::new(t, stops, &names)),
                     speaker.picture(),
@@ -89,7 +89,7 @@ struct SpeakerMoment<'a> {
 impl<'a> SpeakerMoment<'a> {
     /// Looks up the stop and the design at `t`; `names[k]` is the design at t = k.
     fn new(t: f64, stops: &'a [TransitionStop], names: &'a [String]) -> Self {
-        let is_here = |place: f64| (place - t).abs() < SAME_T;
+        let is_here = |other_t: f64| (other_t - t).abs() < SAME_T;
         let design = names.iter().enumerate().find(|(k, _)| is_here(*k as f64));
         Self {
             t,
@@ -117,14 +117,14 @@ fn head(ui: &mut Ui, elapsed: Duration) {
     ui.add_space(2.0 * GRID);
 }
 
-fn here(ui: &mut Ui, place: SpeakerMoment<'_>) {
+fn show_current(ui: &mut Ui, moment: SpeakerMoment<'_>) {
     ui.label(secondary_text(ui, "Now"));
-    match (place.name(), place.stop) {
-        (Some(name), _) => large(ui, name),
+    match (moment.name(), moment.stop) {
+        (Some(name), _) => large_text(ui, name),
         (None, Some(_)) => {}
-        (None, None) => large(ui, "between stops"),
+        (None, None) => large_text(ui, "between stops"),
     }
-    let Some(stop) = place.stop else {
+    let Some(stop) = moment.stop else {
         return;
     };
     ui.add_space(GRID);
@@ -140,18 +140,18 @@ fn here(ui: &mut Ui, place: SpeakerMoment<'_>) {
     });
 }
 
-fn large(ui: &mut Ui, text: &str) {
+fn large_text(ui: &mut Ui, text: &str) {
     ui.add(Label::new(RichText::new(text).size(22.0)).wrap());
 }
 
-fn upcoming(ui: &mut Ui, next: Option<SpeakerMoment<'_>>, picture: Option<Arc<RgbaImage>>) {
+fn show_next(ui: &mut Ui, next: Option<SpeakerMoment<'_>>, picture: Option<Arc<RgbaImage>>) {
     ui.label(secondary_text(ui, "Next"));
-    let Some(place) = next else {
-        large(ui, "End");
+    let Some(moment) = next else {
+        large_text(ui, "End");
         return;
     };
-    let t = || format!("t = {:.3}", place.t);
-    large(ui, &place.name().map_or_else(t, str::to_owned));
+    let t = || format!("t = {:.3}", moment.t);
+    large_text(ui, &moment.name().map_or_else(t, str::to_owned));
     ui.add_space(GRID);
     if let Some(picture) = picture {
         let texture = texture(ui.ctx(), Id::new("next stop"), &picture, u32::MAX);

@@ -14,7 +14,7 @@ use crate::app::ui::ui_state::{Intents, UiState};
 const HEIGHT: f32 = 48.0;
 
 /// Width reserved for the word “edited” after the project's title, in points.
-const EDITED: f32 = 56.0;
+const EDITED_WIDTH: f32 = 56.0;
 
 /// Draws the toolbar.
 pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
@@ -26,7 +26,7 @@ pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         .frame(frame)
         .show(root, |ui| {
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                mark(ui);
+                logo(ui);
                 ui.label(RichText::new("Morphospace").heading());
                 ui.add_space(2.0 * GRID);
                 from_right(ui, |ui| {
@@ -40,7 +40,7 @@ pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
 }
 
 /// Draws the logo: a disc turning into a square.
-fn mark(ui: &mut Ui) {
+fn logo(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(40.0, 24.0), egui::Sense::hover());
     let ends = [
         Color32::from_rgb(0x3b, 0x7d, 0xd8),
@@ -62,7 +62,7 @@ fn mark(ui: &mut Ui) {
 fn title(ui: &mut Ui, state: &UiState) {
     let is_edited = state.session.is_dirty();
     ui.scope(|ui| {
-        let reserved = if is_edited { EDITED } else { 0.0 };
+        let reserved = if is_edited { EDITED_WIDTH } else { 0.0 };
         ui.set_max_width((ui.available_width() - reserved).max(0.0));
         ui.add(egui::Label::new(state.session.title()).truncate());
     });
@@ -167,9 +167,9 @@ fn theme_button(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         ThemeChoice::Dark => (icons::SUN, ThemeChoice::Light, "Light theme"),
         ThemeChoice::Light => (icons::MOON, ThemeChoice::Dark, "Dark theme"),
     };
-    let other = Preferences {
+    let toggled = Preferences {
         theme,
         ..*state.preferences
     };
-    intent_button(ui, icon, tip, Intent::SetPreferences(other), intents);
+    intent_button(ui, icon, tip, Intent::SetPreferences(toggled), intents);
 }

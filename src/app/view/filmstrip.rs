@@ -53,16 +53,17 @@ impl Filmstrip {
     }
 
     /// Whether the current thumbnails show different designs.
-    fn shows_others(&self, wanted: Option<&(Sequence, TransitionStyle)>) -> bool {
-        let (Some((old, _)), Some((new, _)), Some(_)) = (&self.of, wanted, &self.pictures) else {
+    fn shows_other_designs(&self, requested: Option<&(Sequence, TransitionStyle)>) -> bool {
+        let (Some((old, _)), Some((new, _)), Some(_)) = (&self.of, requested, &self.pictures)
+        else {
             return false;
         };
         !names(old).eq(names(new))
     }
 
-    /// Whether the thumbnails, or the job drawing them, show the wanted film in the wanted colours.
-    fn is_of(&self, wanted: Option<&(Sequence, TransitionStyle)>) -> bool {
-        match (&self.of, wanted) {
+    /// Whether the thumbnails, or the job drawing them, show the requested film and colours.
+    fn shows(&self, requested: Option<&(Sequence, TransitionStyle)>) -> bool {
+        match (&self.of, requested) {
             (Some((old, before)), Some((new, style))) => old.is_same(new) && before == style,
             (None, None) => true,
             _ => false,
@@ -90,16 +91,16 @@ pub fn follow(
         filmstrip.set_changed();
         return;
     }
-    let wanted = session.sequence().map(|all| (all, session.style()));
-    if strip.shows_others(wanted.as_ref()) {
+    let requested = session.sequence().map(|all| (all, session.style()));
+    if strip.shows_other_designs(requested.as_ref()) {
         strip.pictures = None;
         filmstrip.set_changed();
         return;
     }
-    if strip.is_of(wanted.as_ref()) || session.work().is_some() || measures.is_busy() {
+    if strip.shows(requested.as_ref()) || session.work().is_some() || measures.is_busy() {
         return;
     }
-    strip.of = wanted;
+    strip.of = requested;
     if strip.of.is_none() {
         strip.pictures = None;
     }

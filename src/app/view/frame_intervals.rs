@@ -10,6 +10,6 @@ use crate::stage::DurationHistory;
 pub struct FrameIntervals(pub DurationHistory);
 
 /// Records the duration of the last frame.
-pub fn record(time: Res<Time<Real>>, mut whole: ResMut<FrameIntervals>) {
-    whole.0.record(time.delta());
+pub fn record(time: Res<Time<Real>>, mut intervals: ResMut<FrameIntervals>) {
+    intervals.0.record(time.delta());
 }

@@ -60,19 +60,19 @@ pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: R
         return;
     }
     let sequence = preferences.onion.then(|| session.sequence()).flatten();
-    let wanted = sequence.map(|sequence| (sequence, times(&session)));
-    let is_same = match (&wanted, &onion.bypass_change_detection().of) {
-        (Some((new, now)), Some((old, then))) => now == then && new.is_same(old),
-        (wanted, had) => wanted.is_none() && had.is_none(),
+    let requested = sequence.map(|sequence| (sequence, times(&session)));
+    let is_same = match (&requested, &onion.bypass_change_detection().of) {
+        (Some((new, now)), Some((old, old_times))) => now == old_times && new.is_same(old),
+        (requested, old) => requested.is_none() && old.is_none(),
     };
     if is_same {
         return;
     }
-    onion.skins = wanted
+    onion.skins = requested
         .iter()
         .flat_map(|(sequence, times)| skins(sequence, times))
         .collect();
-    onion.of = wanted;
+    onion.of = requested;
 }
 
 /// Outlines of the film at the given times.

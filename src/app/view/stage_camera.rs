@@ -48,7 +48,7 @@ pub struct FitState<'s> {
     /// Bounds, area size and pane view of the last fit.
     last: Local<'s, Option<(Bounds, Vec2, PaneView)>>,
     /// View of the stage, while the match editor replaces it.
-    left: Local<'s, Option<StageView>>,
+    stage_view: Local<'s, Option<StageView>>,
 }
 
 /// Fits the view again when the area, the transition or the export frame changes.
@@ -65,10 +65,10 @@ pub fn fit(
     let pane = editor
         .shows_film()
         .then(|| editor.panes.view(EditorPane::Film));
-    if pane.is_some() && state.left.is_none() {
-        *state.left = Some(view.clone());
+    if pane.is_some() && state.stage_view.is_none() {
+        *state.stage_view = Some(view.clone());
     } else if pane.is_none()
-        && let Some(before) = state.left.take()
+        && let Some(before) = state.stage_view.take()
     {
         *view = before;
         *state.last = None;
@@ -88,12 +88,12 @@ pub fn fit(
     };
     let bounds = bounds.padded(MARGIN * bounds.diameter());
     let pane = pane.unwrap_or_default();
-    let now = Some((bounds, area.size, pane));
-    if *state.last != now {
+    let key = Some((bounds, area.size, pane));
+    if *state.last != key {
         view.fit(bounds, area.size);
         view.zoom_at(0.5 * area.size, f64::from(pane.zoom));
         view.pan_px(pane.pan);
-        *state.last = now;
+        *state.last = key;
     }
 }
 
@@ -165,12 +165,12 @@ pub fn place_comparison_camera(
 /// `None`, meaning the whole window, where that is impossible.
 fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
     let scale = window.scale_factor();
-    let whole = window.physical_size();
+    let window_px = window.physical_size();
     let corner = (area.corner * scale).round().as_uvec2();
     let size = (area.size * scale)
         .round()
         .as_uvec2()
-        .min(whole.saturating_sub(corner));
+        .min(window_px.saturating_sub(corner));
     (size.min_element() > 0).then(|| Viewport {
         physical_position: corner,
         physical_size: size,

@@ -23,7 +23,7 @@ pub(super) struct ImportArgs {
     #[arg(long)]
     invert: bool,
 
-    /// Ignore islands and holes with fewer pixels than this
+    /// Ignore spots and holes with fewer pixels than this
     #[arg(long, value_name = "PIXELS")]
     specks: Option<u32>,
 

@@ -18,7 +18,7 @@ struct ParsedMethodArgs {
 }
 
 /// Returns a default project with the flags applied.
-fn edited(flags: &str) -> Result<Project, CliError> {
+fn with_flags(flags: &str) -> Result<Project, CliError> {
     let arguments = std::iter::once("x").chain(flags.split_whitespace());
     let parsed = ParsedMethodArgs::try_parse_from(arguments).map_err(CliError::usage)?;
     let mut project = Project::from_pair("a.svg", "b.svg");
@@ -33,7 +33,7 @@ fn every_listed_value_is_accepted() {
         for value in argument.get_possible_values() {
             let flags = format!("--{flag} {}", value.get_name());
             let takes_value = argument.get_action().takes_values();
-            assert!(!takes_value || edited(&flags).is_ok(), "{flags}");
+            assert!(!takes_value || with_flags(&flags).is_ok(), "{flags}");
         }
     }
 }
@@ -41,12 +41,12 @@ fn every_listed_value_is_accepted() {
 #[test]
 fn without_flags_nothing_changes() {
     let project = Project::from_pair("a.svg", "b.svg");
-    assert_eq!(edited("").expect("edited"), project);
+    assert_eq!(with_flags("").expect("edited"), project);
 }
 
 #[test]
 fn method_flags_change_their_options() {
-    let project = edited(
+    let project = with_flags(
         "--method field --fit same-area --quality draft --guard plain --bar-width 0.02 --homotopy exponential \
          --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
          --metric chessboard --boundary binary --space real --epsilon 2 --threshold -1.5 \
@@ -96,7 +96,7 @@ fn method_flags_change_their_options() {
 
 #[test]
 fn import_timing_and_style_flags_change_their_options() {
-    let project = edited(
+    let project = with_flags(
         "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --no-strokes --colours \
          --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
          --source-colour #010203 --target-colour #040506 --no-joints --paint one \
@@ -136,6 +136,9 @@ fn invalid_values_are_usage_errors() {
         "--source-colour red",
         "--anchor 1 --centroid",
     ] {
-        assert!(matches!(edited(flags), Err(CliError::Usage(_))), "{flags}");
+        assert!(
+            matches!(with_flags(flags), Err(CliError::Usage(_))),
+            "{flags}"
+        );
     }
 }

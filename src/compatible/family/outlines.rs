@@ -1,4 +1,5 @@
-//! Creates a family from outlines that are each matched with one of them, the *hub*.
+//! Creates a family of designs from outlines, each of which is matched with the outline of one of
+//! the designs, the *hub*.
 
 use super::shared_boundary::{PieceRings, shared_rings};
 use super::{CompatibleFamily, FamilyError};
@@ -9,10 +10,12 @@ use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
 impl CompatibleFamily {
-    /// Triangulates outlines with the same parts and holes in all designs at once.
+    /// Triangulates the outlines of all designs at once. All designs must have the same parts and
+    /// holes.
     ///
-    /// `matches` holds for each design its match with the hub as the source, and `None` at index
-    /// `hub`. Vertices are ordered piece by piece; in each piece the ring points come first.
+    /// For each design, `matches` contains its match with the hub as the source; at index `hub` it
+    /// contains `None`. The vertices are ordered piece by piece (by matched connected part). Within
+    /// a piece the points of its rings come first.
     ///
     /// # Errors
     /// [`FamilyError`] names the design whose parts or holes differ, or reports that no common
@@ -37,7 +40,8 @@ impl CompatibleFamily {
                 }
             })
         };
-        // Results stay in order, so the reported error does not depend on the number of threads.
+        // The results keep their order, so the reported error does not depend on the number of
+        // threads.
         let meshes: Vec<_> = pieces.par_iter().enumerate().map(triangulated).collect();
         let mut faces: Vec<[u32; 3]> = Vec::new();
         let mut embeddings = vec![Vec::new(); matches.len()];

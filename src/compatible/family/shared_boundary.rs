@@ -1,29 +1,32 @@
-//! Boundary rings with one point for each matched place, in every design of a family.
+//! Boundary rings with corresponding points in all designs of a family.
 //!
-//! All designs are matched with one of them, the *hub*. Each match adds points of its own to the
+//! Every design is matched with one of them, the *hub*. Each match adds points of its own to the
 //! hub's outline. Between two neighbouring corners of the hub the outline is straight, so the
-//! points of all matches are ordered along that edge. A design without a point at such a place gets
-//! one at the same fraction between its two neighbouring points. Points of different matches at the
-//! same place become one.
+//! points of all matches can be ordered along that edge. If a design has no point at the place of
+//! such a point, it gets one, interpolated between its neighbouring points along the same edge.
+//! Points of different matches that lie at the same place on the hub become one point.
 
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
 use crate::geometry::{Bounds, DVec2};
 use std::collections::HashMap;
 
-/// Points of different matches closer than this fraction of the hub's diameter are merged
-/// (tolerance: far below what is visible, and far above the rounding that separates the points of
-/// two equal designs).
+/// Maximum distance, as a fraction of the hub's diameter, at which points of different matches are
+/// merged (tolerance: far below what is visible, and far above the rounding that separates the
+/// points of two equal designs).
 const MERGE_DISTANCE: f64 = 1e-6;
 
-/// Rings of one piece in all designs: `rings[ring][design]` is a list of points.
+/// Boundary rings of one piece (a matched connected part) in all designs: `rings[ring][design]` is
+/// a list of points. Point k of a ring corresponds to point k of that ring in every other design.
 pub(super) type PieceRings = Vec<Vec<Vec<DVec2>>>;
 
-/// Returns the rings of all pieces with the points of all designs.
+/// Returns the boundary rings of all pieces, with corresponding points in all designs.
 ///
-/// `matches` holds for each design its match with the hub as the source, and `None` for the hub.
+/// For each design, `matches` contains its match with the hub as the source; for the hub it
+/// contains `None`.
 ///
 /// # Errors
-/// Index of a design whose parts or holes differ from the hub's, so that no shared points exist.
+/// Index of a design whose parts or holes differ from the hub's, so that no corresponding points
+/// exist.
 pub(super) fn shared_rings(
     hub: usize,
     matches: &[Option<&RegionMatch>],
@@ -33,7 +36,7 @@ pub(super) fn shared_rings(
             return Err(k);
         }
     }
-    // Any match serves as the base, because all have the rings of the hub as their sources.
+    // Any match can serve as the base, because the sources of all matches are the rings of the hub.
     let Some((base, first)) = matches
         .iter()
         .enumerate()
@@ -41,9 +44,10 @@ pub(super) fn shared_rings(
     else {
         return Err(hub);
     };
-    // Each match lists pieces and rings in its own order, so rings are looked up by hub points.
+    // Each match lists pieces and rings in its own order. Rings are therefore looked up by the
+    // points of the hub on them.
     let lookups: Vec<_> = matches.iter().map(|m| m.map(RingLookup::of)).collect();
-    // Matches that agree one to one must also agree in their numbers of rings.
+    // If all matches are one to one, they must also have the same numbers of rings.
     let counts = |m: &RegionMatch| {
         let mut rings: Vec<usize> = m.pieces.iter().map(|piece| piece.rings.len()).collect();
         rings.sort_unstable();
@@ -77,7 +81,8 @@ pub(super) fn shared_rings(
     Ok(pieces)
 }
 
-/// Returns whether parts and holes correspond one to one: nothing is split, cut open or unmatched.
+/// Returns whether the parts and holes of the two designs correspond one to one: none is split, cut
+/// open or unmatched.
 fn is_one_to_one(matched: &RegionMatch) -> bool {
     let are_distinct = |side: fn(&PieceMatch) -> Option<usize>| {
         let mut parts: Vec<_> = matched.pieces.iter().map(side).collect();
@@ -98,19 +103,19 @@ fn is_one_to_one(matched: &RegionMatch) -> bool {
         && are_distinct(|piece| piece.target_part)
 }
 
-/// Hash key of a point: the bits of its coordinates.
+/// Hash key of a point: the bit patterns of its coordinates.
 fn key(p: DVec2) -> [u64; 2] {
-    // Adding zero turns -0 into 0, which has other bits.
+    // Adding zero turns -0 into 0, which has a different bit pattern.
     (p + 0.0).to_array().map(f64::to_bits)
 }
 
-/// Rings of a match, looked up by the hub points on them.
+/// Rings of a match, looked up by the points of the hub on them.
 struct RingLookup<'a> {
     rings: HashMap<[u64; 2], &'a RingMatch>,
 }
 
 impl<'a> RingLookup<'a> {
-    /// Indexes the rings of a match by their source points.
+    /// Indexes the rings of a match by the points of their source, the hub.
     fn of(matched: &'a RegionMatch) -> Self {
         let rings = matched.pieces.iter().flat_map(|piece| &piece.rings);
         let points = rings.flat_map(|ring| ring.source.iter().map(move |&p| (key(p), ring)));
@@ -119,7 +124,8 @@ impl<'a> RingLookup<'a> {
         }
     }
 
-    /// Returns the ring of this match that contains one of the points.
+    /// Returns the ring of this match that contains one of the given points of the hub; `None` if
+    /// no ring does.
     fn ring_of(&self, points: &[DVec2]) -> Option<&'a RingMatch> {
         points
             .iter()
@@ -127,35 +133,35 @@ impl<'a> RingLookup<'a> {
     }
 }
 
-/// Point that a match adds on an edge of the hub.
+/// Point that a match adds on an edge of the hub, between two corners that all matches share.
 struct HubEdgePoint {
-    /// Position along the edge, from 0 to 1.
+    /// Position along the hub's edge, from 0 at its first corner to 1 at its second.
     share: f64,
-    /// Index of the matched design.
+    /// Index of the design whose match adds the point.
     design: usize,
-    /// Position of the point in that design.
+    /// Position of the corresponding point in that design.
     place: DVec2,
 }
 
-/// Returns one ring for every design, with the points of all matches.
+/// Returns the ring of every design, with corresponding points of all matches.
 ///
-/// `lists` holds the match of the hub's ring with the ring of each other design, and `None` for the
-/// hub.
+/// For each design, `lists` contains the match of the hub's ring with that design's ring; for the
+/// hub it contains `None`.
 ///
 /// # Errors
-/// Index of a design that visits the corners in another order.
+/// Index of a design whose match lists the shared corners in another order, or shares too few.
 fn merged_rings(
     lists: &[Option<&RingMatch>],
     merge_distance: f64,
 ) -> Result<Vec<Vec<DVec2>>, usize> {
     let corners = shared_corners(lists)?;
     let mut rings = vec![Vec::new(); lists.len()];
-    // Index of a corner in a list.
+    // Position of a corner of the hub in the match's list of points.
     let index = |list: &RingMatch, corner: DVec2| {
         let is_it = |p: &DVec2| key(*p) == key(corner);
         list.source.iter().position(is_it)
     };
-    // Index of the current corner in each list.
+    // For each design, the position of the current corner in its match's list of points.
     let mut corner_index = Vec::new();
     for (k, list) in lists.iter().enumerate() {
         corner_index.push(match list {
@@ -176,13 +182,13 @@ fn merged_rings(
             let count = list.source.len();
             let first = corner_index[k];
             let mut cursor = first;
-            // Every point up to the next corner lies on this edge.
+            // All points between this corner and the next lie on this edge.
             loop {
                 cursor = (cursor + 1) % count;
                 if key(list.source[cursor]) == key(next) {
                     break;
                 }
-                // Once around without meeting the next corner.
+                // The loop has gone all the way round without meeting the next corner.
                 if cursor == first {
                     return Err(k);
                 }
@@ -200,20 +206,21 @@ fn merged_rings(
     Ok(rings)
 }
 
-/// Returns the hub points that all matches share, in order. These include all corners of the hub.
+/// Returns the points of the hub that all matches share, in order along the ring. They include all
+/// corners of the hub.
 ///
 /// # Errors
-/// Index of a design if fewer than three points are shared.
+/// Index of the first matched design if fewer than three points are shared.
 fn shared_corners(lists: &[Option<&RingMatch>]) -> Result<Vec<DVec2>, usize> {
     let mut counts: HashMap<[u64; 2], usize> = HashMap::new();
-    let given: Vec<_> = lists.iter().flatten().collect();
-    for list in &given {
+    let present: Vec<_> = lists.iter().flatten().collect();
+    for list in &present {
         list.source
             .iter()
             .for_each(|&p| *counts.entry(key(p)).or_default() += 1);
     }
-    let base = given.first().map_or(&[][..], |list| &list.source[..]);
-    let corners = base.iter().filter(|p| counts[&key(**p)] == given.len());
+    let base = present.first().map_or(&[][..], |list| &list.source[..]);
+    let corners = base.iter().filter(|p| counts[&key(**p)] == present.len());
     let corners: Vec<DVec2> = corners.copied().collect();
     match corners.len() {
         0..3 => Err(lists.iter().position(Option::is_some).unwrap_or(0)),
@@ -221,19 +228,20 @@ fn shared_corners(lists: &[Option<&RingMatch>]) -> Result<Vec<DVec2>, usize> {
     }
 }
 
-/// Appends a corner and the points up to the next corner to the ring of every design.
+/// Appends the first corner of a hub edge and the points on that edge to the ring of every design.
+/// The second corner is left to the next edge.
 ///
-/// `ends` holds the edge's ends in each design. Points closer than the fraction `merge_share` of
-/// the edge are merged unless they belong to one design.
+/// For each design, `ends` contains the positions of both corners. Points of different designs are
+/// merged if they are at most the fraction `merge_share` of the edge apart.
 fn append_edge(
     rings: &mut [Vec<DVec2>],
     ends: &[[DVec2; 2]],
     mut edge_points: Vec<HubEdgePoint>,
     merge_share: f64,
 ) {
-    // The sort is stable, so the points of one design stay in order.
+    // The sort is stable, so the points of each design keep their order.
     edge_points.sort_by(|a, b| a.share.total_cmp(&b.share));
-    // A cluster holds points at about the same place, at most one for each design.
+    // A cluster contains points at about the same place, at most one of each design.
     let mut clusters: Vec<Vec<HubEdgePoint>> = Vec::new();
     for point in edge_points {
         let joins = clusters.last().is_some_and(|cluster| {
@@ -251,18 +259,19 @@ fn append_edge(
             let point = cluster.iter().find(|point| point.design == k);
             point.map(|point| point.place)
         };
-        let known: Vec<Option<DVec2>> = clusters.iter().map(own).collect();
+        let own_places: Vec<Option<DVec2>> = clusters.iter().map(own).collect();
         let [begin, end] = ends[k];
         ring.push(begin);
         let mut last = (0.0, begin);
         for (i, &share) in shares.iter().enumerate() {
-            let place = known[i].unwrap_or_else(|| {
-                // Interpolates between the previous point and this design's next own point.
-                let after = (i + 1..shares.len()).find_map(|j| Some((shares[j], known[j]?)));
+            let place = own_places[i].unwrap_or_else(|| {
+                // Interpolates between the previous point and the next point on this edge that this
+                // design has itself.
+                let after = (i + 1..shares.len()).find_map(|j| Some((shares[j], own_places[j]?)));
                 let (to, place) = after.unwrap_or((1.0, end));
-                let way = to - last.0;
-                let part = if way > 0.0 {
-                    (share - last.0) / way
+                let span = to - last.0;
+                let part = if span > 0.0 {
+                    (share - last.0) / span
                 } else {
                     0.5
                 };

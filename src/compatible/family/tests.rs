@@ -7,7 +7,8 @@ use crate::geometry::{FillRule, Regions, orient2d};
 use crate::work::progress::Silent;
 use proptest::prelude::*;
 
-/// Flower with the given number of petals, with an optional hole.
+/// Flower with the given number of petals, sampled at `corners` points, with an optional round hole
+/// of radius `hole`.
 fn flower(corners: u32, petals: f64, depth: f64, hole: Option<f64>) -> Regions {
     let ring = |size: f64, depth: f64| -> Vec<DVec2> {
         let point = |k: u32| {
@@ -39,7 +40,8 @@ fn family_of(designs: &[Regions], hub: usize) -> Result<CompatibleFamily, Family
     CompatibleFamily::from_outlines(hub, &matches, &PolygonOptions::default(), &Silent)
 }
 
-/// Checks that faces are positive, that all corners are vertices and that no hole is lost.
+/// Checks that all faces are positive in all designs, that all corners of the designs are vertices,
+/// and that all boundary rings remain.
 fn assert_family(family: &CompatibleFamily, designs: &[Regions]) {
     for (places, design) in family.embeddings().iter().zip(designs) {
         for face in family.faces().iter() {

@@ -21,7 +21,7 @@ const CLEARANCE: f64 = 1.5;
 /// with sides of 1 and 5 next to the right angle has 3 (heuristic).
 const MAX_CORNER_SHAPE: f64 = 3.0;
 
-/// State of the front: what is left to triangulate and the faces behind it.
+/// State of the front: the part that remains to be triangulated, and the faces behind it.
 pub(super) struct AdvancingFront {
     /// All vertices in both designs, those of the rings first.
     pub(super) points: [Vec<DVec2>; 2],

@@ -114,7 +114,7 @@ fn find_fault(
             PieceMeshError::HoleOutside(side)
         }
         None => {
-            let shortest = shortest(loops);
+            let shortest = shortest_edge(loops);
             PieceMeshError::NotTriangulated {
                 side,
                 place: rings.points[shortest],
@@ -126,11 +126,11 @@ fn find_fault(
 }
 
 /// Index of the point at which the shortest edge starts.
-fn shortest(loops: &[&[DVec2]]) -> usize {
+fn shortest_edge(loops: &[&[DVec2]]) -> usize {
     let edges = loops.iter().flat_map(|ring| ring_edges(ring));
     let lengths = edges.map(|(a, b)| a.distance(b)).enumerate();
-    let least = lengths.min_by(|a, b| a.1.total_cmp(&b.1));
-    least.map_or(0, |(edge, _)| edge)
+    let shortest = lengths.min_by(|a, b| a.1.total_cmp(&b.1));
+    shortest.map_or(0, |(edge, _)| edge)
 }
 
 #[cfg(test)]

@@ -60,14 +60,14 @@ pub(super) fn triangulations(
     ];
     let points = [source, target];
     let not_shared = |i, j| f64::from(u8::from(!chords[1].inside(i, j)));
-    let first = cheapest(points[0], &chords[0], not_shared, progress)?;
+    let first = cheapest_triangulation(points[0], &chords[0], not_shared, progress)?;
     let mut faces = [first, Vec::new()];
     // Odd turns change the target, even turns the source.
     for turn in 1..=TURNS {
         let (mine, other) = (turn % 2, (turn + 1) % 2);
         let diagonals = diagonals(&faces[other], source.len());
         let crossings = |i, j| crossings(&diagonals, i, j) as f64;
-        faces[mine] = cheapest(points[mine], &chords[mine], crossings, progress)?;
+        faces[mine] = cheapest_triangulation(points[mine], &chords[mine], crossings, progress)?;
     }
     // A simple polygon always has a triangulation; this reports polygons that are not simple after
     // all.
@@ -168,7 +168,7 @@ pub(super) fn interleave([a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
 
 /// Returns the triangulation with the least total `cost` of its diagonals. Parts without a
 /// triangulation are left out.
-fn cheapest(
+fn cheapest_triangulation(
     points: &[DVec2],
     chords: &InteriorChords,
     cost: impl Fn(usize, usize) -> f64,
@@ -198,27 +198,27 @@ fn cheapest(
     Ok(collect(&best, n))
 }
 
-/// Returns the least cost of the part behind a chord, and the apex of its triangle.
+/// Returns the minimum cost of the part behind a chord, and the apex of its triangle.
 fn best_apex(points: &[DVec2], best: &[(f64, usize)], i: usize, j: usize) -> (f64, usize) {
     let n = points.len();
-    let mut least = (f64::INFINITY, 0);
+    let mut cheapest = (f64::INFINITY, 0);
     for k in i + 1..j {
         let parts = best[i * n + k].0 + best[k * n + j].0;
         // The sides of the triangle may all be inside while it is flat: points on a straight side.
-        if parts < least.0 && orient2d(points[i], points[k], points[j]) > 0.0 {
+        if parts < cheapest.0 && orient2d(points[i], points[k], points[j]) > 0.0 {
             let flatness = flatness(points[i], points[k], points[j]);
             let sliver = if flatness > 1.0 - SLIVER {
                 SLIVER_COST
             } else {
                 0.0
             };
-            let whole = parts + SHAPE_COST * flatness + sliver;
-            if whole < least.0 {
-                least = (whole, k);
+            let total = parts + SHAPE_COST * flatness + sliver;
+            if total < cheapest.0 {
+                cheapest = (total, k);
             }
         }
     }
-    least
+    cheapest
 }
 
 /// Flatness of a triangle: 0 if equilateral, towards 1 if flat.

@@ -32,7 +32,7 @@ const GRADING: f64 = 0.35;
 
 /// Number of spacings, each half as wide as the one before, down to 1/32; pins 1/270 of the frame
 /// apart need the narrowest (resource limit).
-const LEVELS: u32 = 6;
+const LATTICES: u32 = 6;
 
 /// Maximum number of points (resource limit: each candidate is compared with all points before it).
 const MAX_POINTS: usize = 8_000;
@@ -68,7 +68,7 @@ pub enum FramePinsError {
         side: Side,
     },
     /// No map without folds was found that meets all pins.
-    #[error("the plane would have to fold near {}; move or delete {}", listed(pins), if pins.len() == 1 { "it" } else { "some of them" })]
+    #[error("the plane would have to fold near {}; move or delete {}", pin_list(pins), if pins.len() == 1 { "it" } else { "some of them" })]
     Folds {
         /// Indices of the pins at the folds, from 0.
         pins: Vec<usize>,
@@ -85,7 +85,7 @@ pub enum FramePinsError {
 }
 
 /// Formats pin indices as "pin 3" or "pins 3, 5".
-fn listed(pins: &[usize]) -> String {
+fn pin_list(pins: &[usize]) -> String {
     let numbers: Vec<String> = pins.iter().map(|pin| (pin + 1).to_string()).collect();
     let pin = if numbers.len() == 1 { "pin" } else { "pins" };
     format!("{pin} {}", numbers.join(", "))
@@ -117,7 +117,7 @@ impl CompatibleMesh {
         pins: &[PointPair],
         progress: &dyn Progress,
     ) -> Result<Self, FramePinsError> {
-        let pins = distinct(frame, pins)?;
+        let pins = distinct_pins(frame, pins)?;
         let border = border_points(frame, spacing(frame));
         let fixed_points = |side: Side| {
             let fixed_points = pins.iter().map(|(_, pin)| pin[side]);
@@ -127,13 +127,13 @@ impl CompatibleMesh {
                 .chain(fixed_points)
                 .collect::<Vec<DVec2>>()
         };
-        let given = Side::BOTH.map(fixed_points);
-        let fixed = given[0].len();
-        let mut source = given[0].clone();
-        source.extend(filling(frame, border.len(), &given, progress)?);
+        let fixed_places = Side::BOTH.map(fixed_points);
+        let fixed = fixed_places[0].len();
+        let mut source = fixed_places[0].clone();
+        source.extend(fill_points(frame, border.len(), &fixed_places, progress)?);
         let scale = unit_scale(&source);
         let scaled = |points: &[DVec2]| points.iter().map(|p| *p * scale).collect::<Vec<_>>();
-        let (source, fixed_targets) = (scaled(&source), scaled(&given[1]));
+        let (source, fixed_targets) = (scaled(&source), scaled(&fixed_places[1]));
         let faces = delaunay(&source)?;
         let mut mesh = PairMesh::new(fixed, [source.clone(), source], faces);
         // Faces between fixed vertices alone could not follow the pins.
@@ -155,7 +155,7 @@ impl CompatibleMesh {
             transfer::continue_transfer(&mut mesh, &waypoints, &step)?;
             if !mesh.is_valid() {
                 return Err(FramePinsError::Folds {
-                    pins: at_folds(&mesh, border.len(), &pins),
+                    pins: pins_near_folds(&mesh, border.len(), &pins),
                 });
             }
             quality::settle(&mut mesh, progress)?;
@@ -163,17 +163,20 @@ impl CompatibleMesh {
         let remaining = ProgressSpan::new(progress, PROGRESS_AT_TARGET, 1.0);
         quality::improve(&mut mesh, &PolygonOptions::default(), &remaining)?;
         checkpoint(progress, "triangulating", 1.0)?;
-        let given = given.each_ref().map(Vec::as_slice);
-        Ok(mesh.to_compatible_mesh([scale; 2], given)?)
+        let fixed_places = fixed_places.each_ref().map(Vec::as_slice);
+        Ok(mesh.to_compatible_mesh([scale; 2], fixed_places)?)
     }
 }
 
 /// Returns the distinct pins with their indices; of equal pins the first.
-fn distinct(frame: &Bounds, pins: &[PointPair]) -> Result<Vec<(usize, PointPair)>, FramePinsError> {
+fn distinct_pins(
+    frame: &Bounds,
+    pins: &[PointPair],
+) -> Result<Vec<(usize, PointPair)>, FramePinsError> {
     let same = SAME_PIN * frame.diameter();
     // Pins on the border would leave no room for faces.
     let inside = frame.padded(-same);
-    let mut kept: Vec<(usize, PointPair)> = Vec::new();
+    let mut distinct: Vec<(usize, PointPair)> = Vec::new();
     for (pin, pair) in pins.iter().enumerate() {
         for side in Side::BOTH {
             if !inside.contains(pair[side]) {
@@ -183,9 +186,11 @@ fn distinct(frame: &Bounds, pins: &[PointPair]) -> Result<Vec<(usize, PointPair)
         let near =
             |other: &PointPair| Side::BOTH.map(|side| other[side].distance(pair[side]) <= same);
         // A pin may repeat an earlier one exactly, but may not coincide with it in one design only.
-        let mut others = kept.iter().map(|(number, other)| (*number, near(other)));
+        let mut others = distinct
+            .iter()
+            .map(|(number, other)| (*number, near(other)));
         match others.find(|(_, near)| near.contains(&true)) {
-            None => kept.push((pin, *pair)),
+            None => distinct.push((pin, *pair)),
             // A pin that is given twice counts once.
             Some((_, [true, true])) => {}
             Some((other, near)) => {
@@ -195,7 +200,7 @@ fn distinct(frame: &Bounds, pins: &[PointPair]) -> Result<Vec<(usize, PointPair)
             }
         }
     }
-    Ok(kept)
+    Ok(distinct)
 }
 
 /// Widest spacing between points.
@@ -205,7 +210,7 @@ fn spacing(frame: &Bounds) -> f64 {
 
 /// Returns points on triangular lattices between border and pins: spaced like the border's points,
 /// but more closely around pins that are near each other in either design.
-fn filling(
+fn fill_points(
     frame: &Bounds,
     border: usize,
     ends: &[Vec<DVec2>; 2],
@@ -223,21 +228,22 @@ fn filling(
     let pins: Vec<(DVec2, f64)> = (border..ends[0].len())
         .map(|k| (ends[0][k], pin_spacing(k)))
         .collect();
-    let wanted_spacing = |p: DVec2| {
-        let about = |&(pin, least): &(DVec2, f64)| least + GRADING * p.distance(pin);
+    let spacing_at = |p: DVec2| {
+        let about = |&(pin, min_spacing): &(DVec2, f64)| min_spacing + GRADING * p.distance(pin);
         pins.iter().map(about).fold(widest, f64::min)
     };
     let mut points = ends[0].clone();
     // The narrowest rows come first, so that wider rows keep their distance from them.
-    for level in (0..LEVELS).rev() {
-        let step = widest / f64::from(1u32 << level);
-        let is_last = level + 1 == LEVELS;
-        for p in rows(frame, step) {
+    for lattice in (0..LATTICES).rev() {
+        let step = widest / f64::from(1u32 << lattice);
+        let is_last = lattice + 1 == LATTICES;
+        for p in triangular_lattice(frame, step) {
             check_cancelled(progress)?;
             // Each place is filled by the one level whose spacing fits. Spacings beyond the range
             // are left to the widest or the narrowest level.
-            let size = wanted_spacing(p);
-            let fits = size < 2.0 * step && (size >= step || is_last) || level == 0 && size >= step;
+            let size = spacing_at(p);
+            let fits =
+                size < 2.0 * step && (size >= step || is_last) || lattice == 0 && size >= step;
             let min_distance = MIN_DISTANCE * step;
             let is_free = |q: &DVec2| p.distance_squared(*q) > min_distance * min_distance;
             if fits && points.len() < MAX_POINTS && points.iter().all(is_free) {
@@ -249,7 +255,7 @@ fn filling(
 }
 
 /// Points of a triangular lattice inside the frame; `side` is the length of its edges.
-fn rows(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> {
+fn triangular_lattice(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> {
     let step = DVec2::new(side, side * 0.75f64.sqrt());
     let size = frame.size();
     let (columns, count) = ((size.x / step.x) as u32 + 1, (size.y / step.y) as u32);
@@ -266,7 +272,7 @@ fn rows(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> {
 }
 
 /// Indices of the pins nearest to the folded faces, each once.
-fn at_folds(mesh: &PairMesh, first: usize, all: &[(usize, PointPair)]) -> Vec<usize> {
+fn pins_near_folds(mesh: &PairMesh, first: usize, all: &[(usize, PointPair)]) -> Vec<usize> {
     let targets = &mesh.points[1];
     let mut pins: Vec<usize> = (mesh.faces())
         .filter(|&face| !super::face_cost::is_positive(mesh.corners(face)[1]))

@@ -42,17 +42,17 @@ pub(in crate::compatible) fn triangulate_many(
     progress: &dyn Progress,
 ) -> Result<SharedTriangulation, (usize, Option<PieceMeshError>)> {
     let count = rings.first().map_or(0, Vec::len);
-    let given: Vec<BoundaryRings> = (0..count)
+    let design_rings: Vec<BoundaryRings> = (0..count)
         .map(|design| {
             BoundaryRings::of(&rings.iter().map(|ring| &ring[design]).collect::<Vec<_>>())
         })
         .collect();
     // Near size 1 no product over- or underflows, as exact predicates require.
-    let scales: Vec<f64> = given
+    let scales: Vec<f64> = design_rings
         .iter()
         .map(|rings| unit_scale(&rings.points))
         .collect();
-    let scaled = given.iter().zip(&scales);
+    let scaled = design_rings.iter().zip(&scales);
     let scaled: Vec<BoundaryRings> = scaled.map(|(rings, &by)| rings.scaled(by)).collect();
     for (design, (rings, scale)) in scaled.iter().zip(&scales).enumerate() {
         boundary_rings::check(rings, Side::Source)
@@ -60,10 +60,10 @@ pub(in crate::compatible) fn triangulate_many(
     }
     let best = best_triangulation(&scaled, first, options, progress).map_err(cancelled)?;
     let (faces, mut places) = best.ok_or((0, None))?;
-    for ((places, given), scale) in places.iter_mut().zip(&given).zip(&scales) {
+    for ((places, rings), scale) in places.iter_mut().zip(&design_rings).zip(&scales) {
         places.iter_mut().for_each(|p| *p /= *scale);
         // Restores the ring points bit by bit.
-        places[..given.points.len()].copy_from_slice(&given.points);
+        places[..rings.points.len()].copy_from_slice(&rings.points);
     }
     Ok((faces, places))
 }
@@ -101,8 +101,14 @@ fn best_triangulation(
         };
         let (faces, [own, theirs]) = pair.compacted();
         let start = PairMesh::new(pair.fixed, [own.clone(), own], faces);
-        let known = Some((hard, theirs));
-        candidates.extend(transfer_to_all(&start, first, known, designs, progress)?);
+        let hard_points = Some((hard, theirs));
+        candidates.extend(transfer_to_all(
+            &start,
+            first,
+            hard_points,
+            designs,
+            progress,
+        )?);
     }
     let best = candidates.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
     Ok(best.map(|(_, mesh)| mesh))
@@ -142,8 +148,8 @@ fn refined_mesh(
 fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
     for _ in 0..REDUCTION_ROUNDS {
         let before = mesh.points[1].clone();
-        let moved = mesh.is_valid() && untangle(mesh, progress);
-        if !moved {
+        let is_untangled = mesh.is_valid() && untangle(mesh, progress);
+        if !is_untangled {
             break;
         }
         if !mesh.is_valid() {
@@ -156,19 +162,19 @@ fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
 /// Transfers a triangulation of the design `from` to all others. Returns its total cost and the
 /// result; `None` if it folds in one of them.
 ///
-/// `known` is a further design in which the vertices are already known.
+/// `hard_points` is a further design in which the vertices are already known.
 fn transfer_to_all(
     base: &PairMesh,
     from: usize,
-    known: Option<(usize, Vec<DVec2>)>,
+    hard_points: Option<(usize, Vec<DVec2>)>,
     designs: &[BoundaryRings],
     progress: &dyn Progress,
 ) -> Result<Option<(f64, SharedTriangulation)>, Cancelled> {
     let transferred = |design: usize| {
         let own = &base.points[0];
-        let known = known.as_ref().filter(|(hard, _)| *hard == design);
+        let hard_points = hard_points.as_ref().filter(|(hard, _)| *hard == design);
         let mut mesh = base.clone();
-        match known {
+        match hard_points {
             // The design of the start keeps its own vertices, without distortion.
             _ if design == from => return Ok(Some((0.0, own.clone()))),
             Some((_, places)) => mesh.points[1].clone_from(places),

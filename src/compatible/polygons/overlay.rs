@@ -66,7 +66,7 @@ struct OverlayVertices {
 }
 
 /// Orders a chord of one design and one of the other: the source's first.
-fn in_order(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
+fn source_first(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
     if design == 0 {
         [own, other]
     } else {
@@ -100,7 +100,7 @@ impl OverlayVertices {
                         }
                     };
                     // Added at the source's chord; already present at the target's.
-                    let chords = in_order(design, chord, other);
+                    let chords = source_first(design, chord, other);
                     let crossing = self.crossings.entry(chords).or_insert_with(new);
                     crossing.ranks[design] = rank;
                     self.points[design][crossing.vertex as usize] =
@@ -149,7 +149,7 @@ impl OverlayVertices {
         }
         for crossed in sides(other).map(undirected) {
             if interleave(chord, crossed) {
-                let crossing = &self.crossings[&in_order(design, chord, crossed)];
+                let crossing = &self.crossings[&source_first(design, chord, crossed)];
                 ends.push((crossing.ranks[design], crossing.vertex));
             }
         }

@@ -148,7 +148,7 @@ impl PairMesh {
     }
 
     /// Returns the faces on both sides of an inner edge.
-    fn beside(&self, [a, b]: [u32; 2]) -> Option<EdgeFaces> {
+    fn edge_faces(&self, [a, b]: [u32; 2]) -> Option<EdgeFaces> {
         let (f, left) = self.opposite(a, b)?;
         let (g, right) = self.opposite(b, a)?;
         Some(EdgeFaces {
@@ -159,7 +159,7 @@ impl PairMesh {
     }
 
     /// Highest cost among the faces.
-    fn worst(&self, faces: &[[u32; 3]]) -> f64 {
+    fn max_cost(&self, faces: &[[u32; 3]]) -> f64 {
         faces
             .iter()
             .map(|&face| self.cost(face))
@@ -169,7 +169,7 @@ impl PairMesh {
     /// Flips an inner edge if that lowers the higher cost of its two faces; returns whether it did.
     pub(super) fn flip_if_better(&mut self, edge: [u32; 2]) -> bool {
         let [a, b] = edge;
-        let Some(edge_faces) = self.beside(edge) else {
+        let Some(edge_faces) = self.edge_faces(edge) else {
             return false;
         };
         // The flipped edge may already exist, beyond a vertex with three faces.
@@ -180,7 +180,7 @@ impl PairMesh {
         let new = [[a, right, left], [right, b, left]];
         let old = edge_faces.faces.map(|f| self.faces[f as usize]);
         // By more than rounding, or an edge could flip back and forth.
-        let is_better = self.worst(&new) < self.worst(&old) * (1.0 - 1e-9);
+        let is_better = self.max_cost(&new) < self.max_cost(&old) * (1.0 - 1e-9);
         if is_better {
             self.replace(edge_faces.faces.to_vec(), &new);
         }
@@ -191,7 +191,7 @@ impl PairMesh {
     /// would fold.
     pub(super) fn split(&mut self, edge: [u32; 2]) -> Option<u32> {
         let [a, b] = edge;
-        let edge_faces = self.beside(edge)?;
+        let edge_faces = self.edge_faces(edge)?;
         let middle = self.around.len() as u32;
         for points in &mut self.points {
             points.push(points[a as usize].midpoint(points[b as usize]));
@@ -233,13 +233,13 @@ impl PairMesh {
         if common != 2 {
             return f64::INFINITY;
         }
-        self.collapsed(v, onto)
+        self.faces_after_collapse(v, onto)
             .map(|face| self.cost(face))
             .fold(0.0, f64::max)
     }
 
     /// Faces at `v` that remain after the collapse onto a neighbour, with their new corners.
-    fn collapsed(&self, v: u32, onto: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
+    fn faces_after_collapse(&self, v: u32, onto: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
         self.faces_at(v)
             .filter(move |face| !face.contains(&onto))
             .map(move |face| face.map(|u| if u == v { onto } else { u }))
@@ -247,7 +247,7 @@ impl PairMesh {
 
     /// Moves `v` onto its neighbour; the caller has checked [`Self::collapse_cost`].
     pub(super) fn collapse(&mut self, v: u32, onto: u32) {
-        let new: Vec<[u32; 3]> = self.collapsed(v, onto).collect();
+        let new: Vec<[u32; 3]> = self.faces_after_collapse(v, onto).collect();
         self.replace(self.around[v as usize].clone(), &new);
     }
 
@@ -294,19 +294,19 @@ impl PairMesh {
     }
 
     /// Converts the mesh to the given coordinates, by division by `scales`. The first vertices are
-    /// copied from `given`, so they are met to the last bit.
+    /// copied from `exact_points`, so they are met to the last bit.
     ///
     /// # Errors
     /// [`CompatibleError`] if rounding in these coordinates invalidates a face.
     pub(super) fn to_compatible_mesh(
         &self,
         scales: [f64; 2],
-        given: [&[DVec2]; 2],
+        exact_points: [&[DVec2]; 2],
     ) -> Result<CompatibleMesh, CompatibleError> {
         let (faces, mut points) = self.compacted();
-        for (d, given) in given.into_iter().enumerate() {
+        for (d, exact) in exact_points.into_iter().enumerate() {
             points[d].iter_mut().for_each(|p| *p /= scales[d]);
-            points[d][..given.len()].copy_from_slice(given);
+            points[d][..exact.len()].copy_from_slice(exact);
         }
         let [source, target] = points;
         CompatibleMesh::new(faces, source, target, Vec::new())

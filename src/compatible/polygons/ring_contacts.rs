@@ -103,11 +103,11 @@ fn first_contact(edges: &LoopEdges, mut order: Vec<usize>, lenient: bool) -> Opt
 
 /// Returns whether the path a, b, c runs back onto itself or does not move.
 fn folds_back(a: DVec2, b: DVec2, c: DVec2) -> bool {
-    a == b || b == c || (orient2d(a, b, c) == 0.0 && (within(b, a, c) || within(b, c, a)))
+    a == b || b == c || (orient2d(a, b, c) == 0.0 && (is_between(b, a, c) || is_between(b, c, a)))
 }
 
 /// Returns whether `p` lies between `a` and `b`, ends included; all three must be collinear.
-fn within(a: DVec2, p: DVec2, b: DVec2) -> bool {
+fn is_between(a: DVec2, p: DVec2, b: DVec2) -> bool {
     let (low, high) = (a.min(b), a.max(b));
     p.cmpge(low).all() && p.cmple(high).all()
 }

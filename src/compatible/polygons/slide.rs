@@ -52,7 +52,7 @@ pub(crate) fn slide_outlines(
     } else {
         [Side::Target, Side::Source]
     };
-    let (mut pair, scales) = of_one_area(mesh, rings[0].points.len(), sides);
+    let (mut pair, scales) = equal_area_pair(mesh, rings[0].points.len(), sides);
     let mut sliding = sliders(piece, sides);
     if sliding.is_empty() {
         return None;
@@ -113,7 +113,7 @@ fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[SlidingVertex]) -> Ve
 
 /// Returns the piece's mesh with its designs in the order `sides`, scaled to equal area so that
 /// uniform growth does not count as distortion, and the scale of each design.
-fn of_one_area(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (PairMesh, [f64; 2]) {
+fn equal_area_pair(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (PairMesh, [f64; 2]) {
     let points = [mesh.source(), mesh.target()];
     let scales = sides.map(|side| {
         let corners = |face: &[u32; 3]| face.map(|v| points[side][v as usize]);
@@ -226,11 +226,11 @@ mod tests {
     }
 
     fn piece(designs: [&Regions; 2], pins: Vec<PointPair>) -> PieceMatch {
-        let wanted = MatchSettings {
+        let settings = MatchSettings {
             pins,
             ..MatchSettings::default()
         };
-        let matched = match_regions(designs[0], designs[1], &wanted, &Silent);
+        let matched = match_regions(designs[0], designs[1], &settings, &Silent);
         matched.expect("a match").pieces.remove(0)
     }
 

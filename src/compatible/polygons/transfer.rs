@@ -54,7 +54,7 @@ impl Transfer {
         let (n, points) = (from.points.len(), start.points);
         let mut mesh = PairMesh::new(n, [points.clone(), points], start.faces);
         split_chords(&mut mesh);
-        let is_possible = laid_over(&mut mesh, &to.points, progress)?;
+        let is_possible = lay_onto(&mut mesh, &to.points, progress)?;
         let folds = FoldHistory::default();
         Ok(is_possible.then_some(Self { mesh, folds }))
     }
@@ -85,7 +85,7 @@ pub(super) fn transfer_onto(
     to: &[DVec2],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
-    if laid_over(mesh, to, progress)? {
+    if lay_onto(mesh, to, progress)? {
         FoldHistory::default().remove(mesh, MAX_ROUNDS, progress)?;
     }
     Ok(())
@@ -93,13 +93,9 @@ pub(super) fn transfer_onto(
 
 /// Lays a mesh over the second design, where its first vertices belong at `to`. Returns whether
 /// that was possible.
-fn laid_over(
-    mesh: &mut PairMesh,
-    to: &[DVec2],
-    progress: &dyn Progress,
-) -> Result<bool, Cancelled> {
+fn lay_onto(mesh: &mut PairMesh, to: &[DVec2], progress: &dyn Progress) -> Result<bool, Cancelled> {
     // Tried first, because a harmonic map would distort even a polygon that is merely moved.
-    lay(mesh, to);
+    place_onto(mesh, to);
     if mesh.is_valid() {
         return Ok(true);
     }
@@ -126,7 +122,7 @@ pub(super) fn continue_transfer(
 #[derive(Default)]
 struct FoldHistory {
     /// Fewest folds so far, before each round.
-    fewest: Vec<usize>,
+    min_folds: Vec<usize>,
     /// Whether no further round is worthwhile.
     is_given_up: bool,
 }
@@ -139,15 +135,18 @@ impl FoldHistory {
         rounds: usize,
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
-        while !self.is_given_up && self.fewest.len() < rounds {
+        while !self.is_given_up && self.min_folds.len() < rounds {
             let folds = mesh.folds();
             if folds == 0 {
                 break;
             }
-            let round = self.fewest.len();
+            let round = self.min_folds.len();
             checkpoint(progress, "removing folds", round as f64 / MAX_ROUNDS as f64)?;
-            let fewest = self.fewest.last().map_or(folds, |&least| least.min(folds));
-            self.fewest.push(fewest);
+            let folds_so_far = self
+                .min_folds
+                .last()
+                .map_or(folds, |&previous| previous.min(folds));
+            self.min_folds.push(folds_so_far);
             self.is_given_up = self.is_stalled() || !untangle(mesh, progress);
         }
         check_cancelled(progress)
@@ -155,9 +154,9 @@ impl FoldHistory {
 
     /// Returns whether the last [`PATIENCE`] rounds removed too few folds.
     fn is_stalled(&self) -> bool {
-        let now = self.fewest.len() - 1;
+        let now = self.min_folds.len() - 1;
         now >= PATIENCE
-            && self.fewest[now] as f64 > MAX_REMAINING * self.fewest[now - PATIENCE] as f64
+            && self.min_folds[now] as f64 > MAX_REMAINING * self.min_folds[now - PATIENCE] as f64
     }
 }
 
@@ -174,7 +173,7 @@ pub(super) fn split_chords(mesh: &mut PairMesh) {
 
 /// Lays a mesh onto `to` in the second design, with inner vertices moved by the similarity that
 /// fits the polygons best. Similar polygons stay undistorted.
-fn lay(mesh: &mut PairMesh, to: &[DVec2]) {
+fn place_onto(mesh: &mut PairMesh, to: &[DVec2]) {
     let n = mesh.fixed;
     let [points, placed] = &mut mesh.points;
     placed[..n].copy_from_slice(to);

@@ -53,10 +53,10 @@ impl CompatibleMesh {
         progress: &dyn Progress,
     ) -> Result<Self, PieceMeshError> {
         check(source, target, options)?;
-        let given = [source, target].map(BoundaryRings::of);
+        let design_rings = [source, target].map(BoundaryRings::of);
         // Near size 1 no product over- or underflows, as exact predicates require.
-        let scales = [&given[0], &given[1]].map(|rings| unit_scale(&rings.points));
-        let [p, q] = [0, 1].map(|d| given[d].scaled(scales[d]));
+        let scales = [&design_rings[0], &design_rings[1]].map(|rings| unit_scale(&rings.points));
+        let [p, q] = [0, 1].map(|d| design_rings[d].scaled(scales[d]));
         let enlarged = |error: PieceMeshError| error.scaled(scales.map(f64::recip));
         boundary_rings::check(&p, Side::Source).map_err(enlarged)?;
         boundary_rings::check(&q, Side::Target).map_err(enlarged)?;
@@ -68,8 +68,8 @@ impl CompatibleMesh {
             back.map(PairMesh::swapped).map_err(PieceMeshError::swapped)
         };
         let mesh = mesh.map_err(enlarged)?;
-        let given = given.each_ref().map(|rings| &rings.points[..]);
-        mesh.to_compatible_mesh(scales, given)
+        let design_rings = design_rings.each_ref().map(|rings| &rings.points[..]);
+        mesh.to_compatible_mesh(scales, design_rings)
             .map_err(PieceMeshError::Mesh)
     }
 }
@@ -116,7 +116,7 @@ pub(super) fn triangulate_pair(
 ) -> Result<PairMesh, PieceMeshError> {
     checkpoint(progress, "triangulating", 0.0)?;
     let transfer_progress = ProgressSpan::new(progress, 0.0, PROGRESS_AFTER_TRANSFER);
-    let best = transferred(source, target, options, &transfer_progress)?;
+    let best = best_transfer(source, target, options, &transfer_progress)?;
     let mut mesh = match best {
         Some(mesh) => mesh,
         None => from_base(
@@ -134,7 +134,7 @@ pub(super) fn triangulate_pair(
 }
 
 /// Returns the better of the transfers in both directions; `None` if both stay folded.
-fn transferred(
+fn best_transfer(
     source: &BoundaryRings,
     target: &BoundaryRings,
     options: &PolygonOptions,
@@ -144,10 +144,10 @@ fn transferred(
     let shares = [shares.part(0), shares.part(1)];
     // The outlines do not show which direction is better, so both are tried.
     let directions = [(source, target), (target, source)].into_par_iter();
-    let laid_over = directions
+    let begun = directions
         .zip(&shares)
         .map(|((from, to), share)| Transfer::begin(from, to, options, share));
-    let mut transfers: Vec<Option<Transfer>> = laid_over.collect::<Result<_, _>>()?;
+    let mut transfers: Vec<Option<Transfer>> = begun.collect::<Result<_, _>>()?;
     // A few rounds in both directions; more only if neither is free of folds by then.
     for rounds in [FIRST_ROUNDS, MAX_ROUNDS] {
         let pending = transfers.par_iter_mut().zip(&shares);
@@ -190,7 +190,7 @@ pub(super) fn from_base(
         bridges::bridged_base(source, target, &first)?
     };
     // In exact arithmetic no face is folded, and no later step repairs one.
-    if let Some(error) = folded(&mesh) {
+    if let Some(error) = degenerate_faces_error(&mesh) {
         return Err(error);
     }
     quality::thin_out(&mut mesh, &ProgressSpan::new(progress, 0.5, 1.0))?;
@@ -198,7 +198,7 @@ pub(super) fn from_base(
 }
 
 /// Error for faces of a base that rounding left without area; `None` if there are none.
-fn folded(mesh: &PairMesh) -> Option<PieceMeshError> {
+fn degenerate_faces_error(mesh: &PairMesh) -> Option<PieceMeshError> {
     Side::BOTH.into_iter().find_map(|side| {
         let corners = mesh.faces().map(|face| mesh.corners(face)[side]);
         let mut folded = corners.filter(|corners| !face_cost::is_positive(*corners));
@@ -258,7 +258,7 @@ mod tests {
         let flat = [flat[0], flat[1], 2.0 * flat[1], flat[3]].to_vec();
         let faces = vec![[0, 1, 2], [0, 2, 3]];
         let mesh = PairMesh::new(4, [square.to_vec(), flat], faces);
-        let error = folded(&mesh).expect("a flat face");
+        let error = degenerate_faces_error(&mesh).expect("a flat face");
         let reported = error.swapped().scaled([2.0, 1.0]);
         let (side, place) = (Side::Source, DVec2::new(6.0, 0.0));
         let faces = 1;

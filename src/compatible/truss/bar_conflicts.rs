@@ -1,15 +1,17 @@
-//! Finds bars that meet away from a common node, and selects bars without such conflicts.
+//! Finds conflicts: pairs of bars that meet anywhere except at a common node. Selects bars without
+//! conflicts.
 
 use super::error::TrussError;
 use crate::geometry::{DVec2, SourceTarget, orient2d, segments_touch};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Two bars that cannot both be edges. Kept small, because every bar may cross every other.
+/// Indices of two bars that cannot both be edges of the triangulation, the smaller first. Stored as
+/// `u32` to save memory: every bar may conflict with every other.
 pub(super) type BarConflict = [u32; 2];
 
-/// Returns the pairs of bars, smaller index first, that cross, touch or overlap in at least one of
-/// the designs, other than by ending at a common node.
+/// Returns the pairs of bars that cross, touch or overlap in at least one of the designs, other
+/// than by ending at a common node. Sorted, without duplicates.
 pub(super) fn find_conflicts(
     bars: &[[u32; 2]],
     nodes: SourceTarget<&[DVec2]>,
@@ -22,8 +24,8 @@ pub(super) fn find_conflicts(
     Ok(conflicts)
 }
 
-/// Returns the conflicts in one design. Bars are sorted by their left ends, and each is compared
-/// with those that start before it ends.
+/// Returns the conflicts in one design by a sweep along x. The bars are sorted by their left ends;
+/// each bar is compared with the later ones that start before it ends.
 fn conflicts_in(
     bars: &[[u32; 2]],
     nodes: &[DVec2],
@@ -38,14 +40,15 @@ fn conflicts_in(
     let mut conflicts = Vec::new();
     for (place, &i) in order.iter().enumerate() {
         check_cancelled(progress)?;
-        // All pairs may conflict, so the list is checked against the resource limit.
+        // The number of conflicts may be quadratic in the number of bars, so it is checked against
+        // the resource limit.
         WorkloadKind::CrossingBars.check(conflicts.len(), progress)?;
         let right = range(i).1;
         let later = order[place + 1..].iter();
         for &j in later.take_while(|&&j| range(j).0 <= right) {
-            // Most bars that overlap along x lie above each other; the bounding-box test rejects
+            // Most bars that overlap along x do not overlap along y. A bounding-box test rejects
             // these before the exact predicates run.
-            if meet(bars[i], bars[j], nodes) {
+            if bars_meet(bars[i], bars[j], nodes) {
                 conflicts.push([i.min(j), i.max(j)].map(|bar| bar as u32));
             }
         }
@@ -53,20 +56,21 @@ fn conflicts_in(
     Ok(conflicts)
 }
 
-/// Returns whether two bars meet other than at a common end.
-fn meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
+/// Returns whether two bars meet anywhere except at a common node.
+fn bars_meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
     let at = |node: u32| nodes[node as usize];
     if let Some(&shared) = first.iter().find(|node| second.contains(node)) {
         let other = |bar: [u32; 2]| at(if bar[0] == shared { bar[1] } else { bar[0] });
         let (n, p, q) = (at(shared), other(first), other(second));
-        // Bars with a common node meet elsewhere only if they overlap.
+        // Two bars with a common node meet elsewhere only if they overlap, in the same direction
+        // from that node.
         return orient2d(n, p, q) == 0.0 && (p - n).dot(q - n) > 0.0;
     }
     segments_touch(first.map(at), second.map(at))
 }
 
-/// Removes bars until no conflict is left: the one with the most conflicts first, of equal ones the
-/// last. Returns for each bar whether it remains.
+/// Removes bars until no conflict is left: always the bar with the most remaining conflicts (ties:
+/// the one with the largest index). Returns for each bar whether it remains.
 pub(super) fn remove_greedily(
     bars: usize,
     conflicts: &[BarConflict],
@@ -77,30 +81,30 @@ pub(super) fn remove_greedily(
         opponents[i as usize].push(j);
         opponents[j as usize].push(i);
     }
-    let mut kept = vec![true; bars];
+    let mut remaining = vec![true; bars];
     let mut open_conflicts: Vec<usize> = opponents.iter().map(Vec::len).collect();
     while let Some(worst) = (0..bars).max_by_key(|&bar| (open_conflicts[bar], bar))
         && open_conflicts[worst] > 0
     {
         check_cancelled(progress)?;
-        kept[worst] = false;
+        remaining[worst] = false;
         open_conflicts[worst] = 0;
         for &other in &opponents[worst] {
-            // Bars that were removed earlier have no conflicts left.
+            // The count of a bar that was removed earlier is already 0.
             let count = &mut open_conflicts[other as usize];
             *count = count.saturating_sub(1);
         }
     }
-    Ok(kept)
+    Ok(remaining)
 }
 
-/// Returns for each bar whether it has no conflict.
+/// Returns for each bar whether it conflicts with no other bar.
 pub(super) fn keep_uncrossed(bars: usize, conflicts: &[BarConflict]) -> Vec<bool> {
-    let mut kept = vec![true; bars];
+    let mut remaining = vec![true; bars];
     for &bar in conflicts.iter().flatten() {
-        kept[bar as usize] = false;
+        remaining[bar as usize] = false;
     }
-    kept
+    remaining
 }
 
 #[cfg(test)]
@@ -122,7 +126,7 @@ mod tests {
         ]
         .map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
         let meets = |a, b| {
-            let (there, back) = (meet(a, b, &nodes), meet(b, a, &nodes));
+            let (there, back) = (bars_meet(a, b, &nodes), bars_meet(b, a, &nodes));
             assert_eq!(there, back);
             there
         };

@@ -4,16 +4,16 @@ use crate::geometry::Side;
 use crate::work::budget::WorkloadTooLarge;
 use crate::work::progress::Cancelled;
 
-/// Maximum number of nodes of a panel (resource limit: the dynamic program then takes about a
-/// second, for 160 million triangles).
+/// Maximum number of nodes of a panel (resource limit: at this size the dynamic program examines
+/// 160 million triangles, in about a second).
 pub(super) const MAX_PANEL_NODES: usize = 1000;
 
-/// Reason why two trusses have no common triangulation. Nodes and bars count from 0, as in the
-/// file.
+/// Reason why two trusses have no common triangulation. Nodes and bars count from 0, as in truss
+/// files.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrussError {
-    /// The trusses have different numbers of nodes.
+    /// The source and the target truss have these different numbers of nodes.
     #[error("the source truss has {} nodes and the target {}; both need the same nodes in the same order", .0[0], .0[1])]
     NodeCounts([usize; 2]),
     /// A bar exists in only one of the trusses.
@@ -21,24 +21,25 @@ pub enum TrussError {
     BarsDiffer {
         /// Nodes of the bar.
         nodes: [u32; 2],
-        /// Design that has the bar.
+        /// The only design that has the bar.
         only_in: Side,
     },
-    /// All panels have opposite orientation in the two designs.
+    /// All panels have opposite orientation in the two designs: one truss is a mirror image of the
+    /// other.
     #[error(
         "the target truss is a mirror image of the source; mirror one of them (placement, mirror = true)"
     )]
     Mirrored,
-    /// A panel has opposite orientation in the two designs; its nodes.
+    /// The panel with these nodes has opposite orientation in the two designs.
     #[error("the panel of nodes {} is turned over between source and target; move its nodes in one design", list_first(.0, SHOWN))]
     Flipped(Vec<u32>),
-    /// No triangulation of a panel is valid in both designs; its nodes.
+    /// No triangulation of the panel with these nodes is valid in both designs.
     #[error("the panel of nodes {} has no triangles that are valid in both designs; add a bar or a node inside it", list_first(.0, SHOWN))]
     NoTriangulation(Vec<u32>),
-    /// A panel has too many nodes to triangulate; its nodes.
+    /// The panel with these nodes has more than `MAX_PANEL_NODES` nodes.
     #[error("the panel of nodes {} has {} nodes, more than {MAX_PANEL_NODES}; divide it by bars", list_first(.0, SHOWN), .0.len())]
     TooLarge(Vec<u32>),
-    /// Too many bars cross.
+    /// Too many bars cross without a common node.
     #[error(transparent)]
     TooMuch(#[from] WorkloadTooLarge),
     /// The work was cancelled.
@@ -46,11 +47,11 @@ pub enum TrussError {
     Cancelled(#[from] Cancelled),
 }
 
-/// Maximum number of nodes listed in a message (resource limit: a few show where a panel is, and it
-/// can have hundreds).
+/// Maximum number of nodes listed in a message (heuristic: a few nodes show where a panel is; a
+/// panel can have hundreds).
 const SHOWN: usize = 8;
 
-/// Formats the first numbers of a list, as in "0, 4, 5 and 9 more".
+/// Formats the first `shown` numbers of a list, as in "0, 4, 5 and 9 more".
 pub(in crate::compatible) fn list_first<T: ToString>(numbers: &[T], shown: usize) -> String {
     let names: Vec<String> = numbers.iter().take(shown).map(T::to_string).collect();
     match numbers.len().saturating_sub(shown) {

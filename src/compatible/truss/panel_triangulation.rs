@@ -1,19 +1,22 @@
-//! Triangulates one polygon in two embeddings at once with the largest possible smallest angle.
+//! Triangulates one polygon in two embeddings at once so that the smallest angle over both is as
+//! large as possible.
 
 use crate::geometry::{DVec2, SourceTarget, orient2d};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Marks a part of the polygon without a triangulation: less than the sine of any angle.
+/// Marks a part of the polygon that has no triangulation; smaller than the sine of any angle of a
+/// triangle.
 const NO_TRIANGULATION: f64 = -1.0;
 
-/// Returns triangles between the nodes of a counter-clockwise cycle, all positive in both designs,
-/// with the largest possible smallest angle; `None` if there are none.
+/// Triangulates the polygon with the given nodes in counter-clockwise order. All triangles are
+/// positive in both designs, and the smallest angle over both is as large as possible. `None` if
+/// there is no such triangulation.
 pub(super) fn triangulate_panel(
     cycle: &[u32],
     nodes: SourceTarget<&[DVec2]>,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<[u32; 3]>>, Cancelled> {
-    let table = ChordTable::filled(cycle, nodes, progress)?;
+    let table = ChordTable::fill(cycle, nodes, progress)?;
     let Some(last) = cycle.len().checked_sub(1) else {
         return Ok(None);
     };
@@ -33,17 +36,17 @@ pub(super) fn triangulate_panel(
     Ok(Some(faces))
 }
 
-/// Table of the dynamic program. For each chord i < j it holds the sine of the smallest angle in
-/// the best triangulation of the part from i to j, and the third corner of the triangle at the
-/// chord.
+/// Table of the dynamic program. The chord i–j, i < j, cuts off the part of the polygon with the
+/// corners i to j. The cell of the chord contains the sine of the smallest angle in the best
+/// triangulation of that part, and the third corner of the triangle at the chord.
 struct ChordTable {
     size: usize,
     cells: Vec<(f64, usize)>,
 }
 
 impl ChordTable {
-    /// Fills the table from short chords to long ones.
-    fn filled(
+    /// Fills the table, from chords that skip few corners to chords that skip many.
+    fn fill(
         cycle: &[u32],
         nodes: SourceTarget<&[DVec2]>,
         progress: &dyn Progress,
@@ -51,7 +54,7 @@ impl ChordTable {
         let size = cycle.len();
         let mut table = Self {
             size,
-            // Nothing lies behind the polygon's own edges, so they limit no angle.
+            // The polygon's own edges cut off nothing, so they do not limit the smallest angle.
             cells: vec![(f64::INFINITY, 0); size * size],
         };
         for length in 2..size {
@@ -59,19 +62,20 @@ impl ChordTable {
             for i in 0..size - length {
                 let j = i + length;
                 let cell = table.cell(i, j);
-                table.cells[cell] = table.best(cycle, nodes, i, j);
+                table.cells[cell] = table.best_corner(cycle, nodes, i, j);
             }
         }
         Ok(table)
     }
 
-    /// Index of the cell of a chord.
+    /// Index of the cell of the chord i–j.
     fn cell(&self, i: usize, j: usize) -> usize {
         i * self.size + j
     }
 
-    /// Returns the best third corner for the chord i–j, with the smallest sine it leads to.
-    fn best(
+    /// Returns the cell of the chord i–j: the smallest sine and the third corner that lead to the
+    /// best triangulation of the part that the chord cuts off.
+    fn best_corner(
         &self,
         cycle: &[u32],
         nodes: SourceTarget<&[DVec2]>,
@@ -83,7 +87,8 @@ impl ChordTable {
             let parts = self.cells[self.cell(i, k)]
                 .0
                 .min(self.cells[self.cell(k, j)].0);
-            // Checked before the slow exact predicates: no triangle makes up for a bad part.
+            // This check comes before the slow exact predicates. A triangle cannot improve on the
+            // smallest angle of the two parts next to it.
             if parts <= best.0 {
                 continue;
             }
@@ -98,7 +103,8 @@ impl ChordTable {
     }
 }
 
-/// Returns the sine of a triangle's smallest angle; [`NO_TRIANGULATION`] unless it is positive.
+/// Returns the sine of a triangle's smallest angle; [`NO_TRIANGULATION`] if the triangle is not
+/// positive.
 fn smallest_sine(corners: [usize; 3], nodes: &[DVec2]) -> f64 {
     let [a, b, c] = corners.map(|corner| nodes[corner]);
     let twice_area = orient2d(a, b, c);
@@ -107,8 +113,8 @@ fn smallest_sine(corners: [usize; 3], nodes: &[DVec2]) -> f64 {
     }
     let mut sides = [a.distance(b), b.distance(c), c.distance(a)];
     sides.sort_by(f64::total_cmp);
-    // The smallest angle lies opposite the shortest side, between the two others.
+    // The smallest angle lies opposite the shortest side and between the two longer ones.
     let sine = twice_area / (sides[1] * sides[2]);
-    // Lengths may underflow although the exact sign does not.
+    // The product of lengths may underflow to 0 although the exact sign is positive.
     if sine.is_finite() { sine } else { 0.0 }
 }

@@ -1,16 +1,17 @@
-//! Tests of the common triangulation of trusses: panels, bridges, crossed bars, errors.
+//! Tests of the common triangulation of trusses: panels, bridges, crossed bars, errors, and
+//! optimality against brute force.
 
 use super::*;
 use crate::geometry::orient2d;
 use crate::work::progress::Silent;
 
-/// Truss from coordinates and bars.
+/// Truss from node coordinates and bars.
 fn truss(nodes: &[(f64, f64)], bars: &[[u32; 2]]) -> Truss {
     let nodes = nodes.iter().map(|&p| p.into()).collect();
     Truss::new(nodes, bars.to_vec()).expect("a truss")
 }
 
-/// Returns whether all faces are positive in a truss.
+/// Returns whether all faces are positive in the given truss.
 fn positive(faces: &[[u32; 3]], truss: &Truss) -> bool {
     faces.iter().all(|f| {
         let [a, b, c] = f.map(|node| truss.nodes()[node as usize]);
@@ -23,7 +24,8 @@ fn panels(source: &Truss, target: &Truss) -> Result<PanelMesh, TrussError> {
     super::triangulate_panels(source, target, &Silent)
 }
 
-/// Checks that both orders of the designs give the same valid result, and returns it.
+/// Checks that both orders of the designs give the same valid result, in which every node belongs
+/// to a face or a bar; returns it.
 fn both_ways(source: &Truss, target: &Truss) -> PanelMesh {
     let mesh = panels(source, target).expect("panels");
     assert!(positive(&mesh.0, source) && positive(&mesh.0, target));
@@ -83,12 +85,12 @@ fn a_mechanism_square_gets_the_diagonal_that_is_good_in_both() {
 
 #[test]
 fn a_concave_panel_takes_diagonals_valid_in_both() {
-    // Concave at node 3 in the source, convex in the target: only the diagonal 1–3 is valid in
+    // The source is concave at node 3 and the target is convex: only the diagonal 1–3 is valid in
     // both.
     let dart = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.2, 0.8)];
     let (faces, _) = both_ways(&truss(&dart, &SQUARE_BARS), &truss(&SQUARE, &SQUARE_BARS));
     assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));
-    // Concave at neighbouring nodes: no diagonal is valid in both.
+    // The two designs are concave at neighbouring nodes: no diagonal is valid in both.
     let other = [(0.0, 0.0), (2.0, 0.0), (0.8, 0.6), (0.0, 2.0)];
     assert_eq!(
         panels(&truss(&dart, &SQUARE_BARS), &truss(&other, &SQUARE_BARS)),
@@ -132,8 +134,8 @@ fn crossed_braces_keep_one_and_carry_the_other() {
     let (faces, elements) = both_ways(&truss(&SQUARE, &bars), &truss(&SQUARE, &bars));
     assert_eq!(faces, [[0, 1, 2], [0, 2, 3]]);
     assert!(elements.is_empty());
-    // In a dart the brace 0–2 lies outside. Both braces are removed, and 1–3 is found as a
-    // diagonal.
+    // In the dart the bar 0–2 lies outside. Both crossing bars are removed, and the triangulation
+    // uses the diagonal 1–3.
     let dart = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.2, 0.8)];
     let (faces, elements) = both_ways(&truss(&SQUARE, &bars), &truss(&dart, &bars));
     assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));
@@ -209,7 +211,7 @@ fn differences_and_reversed_panels_are_named_in_the_error() {
         panels(&square, &truss(&mirror, &SQUARE_BARS)),
         Err(TrussError::Mirrored)
     );
-    // Node 4 moves across the edge of its triangle.
+    // Node 4 moves to the other side of the triangle's opposite edge.
     let house = |y| {
         let nodes = [SQUARE.as_slice(), &[(0.5, y)]].concat();
         truss(
@@ -221,7 +223,8 @@ fn differences_and_reversed_panels_are_named_in_the_error() {
     assert_eq!(error, TrussError::Flipped(vec![2, 4, 3]));
 }
 
-/// Oracle: tries every triangulation of a small polygon; returns the best smallest sine.
+/// Oracle: tries every triangulation of a small polygon and returns the largest possible sine of
+/// the smallest angle.
 fn best_by_brute_force(cycle: &[u32], pair: SourceTarget<&[DVec2]>) -> Option<f64> {
     if cycle.len() < 3 {
         return Some(f64::INFINITY);
@@ -237,7 +240,7 @@ fn best_by_brute_force(cycle: &[u32], pair: SourceTarget<&[DVec2]>) -> Option<f6
         .max_by(f64::total_cmp)
 }
 
-/// Smallest sine of a face's angles in both designs; `None` unless it is positive in both.
+/// Smallest sine of a face's angles over both designs; `None` unless the face is positive in both.
 fn sines(face: [u32; 3], pair: SourceTarget<&[DVec2]>) -> Option<f64> {
     let mut least = f64::INFINITY;
     for nodes in [pair.source, pair.target] {

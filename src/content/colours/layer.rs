@@ -41,7 +41,7 @@ impl PictureLayer {
         let inverse = picture.place().inverse();
         let height = f64::from(picture.pixels().height());
         // Pictures have y down and their origin at the top, the plane has y up.
-        let flip = scaled(DVec2::new(1.0, -1.0), DVec2::new(0.0, height));
+        let flip = scale_then_translate(DVec2::new(1.0, -1.0), DVec2::new(0.0, height));
         let own = DAffine2::from_mat2_translation(inverse.linear(), inverse.apply(DVec2::ZERO));
         Self {
             from_plane: flip * own,
@@ -97,13 +97,13 @@ impl PictureLayer {
         let level = &self.levels[index.min(self.levels.len() - 1)];
         let scale = level.size() / self.levels[0].size();
         // Samples lie at pixel centres, half a pixel from the corner.
-        let from_plane = scaled(scale, DVec2::splat(-0.5)) * self.from_plane;
+        let from_plane = scale_then_translate(scale, DVec2::splat(-0.5)) * self.from_plane;
         PictureSampler { level, from_plane }
     }
 }
 
 /// The map that scales along the axes, then translates.
-fn scaled(by: DVec2, offset: DVec2) -> DAffine2 {
+fn scale_then_translate(by: DVec2, offset: DVec2) -> DAffine2 {
     DAffine2::from_mat2_translation(DMat2::from_diagonal(by), offset)
 }
 
@@ -198,7 +198,10 @@ impl PixelFootprint<'_> {
     /// Light at a position in fixed point.
     #[inline]
     fn at(&self, x: i64, y: i64) -> LinearLight {
-        let (x, y) = (mirrored(x, self.last[0]), mirrored(y, self.last[1]));
+        let (x, y) = (
+            mirror_coordinate(x, self.last[0]),
+            mirror_coordinate(y, self.last[1]),
+        );
         let at = (y >> 32) as usize * self.width + (x >> 32) as usize;
         let (u, v) = (fractional_part(x), fractional_part(y));
         // In the last column u = 0, so its right neighbour has no weight; likewise for the last
@@ -217,7 +220,7 @@ const HALF: i64 = 1 << 31;
 /// Reflects `x` at the picture's edges, as often as needed, into the range between the centres of
 /// the first and the last pixel.
 #[inline]
-fn mirrored(x: i64, last: i64) -> i64 {
+fn mirror_coordinate(x: i64, last: i64) -> i64 {
     // Fast path: nearly all samples lie in the picture, and a division costs more than the rest of
     // the lookup.
     if (0..=last).contains(&x) {

@@ -10,8 +10,8 @@ use crate::field::{SampledField, contour};
 use crate::geometry::{Bounds, DVec2};
 use crate::warp::Placement;
 
-/// Distance, in cells, of samples that no face of the placement covers: outside, as deep as a
-/// sample next to a boundary.
+/// Distance, in cells, of samples that no face of the placement covers: outside (heuristic: as
+/// deep as a sample next to a boundary).
 const UNCOVERED_DISTANCE: f64 = -1.0;
 
 /// Maximum extension of the sampled area beyond the fields' grid on each side, as a fraction of its

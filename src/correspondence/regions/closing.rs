@@ -34,7 +34,7 @@ pub(super) struct FreeSpace<'a> {
     /// Points inside the part, with their distances to its boundary.
     places: Vec<(DVec2, f64)>,
     /// Centres of the tiny rings placed so far.
-    taken: Vec<DVec2>,
+    occupied: Vec<DVec2>,
     /// Maximum diameter of a tiny ring.
     size: f64,
 }
@@ -46,7 +46,7 @@ impl<'a> FreeSpace<'a> {
         Self {
             places: places.collect(),
             part,
-            taken: Vec::new(),
+            occupied: Vec::new(),
             size: POINT_SIZE * part.outer.bounds().diameter(),
         }
     }
@@ -80,14 +80,14 @@ impl<'a> FreeSpace<'a> {
             .filter(|place| place.1 >= MIN_CLEARANCE * best_clearance);
         let (at, clearance) = nearest(&mut candidates).unwrap_or((target, best_clearance));
         let size = self.size.min(MAX_RING_SIZE * clearance);
-        self.taken.push(at);
+        self.occupied.push(at);
         shrunk(hole.points(), centre(hole), at, size, rotation)
     }
 
     /// Returns the clearance of a point: its distance to the boundary, reduced by the tiny rings
     /// placed so far.
     fn clearance(&self, p: DVec2, to_boundary: f64) -> f64 {
-        let to_holes = self.taken.iter().map(|q| q.distance(p) - self.size);
+        let to_holes = self.occupied.iter().map(|q| q.distance(p) - self.size);
         to_holes.fold(to_boundary, f64::min).max(0.0)
     }
 
@@ -97,7 +97,7 @@ impl<'a> FreeSpace<'a> {
         if self.clearance(p, to_boundary) > 0.0 {
             return None;
         }
-        let distances = self.taken.iter().map(|q| q.distance(p));
+        let distances = self.occupied.iter().map(|q| q.distance(p));
         let to_others = distances.filter(|&distance| distance > self.size);
         let p = p + DVec2::new(0.5 * to_others.fold(to_boundary, f64::min), 0.0);
         Some((p, boundary_distance(self.part, p)))

@@ -37,8 +37,8 @@ impl PartGroup {
     }
 }
 
-/// Pairs the parts of two designs by position, shape, look and the user's settings. Each part is in
-/// at least one pair; unmatched parts have `None` as partner.
+/// Pairs the parts of two designs by position, shape, appearance and the user's settings. Each part
+/// is in at least one pair; unmatched parts have `None` as partner.
 ///
 /// A group of one with several gives one pair for each of the several.
 ///
@@ -79,13 +79,13 @@ pub(super) fn grouped(
         .collect();
     // In each group one pair is passed on as fixed; its other parts are taken.
     let unmatched = declared_unmatched(designs, settings, &groups);
-    let taken = Side::BOTH.map(|side| -> Vec<usize> {
+    let fixed_parts = Side::BOTH.map(|side| -> Vec<usize> {
         let additional = groups.iter().flat_map(|g| g.parts[side][1..].to_vec());
         additional
             .chain(unmatched.iter().flat_map(|g| g.parts[side].clone()))
             .collect()
     });
-    let pairing = pair_parts(designs, looks, &fixed, [&taken[0], &taken[1]])?;
+    let pairing = pair_parts(designs, looks, &fixed, [&fixed_parts[0], &fixed_parts[1]])?;
     let pairing = without_text_mismatches(pairing, looks, &fixed);
     for pair in &pairing.pairs {
         if !fixed.contains(pair) {
@@ -249,7 +249,7 @@ pub(super) fn nearest_group(
     side: Side,
     part: usize,
 ) -> Option<usize> {
-    let here = centres[side][part];
+    let centre = centres[side][part];
     let layer = |part: usize| looks.paint_layer(side, part);
     let is_same_layer = |g: &PartGroup| {
         g.parts[side]
@@ -262,7 +262,7 @@ pub(super) fn nearest_group(
         .enumerate()
         .filter(|(_, g)| g.parts[side.other()].len() == 1 && is_same_layer(g) && !is_lined(g));
     let distance =
-        |g: &PartGroup| centres[side.other()][g.parts[side.other()][0]].distance_squared(here);
+        |g: &PartGroup| centres[side.other()][g.parts[side.other()][0]].distance_squared(centre);
     candidates
         .min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
         .map(|(k, _)| k)

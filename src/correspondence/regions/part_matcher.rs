@@ -164,18 +164,18 @@ impl<'a> PartMatcher<'a> {
     ) -> Result<(Pairing, Vec<RingCut>), RegionMatchError> {
         let across = self.pins_across()?;
         let requested = self.requested_cuts();
-        let taken = Side::BOTH.map(|side| {
-            let mut taken: Vec<usize> = across[side].clone();
-            taken.extend(requested[side].iter().map(|&(_, hole, _)| hole));
-            taken.sort_unstable();
-            taken.dedup();
-            taken
+        let used_holes = Side::BOTH.map(|side| {
+            let mut used_holes: Vec<usize> = across[side].clone();
+            used_holes.extend(requested[side].iter().map(|&(_, hole, _)| hole));
+            used_holes.sort_unstable();
+            used_holes.dedup();
+            used_holes
         });
         let [source, target] = self.task.regions;
-        let fixed = self.pinned_holes(&taken);
-        let taken = [&taken[0][..], &taken[1]];
+        let fixed = self.pinned_holes(&used_holes);
+        let used_holes = [&used_holes[0][..], &used_holes[1]];
         let pairing = match self.task.holes {
-            HolePolicy::Paired(_) => pair_holes(source, target, rotation, &fixed, taken)?,
+            HolePolicy::Paired(_) => pair_holes(source, target, rotation, &fixed, used_holes)?,
             // Only holes that pins tie together are paired.
             HolePolicy::Unpaired => Pairing {
                 pairs: fixed,
@@ -208,14 +208,14 @@ impl<'a> PartMatcher<'a> {
         Ok((pairing, cuts.into_iter().map(cut).collect()))
     }
 
-    /// Returns the pairs of holes that pins tie together, without the holes in `taken`.
-    fn pinned_holes(&self, taken: &[Vec<usize>; 2]) -> Vec<[usize; 2]> {
+    /// Returns the pairs of holes that pins tie together, without the holes in `used_holes`.
+    fn pinned_holes(&self, used_holes: &[Vec<usize>; 2]) -> Vec<[usize; 2]> {
         let mut fixed: Vec<[usize; 2]> = self
             .pins
             .iter()
             .filter(|pin| pin.rings[0] > 0 && pin.rings[1] > 0)
             .map(|pin| pin.rings.map(|ring| ring - 1))
-            .filter(|pair| (0..2).all(|s| !taken[s].contains(&pair[s])))
+            .filter(|pair| (0..2).all(|s| !used_holes[s].contains(&pair[s])))
             .collect();
         fixed.sort_unstable();
         fixed.dedup();
@@ -281,7 +281,7 @@ impl<'a> PartMatcher<'a> {
                 return None;
             }
         }
-        self.boundaries[side] = candidate.walk;
+        self.boundaries[side] = candidate.boundary;
         self.opened[side].push(hole);
         Some(candidate.slit.ends)
     }

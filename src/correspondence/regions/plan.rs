@@ -18,14 +18,14 @@ use crate::geometry::{DVec2, Region, Regions, Ring, Side, SourceTarget};
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
-/// Fraction of the progress bar reached once parts are paired and split.
+/// Fraction of the progress bar reached once parts are paired and split (heuristic).
 const PREPARED: f64 = 0.2;
 
 /// Two designs with their parts grouped and, where needed, split.
 #[derive(Clone)]
 pub(crate) struct MatchPlan<'a> {
     pub(super) designs: [&'a Regions; 2],
-    /// Looks of the parts.
+    /// Appearance of the parts.
     looks: &'a PartLooks,
     pub(super) settings: &'a MatchSettings,
     /// Pairs of parts that the user linked or pinned.
@@ -57,7 +57,7 @@ impl<'a> DesignParts<'a> {
 }
 
 impl<'a> MatchPlan<'a> {
-    /// Pairs the parts by position, shape and look, and splits each part that is matched with
+    /// Pairs the parts by position, shape and appearance, and splits each part matched with
     /// several.
     ///
     /// # Errors
@@ -65,19 +65,19 @@ impl<'a> MatchPlan<'a> {
     pub(crate) fn new(
         designs: [&'a Regions; 2],
         looks: &'a PartLooks,
-        wanted: &'a MatchSettings,
+        settings: &'a MatchSettings,
         progress: &dyn Progress,
     ) -> Result<Self, RegionMatchError> {
-        locate::check(wanted)?;
-        let pins = locate::pins(wanted, designs);
+        locate::check(settings)?;
+        let pins = locate::pins(settings, designs);
         let mut plan = Self {
-            groups: grouped(designs, looks, wanted, &pins)?,
-            fixed_pairs: fixed_pairs(designs, wanted, &pins),
+            groups: grouped(designs, looks, settings, &pins)?,
+            fixed_pairs: fixed_pairs(designs, settings, &pins),
             parts: designs.map(DesignParts::of),
             is_crowd: many_rings::has_many_rings(designs),
             designs,
             looks,
-            settings: wanted,
+            settings,
             pins,
             pieces: Vec::new(),
         };
@@ -101,7 +101,7 @@ impl<'a> MatchPlan<'a> {
         Side::BOTH.into_iter().any(is_lined)
     }
 
-    /// Returns the looks of the parts.
+    /// Returns the appearance of the parts.
     pub(crate) fn looks(&self) -> &'a PartLooks {
         self.looks
     }
@@ -244,17 +244,17 @@ impl<'a> MatchPlan<'a> {
 
     /// Returns the index and points of each pin on a pair of parts.
     fn pins_of(&self, parts: [usize; 2]) -> Vec<(usize, [DVec2; 2])> {
-        let here = |pin: &&LocatedPin| pin.on.map(|at| at.part) == parts;
-        let pins = self.pins.iter().filter(here);
+        let is_on_pair = |pin: &&LocatedPin| pin.on.map(|at| at.part) == parts;
+        let pins = self.pins.iter().filter(is_on_pair);
         pins.map(|pin| (pin.index, pin.points)).collect()
     }
 
     /// Returns the index of each cut through one of two parts, with the cut.
     fn cuts_of(&self, parts: [usize; 2]) -> Vec<(usize, RingCut)> {
-        let here =
+        let is_on_pair =
             |cut: &RingCut| nearest_ring(self.designs[cut.side], cut.hole).part == parts[cut.side];
         let cuts = self.settings.cuts.iter().copied().enumerate();
-        cuts.filter(|(_, cut)| here(cut)).collect()
+        cuts.filter(|(_, cut)| is_on_pair(cut)).collect()
     }
 
     /// Returns the piece of an unmatched part: in the other design it is a point that is displaced

@@ -11,7 +11,7 @@ use crate::work::progress::Cancelled;
 use serde::{Deserialize, Serialize};
 
 /// Diameter of the tiny ring that stands for a point, relative to the diameter of the part that it
-/// lies in or stands for: a pixel on a screen of 4,000 pixels.
+/// lies in or stands for (tolerance: a pixel on a screen of 4,000 pixels).
 pub const POINT_SIZE: f64 = 2.5e-4;
 
 /// Match of two whole designs.
@@ -163,14 +163,14 @@ impl PieceMatch {
     /// Returns the piece with the vertices of its rings moved to other places. `places` holds a
     /// list for each ring, as returned by [`MatchedCurves::places`].
     pub(crate) fn with_ring_places(&self, places: &[Vec<[f64; 2]>]) -> Self {
-        let mut moved = self.clone();
-        for (ring, places) in moved.rings.iter_mut().zip(places) {
+        let mut result = self.clone();
+        for (ring, places) in result.rings.iter_mut().zip(places) {
             if let Some(course) = &ring.course {
                 let (curves, polygons) = course.with_places(places);
                 *ring = RingMatch::from_curves(curves, polygons);
             }
         }
-        moved
+        result
     }
 }
 

@@ -28,7 +28,7 @@ const LENGTH_WEIGHT: f64 = 0.25;
 /// A cut boundary and how well it matches.
 #[derive(Clone, Debug)]
 pub(super) struct CutCandidate {
-    pub(super) walk: SlitBoundary,
+    pub(super) boundary: SlitBoundary,
     pub(super) slit: Slit,
     /// Cost of a match with few samples, including the weighted length of the slit.
     pub(super) cost: f64,
@@ -37,19 +37,19 @@ pub(super) struct CutCandidate {
 /// Returns the best cut to hole `cut`. Returns `None` if no straight cut reaches it, or if the work
 /// is cancelled.
 pub(super) fn best_cut(
-    walk: &SlitBoundary,
+    boundary: &SlitBoundary,
     holes: &[&Ring],
     cut: usize,
     other: &BoundaryCurve,
     options: &MatchOptions,
     progress: &dyn Progress,
 ) -> Option<CutCandidate> {
-    let curve = walk.curve().ok()?;
+    let curve = boundary.curve().ok()?;
     let trials = |places: Vec<f64>| {
         let candidates = places.into_par_iter().filter_map(|place| {
             check_cancelled(progress).ok()?;
-            let slit = walk.slit_from(holes, cut, curve.point_at(place))?;
-            let cost = cost(walk, holes[cut], &slit, other, options)?;
+            let slit = boundary.slit_from(holes, cut, curve.point_at(place))?;
+            let cost = cost(boundary, holes[cut], &slit, other, options)?;
             Some((cost, place, slit))
         });
         let candidates: Vec<(f64, f64, Slit)> = candidates.collect();
@@ -61,19 +61,23 @@ pub(super) fn best_cut(
     let near = (0..SECOND_PLACES).map(|k| coarse.1 + offset(k) * spacing);
     let fine = trials(near.collect());
     let (cost, _, slit) = fine.filter(|fine| fine.0 < coarse.0).unwrap_or(coarse);
-    let walk = walk.cut_open(holes[cut], &slit)?;
-    Some(CutCandidate { walk, slit, cost })
+    let boundary = boundary.cut_open(holes[cut], &slit)?;
+    Some(CutCandidate {
+        boundary,
+        slit,
+        cost,
+    })
 }
 
 /// Returns the cost of one cut, or `None` if the cut boundary cannot be matched.
 fn cost(
-    walk: &SlitBoundary,
+    boundary: &SlitBoundary,
     hole: &Ring,
     slit: &Slit,
     other: &BoundaryCurve,
     options: &MatchOptions,
 ) -> Option<f64> {
-    let open = walk.cut_open(hole, slit)?;
+    let open = boundary.cut_open(hole, slit)?;
     let matched = match_curves(&open.curve().ok()?, other, &[], &coarse_options(options)).ok()?;
     let length = slit.ends[0].distance(slit.ends[1]) / open.ring.perimeter();
     Some(matched.cost() + LENGTH_WEIGHT * length)

@@ -28,7 +28,7 @@ pub(super) struct Slit {
 const END_SHARE: f64 = 1e-6;
 
 /// Positions along a slit, as fractions of its length, at which its clearance from the boundary is
-/// checked.
+/// checked (heuristic).
 const CLEARANCE_CHECKS: [f64; 7] = [0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98];
 /// Minimum clearance, relative to the distance from the slit's nearer end. It rejects slits that
 /// almost run along the boundary, such as along the stem of an R, which rounding would let touch it
@@ -182,7 +182,7 @@ mod tests {
         let slit = boundary.slit_from(&holes, 0, DVec2::new(0.5, -2.0));
         let slit = slit.expect("free");
         assert_eq!(slit.ends, [DVec2::new(0.5, -2.0), DVec2::new(0.5, -1.0)]);
-        let open = boundary.cut_open(holes[0], &slit).expect("a walk");
+        let open = boundary.cut_open(holes[0], &slit).expect("a loop");
         assert_eq!(open.ring.points().len(), 12);
         assert!((open.ring.signed_area() - 12.0).abs() < 1e-12);
         let curve = open.curve().expect("length");
@@ -202,8 +202,16 @@ mod tests {
         };
         let holes: Vec<&Ring> = region.holes.iter().collect();
         let boundary = SlitBoundary::of_region(&region);
-        assert!(boundary.slit_from(&holes, 0, DVec2::new(2.0, 0.0)).is_none());
-        assert!(boundary.slit_from(&holes, 1, DVec2::new(2.0, 0.0)).is_some());
+        assert!(
+            boundary
+                .slit_from(&holes, 0, DVec2::new(2.0, 0.0))
+                .is_none()
+        );
+        assert!(
+            boundary
+                .slit_from(&holes, 1, DVec2::new(2.0, 0.0))
+                .is_some()
+        );
     }
 
     #[test]
@@ -223,7 +231,15 @@ mod tests {
         let hole = [(1e-15, 6.0), (1e-15, 8.0), (2.0, 8.0), (2.0, 6.0)];
         let hole = Ring::new(hole.map(DVec2::from).to_vec()).expect("a ring");
         let boundary = SlitBoundary::of_region(&region);
-        assert!(boundary.slit_from(&[&hole], 0, DVec2::new(0.0, 2.0)).is_none());
-        assert!(boundary.slit_from(&[&hole], 0, DVec2::new(4.0, 7.0)).is_some());
+        assert!(
+            boundary
+                .slit_from(&[&hole], 0, DVec2::new(0.0, 2.0))
+                .is_none()
+        );
+        assert!(
+            boundary
+                .slit_from(&[&hole], 0, DVec2::new(4.0, 7.0))
+                .is_some()
+        );
     }
 }

@@ -1,9 +1,9 @@
 //! Splits one part into as many pieces as the other design has parts.
 //!
 //! Cuts are straight, from boundary to boundary. They are ranked by how well areas and positions of
-//! the two sides agree with the wanted parts, and by their length. The best few are then matched,
+//! the two sides agree with the parts to match, and by their length. The best few are then matched,
 //! and the best match wins. Several pieces are cut off one after another, along the line on which
-//! the wanted parts lie. Many pieces are found by bisection with the ranking alone, because the
+//! these parts lie. Many pieces are found by bisection with the ranking alone, because the
 //! shape of a group of parts says little about its members.
 
 use super::super::boundary::match_curves;
@@ -77,8 +77,8 @@ fn bisect(
         return Some(());
     }
     let (first_half, second_half) = order.split_at(order.len() / 2);
-    let parts = |order: &[usize]| order.iter().map(|&k| parts[k]).collect::<Vec<_>>();
-    let (first_parts, other_parts) = (parts(first_half), parts(second_half));
+    let selected = |order: &[usize]| order.iter().map(|&k| parts[k]).collect::<Vec<_>>();
+    let (first_parts, other_parts) = (selected(first_half), selected(second_half));
     // A single candidate: the best-ranked cut is taken without matching.
     let goal = SplitGoal::of(&first_parts, &other_parts);
     let [first, rest] = cut_in_two(&region, &goal, 1, progress)?;
@@ -110,11 +110,11 @@ fn centre(region: &Region) -> DVec2 {
 
 /// The areas and positions that a cut should produce.
 struct SplitGoal<'a> {
-    /// Parts wanted on one side of the cut.
+    /// Parts intended for one side of the cut.
     first: &'a [&'a Region],
-    /// Parts wanted on the other side.
+    /// Parts intended for the other side.
     others: &'a [&'a Region],
-    /// Fraction of the area wanted for `first`.
+    /// Fraction of the area that `first` should get.
     share: f64,
     /// Vector from the centre of `first` to that of `others`, in units of the square root of the
     /// area.
@@ -187,16 +187,16 @@ fn rank(goal: &SplitGoal, first: &Region, rest: &Region) -> f64 {
     AREA_WEIGHT * area_error + POSITION_WEIGHT * apart.distance(goal.apart)
 }
 
-/// Returns the match cost of the pieces with the wanted parts, weighted by area. Only pieces for a
+/// Returns the match cost of the pieces with their parts, weighted by area. Only pieces for a
 /// single part are matched.
 fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Progress) -> f64 {
-    let cost = |piece: &Region, parts: &Region| {
+    let cost = |piece: &Region, part: &Region| {
         if progress.is_cancelled() {
             return f64::INFINITY;
         }
         let curves = [
             BoundaryCurve::closed(&piece.outer),
-            BoundaryCurve::closed(&parts.outer),
+            BoundaryCurve::closed(&part.outer),
         ];
         let [Ok(a), Ok(b)] = curves else {
             return f64::INFINITY;
@@ -205,7 +205,7 @@ fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Prog
         match_curves(&a, &b, &[], &options).map_or(f64::INFINITY, |m| m.cost())
     };
     let single_cost = |weight: f64, piece: &Region, parts: &[&Region]| match parts {
-        [parts] => weight * cost(piece, parts),
+        [part] => weight * cost(piece, part),
         _ => 0.0,
     };
     single_cost(goal.share, first, goal.first) + single_cost(1.0 - goal.share, rest, goal.others)

@@ -112,7 +112,11 @@ impl DxfCurve {
                 let reach = arc.u.abs() + arc.v.abs();
                 vec![arc.centre - reach, arc.centre + reach]
             }
-            Self::Spline(spline) => spline.control.iter().map(|&c| point_from_homogeneous(c)).collect(),
+            Self::Spline(spline) => spline
+                .control
+                .iter()
+                .map(|&c| point_from_homogeneous(c))
+                .collect(),
         }
     }
 

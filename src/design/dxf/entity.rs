@@ -116,7 +116,7 @@ impl<'a> DxfRecord<'a> {
     }
 
     /// Returns the map from the entity's own plane at an elevation to the xy plane.
-    fn plan(&self, elevation: f64) -> Result<DAffine2, DxfError> {
+    fn plane_map(&self, elevation: f64) -> Result<DAffine2, DxfError> {
         let normal = self.normal()?;
         // The DXF Reference prescribes exactly this bound.
         let near_z = normal.x.abs() < 1.0 / 64.0 && normal.y.abs() < 1.0 / 64.0;
@@ -246,7 +246,9 @@ impl<'a> DxfRecord<'a> {
         let degree = usize::try_from(self.whole(71)?).unwrap_or(0);
         let (knots, weights) = (self.reals(40)?, self.reals(41)?);
         let spline = NurbsCurve::new(degree, knots, &points, &weights).ok_or_else(|| {
-            self.inconsistency_error("its degree, knots, control points and weights are inconsistent")
+            self.inconsistency_error(
+                "its degree, knots, control points and weights are inconsistent",
+            )
         })?;
         Ok(Some(open_path(DxfCurve::Spline(spline))))
     }

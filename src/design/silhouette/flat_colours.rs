@@ -34,8 +34,8 @@ const MIN_FLAT_AREA: f64 = 0.6;
 /// pixels in it that are not flat belong to the background (heuristic).
 const BORDER_WIDTH: usize = 4;
 
-/// Radius in pixels in which the candidate colours of a pixel are collected: an anti-aliased
-/// edge is two or three pixels wide.
+/// Radius in pixels in which the candidate colours of a pixel are collected (tolerance: an
+/// anti-aliased edge is two or three pixels wide).
 const NEIGHBOURHOOD: usize = 2;
 
 /// Returns the paint layers of a picture, lowest first; none if its colours are not flat.
@@ -153,8 +153,9 @@ impl FlatColours {
         let rows = picture.rows().rev();
         let inks: Vec<PixelColour> = rows.flatten().map(PixelColour::of).collect();
         let (width, count) = (picture.width() as usize, inks.len());
-        let is_flat =
-            |i: usize| neighbourhood(i, width, count, 1).all(|j| inks[i].distance(inks[j]) < SAME_COLOUR);
+        let is_flat = |i: usize| {
+            neighbourhood(i, width, count, 1).all(|j| inks[i].distance(inks[j]) < SAME_COLOUR)
+        };
         let is_flat: Vec<bool> = (0..count).into_par_iter().map(is_flat).collect();
         let flat = flat_colours(&inks, &is_flat)?;
         let ground = background(&flat, &inks, &is_flat, width)?;
@@ -294,7 +295,12 @@ fn is_near_border(i: usize, width: usize, count: usize) -> bool {
 }
 
 /// Returns the pixels within `reach` rows and columns of a pixel, itself included.
-fn neighbourhood(i: usize, width: usize, count: usize, reach: usize) -> impl Iterator<Item = usize> {
+fn neighbourhood(
+    i: usize,
+    width: usize,
+    count: usize,
+    reach: usize,
+) -> impl Iterator<Item = usize> {
     let (x, y) = (i % width, i / width);
     let rows = y.saturating_sub(reach)..(y + reach + 1).min(count / width);
     let columns = x.saturating_sub(reach)..(x + reach + 1).min(width);

@@ -339,7 +339,10 @@ impl SvgPainter<'_> {
 
     /// Returns the area of a path's stroke, including dashes, joins and caps.
     fn stroked_area(&mut self, path: &Path) -> Result<WindingRings, SvgError> {
-        let Some(outline) = path.stroke().and_then(|stroke| self.stroke_outline(path, stroke)) else {
+        let Some(outline) = path
+            .stroke()
+            .and_then(|stroke| self.stroke_outline(path, stroke))
+        else {
             return Ok(Vec::new()); // no width or no length
         };
         let rings = self.rings(&outline, path.abs_transform())?;

@@ -509,13 +509,13 @@ fn layers_keep_strokes_opacity_and_order() {
         stroke-width="2" stroke-opacity="0.25" paint-order="stroke"/>"##;
     let found = layers(body);
     let paints: Vec<Paint> = found.iter().map(|layer| layer.0).collect();
-    let wanted = [
+    let expected = [
         paint([0x10, 0x20, 0x30], 0.5),
         paint([0x40, 0x50, 0x60], 0.5),
         paint([255, 0, 0], 0.25),
         paint([255; 3], 1.0),
     ];
-    assert_eq!(paints, wanted);
+    assert_eq!(paints, expected);
     // Shapes of one paint in a translucent group merge, so that no overlap shows.
     let cloud = r##"<g opacity="0.5" fill="#fff"><circle cx="30" cy="30" r="9"/>
         <circle cx="40" cy="30" r="9"/></g>"##;

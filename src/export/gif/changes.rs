@@ -64,7 +64,7 @@ impl GifCanvas {
         }
         let slack = if is_still { 0 } else { SLACK };
         let colours = palette.colours();
-        let stays = |shown: u8, index: u8, exact: [u8; 4]| {
+        let can_stay = |shown: u8, index: u8, exact: [u8; 4]| {
             let near = || {
                 let off = colours[usize::from(shown)].iter().zip(exact);
                 off.map(|(a, b)| a.abs_diff(b)).max() <= Some(slack)
@@ -74,7 +74,7 @@ impl GifCanvas {
         let pixels = next.image.pixels().zip(&next.indices);
         let shown = self.0.iter_mut();
         let changes = shown.zip(pixels).map(|(shown, (pixel, &index))| {
-            if stays(*shown, index, pixel.0) {
+            if can_stay(*shown, index, pixel.0) {
                 return TRANSPARENT;
             }
             *shown = index;

@@ -25,7 +25,7 @@ pub(super) fn frame_count(file: &mut (impl Read + Seek)) -> io::Result<usize> {
     let mut content = 0..end;
     for kind in SAMPLE_SIZE_PATH {
         let inside = boxes(file, content)?;
-        content = content_of(&inside, kind)?;
+        content = find_content(&inside, kind)?;
     }
     file.seek(SeekFrom::Start(content.start))?;
     // Version and flags, the common frame size (0 if frames differ), and the number of frames.
@@ -71,11 +71,11 @@ fn boxes(file: &mut (impl Read + Seek), within: Range<u64>) -> io::Result<Vec<Mp
     Ok(listed)
 }
 
-/// Content of the first box of the wanted type.
-fn content_of(boxes: &[Mp4Box], wanted: &[u8; 4]) -> io::Result<Range<u64>> {
-    let wanted_box = boxes.iter().find(|(kind, _)| kind == wanted);
-    let content = wanted_box.map(|(_, content)| content.clone());
-    content.ok_or_else(|| io::Error::other(format!("it has no part `{}`", wanted.escape_ascii())))
+/// Content of the first box of a type.
+fn find_content(boxes: &[Mp4Box], kind: &[u8; 4]) -> io::Result<Range<u64>> {
+    let first_box = boxes.iter().find(|(name, _)| name == kind);
+    let content = first_box.map(|(_, content)| content.clone());
+    content.ok_or_else(|| io::Error::other(format!("it has no part `{}`", kind.escape_ascii())))
 }
 
 /// Reads a big-endian 32-bit number.

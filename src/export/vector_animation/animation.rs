@@ -39,8 +39,8 @@ pub struct VectorAnimation {
 }
 
 impl VectorAnimation {
-    /// Maximum distance of a point from where the camera draws it, in pixels (tolerance: far below
-    /// what is visible in motion).
+    /// Maximum distance of a point from where the camera draws it, in pixels (tolerance: invisible
+    /// in motion).
     pub const TOLERANCE_PX: f64 = 0.2;
 
     /// Records the drawings of a camera over the times of a film.

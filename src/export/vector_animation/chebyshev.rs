@@ -82,8 +82,8 @@ mod tests {
         let mut terms = interpolate(&samples);
         for k in 0..=100 {
             let s = f64::from(k) / 100.0;
-            for (found, wanted) in evaluate(&terms, s).into_iter().zip(at(s)) {
-                assert!(found.distance(wanted) < 1e-7, "{s}: {found} {wanted}");
+            for (found, expected) in evaluate(&terms, s).into_iter().zip(at(s)) {
+                assert!(found.distance(expected) < 1e-7, "{s}: {found} {expected}");
             }
         }
         truncate_series(&mut terms, 1e-3);

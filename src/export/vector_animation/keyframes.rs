@@ -110,8 +110,8 @@ mod tests {
             let (places, rows) = sampled(60, f);
             for tolerance in [0.01, 0.1, 0.5] {
                 let keys = fewest_keys(&places, &rows, tolerance);
-                let wanted = brute(&places, &rows, tolerance);
-                assert_eq!(keys.len(), wanted, "wave {wave}, within {tolerance}");
+                let expected = brute(&places, &rows, tolerance);
+                assert_eq!(keys.len(), expected, "wave {wave}, within {tolerance}");
             }
         }
     }

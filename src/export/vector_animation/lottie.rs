@@ -22,15 +22,15 @@ const KEYFRAME_INTERVALS: usize = 240;
 
 /// Returns the animation with the given title.
 pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
-    let course = &animation.course;
-    let frames = course.frames();
+    let timeline = &animation.course;
+    let frames = timeline.frames();
     let (width, height) = (animation.size.width(), animation.size.height());
     // Players interpret a remapped time equal to the number of frames as the end, so the
     // precomposition of such a film is one frame longer.
-    let length = if course.pass_frames == frames {
+    let length = if timeline.pass_frames == frames {
         frames + 1
     } else {
-        course.pass_frames
+        timeline.pass_frames
     } as f64;
     let [from, to] = animation.time_range();
     let at = |t: f64| length * (t - from) / (to - from).max(f64::MIN_POSITIVE);
@@ -54,7 +54,7 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let film = json!({
         "ty": 0, "nm": title, "ind": 1, "refId": "film", "sr": 1, "ks": identity_transform(),
         "w": width, "h": height, "ip": 0, "op": frames, "st": 0, "bm": 0,
-        "tm": remapped(course, |t| at(t) / course.fps),
+        "tm": time_remap(timeline, |t| at(t) / timeline.fps),
     });
     let ground = animation.ground.map(|ground| {
         json!({
@@ -64,25 +64,25 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     });
     let film_on_ground: Vec<Value> = [Some(film), ground].into_iter().flatten().collect();
     json!({
-        "v": "5.7.4", "nm": title, "fr": course.fps, "ip": 0, "op": frames,
+        "v": "5.7.4", "nm": title, "fr": timeline.fps, "ip": 0, "op": frames,
         "w": width, "h": height, "ddd": 0,
-        "assets": [{"id": "film", "nm": title, "fr": course.fps, "layers": scenes.collect::<Vec<_>>()}],
+        "assets": [{"id": "film", "nm": title, "fr": timeline.fps, "layers": scenes.collect::<Vec<_>>()}],
         "layers": film_on_ground,
     })
 }
 
 /// Time remapping: the second of the precomposition to show at each frame.
-fn remapped(course: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
-    let secs = |frame: usize| rounded(secs_at(course.times[frame]), 6);
+fn time_remap(timeline: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
+    let secs = |frame: usize| round_number(secs_at(timeline.times[frame]), 6);
     let key = |curve: TimelineCurve| {
-        let [out, into] = curve.handles.map(|handle| rounded(handle, 5));
+        let [out, into] = curve.handles.map(|handle| round_number(handle, 5));
         json!({
             "t": curve.from, "s": [secs(curve.from)],
             "o": {"x": [0.33333], "y": [out]}, "i": {"x": [0.66667], "y": [into]},
         })
     };
-    let mut keys: Vec<Value> = course.curves().into_iter().map(key).collect();
-    let last = course.frames();
+    let mut keys: Vec<Value> = timeline.curves().into_iter().map(key).collect();
+    let last = timeline.frames();
     keys.push(json!({"t": last, "s": [secs(last)]}));
     json!({"a": 1, "k": keys})
 }
@@ -103,7 +103,7 @@ fn scene(layer: &SceneLayer, number: usize, [from, to]: [f64; 2]) -> Value {
     let shapes: Vec<Value> = topmost_first.map(|poses| shape(layer, poses)).collect();
     json!({
         "ty": 4, "nm": format!("scene {}", number + 1), "ind": number + 1, "sr": 1,
-        "ks": identity_transform(), "ip": rounded(from, 3), "op": rounded(to, 3), "st": 0, "bm": 0,
+        "ks": identity_transform(), "ip": round_number(from, 3), "op": round_number(to, 3), "st": 0, "bm": 0,
         "shapes": shapes,
     })
 }
@@ -142,7 +142,7 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
             let mut stroke = colour_and_opacity(layer, poses);
             stroke["ty"] = json!("st");
             let width = layer.width(poses, PosedShape::width);
-            stroke["w"] = animated(&width, |w| vec![rounded(*w, 3)]);
+            stroke["w"] = animated_property(&width, |w| vec![round_number(*w, 3)]);
             let (join, cap) = match form {
                 ShapeForm::Stroke { join, .. } => (*join, 1),
                 _ => (StrokeJoin::Round, 2),
@@ -198,7 +198,7 @@ fn outline(
     let bezier = |posed: &PosedShape| bezier(verbs, &posed.points[range.clone()], closed);
     let keyed = layer.points(poses, range.clone(), bezier);
     let is_still = keyed.keys.len() == 1;
-    let path = animated(&keyed, |bezier| vec![bezier.clone()]);
+    let path = animated_property(&keyed, |bezier| vec![bezier.clone()]);
     let path = match path {
         Value::Object(mut path) if is_still => {
             // A constant path is a bare object, not a list.
@@ -236,7 +236,7 @@ fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
     let part = |k: usize| -> Vec<Value> {
         let points = corners.iter().map(|corner| corner[k]);
         points
-            .map(|p| json!([rounded(p.x, 2), rounded(p.y, 2)]))
+            .map(|p| json!([round_number(p.x, 2), round_number(p.y, 2)]))
             .collect()
     };
     json!({"v": part(0), "i": part(1), "o": part(2), "c": closed})
@@ -245,10 +245,12 @@ fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
 /// One ellipse per disc.
 fn discs(layer: &SceneLayer, poses: &[PosedShape]) -> Vec<Value> {
     let size = layer.width(poses, |posed| 2.0 * posed.width());
-    let size = animated(&size, |d| vec![rounded(*d, 3), rounded(*d, 3)]);
+    let size = animated_property(&size, |d| vec![round_number(*d, 3), round_number(*d, 3)]);
     let disc = |k: usize| {
         let centre = layer.points(poses, k..k + 1, |posed| posed.points[k]);
-        let centre = animated(&centre, |p| vec![rounded(p.x, 2), rounded(p.y, 2)]);
+        let centre = animated_property(&centre, |p| {
+            vec![round_number(p.x, 2), round_number(p.y, 2)]
+        });
         json!({"ty": "el", "d": 1, "p": centre, "s": size})
     };
     (0..poses[0].points.len()).map(disc).collect()
@@ -259,14 +261,17 @@ fn colour_and_opacity(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let colour = layer.colour(poses, |posed| posed.paint());
     let opacity = layer.opacity(poses, |posed| posed.paint().opacity);
     json!({
-        "c": animated(&colour, colour_of),
-        "o": animated(&opacity, |share| vec![rounded(100.0 * share, 2)]),
+        "c": animated_property(&colour, colour_of),
+        "o": animated_property(&opacity, |share| vec![round_number(100.0 * share, 2)]),
     })
 }
 
 /// Colour channels from 0 to 1, and alpha.
 fn colour_of(paint: &Paint) -> Vec<Value> {
-    let channels = paint.colour.0.map(|c| rounded(f64::from(c) / 255.0, 4));
+    let channels = paint
+        .colour
+        .0
+        .map(|c| round_number(f64::from(c) / 255.0, 4));
     channels.into_iter().chain([json!(1)]).collect()
 }
 
@@ -285,7 +290,7 @@ fn gradient_fill(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
         let of = move |posed: &PosedShape| ends(posed).map_or(DVec2::ZERO, |plain| which(&plain));
         let numbers = |posed: &PosedShape| of(posed).to_array().to_vec();
         let keyed = layer.keyed(poses, 0.2, numbers, of);
-        animated(&keyed, |p| vec![rounded(p.x, 2), rounded(p.y, 2)])
+        animated_property(&keyed, |p| vec![round_number(p.x, 2), round_number(p.y, 2)])
     };
     let start = point(|plain| match *plain {
         TwoPointGradient::Linear { from, .. } => from,
@@ -297,8 +302,8 @@ fn gradient_fill(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     });
     let stops = |posed: &PosedShape| posed.gradient().map(|g| stops(&g)).unwrap_or_default();
     let keyed = layer.keyed(poses, 0.004, stops, stops);
-    let values = animated(&keyed, |stops| {
-        stops.iter().map(|x| rounded(*x, 4)).collect()
+    let values = animated_property(&keyed, |stops| {
+        stops.iter().map(|x| round_number(*x, 4)).collect()
     });
     let is_round = matches!(
         TwoPointGradient::of(&first),
@@ -325,7 +330,7 @@ fn stops(gradient: &Gradient) -> Vec<f64> {
 }
 
 /// Property with a constant value, or with keyframes and linear interpolation.
-fn animated<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Value>) -> Value {
+fn animated_property<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Value>) -> Value {
     if let [(_, only)] = keyed.keys.as_slice() {
         let mut numbers = value(only);
         let still = match numbers.len() {
@@ -336,7 +341,7 @@ fn animated<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Value>) -> Va
     }
     let last = keyed.keys.len().saturating_sub(1);
     let key = |(k, (x, at)): (usize, &(f64, T))| {
-        let mut key = json!({"t": rounded(*x, 3), "s": value(at)});
+        let mut key = json!({"t": round_number(*x, 3), "s": value(at)});
         if k < last {
             key["o"] = json!({"x": [0], "y": [0]});
             key["i"] = json!({"x": [1], "y": [1]});
@@ -348,7 +353,7 @@ fn animated<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Value>) -> Va
 }
 
 /// Rounds to a number of decimals; whole numbers become integers.
-fn rounded(x: f64, decimals: i32) -> Value {
+fn round_number(x: f64, decimals: i32) -> Value {
     let scale = 10f64.powi(decimals);
     let x = (x * scale).round() / scale;
     if x.fract() == 0.0 && x.abs() < 1e15 {

@@ -48,13 +48,13 @@ const PLAYER: &str = include_str!("player.html");
 
 /// Returns the page with the given title.
 pub(super) fn html_page(animation: &VectorAnimation, title: &str) -> String {
-    let mut film = packed(animation, title, STILL_PX[0]);
+    let mut film = pack(animation, title, STILL_PX[0]);
     if film.len() > MAX_FILM_CHARS {
         let mut animation = animation.clone();
         simplify(&mut animation.pieces, LARGE_FILM_TOLERANCE_PX);
         for still_px in STILL_PX {
             if film.len() > MAX_FILM_CHARS {
-                film = packed(&animation, title, still_px);
+                film = pack(&animation, title, still_px);
             }
         }
     }
@@ -69,7 +69,7 @@ pub(super) fn html_page(animation: &VectorAnimation, title: &str) -> String {
 
 /// Packs a film as text: a line of JSON followed by the bytes of the series, compressed with
 /// deflate (RFC 1951) and encoded in base64.
-fn packed(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
+fn pack(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
     let mut series = Vec::new();
     let mut bytes = film(animation, title, still_px, &mut series)
         .to_string()
@@ -98,13 +98,13 @@ fn film(animation: &VectorAnimation, title: &str, still_px: f64, bytes: &mut Vec
             json!([piece.from, piece.to, shapes.collect::<Vec<_>>()])
         })
         .collect();
-    let course = &animation.course;
+    let timeline = &animation.course;
     let [from, to] = animation.time_range();
     json!({
         "title": title, "size": [animation.size.width(), animation.size.height()],
         "ground": animation.ground.map(|ground| ground.to_string()),
-        "ends": [from, to], "fps": course.fps, "frames": course.frames(),
-        "repeats": course.repeats, "knots": course.linear_knots(), "stops": animation.stops,
+        "ends": [from, to], "fps": timeline.fps, "frames": timeline.frames(),
+        "repeats": timeline.repeats, "knots": timeline.linear_knots(), "stops": animation.stops,
         "steps": [STEP_PX, still_px], "forms": forms.all, "pieces": pieces,
     })
 }

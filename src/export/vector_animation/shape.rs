@@ -1,5 +1,5 @@
 //! Splits a shape of a drawing into what stays constant while it moves, the positions of its
-//! points, and the numbers of its look (colour, opacity, width, gradient).
+//! points, and the numbers of its appearance (colour, opacity, width, gradient).
 
 use crate::colour::{
     Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb, StrokeJoin, StrokeStyle,
@@ -62,9 +62,9 @@ pub(super) struct GradientForm {
     pub spread: GradientSpread,
 }
 
-/// Number of values of a look before those of its gradient (derived): red, green and blue from 0 to
-/// 255, opacity from 0 to 1, and the width or radius in pixels. A gradient stop has as many: its
-/// offset, colour and opacity.
+/// Number of values of an appearance before those of its gradient (derived): red, green and blue
+/// from 0 to 255, opacity from 0 to 1, and the width or radius in pixels. A gradient stop has as
+/// many: its offset, colour and opacity.
 const PLAIN_NUMBERS: usize = 5;
 
 /// A shape at one moment.
@@ -89,15 +89,15 @@ impl PosedShape {
                 label,
             } => {
                 let (verbs, points) = split_outline(outline);
-                let mut look = plain(*paint, 0.0);
-                look.extend(gradient.iter().flat_map(shading));
-                let (label, ramp) = (label.clone(), gradient.as_ref().map(ramp));
+                let mut look = plain_numbers(*paint, 0.0);
+                look.extend(gradient.iter().flat_map(gradient_numbers));
+                let (label, ramp) = (label.clone(), gradient.as_ref().map(gradient_form));
                 let form = Arc::new(ShapeForm::Fill { verbs, label, ramp });
                 Self { form, points, look }
             }
             DrawingItem::Stroke { outline, line } => {
                 let (verbs, points) = split_outline(outline);
-                let look = plain(line.paint, line.width);
+                let look = plain_numbers(line.paint, line.width);
                 let join = line.join;
                 let form = Arc::new(ShapeForm::Stroke { verbs, join });
                 Self { form, points, look }
@@ -109,7 +109,7 @@ impl PosedShape {
             } => Self {
                 form: Arc::new(ShapeForm::Bars),
                 points: segments.concat(),
-                look: plain((*colour).into(), *width_px),
+                look: plain_numbers((*colour).into(), *width_px),
             },
             DrawingItem::Discs {
                 centres,
@@ -118,7 +118,7 @@ impl PosedShape {
             } => Self {
                 form: Arc::new(ShapeForm::Discs),
                 points: centres.clone(),
-                look: plain((*colour).into(), *radius_px),
+                look: plain_numbers((*colour).into(), *radius_px),
             },
             DrawingItem::Picture { .. } => return None,
         })
@@ -210,13 +210,13 @@ impl PosedShape {
     }
 }
 
-/// Numbers of a look without gradient.
-fn plain(paint: Paint, width: f64) -> Vec<f64> {
+/// Numbers of an appearance without gradient.
+fn plain_numbers(paint: Paint, width: f64) -> Vec<f64> {
     let [r, g, b] = paint.colour.0.map(f64::from);
     vec![r, g, b, paint.opacity, width]
 }
 
-/// Colour and opacity from the numbers of a look.
+/// Colour and opacity from the numbers of an appearance.
 fn paint(numbers: &[f64]) -> Paint {
     let channel = |k: usize| numbers[k].round().clamp(0.0, 255.0) as u8;
     Paint {
@@ -226,7 +226,7 @@ fn paint(numbers: &[f64]) -> Paint {
 }
 
 /// Constant data of a gradient.
-fn ramp(gradient: &Gradient) -> GradientForm {
+fn gradient_form(gradient: &Gradient) -> GradientForm {
     GradientForm {
         is_round: gradient.geometry != GradientGeometry::Linear,
         stops: gradient.stops.len(),
@@ -235,7 +235,7 @@ fn ramp(gradient: &Gradient) -> GradientForm {
 }
 
 /// Numbers of a gradient.
-fn shading(gradient: &Gradient) -> Vec<f64> {
+fn gradient_numbers(gradient: &Gradient) -> Vec<f64> {
     let mut numbers = gradient.frame.to_cols_array().to_vec();
     if let GradientGeometry::Radial { focus, inner } = gradient.geometry {
         numbers.extend([focus.x, focus.y, inner]);

@@ -52,8 +52,8 @@ fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
     } else {
         still_px
     };
-    let mut kept_verbs = Vec::new();
-    let mut kept: Vec<usize> = Vec::new();
+    let mut new_verbs = Vec::new();
+    let mut indices: Vec<usize> = Vec::new();
     let mut first = 0;
     for ring in verbs.split_inclusive(|verb| *verb == PathVerb::Close) {
         let count = ring.iter().map(|verb| verb.point_count()).sum::<usize>();
@@ -64,31 +64,31 @@ fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
             .unwrap_or_default();
         // Only polygons with more than three corners can be simplified; others are copied.
         if count < 4 || !inner.iter().all(|verb| *verb == PathVerb::Line) {
-            kept_verbs.extend_from_slice(ring);
-            kept.extend(points);
+            new_verbs.extend_from_slice(ring);
+            indices.extend(points);
             continue;
         }
         let ring_indices = indices_to_keep(&moments, points, tolerance);
-        kept_verbs.push(PathVerb::Move);
-        kept_verbs.extend(vec![PathVerb::Line; ring_indices.len() - 1]);
-        kept_verbs.push(PathVerb::Close);
-        kept.extend(ring_indices);
+        new_verbs.push(PathVerb::Move);
+        new_verbs.extend(vec![PathVerb::Line; ring_indices.len() - 1]);
+        new_verbs.push(PathVerb::Close);
+        indices.extend(ring_indices);
     }
     let form = Arc::new(match &*scene[0].shapes[k].first.form {
         ShapeForm::Fill { label, ramp, .. } => ShapeForm::Fill {
-            verbs: kept_verbs,
+            verbs: new_verbs,
             label: label.clone(),
             ramp: *ramp,
         },
         ShapeForm::Stroke { join, .. } => ShapeForm::Stroke {
-            verbs: kept_verbs,
+            verbs: new_verbs,
             join: *join,
         },
         ShapeForm::Bars | ShapeForm::Discs => return,
     });
     for piece in scene {
         let shape = &mut piece.shapes[k];
-        let thinned = |points: &Vec<DVec2>| kept.iter().map(|&i| points[i]).collect();
+        let thinned = |points: &Vec<DVec2>| indices.iter().map(|&i| points[i]).collect();
         shape.first.form = form.clone();
         shape.first.points = thinned(&shape.first.points);
         shape.terms = shape.terms.iter().map(thinned).collect();
@@ -120,7 +120,7 @@ fn indices_to_keep(moments: &[Vec<DVec2>], ring: Range<usize>, tolerance: f64) -
     let between = ring.start + 1..ring.end;
     let farthest = between.max_by(|a, b| distance(a).total_cmp(&distance(b)));
     let farthest = farthest.unwrap_or(ring.start);
-    let mut kept = vec![ring.start, farthest];
+    let mut indices = vec![ring.start, farthest];
     let mut chains = vec![(ring.start, farthest), (farthest, ring.end)];
     while let Some((a, b)) = chains.pop() {
         let end = if b == ring.end { ring.start } else { b };
@@ -134,16 +134,16 @@ fn indices_to_keep(moments: &[Vec<DVec2>], ring: Range<usize>, tolerance: f64) -
             continue;
         };
         if deviation(&i) > tolerance {
-            kept.push(i);
+            indices.push(i);
             chains.extend([(a, i), (i, b)]);
         }
     }
-    if kept.len() < 3 {
+    if indices.len() < 3 {
         // A degenerate ring (a line or a point) is left as it is.
         return ring.collect();
     }
-    kept.sort_unstable();
-    kept
+    indices.sort_unstable();
+    indices
 }
 
 /// Distance of a point from a line segment.

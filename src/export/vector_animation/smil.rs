@@ -31,13 +31,13 @@ pub(super) fn animated_svg(animation: &VectorAnimation) -> String {
     if let Some(ground) = animation.ground {
         svg += &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n");
     }
-    let course = &animation.course;
-    let numbered = course.times.iter().enumerate();
+    let timeline = &animation.course;
+    let numbered = timeline.times.iter().enumerate();
     let stations: Vec<(f64, f64)> = numbered.map(|(k, &t)| (k as f64, t)).collect();
     let clock = SmilClock {
-        frames: course.frames() as f64,
-        secs: course.secs(),
-        repeats: course.repeats,
+        frames: timeline.frames() as f64,
+        secs: timeline.secs(),
+        repeats: timeline.repeats,
     };
     let layers = layers(animation, &stations);
     for (k, layer) in layers.iter().enumerate() {
@@ -50,7 +50,7 @@ pub(super) fn animated_svg(animation: &VectorAnimation) -> String {
             svg += &body;
         } else {
             let is_last = k + 1 == layers.len();
-            svg += &clock.seen_between(layer, is_last, &body);
+            svg += &clock.visible_group(layer, is_last, &body);
         }
     }
     svg + "</svg>\n"
@@ -126,17 +126,17 @@ impl SmilClock {
     }
 
     /// Returns a group that is visible only while its layer is.
-    fn seen_between(&self, layer: &SceneLayer, is_last: bool, body: &str) -> String {
-        let shown = |yes: bool| if yes { "inline" } else { "none" }.to_owned();
+    fn visible_group(&self, layer: &SceneLayer, is_last: bool, body: &str) -> String {
+        let display = |yes: bool| if yes { "inline" } else { "none" }.to_owned();
         let is_first = layer.from <= 0.0;
-        let mut keys = vec![(0.0, shown(is_first))];
+        let mut keys = vec![(0.0, display(is_first))];
         if !is_first {
-            keys.push((layer.from, shown(true)));
+            keys.push((layer.from, display(true)));
         }
         if !is_last {
-            keys.push((layer.to, shown(false)));
+            keys.push((layer.to, display(false)));
         }
-        let still = shown(is_first);
+        let still = display(is_first);
         let moving = self.animate("display", &keys, true);
         format!("<g display=\"{still}\">{moving}\n{body}</g>\n")
     }
@@ -173,7 +173,7 @@ impl SmilClock {
             let times = if is_disc { 2.0 } else { 1.0 };
             let width = layer.width(poses, |posed| times * posed.width());
             parts.push(self.attribute("stroke-width", &width, number));
-            parts.push((outlined(&first.form), String::new()));
+            parts.push((stroke_attributes(&first.form), String::new()));
         }
         let (attributes, moving): (String, String) = parts.into_iter().unzip();
         let label = match &*first.form {
@@ -199,8 +199,8 @@ impl SmilClock {
             self.attribute(name, &keyed, number)
         };
         let coordinates: &[(&str, GradientCoordinate)] = match TwoPointGradient::of(&first) {
-            TwoPointGradient::Linear { .. } => &STRAIGHT,
-            TwoPointGradient::Radial { .. } => &ROUND,
+            TwoPointGradient::Linear { .. } => &LINEAR_ATTRIBUTES,
+            TwoPointGradient::Radial { .. } => &RADIAL_ATTRIBUTES,
         };
         let geometry = coordinates.iter().map(|(name, value)| {
             let value = |gradient: &Gradient| value(&TwoPointGradient::of(gradient));
@@ -241,34 +241,34 @@ impl SmilClock {
 type GradientCoordinate = fn(&TwoPointGradient) -> f64;
 
 /// Attributes of a linear gradient.
-const STRAIGHT: [(&str, GradientCoordinate); 4] = [
-    ("x1", |plain| straight(plain)[0]),
-    ("y1", |plain| straight(plain)[1]),
-    ("x2", |plain| straight(plain)[2]),
-    ("y2", |plain| straight(plain)[3]),
+const LINEAR_ATTRIBUTES: [(&str, GradientCoordinate); 4] = [
+    ("x1", |gradient| linear_coordinates(gradient)[0]),
+    ("y1", |gradient| linear_coordinates(gradient)[1]),
+    ("x2", |gradient| linear_coordinates(gradient)[2]),
+    ("y2", |gradient| linear_coordinates(gradient)[3]),
 ];
 
 /// Attributes of a radial gradient.
-const ROUND: [(&str, GradientCoordinate); 6] = [
-    ("cx", |plain| round(plain)[0]),
-    ("cy", |plain| round(plain)[1]),
-    ("r", |plain| round(plain)[2]),
-    ("fx", |plain| round(plain)[3]),
-    ("fy", |plain| round(plain)[4]),
-    ("fr", |plain| round(plain)[5]),
+const RADIAL_ATTRIBUTES: [(&str, GradientCoordinate); 6] = [
+    ("cx", |gradient| radial_coordinates(gradient)[0]),
+    ("cy", |gradient| radial_coordinates(gradient)[1]),
+    ("r", |gradient| radial_coordinates(gradient)[2]),
+    ("fx", |gradient| radial_coordinates(gradient)[3]),
+    ("fy", |gradient| radial_coordinates(gradient)[4]),
+    ("fr", |gradient| radial_coordinates(gradient)[5]),
 ];
 
 /// Start and end of a linear gradient.
-fn straight(plain: &TwoPointGradient) -> [f64; 4] {
-    match *plain {
+fn linear_coordinates(gradient: &TwoPointGradient) -> [f64; 4] {
+    match *gradient {
         TwoPointGradient::Linear { from, to } => [from.x, from.y, to.x, to.y],
         TwoPointGradient::Radial { .. } => [0.0; 4],
     }
 }
 
 /// Centre, radius, focus and inner radius of a radial gradient.
-fn round(plain: &TwoPointGradient) -> [f64; 6] {
-    match *plain {
+fn radial_coordinates(gradient: &TwoPointGradient) -> [f64; 6] {
+    match *gradient {
         TwoPointGradient::Linear { .. } => [0.0; 6],
         TwoPointGradient::Radial {
             middle,
@@ -331,7 +331,7 @@ fn pair(p: DVec2, is_next: bool) -> String {
 }
 
 /// Constant stroke attributes of a shape.
-fn outlined(form: &ShapeForm) -> String {
+fn stroke_attributes(form: &ShapeForm) -> String {
     let join = match form {
         ShapeForm::Stroke { join, .. } => match join {
             StrokeJoin::Mitre(limit) => {

@@ -173,12 +173,12 @@ mod tests {
     #[test]
     fn few_knots_reproduce_every_frame() {
         let film = FilmSpec::of_timing(&Timing::default(), &[], 30.0).expect("a film");
-        let course = FilmTimeline::of(&film);
-        let knots = course.linear_knots();
+        let timeline = FilmTimeline::of(&film);
+        let knots = timeline.linear_knots();
         assert!(knots.len() < 200, "{}", knots.len());
         // Two pauses and two passes.
-        assert!(course.curves().len() <= 6, "{:?}", course.curves());
-        for (k, &t) in course.times.iter().enumerate() {
+        assert!(timeline.curves().len() <= 6, "{:?}", timeline.curves());
+        for (k, &t) in timeline.times.iter().enumerate() {
             let after = knots
                 .partition_point(|knot| knot.0 <= k)
                 .min(knots.len() - 1);
@@ -191,9 +191,9 @@ mod tests {
     #[test]
     fn the_way_back_of_a_ping_pong_film_is_recognised() {
         let once = FilmSpec::evenly(0.0, 1.0, 5, 10.0).expect("a film");
-        let course = FilmTimeline::of(&once);
-        assert_eq!((course.pass_frames, course.frames()), (4, 5));
-        assert_eq!(course.times[5], 1.0);
+        let timeline = FilmTimeline::of(&once);
+        assert_eq!((timeline.pass_frames, timeline.frames()), (4, 5));
+        assert_eq!(timeline.times[5], 1.0);
         let back = FilmTimeline::of(&once.with_play_mode(PlayMode::PingPong));
         assert_eq!((back.pass_frames, back.frames()), (4, 8));
         assert_eq!(back.times[8], 0.0);

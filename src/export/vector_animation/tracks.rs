@@ -119,20 +119,20 @@ impl SceneLayer {
 
 /// Returns the layers along a course: places on the time axis, ascending, with the t shown at each.
 /// Scene changes between two places are located by linear interpolation.
-pub(super) fn layers(animation: &VectorAnimation, course: &[(f64, f64)]) -> Vec<SceneLayer> {
+pub(super) fn layers(animation: &VectorAnimation, timeline: &[(f64, f64)]) -> Vec<SceneLayer> {
     let scenes = scenes(animation);
     let scene_at = |t: f64| {
         scenes
             .partition_point(|scene| scene.0 <= t)
             .saturating_sub(1)
     };
-    let Some(&first) = course.first() else {
+    let Some(&first) = timeline.first() else {
         return Vec::new();
     };
     let mut layers = Vec::new();
     let mut scene = scene_at(first.1);
     let mut stations = vec![first];
-    for two in course.windows(2) {
+    for two in timeline.windows(2) {
         let [(x, t), (next_x, next_t)] = [two[0], two[1]];
         let target = scene_at(next_t);
         while scene != target {

@@ -12,11 +12,11 @@ use crate::warp::homotopy::Homotopy;
 use std::f64::consts::{FRAC_PI_3, PI};
 
 /// Unevenness of the boundary stretch above which the match is named as the cause (heuristic).
-const UNEVEN: f64 = 3.0;
+const MIN_UNEVENNESS: f64 = 3.0;
 
 /// A face counts as flattened by its own homotopy if less than this fraction of its area under the
 /// polar homotopy remains (heuristic).
-const FLATTENED: f64 = 0.1;
+const FLATTENED_AREA_FRACTION: f64 = 0.1;
 
 /// A transition of rigid parts, evaluated at the t of a defect.
 pub(super) struct CauseSearch<'a> {
@@ -126,7 +126,7 @@ pub(super) fn straight_paths(
     // Compared with the polar homotopy, whose area runs monotonically between the ends.
     let area = homotopy.at(&map, t).determinant();
     let polar_area = Homotopy::Polar.at(&map, t).determinant();
-    (area < FLATTENED * polar_area).then_some(FindingCause::StraightPaths {
+    (area < FLATTENED_AREA_FRACTION * polar_area).then_some(FindingCause::StraightPaths {
         homotopy,
         turn: map.angle,
     })
@@ -137,15 +137,15 @@ pub(super) fn straight_paths(
 pub(super) fn far_turn_of_part(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
     let part = search.part_of[face];
     let mean = |p: u32| search.mean_angle(|f| search.part_of[f] == p);
-    let own = mean(part)?;
+    let own_angle = mean(part)?;
     let others = search.neighbouring_parts(part).into_iter();
     let (other, angle) = others
         .filter_map(|other| Some((other, mean(other)?)))
-        .max_by(|a, b| (a.1 - own).abs().total_cmp(&(b.1 - own).abs()))?;
-    let (part, turn) = if angle.abs() > own.abs() {
-        (other, angle - own)
+        .max_by(|a, b| (a.1 - own_angle).abs().total_cmp(&(b.1 - own_angle).abs()))?;
+    let (part, turn) = if angle.abs() > own_angle.abs() {
+        (other, angle - own_angle)
     } else {
-        (part, own - angle)
+        (part, own_angle - angle)
     };
     (turn.abs() > PI).then_some(FindingCause::FarTurn {
         part: Some(part as usize),
@@ -162,17 +162,17 @@ pub(super) fn far_turn(search: &CauseSearch<'_>, face: usize) -> Option<FindingC
 /// Names an uneven match of the boundary near a face.
 pub(super) fn uneven_match(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
     /// Maximum distance of the boundary from the face, in design diameters (heuristic).
-    const NEAR: f64 = 0.1;
+    const MAX_DISTANCE: f64 = 0.1;
     let mesh = search.arap.mesh();
     let (source, target) = (mesh.source(), mesh.target());
     // Measured in the source, because at t the defect itself distorts the shape.
     let centre = search.centroid(face, source);
-    let max_distance = NEAR * mesh.diameter();
+    let max_distance = MAX_DISTANCE * mesh.diameter();
     let worst = stretch::boundary_stretch(mesh)
         .into_iter()
         .filter(|s| source[s.vertex as usize].distance(centre) < max_distance)
         .max_by(|a, b| a.unevenness().total_cmp(&b.unevenness()))?;
-    (worst.unevenness() > UNEVEN).then(|| FindingCause::UnevenMatch {
+    (worst.unevenness() > MIN_UNEVENNESS).then(|| FindingCause::UnevenMatch {
         ratio: worst.ratio,
         source: source[worst.vertex as usize],
         target: target[worst.vertex as usize],
@@ -182,10 +182,11 @@ pub(super) fn uneven_match(search: &CauseSearch<'_>, face: usize) -> Option<Find
 /// Names the largest difference of rotation across an edge of the given faces, if above 60°.
 pub(super) fn unlike_neighbours(search: &CauseSearch<'_>, faces: &[usize]) -> Option<FindingCause> {
     let connectivity = search.arap.mesh().connectivity();
-    let across = |f: usize| (0..3).filter_map(move |k| Some((f, connectivity.neighbour(f, k)?)));
+    let neighbour_pairs =
+        |f: usize| (0..3).filter_map(move |k| Some((f, connectivity.neighbour(f, k)?)));
     let turn = faces
         .iter()
-        .flat_map(|&f| across(f))
+        .flat_map(|&f| neighbour_pairs(f))
         .map(|(a, b)| (search.angles[a] - search.angles[b]).abs())
         .reduce(f64::max)?;
     (turn > FRAC_PI_3).then_some(FindingCause::UnlikeNeighbours { turn })

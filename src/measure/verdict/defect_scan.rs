@@ -127,21 +127,21 @@ pub(super) fn scan_fields(
 }
 
 /// Returns the maximum of a count over all moments.
-pub(super) fn max_count(moments: &[MomentCounts], of: DefectCounts) -> usize {
-    moments.iter().map(of).max().unwrap_or(0)
+pub(super) fn max_count(moments: &[MomentCounts], count: DefectCounts) -> usize {
+    moments.iter().map(count).max().unwrap_or(0)
 }
 
 /// Returns where a count exceeds `allowed`: the t of its maximum (the middle one of several), and
 /// the first and last t at which it exceeds it.
 pub(super) fn worst_moment(
     moments: &[MomentCounts],
-    of: DefectCounts,
+    count: DefectCounts,
     allowed: usize,
 ) -> Option<(f64, [f64; 2])> {
-    let max = max_count(moments, of);
-    let beyond: Vec<f64> = times_where(moments, |g| of(g) > allowed);
-    let at_max = times_where(moments, |g| of(g) == max);
-    let span = [*beyond.first()?, *beyond.last()?];
+    let max = max_count(moments, count);
+    let exceeding: Vec<f64> = times_where(moments, |g| count(g) > allowed);
+    let at_max = times_where(moments, |g| count(g) == max);
+    let span = [*exceeding.first()?, *exceeding.last()?];
     // A defect is most visible halfway through.
     Some((at_max[at_max.len() / 2], span))
 }
@@ -149,7 +149,11 @@ pub(super) fn worst_moment(
 /// Returns the t of the moments that satisfy a condition.
 pub(super) fn times_where(
     moments: &[MomentCounts],
-    is: impl Fn(&MomentCounts) -> bool,
+    condition: impl Fn(&MomentCounts) -> bool,
 ) -> Vec<f64> {
-    moments.iter().filter(|g| is(g)).map(|g| g.t).collect()
+    moments
+        .iter()
+        .filter(|g| condition(g))
+        .map(|g| g.t)
+        .collect()
 }

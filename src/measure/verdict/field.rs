@@ -28,13 +28,13 @@ pub(super) fn field_findings(
     let ends = |of: defect_scan::DefectCounts| of(first).max(of(last));
     let mut defects = Vec::new();
     // `worst` does not apply: here the count is too small, not too large.
-    let gone = defect_scan::times_where(moments, |g| g.pieces == 0);
-    if let (Some(&begin), Some(&end)) = (gone.first(), gone.last())
+    let absent = defect_scan::times_where(moments, |g| g.pieces == 0);
+    if let (Some(&begin), Some(&end)) = (absent.first(), absent.last())
         && ends(|g| g.pieces) > 0
     {
-        defects.push((FindingKind::Gone, (gone[gone.len() / 2], [begin, end])));
+        defects.push((FindingKind::Gone, (absent[absent.len() / 2], [begin, end])));
     }
-    let counted: [(defect_scan::DefectCounts, FieldFinding); 2] = [
+    let counters: [(defect_scan::DefectCounts, FieldFinding); 2] = [
         (
             |g| g.pieces,
             |count, at_ends| FindingKind::Pieces { count, at_ends },
@@ -44,16 +44,16 @@ pub(super) fn field_findings(
             |count, at_ends| FindingKind::Holes { count, at_ends },
         ),
     ];
-    for (of, kind) in counted {
+    for (of, kind) in counters {
         let at_ends = ends(of);
         if let Some(worst) = defect_scan::worst_moment(moments, of, at_ends) {
             defects.push((kind(defect_scan::max_count(moments, of), at_ends), worst));
         }
     }
-    let described = |(trouble, (t, span))| finding(transition, pair, trouble, t, span);
-    let mut found: Vec<Finding> = defects.into_iter().map(described).collect();
-    remedy::try_other_blend_space(transition, pair, moments.len(), &mut found, progress)?;
-    Ok(found)
+    let describe = |(trouble, (t, span))| finding(transition, pair, trouble, t, span);
+    let mut findings: Vec<Finding> = defects.into_iter().map(describe).collect();
+    remedy::try_other_blend_space(transition, pair, moments.len(), &mut findings, progress)?;
+    Ok(findings)
 }
 
 /// Describes a defect of a field with its place, cause and remedy.
@@ -64,10 +64,15 @@ fn finding(
     t: f64,
     span: [f64; 2],
 ) -> Finding {
-    let share = overlap(pair);
+    let overlap_fraction = overlap(pair);
     // Without overlap, shapes disappear and appear in any blend space.
-    let (cause, remedy) = if share < LITTLE_OVERLAP {
-        (FindingCause::LittleOverlap { share }, Remedy::LayOver)
+    let (cause, remedy) = if overlap_fraction < LITTLE_OVERLAP {
+        (
+            FindingCause::LittleOverlap {
+                share: overlap_fraction,
+            },
+            Remedy::LayOver,
+        )
     } else {
         (FindingCause::BlindFields, Remedy::RigidParts)
     };
@@ -89,8 +94,8 @@ fn place_of(transition: &Transition, pair: &FieldPair, trouble: &FindingKind, t:
         1.0
     };
     let rings = transition.frame(t).figure().rings.into_iter();
-    let sized = rings.map(|ring| (orientation * signed_area(&ring), ring));
-    let smallest = sized
+    let rings_with_area = rings.map(|ring| (orientation * signed_area(&ring), ring));
+    let smallest = rings_with_area
         .filter(|(area, _)| *area > 0.0)
         .min_by(|a, b| a.0.total_cmp(&b.0));
     smallest.map_or_else(

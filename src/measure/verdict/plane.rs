@@ -16,7 +16,7 @@ const MIN_FOLD_FRACTION: f64 = 5e-4;
 type WorstFold = Option<(f64, Finding)>;
 
 /// Keeps the larger of two findings and joins their spans.
-fn keep_worse(worst: &mut WorstFold, size: f64, mut finding: Finding) {
+fn keep_worst(worst: &mut WorstFold, size: f64, mut finding: Finding) {
     if let Some((largest_size, largest)) = worst {
         largest.span[1] = finding.t;
         finding.span = largest.span;
@@ -44,7 +44,7 @@ pub(super) fn plane_findings(
     for t in evenly_spaced_times(steps) {
         checkpoint(progress, "looking for folds of the plane", t)?;
         frame.seek(t);
-        let (share, place) = folded(&frame, &bounds);
+        let (share, place) = folded_fraction(&frame, &bounds);
         if share > MIN_FOLD_FRACTION {
             let finding = Finding {
                 trouble: FindingKind::PlaneFolds { share },
@@ -54,13 +54,13 @@ pub(super) fn plane_findings(
                 cause: FindingCause::SeenTwice,
                 remedy: Remedy::Lattices,
             };
-            keep_worse(&mut folds, share, finding);
+            keep_worst(&mut folds, share, finding);
         }
-        if let Some(now) = transition.missed_features(t) {
-            keep_worse(
+        if let Some(missed_now) = transition.missed_features(t) {
+            keep_worst(
                 &mut missed,
-                now.distance,
-                missed_finding(&now, t, bounds.diameter()),
+                missed_now.distance,
+                missed_finding(&missed_now, t, bounds.diameter()),
             );
         }
     }
@@ -108,15 +108,16 @@ fn is_visible(content: &Content, t: f64, samples: [DVec2; 2]) -> bool {
 
 /// Returns the fraction of the frame covered by faces that are folded in the frame or in either
 /// design, and the centre of the largest such face.
-fn folded(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
+fn folded_fraction(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
     let placement = frame.placement();
     let (mut sum, mut largest, mut place) = (0.0, 0.0, bounds.centre());
     for face in placement.faces.iter() {
         let corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
         let centroid = |points: &[DVec2]| corners(points).iter().sum::<DVec2>() / 3.0;
-        let at = centroid(&placement.in_frame);
+        let centre = centroid(&placement.in_frame);
         let samples = [&placement.in_source, &placement.in_target].map(|p| centroid(p));
-        if !bounds.contains(at) || !is_visible(frame.transition().content(), frame.t(), samples) {
+        if !bounds.contains(centre) || !is_visible(frame.transition().content(), frame.t(), samples)
+        {
             continue;
         }
         let area = |[a, b, c]: [DVec2; 3]| twice_signed_area(a, b, c);
@@ -126,7 +127,7 @@ fn folded(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
         if in_frame < 0.0 || in_designs.iter().any(|area| *area < 0.0) {
             sum += in_frame.abs();
             if in_frame.abs() > largest {
-                (largest, place) = (in_frame.abs(), at);
+                (largest, place) = (in_frame.abs(), centre);
             }
         }
     }
@@ -143,7 +144,7 @@ mod tests {
     use crate::work::progress::Silent;
 
     /// Two pins that exchange their positions between four fixed pins.
-    fn crossed(warp: WarpKind, fold_free: bool) -> Verdict {
+    fn verdict_with_exchanged_pins(warp: WarpKind, fold_free: bool) -> Verdict {
         let mut loaded = gallery::load("portraits-points").expect("a project");
         let pair = |from: (f64, f64), to: (f64, f64)| PointPair {
             source: DVec2::from(from),
@@ -164,7 +165,7 @@ mod tests {
 
     #[test]
     fn pins_that_exchange_positions_fold_the_plane() {
-        let verdict = crossed(WarpKind::Scattered, false);
+        let verdict = verdict_with_exchanged_pins(WarpKind::Scattered, false);
         let [finding] = verdict.findings.as_slice() else {
             panic!("{}", verdict.headline());
         };
@@ -174,7 +175,7 @@ mod tests {
 
     #[test]
     fn fold_free_lattices_miss_the_pins_instead() {
-        let verdict = crossed(WarpKind::Lattice, true);
+        let verdict = verdict_with_exchanged_pins(WarpKind::Lattice, true);
         let [finding] = verdict.findings.as_slice() else {
             panic!("{}", verdict.headline());
         };

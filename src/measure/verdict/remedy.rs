@@ -47,16 +47,16 @@ pub(super) fn try_rigid_part_options(
     if arap.mesh().faces().len() > MAX_TESTED_FACES {
         return Ok(());
     }
-    let now = moments;
+    let before = moments;
     let changes = changes(arap, findings);
     let shares = ProgressShares::new(progress, changes.len());
     for (k, change) in changes.iter().enumerate() {
-        let (steps, share) = (now.len(), shares.part(k));
-        let Some(then) = scan_with(change, transition, arap, solid, steps, &share)? else {
+        let (steps, share) = (before.len(), shares.part(k));
+        let Some(after) = scan_with(change, transition, arap, solid, steps, &share)? else {
             continue;
         };
         for finding in &mut *findings {
-            take_if_better(finding, change, now, &then);
+            adopt_if_better(finding, change, before, &after);
         }
     }
     Ok(())
@@ -97,8 +97,8 @@ fn changes(arap: &Arap, findings: &[Finding]) -> Vec<SettingChange> {
 
 /// Changes the extra turns of a part by one, so that it rotates in the other direction.
 fn turn_other_way(arap: &Arap, part: usize, turn: f64) -> SettingChange {
-    let given = &arap.options().extra_turns;
-    let each = |p: usize| match given.as_slice() {
+    let current_turns = &arap.options().extra_turns;
+    let each = |p: usize| match current_turns.as_slice() {
         [all] => *all,
         each => each.get(p).copied().unwrap_or(0),
     };
@@ -125,8 +125,8 @@ fn scan_with(
     };
     change.apply(&mut options);
     match arap.rebuilt(&options.arap, progress) {
-        Ok(changed) => {
-            defect_scan::scan_rigid_parts(transition, &changed, solid, steps, progress).map(Some)
+        Ok(rebuilt) => {
+            defect_scan::scan_rigid_parts(transition, &rebuilt, solid, steps, progress).map(Some)
         }
         Err(ArapError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),
@@ -135,25 +135,26 @@ fn scan_with(
 
 /// Adopts a change as the remedy if it leaves fewer defects of the finding's kind than the best
 /// change so far, and no more of the other kind than without it.
-fn take_if_better(
+fn adopt_if_better(
     finding: &mut Finding,
     change: &SettingChange,
-    now: &[MomentCounts],
-    then: &[MomentCounts],
+    before: &[MomentCounts],
+    after: &[MomentCounts],
 ) {
     let (own, other): (defect_scan::DefectCounts, defect_scan::DefectCounts) = match finding.trouble
     {
         FindingKind::Folds { .. } => (|g| g.folds, |g| g.crossings),
         _ => (|g| g.crossings, |g| g.folds),
     };
-    let of = defect_scan::max_count(now, own);
+    let of = defect_scan::max_count(before, own);
     let best = match finding.remedy {
         Remedy::Change { left, .. } => left,
         _ => of,
     };
-    let left = defect_scan::max_count(then, own);
+    let left = defect_scan::max_count(after, own);
     // Removing folds at the cost of new crossings is not a remedy.
-    if left < best && defect_scan::max_count(then, other) <= defect_scan::max_count(now, other) {
+    if left < best && defect_scan::max_count(after, other) <= defect_scan::max_count(before, other)
+    {
         let change = change.clone();
         finding.remedy = Remedy::Change { change, left, of };
     }
@@ -178,18 +179,18 @@ pub(super) fn try_other_blend_space(
     let Ok(Some(other)) = transition.with_blend(blend) else {
         return Ok(());
     };
-    let then = defect_scan::scan_fields(&other, steps, progress)?;
+    let after = defect_scan::scan_fields(&other, steps, progress)?;
     for finding in findings {
         let (of, left) = match finding.trouble {
             FindingKind::Pieces { count, at_ends } => (
                 count - at_ends,
-                defect_scan::max_count(&then, |g| g.pieces).saturating_sub(at_ends),
+                defect_scan::max_count(&after, |g| g.pieces).saturating_sub(at_ends),
             ),
             FindingKind::Holes { count, at_ends } => (
                 count - at_ends,
-                defect_scan::max_count(&then, |g| g.holes).saturating_sub(at_ends),
+                defect_scan::max_count(&after, |g| g.holes).saturating_sub(at_ends),
             ),
-            _ => (1, usize::from(then.iter().any(|g| g.pieces == 0))),
+            _ => (1, usize::from(after.iter().any(|g| g.pieces == 0))),
         };
         if left < of {
             let change = SettingChange::Space(blend.space);

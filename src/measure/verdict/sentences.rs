@@ -100,14 +100,14 @@ impl fmt::Display for FindingCause {
                 degrees(turn.abs())
             ),
             Self::FarTurn { part, turn } => {
-                let (what, other) = match part {
+                let (place, other) = match part {
                     Some(part) => (format!("part {}", part + 1), "its neighbour"),
                     None => ("this place".to_owned(), "the whole shape"),
                 };
                 let by = degrees(turn.abs());
                 write!(
                     f,
-                    "{what} rotates by {by} relative to {other}, more than half a turn"
+                    "{place} rotates by {by} relative to {other}, more than half a turn"
                 )
             }
             Self::UnevenMatch { ratio, source, .. } => write!(

@@ -75,19 +75,19 @@ fn path_findings(
         cause: FindingCause::Unclear,
         remedy: Remedy::AnotherWay,
     };
-    let folds = defect_scan::worst_moment(moments, |g| g.folds, 0).and_then(|at| {
-        let frame = transition.frame(at.0);
+    let folds = defect_scan::worst_moment(moments, |g| g.folds, 0).and_then(|moment| {
+        let frame = transition.frame(moment.0);
         let places = &frame.placement().in_frame;
         let faces: Vec<usize> = defect_scan::folded_faces(mesh.faces(), places).collect();
         let corners = mesh.faces()[*faces.first()?].map(|v| places[v as usize]);
         let middle = corners.iter().sum::<DVec2>() / 3.0;
-        Some(finding(at, middle, FindingKind::Folds { faces }))
+        Some(finding(moment, middle, FindingKind::Folds { faces }))
     });
-    let crossings = defect_scan::worst_moment(moments, |g| g.crossings, 0).and_then(|at| {
-        let frame = transition.frame(at.0);
-        let crossings = solid.crossings_at(&frame.placement().in_frame, at.0);
+    let crossings = defect_scan::worst_moment(moments, |g| g.crossings, 0).and_then(|moment| {
+        let frame = transition.frame(moment.0);
+        let crossings = solid.crossings_at(&frame.placement().in_frame, moment.0);
         let place = crossings.first()?.place;
-        Some(finding(at, place, FindingKind::Crossings { crossings }))
+        Some(finding(moment, place, FindingKind::Crossings { crossings }))
     });
     folds.into_iter().chain(crossings).collect()
 }
@@ -132,10 +132,10 @@ fn crossing_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<
         .or_else(|| cause::far_turn_of_part(search, a))
         .or_else(|| cause::far_turn_of_part(search, b))
         .or_else(|| {
-            let near = cause::near_each_other(search, &first);
-            near.then(|| cause::uneven_match(search, a)).flatten()
+            let is_near = cause::near_each_other(search, &first);
+            is_near.then(|| cause::uneven_match(search, a)).flatten()
         });
-    let meet = || FindingCause::PlacesMeet {
+    let places_meet = || FindingCause::PlacesMeet {
         turns: [a, b].map(|f| search.angles[f]),
         source: [a, b].map(|f| search.centroid(f, search.arap.mesh().source())),
     };
@@ -144,7 +144,7 @@ fn crossing_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<
         trouble: FindingKind::Crossings { crossings },
         t,
         span,
-        cause: cause.unwrap_or_else(meet),
+        cause: cause.unwrap_or_else(places_meet),
         remedy: remedy::move_vertices_at(search, a),
     })
 }

@@ -31,7 +31,7 @@ fn verdict(transition: &Transition) -> Verdict {
     verdict
 }
 
-fn with(homotopy: Homotopy) -> ArapOptions {
+fn options_with(homotopy: Homotopy) -> ArapOptions {
     ArapOptions {
         homotopy,
         ..ArapOptions::default()
@@ -43,13 +43,13 @@ fn half_turn(homotopy: Homotopy) -> Transition {
     let (faces, source) = sheet(4, 2);
     let map = DMat2::from_angle(PI) * DMat2::from_diagonal(DVec2::new(1.0, 3.0));
     let target: Vec<_> = source.iter().map(|&p| map * p).collect();
-    transition(&faces, &source, &target, with(homotopy))
+    transition(&faces, &source, &target, options_with(homotopy))
 }
 
 #[test]
 fn straight_paths_fold_where_the_determinant_is_negative() {
-    let found = verdict(&half_turn(Homotopy::Linear));
-    let finding = &found.findings[0];
+    let result = verdict(&half_turn(Homotopy::Linear));
+    let finding = &result.findings[0];
     assert!(matches!(&finding.trouble, FindingKind::Folds { faces } if faces.len() == 16));
     let [first, last] = finding.span;
     assert!((first - 0.25).abs() <= STEP && (last - 0.5).abs() <= STEP);
@@ -67,7 +67,7 @@ fn straight_paths_fold_where_the_determinant_is_negative() {
     };
     assert_eq!(*change, SettingChange::Homotopy(Homotopy::Polar));
     assert_eq!(finding.headline(), "16 faces fold near t = 0.38");
-    assert!(found.headline().starts_with("16 faces fold near t = 0.38"));
+    assert!(result.headline().starts_with("16 faces fold near t = 0.38"));
     assert!(finding.cause.to_string().contains("180°"));
     // Applying the suggested change really removes the defects.
     assert!(verdict(&half_turn(Homotopy::Polar)).is_clear());
@@ -94,11 +94,11 @@ fn hinge(extra_turns: Vec<i32>) -> Transition {
 fn a_part_that_rotates_too_far_is_rotated_the_other_way() {
     assert!(verdict(&hinge(vec![])).is_clear());
     for turns in [1, -1] {
-        let found = verdict(&hinge(vec![0, turns]));
-        let finding = &found.findings[0];
+        let result = verdict(&hinge(vec![0, turns]));
+        let finding = &result.findings[0];
         assert!(
             matches!(finding.trouble, FindingKind::Crossings { .. }),
-            "{found:?}"
+            "{result:?}"
         );
         let FindingCause::FarTurn {
             part: Some(1),
@@ -115,23 +115,24 @@ fn a_part_that_rotates_too_far_is_rotated_the_other_way() {
             panic!("{:?}", finding.remedy);
         };
         assert_eq!(*change, SettingChange::ExtraTurns(vec![0, 0]));
-        assert!(found.headline().starts_with("the boundary crosses itself"));
+        assert!(result.headline().starts_with("the boundary crosses itself"));
         assert!(finding.place.length() < 4.0);
     }
 }
 
 /// A thin band of length 1 whose curvature changes linearly from `begin` to `end` full turns.
 fn band(begin: f64, end: f64) -> Vec<DVec2> {
-    const N: u32 = 60;
+    /// Number of quads along the band.
+    const SEGMENTS: u32 = 60;
     let (mut angle, mut at) = (0.0_f64, DVec2::ZERO);
     let mut rows = [Vec::new(), Vec::new()];
-    for i in 0..=N {
-        let s = f64::from(i) / f64::from(N);
+    for i in 0..=SEGMENTS {
+        let s = f64::from(i) / f64::from(SEGMENTS);
         for (row, side) in rows.iter_mut().zip([-1.0, 1.0]) {
             row.push(at + 0.004 * side * DVec2::from_angle(angle).perp());
         }
-        angle += 2.0 * PI * (begin + (end - begin) * s) / f64::from(N);
-        at += DVec2::from_angle(angle) / f64::from(N);
+        angle += 2.0 * PI * (begin + (end - begin) * s) / f64::from(SEGMENTS);
+        at += DVec2::from_angle(angle) / f64::from(SEGMENTS);
     }
     rows.concat()
 }
@@ -147,10 +148,10 @@ fn recoiled() -> Transition {
 #[test]
 fn colliding_places_are_reported_with_both_rotations() {
     let transition = recoiled();
-    let found = verdict(&transition);
-    let finding = &found.findings[0];
+    let result = verdict(&transition);
+    let finding = &result.findings[0];
     let FindingKind::Crossings { crossings } = &finding.trouble else {
-        panic!("{found:?}");
+        panic!("{result:?}");
     };
     assert_eq!(finding.place, crossings[0].place);
     assert!((finding.t - 0.5).abs() < 0.25, "{}", finding.t);
@@ -179,7 +180,7 @@ fn a_large_rotation_within_one_part_is_measured_relative_to_the_whole() {
         &faces,
         &band(1.5, 2.5),
         &band(0.0, 0.0),
-        with(Homotopy::Polar),
+        options_with(Homotopy::Polar),
     );
     with_search(&uncoiled, |search| {
         // The faces at the ends rotate by about a full turn relative to the middle.
@@ -200,14 +201,14 @@ fn a_squeezed_boundary_is_located() {
         x if x < 22.0 => 19.6 + (x - 18.0) * 0.2,
         x => 20.4 + (x - 22.0) * 19.6 / 18.0,
     };
-    let moved = |p: &DVec2| {
+    let squeezed_point = |p: &DVec2| {
         if p.y == 0.0 {
             DVec2::new(squeeze(p.x), 0.0)
         } else {
             *p
         }
     };
-    let target: Vec<_> = source.iter().map(moved).collect();
+    let target: Vec<_> = source.iter().map(squeezed_point).collect();
     let squeezed = transition(&faces, &source, &target, ArapOptions::default());
     with_search(&squeezed, |search| {
         let Some(FindingCause::UnevenMatch {
@@ -273,13 +274,13 @@ fn rect(x: u32, y: u32, width: u32, height: u32) -> String {
 
 #[test]
 fn fields_without_overlap_disappear_in_between() {
-    let found = verdict(&fields(&rect(5, 20, 20, 20), &rect(75, 20, 20, 20)));
-    let finding = &found.findings[0];
+    let result = verdict(&fields(&rect(5, 20, 20, 20), &rect(75, 20, 20, 20)));
+    let finding = &result.findings[0];
     assert_eq!(finding.trouble, FindingKind::Gone);
     assert_eq!(finding.cause, FindingCause::LittleOverlap { share: 0.0 });
     assert_eq!(finding.remedy, Remedy::LayOver);
     assert_eq!(
-        found.headline(),
+        result.headline(),
         format!("the shape disappears near t = {:.2}", finding.t)
     );
 }
@@ -289,8 +290,8 @@ fn fields_that_lose_a_bridge_break_apart() {
     let blobs = rect(5, 10, 30, 40) + &rect(65, 10, 30, 40);
     let above = blobs.clone() + &rect(30, 12, 40, 6);
     let below = blobs + &rect(30, 42, 40, 6);
-    let found = verdict(&fields(&above, &below));
-    let finding = &found.findings[0];
+    let result = verdict(&fields(&above, &below));
+    let finding = &result.findings[0];
     assert_eq!(
         finding.trouble,
         FindingKind::Pieces {
@@ -302,7 +303,7 @@ fn fields_that_lose_a_bridge_break_apart() {
     assert_eq!(finding.remedy, Remedy::RigidParts);
     assert!((finding.t - 0.5).abs() < 0.2);
     assert!(
-        found
+        result
             .headline()
             .starts_with("breaks into 2 pieces near t = 0.")
     );
@@ -310,17 +311,17 @@ fn fields_that_lose_a_bridge_break_apart() {
 
 #[test]
 fn fields_that_keep_their_pieces_are_clear() {
-    let found = verdict(&fields(&rect(10, 10, 40, 40), &rect(15, 10, 50, 40)));
-    assert_eq!(found.headline(), "no extra pieces or holes");
+    let result = verdict(&fields(&rect(10, 10, 40, 40), &rect(15, 10, 50, 40)));
+    assert_eq!(result.headline(), "no extra pieces or holes");
 }
 
 #[test]
 fn a_check_includes_the_notes_of_the_transition() {
     let (a, b) = (rect(10, 10, 40, 40), rect(15, 10, 50, 40));
     assert_eq!(verdict(&fields(&a, &b)).notes, []);
-    let found = verdict(&fields_by(&a, &b, Metric::Chessboard));
-    assert_eq!(found.notes, [TransitionNote::BinaryBoundary]);
-    assert!(found.is_clear(), "a note is not a defect");
+    let result = verdict(&fields_by(&a, &b, Metric::Chessboard));
+    assert_eq!(result.notes, [TransitionNote::BinaryBoundary]);
+    assert!(result.is_clear(), "a note is not a defect");
 }
 
 #[test]

@@ -139,7 +139,7 @@ impl TriangulationDomain {
 
     /// Returns the winding number of the loops around each face.
     pub(super) fn winding(&self) -> Vec<i32> {
-        // Marks faces that were not visited yet.
+        /// Marks faces that were not visited yet.
         const UNKNOWN: i32 = i32::MAX;
         let mut winding = vec![UNKNOWN; self.delaunay.num_all_faces()];
         winding[self.delaunay.outer_face().index()] = 0;

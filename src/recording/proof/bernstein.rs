@@ -11,7 +11,7 @@ const MAX_DEGREE: usize = MAX_NODES + 1;
 /// Largest degree of a product of two coordinates (derived).
 pub(super) const MAX_PRODUCT_DEGREE: usize = 2 * MAX_DEGREE;
 
-/// Bound on the relative rounding error of one operation.
+/// Bound on the relative rounding error of one operation (derived: double precision).
 pub(super) const EPS: f64 = f64::EPSILON;
 
 /// Returns a binomial coefficient; exact for n up to 50.

@@ -33,7 +33,7 @@ where
     F: Fn(usize, f64) -> DVec2 + Copy + Send + Sync + 'static,
 {
     let warp = Arc::new(FunctionWarp(faces, count, at));
-    Recording::record(warp, &RecordingOptions::default(), &Silent).expect("a film")
+    Recording::record(warp, &RecordingOptions::default(), &Silent).expect("a recording")
 }
 
 fn drawn_loop(vertices: &[u32]) -> DrawnLoop {

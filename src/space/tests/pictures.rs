@@ -10,12 +10,12 @@ use image::{Rgba, RgbaImage};
 /// Side length of the test pictures, in pixels.
 const SIDE: u32 = 64;
 
-/// A picture of a ball at `at` in front of a background with colour gradients.
-fn ball(name: &str, at: [f64; 2], colour: [u8; 3]) -> Arc<Design> {
+/// A picture of a ball at `centre` in front of a background with colour gradients.
+fn ball(name: &str, centre: [f64; 2], colour: [u8; 3]) -> Arc<Design> {
     let pixel = |x: u32, y: u32| {
         // The plane has y up.
         let p = DVec2::new(f64::from(x) + 0.5, f64::from(SIDE - y) - 0.5);
-        let [r, g, b] = if p.distance(at.into()) < 9.0 {
+        let [r, g, b] = if p.distance(centre.into()) < 9.0 {
             colour
         } else {
             [40 + x as u8, 60 + y as u8, 90]
@@ -32,9 +32,9 @@ fn ball(name: &str, at: [f64; 2], colour: [u8; 3]) -> Arc<Design> {
 /// Centres of the balls in three pictures, in pixels, y up.
 const PLACES: [[f64; 2]; 3] = [[20.0, 20.0], [44.0, 26.0], [30.0, 46.0]];
 
-fn line(at: [f64; 2]) -> [DVec2; 2] {
-    let at = DVec2::from(at);
-    [at - DVec2::X * 9.0, at + DVec2::X * 9.0]
+fn line(centre: [f64; 2]) -> [DVec2; 2] {
+    let centre = DVec2::from(centre);
+    [centre - DVec2::X * 9.0, centre + DVec2::X * 9.0]
 }
 
 /// Specification with the balls of the given indices, in this order.
@@ -72,7 +72,7 @@ fn max_difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
 }
 
 /// Warps that can align pictures, and none.
-const KINDS: [WarpKind; 4] = [
+const WARPS: [WarpKind; 4] = [
     WarpKind::None,
     WarpKind::Lines,
     WarpKind::Scattered,
@@ -81,16 +81,16 @@ const KINDS: [WarpKind; 4] = [
 
 #[test]
 fn weight_one_reproduces_each_picture_in_any_order() {
-    for kind in KINDS {
+    for kind in WARPS {
         let space = DesignSpace::build(&spec(&[0, 1, 2], kind), &Silent).expect("a space");
         for (k, design) in space.designs().iter().enumerate() {
-            let own = design.picture.as_ref().expect("a picture");
-            assert_eq!(&render(&space, &corner(3, k)), own.pixels().as_ref());
+            let original = design.picture.as_ref().expect("a picture");
+            assert_eq!(&render(&space, &corner(3, k)), original.pixels().as_ref());
         }
-        let turned = DesignSpace::build(&spec(&[2, 0, 1], kind), &Silent).expect("a space");
-        let there = render(&space, &[0.5, 0.2, 0.3]);
+        let reordered = DesignSpace::build(&spec(&[2, 0, 1], kind), &Silent).expect("a space");
+        let blend = render(&space, &[0.5, 0.2, 0.3]);
         assert!(
-            max_difference(&there, &render(&turned, &[0.3, 0.5, 0.2])) <= 1,
+            max_difference(&blend, &render(&reordered, &[0.3, 0.5, 0.2])) <= 1,
             "{kind:?}"
         );
     }
@@ -112,9 +112,9 @@ fn a_space_of_two_pictures_equals_their_transition() {
         let pair = Transition::build(&pair, &Silent).expect("a transition");
         for t in [0.0, 0.3, 0.5, 0.8, 1.0] {
             let expected = pair.frame(t).picture(&raster()).expect("pictures");
-            let found = render(&space, &[1.0 - t, t]);
+            let blend = render(&space, &[1.0 - t, t]);
             // The warp grids differ, so a few pixels at the edge of the ball differ.
-            let pairs = found.pixels().zip(expected.pixels());
+            let pairs = blend.pixels().zip(expected.pixels());
             let different = pairs.filter(|(a, b)| (0..3).any(|k| a.0[k].abs_diff(b.0[k]) > 2));
             assert!(different.count() < 12, "{kind:?} at {t}");
         }
@@ -129,18 +129,18 @@ fn lines_in_all_pictures_align_the_balls() {
     let middle = PLACES.iter().map(|p| DVec2::from(*p)).sum::<DVec2>() / 3.0;
     let space = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
     let picture = render(&space, &weights);
-    let at = |p: DVec2| *picture.get_pixel(p.x as u32, (f64::from(SIDE) - p.y) as u32);
+    let pixel_at = |p: DVec2| *picture.get_pixel(p.x as u32, (f64::from(SIDE) - p.y) as u32);
     // Red, green and blue in equal parts, in linear light.
-    let Rgba([r, g, b, _]) = at(middle);
+    let Rgba([r, g, b, _]) = pixel_at(middle);
     assert!(
         r.abs_diff(154) < 12 && g.abs_diff(136) < 12 && b.abs_diff(158) < 12,
         "{r} {g} {b}"
     );
     // Without a warp, each ball remains visible at its original place.
-    let still = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::None), &Silent).expect("a space");
-    let there = render(&still, &weights);
+    let unwarped = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::None), &Silent).expect("a space");
+    let picture = render(&unwarped, &weights);
     let ghost = DVec2::from(PLACES[0]) - DVec2::splat(4.0);
-    let ghost = *there.get_pixel(ghost.x as u32, (f64::from(SIDE) - ghost.y) as u32);
+    let ghost = *picture.get_pixel(ghost.x as u32, (f64::from(SIDE) - ghost.y) as u32);
     assert!(ghost.0[0] > ghost.0[1] + 30, "{ghost:?}");
 }
 
@@ -156,16 +156,16 @@ fn a_blend_becomes_a_design_and_a_path_connects_blends() {
     let map = WeightMap::new(&MapLayout::Polygon.sites(space.distances())).expect("sites");
     let mut path = MapPath::default();
     let sites = map.sites().to_vec();
-    for at in [sites[0], DVec2::ZERO, sites[2]] {
-        path.places.push(Waypoint::stop(at));
+    for site in [sites[0], DVec2::ZERO, sites[2]] {
+        path.places.push(Waypoint::stop(site));
     }
     let film = space.path_sequence(&map, &path, &Silent).expect("a film");
-    let own = space.designs()[0].picture.as_ref().expect("a picture");
-    let at = |t: f64| film.frame(t).frame().picture(&raster()).expect("pictures");
-    assert_eq!(&at(0.0), own.pixels().as_ref());
+    let first = space.designs()[0].picture.as_ref().expect("a picture");
+    let image_at = |t: f64| film.frame(t).frame().picture(&raster()).expect("pictures");
+    assert_eq!(&image_at(0.0), first.pixels().as_ref());
     let mut middle = vec![0.0; 3];
     map.weights(DVec2::ZERO, &mut middle);
-    assert!(max_difference(&at(1.0), &render(&space, &middle)) <= 1);
+    assert!(max_difference(&image_at(1.0), &render(&space, &middle)) <= 1);
 }
 
 #[test]

@@ -304,7 +304,7 @@ impl Attempt {
     ) -> Result<(), BuildError> {
         let [from, to] = self.progress;
         let progress = ProgressSpan::new(progress, from, to);
-        let options = self.options.changed(&group.spec.options.matching);
+        let options = self.options.variants(&group.spec.options.matching);
         let includes = |result: &PieceResult| {
             let mut conditions = self.conditions.iter();
             conditions.all(|condition| condition.holds(group, result))
@@ -368,7 +368,7 @@ impl PieceCondition {
 
 impl TriedOptions {
     /// Returns the options to try, given the user's settings.
-    fn changed(self, settings: &MatchSettings) -> Vec<MatchOptions> {
+    fn variants(self, settings: &MatchSettings) -> Vec<MatchOptions> {
         let requested = settings.options();
         let with_costs = |stretch: f64, thickness: f64| MatchOptions {
             stretch,

@@ -97,10 +97,10 @@ impl MatchCandidate {
             .map(|(from, to)| ProgressSpan::new(progress, from, to));
         let mesh = mesh_of_piece(&matched, &options.triangulation, &meshing)
             .map_err(CandidateError::Mesh)?;
-        let trouble = if matched.is_in_both() {
-            // The piece is rated on its own, with default weights and anchor, which concern the
-            // whole. The polar path stands in for bounded distortion, which is expensive but ends
-            // alike.
+        let defects = if matched.is_in_both() {
+            // The piece is rated on its own, with default weights and anchor, because the requested
+            // ones refer to the whole design. The polar path stands in for bounded distortion,
+            // which is expensive and has the same ends.
             let homotopy = match options.arap.homotopy {
                 Homotopy::Bounded => Homotopy::Polar,
                 homotopy => homotopy,
@@ -119,7 +119,7 @@ impl MatchCandidate {
             MotionDefects::default()
         };
         Ok(Self {
-            defects: trouble,
+            defects,
             distortion: mesh.distortion(IGNORED_AREA),
             holes,
             matched,

@@ -67,8 +67,7 @@ impl GroupSearch<'_> {
             .collect()
     }
 
-    /// Tries several variants for the pieces selected by `wants`, and replaces candidates by better
-    /// ones.
+    /// Tries several variants for the `selected` pieces, and replaces candidates by better ones.
     ///
     /// # Errors
     /// If the work is cancelled.
@@ -76,11 +75,11 @@ impl GroupSearch<'_> {
         &self,
         chosen: &mut [PieceResult],
         variants: &[MatchVariant],
-        wants: &[bool],
+        selected: &[bool],
         progress: &dyn Progress,
     ) -> Result<(), BuildError> {
-        if wants.contains(&true) {
-            let candidates = self.candidates_of_variants(variants, wants, progress)?;
+        if selected.contains(&true) {
+            let candidates = self.candidates_of_variants(variants, selected, progress)?;
             candidates
                 .into_iter()
                 .for_each(|candidates| take_better(chosen, candidates));
@@ -88,14 +87,14 @@ impl GroupSearch<'_> {
         Ok(())
     }
 
-    /// Returns, for each variant, the candidates of the pieces selected by `wants`.
+    /// Returns, for each variant, the candidates of the `selected` pieces.
     ///
     /// # Errors
     /// If the work is cancelled.
     fn candidates_of_variants(
         &self,
         variants: &[MatchVariant],
-        wants: &[bool],
+        selected: &[bool],
         progress: &dyn Progress,
     ) -> Result<Vec<Vec<Option<MatchCandidate>>>, BuildError> {
         let shares = ProgressShares::new(progress, variants.len());
@@ -110,13 +109,13 @@ impl GroupSearch<'_> {
             // A variant that fails is no better: each piece has a result already.
             let pieces = matched.unwrap_or_default();
             let shares = ProgressShares::new(&rating, pieces.len());
-            let pieces = pieces.into_par_iter().zip(wants).enumerate();
-            let candidates = pieces.map(|(k, (piece, is_wanted))| {
+            let pieces = pieces.into_par_iter().zip(selected).enumerate();
+            let candidates = pieces.map(|(k, (piece, is_selected))| {
                 let new = || {
                     MatchCandidate::new(piece, variant.holes, &self.spec.options, &shares.part(k))
                         .ok()
                 };
-                let candidate = is_wanted.then(new);
+                let candidate = is_selected.then(new);
                 // A cancellation, however, must end the work.
                 check_cancelled(progress)?;
                 Ok(candidate.flatten())

@@ -40,7 +40,7 @@ pub(in crate::transition) fn mirror_note(
         return Ok(None);
     }
     let [source, target] = &drawings.outlines;
-    let target = mirrored(target);
+    let target = mirror(target);
     let draft = draft(spec, [source, &target], &drawings.looks, progress);
     check_cancelled(progress)?;
     // A draft without folds is required: more search can find a better match than a draft.
@@ -83,7 +83,7 @@ fn distortion<'a>(pieces: impl Iterator<Item = &'a MatchCandidate>) -> f64 {
 }
 
 /// Returns a design mirrored left to right, with its parts in the same order.
-fn mirrored(design: &Regions) -> Regions {
+fn mirror(design: &Regions) -> Regions {
     let flip = Similarity {
         mirror: true,
         ..Similarity::IDENTITY

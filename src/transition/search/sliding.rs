@@ -34,14 +34,14 @@ pub(super) fn slide_and_choose(
     let chosen = pieces.map(|(k, (paired, unpaired))| {
         let share = shares.part(k);
         let Some(unpaired) = unpaired else {
-            return slid(paired, spec, &share);
+            return slide_piece(paired, spec, &share);
         };
         let [first, second] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(from, to)| ProgressSpan::new(&share, from, to));
-        let mut best = slid(paired, spec, &first)?;
+        let mut best = slide_piece(paired, spec, &first)?;
         // Compare only after sliding, which can repair a pairing of holes that folds, as in D and
         // P.
-        let unpaired = improved_by_sliding(unpaired, spec, &second)?;
+        let unpaired = slide_while_better(unpaired, spec, &second)?;
         take_better(std::slice::from_mut(&mut best), vec![Some(unpaired)]);
         Ok(best)
     });
@@ -52,13 +52,13 @@ pub(super) fn slide_and_choose(
 ///
 /// # Errors
 /// If the work is cancelled.
-fn slid(
+fn slide_piece(
     result: PieceResult,
     spec: &TransitionSpec,
     progress: &dyn Progress,
 ) -> Result<PieceResult, BuildError> {
     match result {
-        Ok(best) => Ok(Ok(improved_by_sliding(best, spec, progress)?)),
+        Ok(best) => Ok(Ok(slide_while_better(best, spec, progress)?)),
         untriangulated => Ok(untriangulated),
     }
 }
@@ -68,7 +68,7 @@ fn slid(
 ///
 /// # Errors
 /// If the work is cancelled.
-fn improved_by_sliding(
+fn slide_while_better(
     mut best: MatchCandidate,
     spec: &TransitionSpec,
     progress: &dyn Progress,
@@ -84,11 +84,11 @@ fn improved_by_sliding(
         let places = slide_outlines(&best.matched, &best.mesh, options, progress);
         check_cancelled(progress)?;
         let Some(places) = places else { break };
-        let moved = best.matched.with_ring_places(&places);
-        let moved = MatchCandidate::new(moved, best.holes, &spec.options, progress).ok();
+        let slid = best.matched.with_ring_places(&places);
+        let slid = MatchCandidate::new(slid, best.holes, &spec.options, progress).ok();
         check_cancelled(progress)?;
-        match moved {
-            Some(moved) if moved.is_better_than(&best) => best = moved,
+        match slid {
+            Some(slid) if slid.is_better_than(&best) => best = slid,
             _ => break,
         }
     }

@@ -8,9 +8,9 @@ use std::path::Path;
 
 /// Returns the excess turning of the outlines over that of the ends, and the number of crossings
 /// over all steps.
-fn excess_and_crossings(film: &Arap) -> (f64, usize) {
-    let mut placer = film.placer();
-    let loops = film.mesh().boundary_loops();
+fn excess_and_crossings(arap: &Arap) -> (f64, usize) {
+    let mut placer = arap.placer();
+    let loops = arap.mesh().boundary_loops();
     let (mut turned, mut crossings) = (Vec::new(), 0);
     for step in 0..=32 {
         let t = f64::from(step) / 32.0;
@@ -18,7 +18,7 @@ fn excess_and_crossings(film: &Arap) -> (f64, usize) {
         let places = &placer.placement().in_frame;
         let ring = |ring: &Vec<u32>| ring.iter().map(|&v| places[v as usize]).collect();
         let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).collect();
-        turned.push([t, total_turning(&rings, film.mesh().diameter())]);
+        turned.push([t, total_turning(&rings, arap.mesh().diameter())]);
         crossings += if step % 32 == 0 {
             0
         } else {
@@ -38,12 +38,12 @@ fn outline_terms_reduce_turning_and_add_no_crossings() {
     for (source, target) in [("S", "e"), ("N", "z"), ("R", "k")] {
         let [source, target] = [source, target].map(|name| letter(&format!("glyph:{name}")));
         let transition = Transition::build(&TransitionSpec::new(source, target), &Silent).unwrap();
-        let film = transition.arap().unwrap();
+        let arap = transition.arap().unwrap();
         // The same mesh without the terms for outlines.
-        let plain = Arap::build(film.mesh(), film.options(), &Silent).unwrap();
-        let [film, plain] = [film, &plain].map(excess_and_crossings);
-        assert!(film.1 <= plain.1, "{film:?} {plain:?}");
-        gained.push(plain.0 - film.0);
+        let plain = Arap::build(arap.mesh(), arap.options(), &Silent).unwrap();
+        let [arap, plain] = [arap, &plain].map(excess_and_crossings);
+        assert!(arap.1 <= plain.1, "{arap:?} {plain:?}");
+        gained.push(plain.0 - arap.0);
     }
     assert!(gained.iter().all(|&by| by > -1e-9), "{gained:?}");
     assert!(gained.iter().sum::<f64>() > 0.05, "{gained:?}");

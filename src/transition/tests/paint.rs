@@ -17,32 +17,35 @@ fn square(x: f64, y: f64, size: f64, fill: Rgb) -> String {
     format!("<rect x='{x}' y='{y}' width='{size}' height='{size}' fill='{fill}'/>")
 }
 
-fn film(source: &Arc<Design>, target: &Arc<Design>) -> Transition {
+fn transition(source: &Arc<Design>, target: &Arc<Design>) -> Transition {
     let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
     Transition::build(&spec, &Silent).unwrap()
 }
 
-fn film_of(source: &str, target: &str) -> Transition {
-    film(&drawing(source), &drawing(target))
+fn transition_of(source: &str, target: &str) -> Transition {
+    transition(&drawing(source), &drawing(target))
 }
 
 /// Returns paint and area of the visible layers at `t`, the lowest first.
-fn visible_layers(film: &Transition, t: f64) -> Vec<(Paint, f64)> {
-    let figure = film.frame(t).figure();
+fn visible_layers(transition: &Transition, t: f64) -> Vec<(Paint, f64)> {
+    let figure = transition.frame(t).figure();
     let style = TransitionStyle::default();
-    let coats = figure.layers.iter().map(|coat| {
-        let rings = &figure.rings[coat.rings.clone()];
-        (style.paint_at(coat.paints, t), area(rings))
+    let layers = figure.layers.iter().map(|layer| {
+        let rings = &figure.rings[layer.rings.clone()];
+        (style.paint_at(layer.paints, t), area(rings))
     });
-    coats.filter(|(_, area)| *area > 1e-3).collect()
+    layers.filter(|(_, area)| *area > 1e-3).collect()
 }
 
-fn assert_same(found: &[(Paint, f64)], wanted: &[(Paint, f64)]) {
+fn assert_same(found: &[(Paint, f64)], expected: &[(Paint, f64)]) {
     let paints =
         |visible_layers: &[(Paint, f64)]| visible_layers.iter().map(|s| s.0).collect::<Vec<_>>();
-    assert_eq!(paints(found), paints(wanted));
-    for (found, wanted) in found.iter().zip(wanted) {
-        assert!((found.1 - wanted.1).abs() < 1e-3, "{found:?} {wanted:?}");
+    assert_eq!(paints(found), paints(expected));
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            (found.1 - expected.1).abs() < 1e-3,
+            "{found:?} {expected:?}"
+        );
     }
 }
 
@@ -57,11 +60,11 @@ fn the_ends_are_the_drawings_and_exchanging_them_reverses_the_motion() {
         "<circle cx='50' cy='50' r='45' fill='teal'/>{}",
         square(60.0, 60.0, 20.0, RED)
     ));
-    let (there, back) = (film(&a, &b), film(&b, &a));
+    let (there, back) = (transition(&a, &b), transition(&b, &a));
     for (design, t) in [(&a, 0.0), (&b, 1.0)] {
-        let coats = design.paint_layers.iter();
-        let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
-        assert_same(&visible_layers(&there, t), &wanted.collect::<Vec<_>>());
+        let layers = design.paint_layers.iter();
+        let expected = layers.map(|layer| (layer.paint.unwrap(), layer.regions.area()));
+        assert_same(&visible_layers(&there, t), &expected.collect::<Vec<_>>());
     }
     for k in 0..=8 {
         let t = f64::from(k) / 8.0;
@@ -80,12 +83,12 @@ fn paint_outweighs_position_when_parts_are_paired() {
         let [left, right] = [(40.0, left), (52.0, right)].map(|(x, c)| square(x, 45.0, 8.0, c));
         drawing(&format!("{frame}{left}{right}"))
     };
-    let crossed = film(&pair(RED, BLUE), &pair(BLUE, RED));
+    let crossed = transition(&pair(RED, BLUE), &pair(BLUE, RED));
     let Content::Solid(solid) = crossed.content() else {
         panic!("a film of solids");
     };
-    for coat in &solid.paint_layers.as_ref().unwrap().layers {
-        assert_eq!(coat.paints[0], coat.paints[1]);
+    for layer in &solid.paint_layers.as_ref().unwrap().layers {
+        assert_eq!(layer.paints[0], layer.paints[1]);
     }
     // Parts on different layers may cross.
     let frame = crossed.frame(0.4);
@@ -102,14 +105,14 @@ fn equal_names_pair_parts() {
     };
     let a = named(0.0, 0.0, RED, "cat") + &named(90.0, 90.0, BLUE, "dog");
     let b = named(0.0, 0.0, RED, "dog") + &named(90.0, 90.0, BLUE, "cat");
-    let film = film_of(&a, &b);
-    let pieces = &film.matched().unwrap().pieces;
+    let transition = transition_of(&a, &b);
+    let pieces = &transition.matched().unwrap().pieces;
     let moved = |k: usize| pieces[k].rings[0].source[0].distance(pieces[k].rings[0].target[0]);
     assert!((0..2).all(|k| moved(k) > 50.0));
     // Automatic names with numbers do not pair parts.
     let counted = |body: &str| body.replace("cat", "path7").replace("dog", "rect3");
-    let film = film_of(&counted(&a), &counted(&b));
-    let pieces = &film.matched().unwrap().pieces;
+    let transition = transition_of(&counted(&a), &counted(&b));
+    let pieces = &transition.matched().unwrap().pieces;
     assert_eq!(pieces[0].rings[0].source, pieces[0].rings[0].target);
 }
 
@@ -121,9 +124,9 @@ fn the_stacking_order_changes_in_the_middle() {
         let one = |fill: Rgb| square(50.0 - size(fill) / 2.0, 20.0, size(fill), fill);
         drawing(&(one(below) + &one(above)))
     };
-    let film = film(&over(RED, BLUE), &over(BLUE, RED));
+    let transition = transition(&over(RED, BLUE), &over(BLUE, RED));
     let order = |t: f64| {
-        let visible_layers = visible_layers(&film, t).into_iter();
+        let visible_layers = visible_layers(&transition, t).into_iter();
         visible_layers
             .map(|(paint, _)| paint.colour)
             .collect::<Vec<_>>()
@@ -148,10 +151,10 @@ fn boundary_paths_show_drawings_in_their_own_colours() {
     );
     let mut spec = TransitionSpec::new(a, b);
     spec.method = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
-    let film = Transition::build(&spec, &Silent).unwrap();
+    let transition = Transition::build(&spec, &Silent).unwrap();
     for t in [0.0, 0.5, 1.0] {
         assert_same(
-            &visible_layers(&film, t),
+            &visible_layers(&transition, t),
             &[(RED.into(), 1600.0), (BLUE.into(), 225.0)],
         );
     }
@@ -177,10 +180,10 @@ fn bars_keep_their_colours() {
         "[[0, 2], [2, 1], [1, 0]]",
     );
     let mut spec = TransitionSpec::new(source, target);
-    let film = Transition::build(&spec, &Silent).unwrap();
+    let transition = Transition::build(&spec, &Silent).unwrap();
     let (red, blue) = (Some(RED.into()), Some(BLUE.into()));
     let expected = [[red, red], [red, blue], [blue, blue]];
-    assert_eq!(film.frame(0.3).figure().bar_paints, expected);
+    assert_eq!(transition.frame(0.3).figure().bar_paints, expected);
     spec.options.paint = PaintRule::One;
     let plain = Transition::build(&spec, &Silent).unwrap();
     assert!(plain.frame(0.3).figure().bar_paints.is_empty());
@@ -189,23 +192,23 @@ fn bars_keep_their_colours() {
 #[test]
 fn unmatched_parts_fade_on_request() {
     let both = square(10.0, 10.0, 30.0, BLUE);
-    let film = film_of(&both, &format!("{both}{}", square(60.0, 60.0, 20.0, RED)));
+    let transition = transition_of(&both, &format!("{both}{}", square(60.0, 60.0, 20.0, RED)));
     let fading = PaintLayerOptions {
         fade: true,
         ..PaintLayerOptions::default()
     };
-    let faded = film.with_paint_layers(&fading);
-    let opacity = |film: &Transition, t: f64| {
-        let visible_layers = visible_layers(film, t);
+    let faded = transition.with_paint_layers(&fading);
+    let opacity = |transition: &Transition, t: f64| {
+        let visible_layers = visible_layers(transition, t);
         let red = visible_layers.iter().find(|(paint, _)| paint.colour == RED);
         red.map(|(paint, _)| paint.opacity)
     };
     for t in [0.8, 0.9, 1.0] {
-        assert_eq!(opacity(&film, t), Some(1.0));
+        assert_eq!(opacity(&transition, t), Some(1.0));
         assert!((opacity(&faded, t).unwrap() - t).abs() < 1e-9, "{t}");
     }
     let back = faded.with_paint_layers(&PaintLayerOptions::default());
-    assert_eq!(back.frame(0.9).figure(), film.frame(0.9).figure());
+    assert_eq!(back.frame(0.9).figure(), transition.frame(0.9).figure());
 }
 
 #[test]
@@ -214,14 +217,14 @@ fn the_stacking_order_changes_when_requested() {
         square(10.0, 10.0, 40.0, RED),
         square(30.0, 30.0, 40.0, BLUE),
     );
-    let film = film_of(&format!("{red}{blue}"), &format!("{blue}{red}"));
+    let transition = transition_of(&format!("{red}{blue}"), &format!("{blue}{red}"));
     let late = PaintLayerOptions {
         reorder_at: 0.8,
         ..PaintLayerOptions::default()
     };
-    let late = film.with_paint_layers(&late);
-    let lowest = |film: &Transition, t: f64| visible_layers(film, t)[0].0.colour;
-    assert_eq!([0.4, 0.6].map(|t| lowest(&film, t)), [RED, BLUE]);
+    let late = transition.with_paint_layers(&late);
+    let lowest = |transition: &Transition, t: f64| visible_layers(transition, t)[0].0.colour;
+    assert_eq!([0.4, 0.6].map(|t| lowest(&transition, t)), [RED, BLUE]);
     assert_eq!([0.6, 0.9].map(|t| lowest(&late, t)), [RED, BLUE]);
     let never = PaintLayerOptions {
         reorder_at: f64::NAN,
@@ -237,9 +240,9 @@ fn unmatched_layers_keep_their_stacking_position() {
     let hat = square(20.0, 0.0, 50.0, RED);
     let a = drawing(&face);
     let b = drawing(&format!("{face}{eye}{hat}"));
-    let film = film(&a, &b);
+    let transition = transition(&a, &b);
     let colours = |t: f64| {
-        let visible_layers = visible_layers(&film, t).into_iter();
+        let visible_layers = visible_layers(&transition, t).into_iter();
         visible_layers
             .map(|(paint, _)| paint.colour)
             .collect::<Vec<_>>()
@@ -247,7 +250,7 @@ fn unmatched_layers_keep_their_stacking_position() {
     assert_eq!(colours(0.0), [BLUE]);
     assert_eq!(colours(0.99), [BLUE, Rgb([255; 3]), RED]);
     // The eye appears in front of the face, in its final position.
-    let eye = film.frame(0.99).figure().rings[1].clone();
+    let eye = transition.frame(0.99).figure().rings[1].clone();
     assert!(eye.iter().all(|p| p.distance(DVec2::new(30.0, 70.0)) < 9.0));
 }
 
@@ -257,7 +260,7 @@ fn a_drawing_without_colours_takes_those_of_the_style() {
         svg("M10 10h80v80h-80z"),
         drawing(&square(20.0, 20.0, 40.0, RED)),
     );
-    let mixed = film(&plain, &painted);
+    let mixed = transition(&plain, &painted);
     let style = TransitionStyle::default();
     assert_eq!(visible_layers(&mixed, 0.0)[0].0, style.source.into());
     assert_eq!(visible_layers(&mixed, 1.0)[0].0, RED.into());
@@ -267,7 +270,7 @@ fn a_drawing_without_colours_takes_those_of_the_style() {
         Transition::build(&spec, &Silent).unwrap()
     };
     assert!(of(PaintRule::One).frame(0.5).figure().layers.is_empty());
-    assert_eq!(film(&plain, &plain).frame(0.5).figure().layers, []);
+    assert_eq!(transition(&plain, &plain).frame(0.5).figure().layers, []);
 }
 
 #[test]
@@ -281,31 +284,31 @@ fn each_paint_has_its_own_field() {
         "{}<circle cx='70' cy='70' r='10' fill='lime'/>",
         square(20.0, 20.0, 70.0, BLUE)
     ));
-    let film = |warp: WarpKind, rule: PaintRule| {
+    let transition = |warp: WarpKind, rule: PaintRule| {
         let mut spec = TransitionSpec::new(Arc::clone(&a), Arc::clone(&b));
         spec.method = TransitionMethod::new(warp, ContentKind::Field).unwrap();
         spec.options.paint = rule;
         Transition::build(&spec, &Silent).unwrap()
     };
     for warp in [WarpKind::None, WarpKind::Arap] {
-        let own = film(warp, PaintRule::Own);
+        let own = transition(warp, PaintRule::Own);
         for (design, t) in [(&a, 0.0), (&b, 1.0)] {
-            let coats = design.paint_layers.iter();
-            let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
-            let wanted: Vec<(Paint, f64)> = wanted.collect();
+            let layers = design.paint_layers.iter();
+            let expected = layers.map(|layer| (layer.paint.unwrap(), layer.regions.area()));
+            let expected: Vec<(Paint, f64)> = expected.collect();
             let found = visible_layers(&own, t);
-            assert_eq!(found.len(), wanted.len(), "{warp:?} {t}");
-            for (found, wanted) in found.iter().zip(&wanted) {
-                assert_eq!(found.0, wanted.0);
+            assert_eq!(found.len(), expected.len(), "{warp:?} {t}");
+            for (found, expected) in found.iter().zip(&expected) {
+                assert_eq!(found.0, expected.0);
                 assert!(
-                    (found.1 / wanted.1 - 1.0).abs() < 0.01,
-                    "{found:?} {wanted:?}"
+                    (found.1 / expected.1 - 1.0).abs() < 0.01,
+                    "{found:?} {expected:?}"
                 );
             }
         }
         // Red and lime turn into each other instead of overlapping.
         assert_eq!(visible_layers(&own, 0.1).len(), 2);
-        let one = film(warp, PaintRule::One);
+        let one = transition(warp, PaintRule::One);
         assert!(one.frame(0.5).figure().layers.is_empty());
     }
 }

@@ -29,13 +29,13 @@ fn squares(times: Vec<PartTime>) -> Transition {
 }
 
 /// Returns a point in the right one of the source's squares.
-fn point_in_right_square(film: &Transition) -> [f64; 2] {
-    let bounds = film.designs()[0].form.bounds();
+fn point_in_right_square(transition: &Transition) -> [f64; 2] {
+    let bounds = transition.designs()[0].form.bounds();
     (bounds.max - DVec2::splat(5.0)).into()
 }
 
-fn rings(film: &Transition, t: f64) -> Vec<Vec<DVec2>> {
-    film.frame(t).figure().rings
+fn rings(transition: &Transition, t: f64) -> Vec<Vec<DVec2>> {
+    transition.frame(t).figure().rings
 }
 
 #[test]
@@ -101,8 +101,8 @@ fn a_part_that_splits_waits_with_all_its_pieces() {
     let of_one = plain.with_part_times(&[late(Side::Source, middle.into())]);
     let of_two = plain.designs()[1].form.bounds().min + DVec2::splat(5.0);
     let of_half = plain.with_part_times(&[late(Side::Target, of_two.into())]);
-    let waiting = |film: &Transition| {
-        let frame = film.frame(0.3);
+    let waiting = |transition: &Transition| {
+        let frame = transition.frame(0.3);
         let placement = frame.placement();
         let pairs = placement.in_frame.iter().zip(&placement.in_source);
         pairs.filter(|(p, q)| p == q).count()
@@ -153,7 +153,7 @@ fn an_appearing_part_and_its_hole_wait() {
     assert!(solid.part_clocks.is_some());
     for t in [0.6, 0.8, 1.0] {
         let own = late(Side::Target, [0.0; 2]).clock().part_time(t);
-        let area = |film: &Transition, t: f64| area(&rings(film, t));
+        let area = |transition: &Transition, t: f64| area(&rings(transition, t));
         let gap = area(&timed, t) - area(&plain, own);
         assert!(gap.abs() < 1e-9, "{t}: {gap}");
     }
@@ -183,7 +183,7 @@ fn other_methods_note_that_all_parts_move_together() {
     let mut spec = TransitionSpec::new(Arc::clone(&source), source);
     spec.method = TransitionMethod::FIELD_BLEND;
     spec.options.parts = vec![late(Side::Source, [0.0; 2])];
-    let film = Transition::build(&spec, &Silent).unwrap();
-    assert_eq!(film.notes(), [TransitionNote::PartTimesIgnored]);
-    assert!(film.with_part_times(&[]).notes().is_empty());
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    assert_eq!(transition.notes(), [TransitionNote::PartTimesIgnored]);
+    assert!(transition.with_part_times(&[]).notes().is_empty());
 }

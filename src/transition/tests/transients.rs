@@ -28,11 +28,11 @@ fn unmatched_holes_shrink_in_place() {
     spec.options.matching.holes = HoleRule::Transient;
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
-    for (t, wanted) in [(0.0, -200.0), (2.0 / 3.0, -50.0)] {
+    for (t, expected) in [(0.0, -200.0), (2.0 / 3.0, -50.0)] {
         frame.seek(t);
         let areas = sorted(&frame.figure().rings);
         assert_eq!(areas.len(), 6);
-        assert!((areas[0] - wanted).abs() < 1e-9, "{t}: {areas:?}");
+        assert!((areas[0] - expected).abs() < 1e-9, "{t}: {areas:?}");
         assert!((areas[5] - 5400.0).abs() < 1e-9);
     }
     frame.seek(1.0);
@@ -88,14 +88,14 @@ fn a_hole_makes_way_for_one_inside_it() {
         spec.options.matching.holes = HoleRule::Transient;
         let transition = Transition::build(&spec, &Silent).unwrap();
         let mut frame = transition.frame(0.0);
-        let (mut crossings, mut most) = (0, 0);
+        let (mut crossings, mut max_ring_count) = (0, 0);
         for step in 0..=512 {
             frame.seek(f64::from(step) / 512.0);
             let rings = &frame.figure().rings;
             crossings += count_crossings(rings);
-            most = most.max(rings.len());
+            max_ring_count = max_ring_count.max(rings.len());
         }
-        assert_eq!((crossings, most), (0, 2), "one after the other");
+        assert_eq!((crossings, max_ring_count), (0, 2), "one after the other");
     }
 }
 
@@ -107,7 +107,8 @@ fn a_draft_has_the_same_ends_as_the_best_match() {
     assert!(draft.draft(&Silent).is_none(), "a draft of a draft");
     let [best, draft] = [&spec, &draft].map(|spec| Transition::build(spec, &Silent).unwrap());
     for t in [0.0, 1.0] {
-        let [best, draft] = [&best, &draft].map(|made| area(&made.frame(t).figure().rings));
+        let [best, draft] =
+            [&best, &draft].map(|transition| area(&transition.frame(t).figure().rings));
         assert!((best - draft).abs() < 1e-9 * best, "{best} {draft}");
     }
     let given = TransitionSpec::new(design(SQUARE), design(SQUARE));
@@ -127,10 +128,10 @@ fn designs_that_would_match_better_mirrored_give_a_note() {
         let transition = Transition::build(&spec, &Silent).unwrap();
         transition.notes().to_vec()
     };
-    let said = notes(spring, over);
+    let mirror_notes = notes(spring, over);
     assert!(
-        matches!(said[..], [TransitionNote::Mirrored { .. }]),
-        "{said:?}"
+        matches!(mirror_notes[..], [TransitionNote::Mirrored { .. }]),
+        "{mirror_notes:?}"
     );
     let star = "M50 5L60 40H95L67 60 78 95 50 73 22 95 33 60 5 40H40z";
     for (source, target) in [(spring, spring), (spring, star)] {
@@ -152,11 +153,11 @@ fn a_ring_around_other_parts_appears_as_a_line_that_thickens() {
     let badge = svg(
         "M32 30h12v40h-12z M56 30h12v40h-12z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76",
     );
-    let film = |source: &Arc<Design>, target: &Arc<Design>| {
+    let build = |source: &Arc<Design>, target: &Arc<Design>| {
         let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
         Transition::build(&spec, &Silent).unwrap()
     };
-    let (there, back) = (film(&bars, &badge), film(&badge, &bars));
+    let (there, back) = (build(&bars, &badge), build(&badge, &bars));
     assert_eq!([swelling(&there), swelling(&back)], [1, 1]);
     let mut before = 0.0;
     for k in 0..=64 {
@@ -182,8 +183,8 @@ fn a_ring_around_other_parts_appears_as_a_line_that_thickens() {
         before = now;
     }
     let drawn = badge.outline(0.0).unwrap();
-    let wanted: f64 = drawn.rings().map(|ring| ring.signed_area()).sum();
-    assert!((before - wanted).abs() < 1e-6 * wanted);
+    let expected: f64 = drawn.rings().map(|ring| ring.signed_area()).sum();
+    assert!((before - expected).abs() < 1e-6 * expected);
 }
 
 #[test]
@@ -198,10 +199,10 @@ fn designs_without_any_matched_part_are_interpolated() {
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
     // The absent square is a seed shape of negligible area.
-    for (t, wanted) in [(0.0, 900.0), (1.0, 1600.0)] {
+    for (t, expected) in [(0.0, 900.0), (1.0, 1600.0)] {
         frame.seek(t);
         let found = area(&frame.figure().rings);
-        assert!((found - wanted).abs() < 1e-3, "{t}: {found}");
+        assert!((found - expected).abs() < 1e-3, "{t}: {found}");
     }
     frame.seek(0.5);
     assert!(area(&frame.figure().rings).is_finite());
@@ -239,14 +240,14 @@ fn absent_parts_are_not_drawn() {
         svg("M10 10h40v40h-40z"),
         svg("M10 10h40v40h-40z M60 60h20v20h-20z"),
     );
-    for (source, target, wanted) in [(&one, &two, [1, 2]), (&two, &one, [2, 1])] {
+    for (source, target, expected) in [(&one, &two, [1, 2]), (&two, &one, [2, 1])] {
         let mut spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
         spec.options.matching.parts = PartRule::Transient;
         let transition = Transition::build(&spec, &Silent).unwrap();
         let rings = |t: f64| transition.frame(t).figure().rings.len();
-        assert_eq!([rings(0.0), rings(1.0)], wanted);
+        assert_eq!([rings(0.0), rings(1.0)], expected);
         // Nothing appears in extrapolation.
-        assert_eq!([rings(-0.2), rings(1.2)], wanted);
+        assert_eq!([rings(-0.2), rings(1.2)], expected);
         assert_eq!(rings(0.5), 2);
     }
 }

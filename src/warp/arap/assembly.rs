@@ -97,7 +97,7 @@ impl LocalMaps {
     pub(super) fn new(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        lives: &[Option<TimeWindow>],
+        time_windows: &[Option<TimeWindow>],
     ) -> Result<Self, ArapError> {
         let areas = MeshAreas::of(mesh);
         let maps: Vec<DMat2> = mesh.faces().iter().map(|f| local_map(mesh, *f)).collect();
@@ -111,7 +111,7 @@ impl LocalMaps {
             &mut face_angles,
             &areas.face_masses(),
             &part_of,
-            best_fit_angle(mesh, &permanent_masses(mesh, &masses, lives)),
+            best_fit_angle(mesh, &permanent_masses(mesh, &masses, time_windows)),
             &options.extra_turns,
         );
         let faces = (0..maps.len())
@@ -347,12 +347,12 @@ impl MeshAreas {
 fn permanent_masses(
     mesh: &CompatibleMesh,
     masses: &[f64],
-    lives: &[Option<TimeWindow>],
+    time_windows: &[Option<TimeWindow>],
 ) -> Vec<f64> {
-    if lives.iter().all(Option::is_none) {
+    if time_windows.iter().all(Option::is_none) {
         return masses.to_vec();
     }
-    let is_point = |part: u32| lives.get(part as usize).is_some_and(Option::is_some);
+    let is_point = |part: u32| time_windows.get(part as usize).is_some_and(Option::is_some);
     let parts = mesh.components();
     let vertices = masses.iter().zip(&parts);
     let permanent: Vec<f64> = vertices

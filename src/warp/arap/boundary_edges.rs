@@ -31,12 +31,12 @@ impl LocalMaps {
     pub(super) fn with_boundary_edges(
         mut self,
         mesh: &CompatibleMesh,
-        lives: &[Option<TimeWindow>],
+        time_windows: &[Option<TimeWindow>],
         options: &ArapOptions,
         constraints: OutlineConstraints,
     ) -> Self {
         if constraints.for_homotopy(options.homotopy) == OutlineConstraints::On {
-            let edges = edges(mesh, &self.faces, lives, options.symmetric);
+            let edges = edges(mesh, &self.faces, time_windows, options.symmetric);
             self.elements.extend(edges);
         }
         self
@@ -47,7 +47,7 @@ impl LocalMaps {
 fn edges(
     mesh: &CompatibleMesh,
     faces: &[FaceMap],
-    lives: &[Option<TimeWindow>],
+    time_windows: &[Option<TimeWindow>],
     symmetric: bool,
 ) -> Vec<ElementMap> {
     let connectivity = mesh.connectivity();
@@ -56,7 +56,7 @@ fn edges(
     let mut edges = Vec::new();
     for (face, &corners) in mesh.faces().iter().enumerate() {
         let part = parts[corners[0] as usize] as usize;
-        if lives.get(part).is_some_and(Option::is_some) {
+        if time_windows.get(part).is_some_and(Option::is_some) {
             continue;
         }
         let outer = (0..3).filter(|&k| connectivity.neighbour(face, k).is_none());
@@ -148,21 +148,21 @@ mod tests {
             subdivisions,
             ..ArapOptions::default()
         };
-        Arap::of_outlines(mesh, &options, &[], &Silent).expect("a film")
+        Arap::of_outlines(mesh, &options, &[], &Silent).expect("a solution")
     }
 
-    fn positions(film: &Arap, t: f64) -> Vec<DVec2> {
-        let mut placer = film.placer();
+    fn positions(arap: &Arap, t: f64) -> Vec<DVec2> {
+        let mut placer = arap.placer();
         placer.place(t);
         placer.placement().in_frame.clone()
     }
 
     /// Returns the overshoot of the outline's total turning.
-    fn overshoot(film: &Arap) -> f64 {
-        let outlines = film.mesh().boundary_loops();
+    fn overshoot(arap: &Arap) -> f64 {
+        let outlines = arap.mesh().boundary_loops();
         let samples = (0..=16).map(|k| {
             let t = f64::from(k) / 16.0;
-            let positions = positions(film, t);
+            let positions = positions(arap, t);
             let ring = |ring: &Vec<u32>| ring.iter().map(|&v| positions[v as usize]).collect();
             let rings: Vec<Vec<DVec2>> = outlines.iter().map(ring).collect();
             [t, total_turning(&rings, 2.4)]
@@ -193,7 +193,7 @@ mod tests {
         let target = [still, slid].concat();
         let mesh = CompatibleMesh::new(mesh.faces().to_vec(), round(0.0), target, vec![]);
         let mesh = mesh.expect("a mesh");
-        let plain = Arap::build(&mesh, &ArapOptions::default(), &Silent).expect("a film");
+        let plain = Arap::build(&mesh, &ArapOptions::default(), &Silent).expect("a solution");
         let [with_edges, plain] = [&with_edges(&mesh, 0), &plain].map(overshoot);
         assert!(with_edges < 0.5 * plain, "{with_edges} {plain}");
     }
@@ -201,12 +201,12 @@ mod tests {
     #[test]
     fn the_ends_are_exact_and_exchanged_designs_reverse_the_motion() {
         let mesh = waves(60);
-        let film = with_edges(&mesh, 0);
-        let back = film.swapped(&Silent).expect("a film");
-        assert_eq!(positions(&film, 0.0), mesh.source());
-        assert_eq!(positions(&film, 1.0), mesh.target());
+        let arap = with_edges(&mesh, 0);
+        let back = arap.swapped(&Silent).expect("a solution");
+        assert_eq!(positions(&arap, 0.0), mesh.source());
+        assert_eq!(positions(&arap, 1.0), mesh.target());
         for t in [-0.2, 0.1, 0.5, 0.9] {
-            let [forward, backward] = [positions(&film, t), positions(&back, 1.0 - t)];
+            let [forward, backward] = [positions(&arap, t), positions(&back, 1.0 - t)];
             for (p, q) in forward.iter().zip(&backward) {
                 assert!(p.distance(*q) < 1e-12, "{p} {q} at {t}");
             }
@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn the_motion_is_independent_of_scale_and_nearly_of_subdivision() {
         let mesh = waves(60);
-        let film = with_edges(&mesh, 0);
+        let arap = with_edges(&mesh, 0);
         let enlarged = |at: &[DVec2]| at.iter().map(|&p| p * 1000.0).collect();
         let large = CompatibleMesh::new(
             mesh.faces().to_vec(),
@@ -230,11 +230,11 @@ mod tests {
             vec![],
         );
         let [original, scaled, divided] = [
-            &film,
+            &arap,
             &with_edges(&large.expect("a mesh"), 0),
             &with_edges(&mesh, 2),
         ]
-        .map(|film| positions(film, 0.4));
+        .map(|arap| positions(arap, 0.4));
         for (v, p) in original.iter().enumerate() {
             assert!(p.distance(scaled[v] / 1000.0) < 1e-9);
             // The tolerance is a fiftieth of the wave's height.

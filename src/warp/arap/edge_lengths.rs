@@ -100,9 +100,10 @@ mod tests {
     #[test]
     fn a_limb_that_grows_out_of_a_side_does_not_open_like_a_fan() {
         let mesh = growing_limb();
-        let film = Arap::of_outlines(&mesh, &ArapOptions::default(), &[], &Silent).expect("a film");
+        let arap =
+            Arap::of_outlines(&mesh, &ArapOptions::default(), &[], &Silent).expect("a solution");
         let outline = mesh.boundary_loops().remove(0);
-        let mut placer = film.placer();
+        let mut placer = arap.placer();
         let measured = (0..=16).map(|k| {
             let t = f64::from(k) / 16.0;
             placer.place(t);

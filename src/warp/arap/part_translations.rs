@@ -17,7 +17,7 @@ use std::ops::Range;
 pub(super) struct PartTranslations {
     parts: Vec<PartPath>,
     /// Time windows of the parts that are points in one of the designs.
-    lives: Vec<Option<TimeWindow>>,
+    time_windows: Vec<Option<TimeWindow>>,
     /// Centroid of each part in source and target.
     centres: Vec<[DVec2; 2]>,
     /// Centroid of the design in source and target.
@@ -67,7 +67,7 @@ impl PartTranslations {
         maps: &LocalMaps,
         place: &[u32],
         path: ArapPath,
-        lives: Vec<Option<TimeWindow>>,
+        time_windows: Vec<Option<TimeWindow>>,
     ) -> Self {
         let component = mesh.components();
         let count = component.iter().max().map_or(0, |&last| last as usize + 1);
@@ -90,7 +90,7 @@ impl PartTranslations {
             ArapPath::Anchor(v) => Some((place[v as usize], component[v as usize])),
         };
         // Transient parts must not affect the position of the whole.
-        let is_permanent = |part: usize| lives.get(part).is_none_or(Option::is_none);
+        let is_permanent = |part: usize| time_windows.get(part).is_none_or(Option::is_none);
         if (0..count).any(is_permanent) {
             let transient = (0..count).filter(|&part| !is_permanent(part));
             transient.for_each(|part| mass[part] = 0.0);
@@ -99,7 +99,7 @@ impl PartTranslations {
             parts: PartPath::all(&centres, &mass, maps.whole_angle),
             centroid: centroid(centres.iter().copied(), &mass),
             centres,
-            lives,
+            time_windows,
             vertices: PartRun::all(&component),
             unknowns: PartRun::all(&part_of_unknown),
             shares,
@@ -137,12 +137,12 @@ impl PartTranslations {
 
     /// Returns the time window of a part that is a point in one of the designs.
     pub(super) fn time_window(&self, part: usize) -> Option<TimeWindow> {
-        self.lives.get(part).copied().flatten()
+        self.time_windows.get(part).copied().flatten()
     }
 
     /// Returns the time windows of all parts; the list may be shorter than the number of parts.
     pub(super) fn time_windows(&self) -> &[Option<TimeWindow>] {
-        &self.lives
+        &self.time_windows
     }
 
     /// Returns the position at t of a part that moves with the design.

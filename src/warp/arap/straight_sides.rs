@@ -70,7 +70,7 @@ fn add_constraints(mesh: &CompatibleMesh, diagonal: &[f64], matrix: &mut Symmetr
         vertex,
         ends: [a, b],
         share,
-    } in on_sides(mesh)
+    } in vertices_on_sides(mesh)
     {
         let stiffness = STIFFNESS * diagonal[vertex as usize];
         let terms = [(vertex, 1.0), (a, share - 1.0), (b, -share)];
@@ -83,7 +83,7 @@ fn add_constraints(mesh: &CompatibleMesh, diagonal: &[f64], matrix: &mut Symmetr
 }
 
 /// Returns all vertices inside straight sides of the boundary.
-fn on_sides(mesh: &CompatibleMesh) -> Vec<SideVertex> {
+fn vertices_on_sides(mesh: &CompatibleMesh) -> Vec<SideVertex> {
     let mut side_vertices = Vec::new();
     for outline in mesh.boundary_loops() {
         let n = outline.len();
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn the_inner_vertices_of_a_straight_side_are_detected() {
-        let side_vertices = on_sides(&bent());
+        let side_vertices = vertices_on_sides(&bent());
         let vertices: Vec<u32> = side_vertices.iter().map(|side| side.vertex).collect();
         assert_eq!(vertices, [4, 5, 6], "{side_vertices:?}");
     }
@@ -170,8 +170,8 @@ mod tests {
     #[test]
     fn a_straight_side_stays_straight() {
         let (mesh, options) = (bent(), ArapOptions::default());
-        let free = Arap::build(&mesh, &options, &Silent).expect("a film");
-        let constrained = Arap::of_outlines(&mesh, &options, &[], &Silent).expect("a film");
+        let free = Arap::build(&mesh, &options, &Silent).expect("a solution");
+        let constrained = Arap::of_outlines(&mesh, &options, &[], &Silent).expect("a solution");
         let [free, constrained] = [&free, &constrained].map(deviation);
         assert!(constrained < 1e-3, "{constrained}");
         assert!(free > 5.0 * constrained, "{free} free");

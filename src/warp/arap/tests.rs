@@ -64,7 +64,7 @@ fn parts(target_of: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
 }
 
 /// Returns the function from t to the vertex positions.
-fn film(mesh: &CompatibleMesh, options: &ArapOptions) -> impl FnMut(f64) -> Vec<DVec2> + use<> {
+fn motion(mesh: &CompatibleMesh, options: &ArapOptions) -> impl FnMut(f64) -> Vec<DVec2> + use<> {
     let mut placer = Arap::build(mesh, options, &Silent).unwrap().placer();
     move |t| {
         placer.place(t);
@@ -111,7 +111,7 @@ fn ends_are_exact_bit_for_bit() {
         for mut options in all_options() {
             for path in [ArapPath::Centroid, ArapPath::Pole, ArapPath::Anchor(3)] {
                 options.path = path;
-                let mut at = film(&mesh, &options);
+                let mut at = motion(&mesh, &options);
                 at(0.4); // An earlier frame must have no effect on later ones.
                 assert_eq!(at(0.0), mesh.source(), "{options:?}");
                 assert_eq!(at(1.0), mesh.target(), "{options:?}");
@@ -126,7 +126,7 @@ fn a_rigid_target_of_several_parts_moves_rigidly() {
     let rigid = |t: f64| move |p: DVec2| DMat2::from_angle(t * angle) * p + offset * t;
     let mesh = parts(rigid(1.0));
     for homotopy in [Homotopy::Polar, Homotopy::Exponential, Homotopy::Bounded] {
-        let mut at = film(&mesh, &with(homotopy));
+        let mut at = motion(&mesh, &with(homotopy));
         for t in TIMES {
             let positions = at(t);
             for (i, p) in mesh.source().iter().enumerate() {
@@ -151,7 +151,7 @@ fn equal_designs_do_not_move() {
     let (faces, points) = strip(5, 4.0, 0.7);
     let mesh = CompatibleMesh::new(faces, points.clone(), points.clone(), vec![]).unwrap();
     for options in all_options() {
-        let mut at = film(&mesh, &options);
+        let mut at = motion(&mesh, &options);
         for t in TIMES {
             assert!(largest_distance(&at(t), &points) < 1e-13, "{options:?}");
         }
@@ -173,8 +173,8 @@ fn exchanged_designs_reverse_the_motion_under_the_symmetric_energy() {
             if options.homotopy == Homotopy::LinearAfterPolar {
                 continue; // This homotopy is not reversible.
             }
-            let mut forward = film(&mesh, &options);
-            let mut backward = film(&mesh.swapped(), &options);
+            let mut forward = motion(&mesh, &options);
+            let mut backward = motion(&mesh.swapped(), &options);
             for t in TIMES {
                 let error = largest_distance(&forward(t), &backward(1.0 - t)) / mesh.diameter();
                 assert!(error < 1e-12, "{options:?} at {t}: {error:e}");
@@ -190,7 +190,7 @@ fn the_one_sided_energy_is_not_symmetric() {
         ..ArapOptions::default()
     };
     let mesh = bent_pair();
-    let (mut forward, mut backward) = (film(&mesh, &options), film(&mesh.swapped(), &options));
+    let (mut forward, mut backward) = (motion(&mesh, &options), motion(&mesh.swapped(), &options));
     let error = largest_distance(&forward(0.5), &backward(0.5)) / mesh.diameter();
     assert!(error > 1e-6, "the symmetry test could not fail: {error:e}");
 }
@@ -239,7 +239,7 @@ fn the_symmetric_solution_minimises_the_sum_of_both_energies() {
             0.5 * one_sided_energy(&mesh, &angles, t, v, homotopy)
                 + 0.5 * one_sided_energy(&back, &reversed, 1.0 - t, v, homotopy)
         };
-        let mut at = film(&mesh, &with(homotopy));
+        let mut at = motion(&mesh, &with(homotopy));
         for t in [0.2, 0.5, 0.9] {
             let v = at(t);
             let minimum = two_sided(t, &v);
@@ -287,7 +287,7 @@ fn a_spiral_uncoils_by_three_turns_without_a_fold() {
             .iter()
             .fold((f64::MAX, f64::MIN), |(a, b), &x| (a.min(x), b.max(x)));
         assert!(range.1 - range.0 > 0.95 * 3.0 * TAU, "{range:?}");
-        let mut at = film(&mesh, &with(homotopy));
+        let mut at = motion(&mesh, &with(homotopy));
         for step in 0..=64 {
             let v = at(f64::from(step) / 64.0);
             for face in mesh.faces().iter() {
@@ -334,7 +334,7 @@ fn extra_turns_add_rotation_and_keep_the_ends() {
         extra_turns: vec![1],
         ..ArapOptions::default()
     };
-    let mut at = film(&mesh, &options);
+    let mut at = motion(&mesh, &options);
     assert_eq!(at(1.0), mesh.target());
     let v = at(0.5);
     let angle = (v[2] - v[0]).to_angle();
@@ -349,7 +349,7 @@ fn extra_turns_add_rotation_and_keep_the_ends() {
 #[test]
 fn parts_rotated_by_half_a_turn_do_not_collide() {
     let mesh = parts(|p| DMat2::from_angle(PI - 1e-9) * p);
-    let mut at = film(&mesh, &ArapOptions::default());
+    let mut at = motion(&mesh, &ArapOptions::default());
     let v = at(0.5);
     let apart = v[0].distance(v[8]) - mesh.source()[0].distance(mesh.source()[8]);
     assert!(apart.abs() < 1e-6);
@@ -362,7 +362,7 @@ fn an_anchor_moves_on_a_straight_line() {
         path: ArapPath::Anchor(5),
         ..ArapOptions::default()
     };
-    let mut at = film(&mesh, &options);
+    let mut at = motion(&mesh, &options);
     for t in TIMES {
         let straight = mesh.source()[5] * (1.0 - t) + mesh.target()[5] * t;
         assert!(at(t)[5].distance(straight) < 1e-12);
@@ -390,7 +390,7 @@ fn the_pole_path_reproduces_a_rotation_about_a_fixed_point() {
             path: ArapPath::Pole,
             ..ArapOptions::default()
         };
-        let mut at = film(&mesh, &options);
+        let mut at = motion(&mesh, &options);
         for t in TIMES {
             let expected: Vec<_> = mesh.source().iter().map(|&p| rigid(t)(p)).collect();
             let error = largest_distance(&at(t), &expected) / mesh.diameter();
@@ -404,7 +404,7 @@ fn the_pole_path_reproduces_a_rotation_about_a_fixed_point() {
             path,
             ..ArapOptions::default()
         };
-        film(&mesh, &options)
+        motion(&mesh, &options)
     });
     assert_eq!(straight(0.3), about(0.3));
 }
@@ -417,7 +417,7 @@ fn the_centroid_of_fixed_masses_moves_on_a_straight_line() {
         .masses;
     let centroid = |v: &[DVec2]| -> DVec2 { v.iter().zip(&masses).map(|(&p, &m)| p * m).sum() };
     let (from, to) = (centroid(mesh.source()), centroid(mesh.target()));
-    let mut at = film(&mesh, &ArapOptions::default());
+    let mut at = motion(&mesh, &ArapOptions::default());
     for t in TIMES {
         assert!(centroid(&at(t)).distance(from * (1.0 - t) + to * t) < 1e-12);
     }
@@ -437,7 +437,7 @@ fn vectorised_homotopies_equal_the_scalar_ones() {
     let edges = |v: &[DVec2]| DMat2::from_cols(v[1] - v[0], v[2] - v[0]);
     let map = PolarDecomposition::of(edges(&target) * edges(&source).inverse());
     for homotopy in Homotopy::ALL {
-        let mut at = film(&mesh, &with(homotopy));
+        let mut at = motion(&mesh, &with(homotopy));
         for t in TIMES {
             let jacobian = edges(&at(t)) * edges(&source).inverse();
             assert!(
@@ -468,7 +468,7 @@ fn weights_are_validated() {
             subdivisions: 1,
             ..ArapOptions::default()
         };
-        film(&mesh, &options)(0.5)
+        motion(&mesh, &options)(0.5)
     };
     let difference = largest_distance(
         &uniform(FaceWeights::PerFace(vec![7.0; 24])),
@@ -489,7 +489,7 @@ fn a_heavier_face_follows_its_local_map_more_closely() {
         };
         let arap = Arap::build(&mesh, &options, &Silent).unwrap();
         let expected = Homotopy::Polar.at(&arap.0.maps.faces[face].map, 0.5);
-        let v = film(&mesh, &options)(0.5);
+        let v = motion(&mesh, &options)(0.5);
         let edges = |points: &[DVec2]| {
             let [a, b, c] = mesh.faces()[face].map(|i| points[i as usize]);
             DMat2::from_cols(b - a, c - a)
@@ -549,8 +549,8 @@ fn a_transient_part_waits_and_moves_with_the_whole() {
         from: 0.75,
         ..TimeWindow::whole(Side::Target)
     };
-    let lives = [None, Some(late)];
-    let arap = Arap::of_outlines(&mesh, &ArapOptions::default(), &lives, &Silent).unwrap();
+    let time_windows = [None, Some(late)];
+    let arap = Arap::of_outlines(&mesh, &ArapOptions::default(), &time_windows, &Silent).unwrap();
     let back = arap.swapped(&Silent).unwrap();
     let at = |arap: &Arap, t: f64| {
         let mut placer = arap.placer();

@@ -19,7 +19,7 @@ pub(super) struct ControlGrid {
     /// Number of each block, from 1; 0 for an empty block.
     directory: Vec<u32>,
     /// Indices of the nonzero entries of the directory.
-    made: Vec<usize>,
+    occupied: Vec<usize>,
     blocks: Vec<ControlBlock>,
 }
 
@@ -44,7 +44,7 @@ impl ControlGrid {
     /// Resizes the grid to `[columns, rows]` control points and sets all of them to zero.
     pub(super) fn reset(&mut self, size: [usize; 2]) {
         // Clears only the used entries, because the directory of a fine layer is long.
-        for entry in self.made.drain(..) {
+        for entry in self.occupied.drain(..) {
             self.directory[entry] = 0;
         }
         self.blocks.clear();
@@ -72,7 +72,7 @@ impl ControlGrid {
         let entry = row * self.columns + column;
         if self.directory[entry] == 0 {
             self.blocks.push(ControlBlock::EMPTY);
-            self.made.push(entry);
+            self.occupied.push(entry);
             self.directory[entry] = self.blocks.len() as u32;
         }
         &mut self.blocks[self.directory[entry] as usize - 1]

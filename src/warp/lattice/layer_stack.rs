@@ -8,7 +8,7 @@ use crate::geometry::{Bounds, DVec2};
 ///
 /// Cited: below 1 / 2.046392675 = 0.4886 a layer is injective (Choi, Lee, "Injectivity conditions
 /// of 2D and 3D uniform cubic B-spline functions", 2000).
-const BOUND: f64 = 0.48;
+const MAX_DISPLACEMENT: f64 = 0.48;
 
 /// Maximum number of composed layers in the first level, in each other requested level, and in
 /// each added level.
@@ -131,7 +131,7 @@ impl LayerStack {
             (true, _) => MAX_LAYERS[2],
         };
         let bound = if self.is_composed {
-            BOUND * spacing
+            MAX_DISPLACEMENT * spacing
         } else {
             f64::INFINITY
         };

@@ -4,7 +4,7 @@
 //! digits.
 //!
 //! Guaranteed: weights and all intermediate results are positive and finite for points within
-//! [`FARTHEST`] and a between [`LEAST_A`] and [`LARGEST_A`].
+//! [`MAX_SCALED_COORDINATE`] and a between [`MIN_A`] and [`MAX_A`].
 
 use super::line::{AffineFunction, FieldLine};
 use super::scaled_plane::ScaledPlane;
@@ -26,17 +26,17 @@ const BLOCK: usize = 128;
 const CELLS: usize = BLOCK / GROUP / 4;
 
 /// Limit of scaled point coordinates (tolerance: weights must not underflow).
-const FARTHEST: f64 = 1e36;
+const MAX_SCALED_COORDINATE: f64 = 1e36;
 
 /// Smallest a in scaled units (tolerance: far below the resolution of the coordinates).
-pub(super) const LEAST_A: f64 = 1e-30;
+pub(super) const MIN_A: f64 = 1e-30;
 
 /// Largest a in scaled units (tolerance: beyond it all distances are negligible).
-pub(super) const LARGEST_A: f64 = 1e30;
+pub(super) const MAX_A: f64 = 1e30;
 
 /// Lower bound of Σ w, which replaces the zero sum of an empty set of lines (derived: every
 /// other sum is larger).
-const LEAST_WEIGHT: f64 = 1e-300;
+const MIN_WEIGHT: f64 = 1e-300;
 
 /// One number per point of a block.
 type PlaceLanes = [f64; BLOCK];
@@ -166,7 +166,7 @@ struct PlaceBlock {
     /// padding are not used.
     places: [PlaceLanes; 2],
     /// Displacements by design and axis.
-    moved: [[PlaceLanes; 2]; 2],
+    mapped: [[PlaceLanes; 2]; 2],
 }
 
 impl PlaceBlock {
@@ -176,7 +176,7 @@ impl PlaceBlock {
         let last = places.len() - 1;
         let mut block = Self {
             places: [[0.0; BLOCK]; 2],
-            moved: [[[0.0; BLOCK]; 2]; 2],
+            mapped: [[[0.0; BLOCK]; 2]; 2],
         };
         let [x, y] = &mut block.places;
         for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
@@ -190,8 +190,8 @@ impl PlaceBlock {
     fn cell<S: Simd>(&self, simd: S, at: usize, plane: &ScaledPlane) -> LaneCell<S> {
         let [x, y] = self.places.each_ref().map(|row| groups::<S>(row)[at]);
         LaneCell {
-            x: scaled(simd, x, plane.per_unit, plane.centre.x),
-            y: scaled(simd, y, plane.per_unit, plane.centre.y),
+            x: scale_group(simd, x, plane.per_unit, plane.centre.x),
+            y: scale_group(simd, y, plane.per_unit, plane.centre.y),
             ..LaneCell::new(simd)
         }
     }
@@ -200,13 +200,13 @@ impl PlaceBlock {
     #[inline(always)]
     fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &LaneCell<S>, unit: f64) {
         // Without lines all sums are 0, and 0 / 10⁻³⁰⁰ gives zero displacement.
-        let [one, unit, least] = [1.0, unit, LEAST_WEIGHT].map(|x| simd.splat_f64s(x));
+        let [one, unit, min_weight] = [1.0, unit, MIN_WEIGHT].map(|x| simd.splat_f64s(x));
         let mut factors = cell.weight;
         for factor in &mut factors {
-            *factor = simd.div_f64s(one, simd.max_f64s(*factor, least));
+            *factor = simd.div_f64s(one, simd.max_f64s(*factor, min_weight));
         }
-        let rows = self.moved.as_flattened_mut().iter_mut();
-        for (row, sums) in rows.zip(cell.moved.as_flattened()) {
+        let rows = self.mapped.as_flattened_mut().iter_mut();
+        for (row, sums) in rows.zip(cell.mapped.as_flattened()) {
             let out = groups_mut::<S>(row)[at].iter_mut();
             for (out, (&sum, &factor)) in out.zip(sums.iter().zip(&factors)) {
                 *out = simd.mul_f64s(simd.mul_f64s(sum, factor), unit);
@@ -217,7 +217,7 @@ impl PlaceBlock {
     /// Writes the displaced points into both designs.
     #[inline(always)]
     fn write(&self, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
-        for (design, [dx, dy]) in designs.into_iter().zip(&self.moved) {
+        for (design, [dx, dy]) in designs.into_iter().zip(&self.mapped) {
             for (lane, (out, &place)) in design.iter_mut().zip(places).enumerate() {
                 *out = place + DVec2::new(dx[lane], dy[lane]);
             }
@@ -268,7 +268,7 @@ struct LaneCell<S: Simd> {
     /// Σ w.
     weight: VectorGroup<S>,
     /// Σ w D by design and axis.
-    moved: [[VectorGroup<S>; 2]; 2],
+    mapped: [[VectorGroup<S>; 2]; 2],
 }
 
 impl<S: Simd> LaneCell<S> {
@@ -280,7 +280,7 @@ impl<S: Simd> LaneCell<S> {
             y: zero,
             q: zero,
             weight: zero,
-            moved: [[zero; 2]; 2],
+            mapped: [[zero; 2]; 2],
         }
     }
 
@@ -309,8 +309,8 @@ impl<S: Simd> LaneCell<S> {
         for (sum, &w) in self.weight.iter_mut().zip(&w) {
             *sum = simd.add_f64s(*sum, w);
         }
-        for (moved, carry) in self.moved.iter_mut().zip(&line.carries) {
-            for (sums, &carry) in moved.iter_mut().zip(carry) {
+        for (mapped, carry) in self.mapped.iter_mut().zip(&line.carries) {
+            for (sums, &carry) in mapped.iter_mut().zip(carry) {
                 let places = self.x.iter().zip(&self.y);
                 for ((sum, &w), (&x, &y)) in sums.iter_mut().zip(&w).zip(places) {
                     *sum = simd.mul_add_e_f64s(w, affine(simd, carry, x, y), *sum);
@@ -320,9 +320,9 @@ impl<S: Simd> LaneCell<S> {
     }
 }
 
-/// Converts coordinates to scaled units and clamps them to ±[`FARTHEST`].
+/// Converts coordinates to scaled units and clamps them to ±[`MAX_SCALED_COORDINATE`].
 #[inline(always)]
-fn scaled<S: Simd>(
+fn scale_group<S: Simd>(
     simd: S,
     mut group: VectorGroup<S>,
     per_unit: f64,
@@ -331,7 +331,7 @@ fn scaled<S: Simd>(
     let [per_unit, centre, farthest] = [
         simd.splat_f64s(per_unit),
         simd.splat_f64s(centre),
-        simd.splat_f64s(FARTHEST),
+        simd.splat_f64s(MAX_SCALED_COORDINATE),
     ];
     for value in &mut group {
         *value = simd.sub_f64s(simd.mul_f64s(*value, per_unit), centre);

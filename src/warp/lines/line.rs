@@ -14,7 +14,7 @@ use crate::geometry::{DMat2, DVec2};
 pub(super) type LineEnds = [DVec2; 2];
 
 /// Ratio of the two lengths below which a line turns gradually into a point (heuristic).
-const POINTLIKE: f64 = 1e-3;
+const POINT_LENGTH_RATIO: f64 = 1e-3;
 
 /// Scaled length below which a line is a point (tolerance: squares of larger lengths are normal
 /// numbers).
@@ -83,15 +83,15 @@ impl FieldLine {
     /// Creates the line of a feature in scaled coordinates.
     ///
     /// `strength` initially holds the length that determines the weight. This is the nominal
-    /// length, if there is one. Otherwise it is the line's own length, but at least [`POINTLIKE`]
-    /// times the longest of the three lines, or `a` if all three are points.
+    /// length, if there is one. Otherwise it is the line's own length, but at least
+    /// [`POINT_LENGTH_RATIO`] times the longest of the three lines, or `a` if all three are points.
     pub(super) fn new(feature: &LineFeature, a: f64) -> Self {
         let frame = MidpointLine::new(feature.in_frame);
         let designs = feature.in_designs.map(MidpointLine::new);
         let lengths = designs.iter().map(|design| design.length);
         let longest = lengths.fold(frame.length, f64::max);
         let own_length = if longest > 0.0 {
-            frame.length.max(POINTLIKE * longest)
+            frame.length.max(POINT_LENGTH_RATIO * longest)
         } else {
             a
         };
@@ -128,7 +128,7 @@ fn carry(frame: &MidpointLine, design: &MidpointLine) -> [AffineFunction; 2] {
     let direction = frame.vector / frame.length;
     let along = (design.vector - frame.vector) / frame.length;
     let across = (design.vector / design.length - direction).perp();
-    let ratio = shorter / (POINTLIKE * longer);
+    let ratio = shorter / (POINT_LENGTH_RATIO * longer);
     let share = if ratio < 1.0 { ratio * ratio } else { 1.0 };
     let matrix = DMat2::from_cols(
         share * (along * direction.x - across * direction.y),

@@ -37,7 +37,7 @@ impl MovingLine {
     pub(super) fn new(source: LineEnds, target: LineEnds) -> Self {
         let [(first, from), (last, to)] = [source, target].map(polar);
         let (direction, turn) = match (first, last) {
-            (Some(first), Some(last)) => (first, turn(first, last)),
+            (Some(first), Some(last)) => (first, smaller_angle(first, last)),
             (first, last) => (first.or(last).unwrap_or(DVec2::X), 0.0),
         };
         Self {
@@ -88,7 +88,7 @@ fn polar([from, to]: LineEnds) -> (Option<DVec2>, f64) {
 }
 
 /// Returns the smaller rotation from one direction to another, in radians.
-fn turn(first: DVec2, last: DVec2) -> f64 {
+fn smaller_angle(first: DVec2, last: DVec2) -> f64 {
     let (sine, cosine) = (first.perp_dot(last), first.dot(last));
     let turn = sine.atan2(cosine);
     // Near ±π the sign depends on rounding and is chosen below.

@@ -5,7 +5,7 @@ use crate::settings::named;
 use serde::{Deserialize, Serialize};
 
 /// Largest absolute value of a coordinate (tolerance: products of four coordinates are finite).
-const FARTHEST: f64 = 1e75;
+const MAX_COORDINATE: f64 = 1e75;
 
 /// Kind of path on which the vertices move.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -71,7 +71,7 @@ pub enum PathsError {
         counts: [usize; 2],
     },
     /// A coordinate is NaN, infinite or larger than 1e75.
-    #[error("ring {} of part {} has a coordinate that is not finite or larger than {FARTHEST:e}; correct it", ring + 1, part + 1)]
+    #[error("ring {} of part {} has a coordinate that is not finite or larger than {MAX_COORDINATE:e}; correct it", ring + 1, part + 1)]
     OutOfRange {
         /// Index of the part.
         part: usize,
@@ -99,7 +99,7 @@ pub(super) fn check(parts: &[Vec<RingPair>]) -> Result<(), PathsError> {
             }
             let points = pair.source.iter().chain(&pair.target);
             let mut coordinates = points.flat_map(|p| p.to_array());
-            if !coordinates.all(|x| x.abs() <= FARTHEST) {
+            if !coordinates.all(|x| x.abs() <= MAX_COORDINATE) {
                 return Err(PathsError::OutOfRange { part, ring });
             }
         }

@@ -72,7 +72,7 @@ impl BridgedHole {
     fn new(outer: &IntrinsicRing, around: &RingPair, pair: &RingPair) -> Self {
         let mut ring = IntrinsicRing::new(&pair.source, &pair.target, 0.0);
         let [a, b] = centres(pair, &ring);
-        let vertex = nearest(around, [a, b]);
+        let vertex = nearest_vertex(around, [a, b]);
         let bridges = [a - around.source[vertex], b - around.target[vertex]];
         let boundary_turn = outer.turn_at(vertex);
         let [angle, end] = bridges.map(DVec2::to_angle);
@@ -120,7 +120,7 @@ pub(super) fn centres(pair: &RingPair, ring: &IntrinsicRing) -> [DVec2; 2] {
 /// Returns the vertex with the smallest sum of distances to a point in both designs.
 ///
 /// Distances are relative to the ring's diameter in each design.
-fn nearest(ring: &RingPair, points: [DVec2; 2]) -> usize {
+fn nearest_vertex(ring: &RingPair, points: [DVec2; 2]) -> usize {
     let scale = [&ring.source, &ring.target].map(|points| {
         let diameter = Bounds::of(points.iter().copied()).map_or(0.0, |b| b.diameter());
         if diameter > 0.0 { 1.0 / diameter } else { 0.0 }

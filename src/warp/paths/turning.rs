@@ -25,7 +25,7 @@ pub(super) fn edges(ring: &[DVec2]) -> impl Iterator<Item = DVec2> + Clone + '_ 
 /// 2π. An edge of zero length in one of the rings rotates like the edge before it. If no edge has
 /// a length in both rings, all rotate by `default_turn`.
 pub(super) fn turns(source: &[DVec2], target: &[DVec2], default_turn: f64) -> Vec<[f64; 2]> {
-    let directions = [lifted(source), lifted(target)];
+    let directions = [continuous_angles(source), continuous_angles(target)];
     let turn_of = |k: usize| Some(directions[1][k]? - directions[0][k]?);
     let count = source.len();
     // The ring is closed, so the last edge precedes the first.
@@ -46,7 +46,7 @@ pub(super) fn whole_turns(angle: f64, near: f64) -> f64 {
 }
 
 /// Returns the angle of each edge that has a length, continuous along the ring.
-fn lifted(ring: &[DVec2]) -> Vec<Option<f64>> {
+fn continuous_angles(ring: &[DVec2]) -> Vec<Option<f64>> {
     let directions: Vec<DVec2> = edges(ring).map(DVec2::normalize_or_zero).collect();
     let proper: Vec<usize> = (0..directions.len())
         .filter(|&k| directions[k] != DVec2::ZERO)
@@ -101,7 +101,7 @@ mod tests {
     }
 
     fn total(ring: &[DVec2]) -> f64 {
-        let angles: Vec<f64> = lifted(ring).into_iter().flatten().collect();
+        let angles: Vec<f64> = continuous_angles(ring).into_iter().flatten().collect();
         let last = edges(ring).last().unwrap_or_default();
         let first = edges(ring).next().unwrap_or_default();
         angles[angles.len() - 1] - angles[0] + last.angle_to(first)

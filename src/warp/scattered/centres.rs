@@ -20,7 +20,7 @@ const MERGE_DISTANCE: f64 = 1e-6;
 ///
 /// With 20, two features a hundredth of the frame apart can lie a fifth of the frame apart in a
 /// design and still be interpolated exactly.
-pub(super) const STEEPEST: f64 = 20.0;
+pub(super) const MAX_SLOPE: f64 = 20.0;
 
 /// Two features whose displacements exceed the slope limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +89,7 @@ impl CentreData {
         }
     }
 
-    /// Shrinks displacement differences with slopes above [`STEEPEST`] and records the pairs.
+    /// Shrinks displacement differences with slopes above [`MAX_SLOPE`] and records the pairs.
     pub(super) fn limit_slopes(&mut self) {
         let Self {
             positions: at,
@@ -103,7 +103,7 @@ impl CentreData {
         for (i, value) in self.values.iter_mut().enumerate() {
             let (mut sums, mut weights) = (memory[i], [1.0; 2]);
             for (j, &other) in at.iter().enumerate() {
-                let allowed = STEEPEST * STEEPEST * at[i].distance_squared(other);
+                let allowed = MAX_SLOPE * MAX_SLOPE * at[i].distance_squared(other);
                 let mut min_factor = 1.0_f64;
                 for k in 0..2 {
                     let difference = memory[i][k].distance_squared(memory[j][k]);

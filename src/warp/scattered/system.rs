@@ -18,7 +18,7 @@
 //! two centres were one. If the matrix is numerically singular, as for Gaussians much wider than
 //! the distances of the centres, a ridge is added to the diagonal.
 
-use super::centres::{CentreData, STEEPEST};
+use super::centres::{CentreData, MAX_SLOPE};
 use super::kernel::{KernelCentres, KernelColumn, KernelDispatch, RadialKernel, RadialSum};
 use super::options::{RadialBasis, ScatteredOptions};
 use crate::geometry::DVec2;
@@ -158,7 +158,7 @@ impl RadialSolver {
                 .sum()
         });
         let variance = variances.fold(0.0, f64::max) / n;
-        let slope = STEEPEST * self.sum.scale;
+        let slope = MAX_SLOPE * self.sum.scale;
         let added = (variance / (slope * slope) - across).clamp(0.0, MAX_SLACK);
         let axis = DVec2::from_angle(0.5 * xy.atan2(half)).perp();
         [

@@ -127,22 +127,25 @@ fn speed_steps_through_the_list_and_stays_within_it() {
 
 #[test]
 fn a_film_may_change_only_at_rest_or_near_a_design() {
-    let whole = timing(PlayMode::Loop);
+    let whole_film = timing(PlayMode::Loop);
     let mut playback = Playback::default();
-    playback.toggle(&whole, &[]);
-    assert!(playback.can_swap_film(&whole), "at its start");
-    playback.advance(1.0, &whole, &[]);
-    assert!(!playback.can_swap_film(&whole), "in its midst");
-    playback.advance(0.98, &whole, &[]);
-    assert!(playback.can_swap_film(&whole), "near its end");
-    let midst = Timing {
+    playback.toggle(&whole_film, &[]);
+    assert!(playback.can_swap_film(&whole_film), "at its start");
+    playback.advance(1.0, &whole_film, &[]);
+    assert!(!playback.can_swap_film(&whole_film), "in its midst");
+    playback.advance(0.98, &whole_film, &[]);
+    assert!(playback.can_swap_film(&whole_film), "near its end");
+    let middle_part = Timing {
         from: 0.2,
         to: 0.8,
-        ..whole
+        ..whole_film
     };
-    playback.seek(0.5, &midst, &[]);
-    assert!(playback.can_swap_film(&midst), "it never comes to an end");
-    playback.seek(0.5, &whole, &[]);
-    playback.toggle(&whole, &[]);
-    assert!(playback.can_swap_film(&whole), "at rest");
+    playback.seek(0.5, &middle_part, &[]);
+    assert!(
+        playback.can_swap_film(&middle_part),
+        "it never comes to an end"
+    );
+    playback.seek(0.5, &whole_film, &[]);
+    playback.toggle(&whole_film, &[]);
+    assert!(playback.can_swap_film(&whole_film), "at rest");
 }

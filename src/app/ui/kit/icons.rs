@@ -34,19 +34,19 @@ impl Icon {
     }
 }
 
-const fn lines(sign: &'static str) -> Icon {
+const fn lines(glyph: &'static str) -> Icon {
     Icon {
         family: LINES,
-        glyph: sign,
+        glyph,
         rotation: 0.0,
         colour: None,
     }
 }
 
-const fn solid(sign: &'static str) -> Icon {
+const fn solid(glyph: &'static str) -> Icon {
     Icon {
         family: SOLID,
-        ..lines(sign)
+        ..lines(glyph)
     }
 }
 
@@ -112,8 +112,8 @@ pub fn fonts() -> FontDefinitions {
 pub fn paint_icon(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
     let colour = icon.colour.unwrap_or(colour);
     let font = FontId::new(SIZE, FontFamily::Name(icon.family.into()));
-    let sign = painter.layout_no_wrap(icon.glyph.to_owned(), font, colour);
-    let corner = rect.center() - sign.size() / 2.0;
-    let sign = TextShape::new(corner, sign, colour);
-    painter.add(sign.with_angle_and_anchor(icon.rotation, Align2::CENTER_CENTER));
+    let galley = painter.layout_no_wrap(icon.glyph.to_owned(), font, colour);
+    let corner = rect.center() - galley.size() / 2.0;
+    let shape = TextShape::new(corner, galley, colour);
+    painter.add(shape.with_angle_and_anchor(icon.rotation, Align2::CENTER_CENTER));
 }

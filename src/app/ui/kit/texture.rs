@@ -20,12 +20,12 @@ pub fn texture(ctx: &Context, id: Id, pixels: &Arc<RgbaImage>, longest_px: u32) 
     }
     // A full-size photograph would cost memory and upload time; far zoomed in it loses sharpness.
     let longest = pixels.width().max(pixels.height());
-    let small = (longest > longest_px).then(|| {
-        let share = f64::from(longest_px) / f64::from(longest);
-        let side = |px: u32| ((f64::from(px) * share) as u32).max(1);
+    let downscaled = (longest > longest_px).then(|| {
+        let scale = f64::from(longest_px) / f64::from(longest);
+        let side = |px: u32| ((f64::from(px) * scale) as u32).max(1);
         image::imageops::thumbnail(&**pixels, side(pixels.width()), side(pixels.height()))
     });
-    let uploaded = small.as_ref().unwrap_or(pixels);
+    let uploaded = downscaled.as_ref().unwrap_or(pixels);
     let size = [uploaded.width() as usize, uploaded.height() as usize];
     let colours = ColorImage::from_rgba_unmultiplied(size, uploaded.as_raw());
     let texture = ctx.load_texture("a picture", colours, TextureOptions::LINEAR);

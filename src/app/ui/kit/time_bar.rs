@@ -8,7 +8,7 @@ use crate::app::ui::kit::widgets::tooltip_left;
 use crate::warp::PartClock;
 
 /// Shortest window that dragging can make, as a fraction of the film (tolerance: grips stay apart).
-const SHORTEST: f64 = 0.02;
+const MIN_WINDOW: f64 = 0.02;
 
 /// Part of the bar that is being dragged.
 #[derive(Clone, Copy, PartialEq)]
@@ -82,11 +82,11 @@ fn drag_grip(clock: &mut PartClock, grip: TimeBarGrip, delta: f64) {
     match grip {
         // A project file may hold windows shorter than SHORTEST.
         TimeBarGrip::Start => {
-            let max_from = (clock.to - SHORTEST).max(0.0).min(clock.to);
+            let max_from = (clock.to - MIN_WINDOW).max(0.0).min(clock.to);
             clock.from = (clock.from + delta).clamp(0.0, max_from);
         }
         TimeBarGrip::End => {
-            let min_to = (clock.from + SHORTEST).min(1.0);
+            let min_to = (clock.from + MIN_WINDOW).min(1.0);
             clock.to = (clock.to + delta).clamp(min_to, 1.0);
         }
         TimeBarGrip::Whole => {
@@ -127,7 +127,7 @@ mod tests {
         let mut clock = PartClock::WHOLE;
         drag_grip(&mut clock, TimeBarGrip::Start, 0.4);
         drag_grip(&mut clock, TimeBarGrip::End, -0.9);
-        assert!((clock.to - clock.from - SHORTEST).abs() < 1e-12);
+        assert!((clock.to - clock.from - MIN_WINDOW).abs() < 1e-12);
         drag_grip(&mut clock, TimeBarGrip::End, 0.18);
         drag_grip(&mut clock, TimeBarGrip::Whole, 5.0);
         assert!((clock.from - 0.8).abs() < 1e-12 && clock.to == 1.0);

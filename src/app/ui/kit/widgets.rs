@@ -307,7 +307,7 @@ pub fn intent_button(
 
 /// Background of a panel at the window's edge, with inner margins in points.
 pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame {
-    let room = Margin {
+    let margin = Margin {
         left,
         right,
         top,
@@ -315,14 +315,14 @@ pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame 
     };
     egui::Frame::new()
         .fill(ThemePalette::of(ui).panel)
-        .inner_margin(room)
+        .inner_margin(margin)
 }
 
 /// Rounded card above the stage, with an inner margin.
-pub fn card<R>(ui: &mut Ui, room: impl Into<Margin>, content: impl FnOnce(&mut Ui) -> R) -> R {
+pub fn card<R>(ui: &mut Ui, margin: impl Into<Margin>, content: impl FnOnce(&mut Ui) -> R) -> R {
     egui::Frame::window(ui.style())
         .corner_radius(CARD_RADIUS)
-        .inner_margin(room)
+        .inner_margin(margin)
         .show(ui, content)
         .inner
 }

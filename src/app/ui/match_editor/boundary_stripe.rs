@@ -10,7 +10,7 @@ use bevy_egui::egui::{Color32, Mesh, Painter, Pos2, Shape, Vec2, vec2};
 const WIDTH: f32 = 3.5;
 
 /// Width of the soft edge on either side of the stripe, in points (replaces anti-aliasing).
-const SOFT: f32 = 0.8;
+const SOFT_EDGE: f32 = 0.8;
 
 /// Points closer than this to the one before are skipped, in points (tolerance: closer ones have no
 /// stable direction).
@@ -58,13 +58,13 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
         let before = samples[(k + n - 1) % n].0;
         let after = samples[(k + 1) % n].0;
         let across = mitre(*p - before, after - *p);
-        let clear = Color32::TRANSPARENT;
+        let transparent = Color32::TRANSPARENT;
         let half = WIDTH / 2.0;
         // egui anti-aliases shapes but not meshes, so the outer vertices fade out.
-        mesh.colored_vertex(*p + across * (half + SOFT), clear);
+        mesh.colored_vertex(*p + across * (half + SOFT_EDGE), transparent);
         mesh.colored_vertex(*p + across * half, *colour);
         mesh.colored_vertex(*p - across * half, *colour);
-        mesh.colored_vertex(*p - across * (half + SOFT), clear);
+        mesh.colored_vertex(*p - across * (half + SOFT_EDGE), transparent);
         if k > 0 {
             let (old, new) = (4 * (k as u32 - 1), 4 * k as u32);
             for row in 0..3 {

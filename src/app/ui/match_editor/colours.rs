@@ -8,7 +8,7 @@ use crate::app::ui::ui_state::UiState;
 use crate::colour::Rgb;
 
 /// Share of a design's colour in its fill (heuristic: the boundary stripe must stand out from it).
-const FILL: f32 = 0.28;
+const FILL_SHARE: f32 = 0.28;
 
 /// Colours of the match editor on the project's background.
 #[derive(Clone, Copy, Debug)]
@@ -38,14 +38,14 @@ impl EditorColours {
         let ground = colour(style.ground);
         let ink = ink_on(style.ground);
         let is_light = is_light(style.ground);
-        let on_ground = ThemePalette::on(is_light);
-        let fill = |rgb: Rgb| ground.lerp_to_gamma(colour(rgb), FILL);
+        let palette = ThemePalette::on(is_light);
+        let fill = |rgb: Rgb| ground.lerp_to_gamma(colour(rgb), FILL_SHARE);
         Self {
             ground,
             ink,
             faint: ground.lerp_to_gamma(ink, 0.35),
-            accent: on_ground.accent,
-            problem: on_ground.problem,
+            accent: palette.accent,
+            problem: palette.problem,
             is_light,
             fills: [fill(style.source), fill(style.target)],
         }

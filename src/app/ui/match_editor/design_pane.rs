@@ -22,13 +22,13 @@ use crate::geometry::{Bounds, DVec2, Side};
 const REACH: f32 = 9.0;
 
 /// Longest side of an uploaded background image, in pixels (resource limit: GPU memory).
-const LONGEST_PX: u32 = 1024;
+const MAX_IMAGE_PX: u32 = 1024;
 
 /// Distance between hatch lines, in points: wide enough for the fill to show between them.
-const HATCH: f32 = 8.0;
+const HATCH_SPACING: f32 = 8.0;
 
 /// Size from which a hole is labelled, in points: the label would cover a smaller one.
-const HOLE_WORD: f32 = 32.0;
+const MIN_LABELLED_HOLE: f32 = 32.0;
 
 /// Pane of one design, with the transform from the common frame of both designs to the window.
 #[derive(Clone, Debug)]
@@ -38,23 +38,23 @@ pub struct DesignPane {
     /// Rectangle of the pane.
     pub rect: Rect,
     /// Part of the pane that the design is fitted into.
-    room: Rect,
+    content_rect: Rect,
     centre: DVec2,
     px_per_unit: f64,
     pan: Vec2,
 }
 
 impl DesignPane {
-    /// Fits `bounds` into `room`, then applies the pane's zoom and pan.
-    pub fn new(side: Side, rect: Rect, room: Rect, bounds: Bounds, view: PaneView) -> Self {
+    /// Fits `bounds` into `content_rect`, then applies the pane's zoom and pan.
+    pub fn new(side: Side, rect: Rect, content_rect: Rect, bounds: Bounds, view: PaneView) -> Self {
         // A horizontal line has no height; this avoids a division by zero.
         let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
-        let fitted = (f64::from(room.width().max(1.0)) / size.x)
-            .min(f64::from(room.height().max(1.0)) / size.y);
+        let fitted = (f64::from(content_rect.width().max(1.0)) / size.x)
+            .min(f64::from(content_rect.height().max(1.0)) / size.y);
         Self {
             side,
             rect,
-            room,
+            content_rect,
             centre: bounds.centre(),
             px_per_unit: fitted * f64::from(view.zoom),
             pan: vec2(view.pan.x, view.pan.y),
@@ -63,7 +63,7 @@ impl DesignPane {
 
     /// Returns the offset from the pane's centre to the centre of the fitted area.
     pub fn room_offset(&self) -> Vec2 {
-        self.room.center() - self.rect.center()
+        self.content_rect.center() - self.rect.center()
     }
 
     /// Returns the rectangle of the other design's pane.
@@ -80,12 +80,12 @@ impl DesignPane {
         let from_centre = (p - self.centre) * self.px_per_unit;
         // y points up in the frame and down on the screen.
         let offset = vec2(from_centre.x as f32, -from_centre.y as f32);
-        self.room.center() + self.pan + offset
+        self.content_rect.center() + self.pan + offset
     }
 
     /// Maps a pointer position to the common frame.
     pub fn pointer_target(&self, at: Pos2, is_free: bool) -> EditorPointer {
-        let offset = at - self.room.center() - self.pan;
+        let offset = at - self.content_rect.center() - self.pan;
         let offset = DVec2::new(f64::from(offset.x), -f64::from(offset.y));
         EditorPointer {
             side: self.side,
@@ -101,23 +101,23 @@ impl DesignPane {
     }
 
     /// Draws the design and its match.
-    pub fn draw(&self, stage: &Painter, state: &UiState, inks: &EditorColours) {
+    pub fn draw(&self, stage: &Painter, state: &UiState, colours: &EditorColours) {
         let painter = self.clip(stage);
         let sheet = &state.sheet;
         self.picture(&painter, sheet);
         if sheet.shows_pictures() {
             // The outline traced from a picture would cover the picture.
-            return self.title(&painter, state, inks);
+            return self.title(&painter, state, colours);
         }
-        self.fill(&painter, state, inks);
+        self.fill(&painter, state, colours);
         for (k, piece) in sheet.pieces.iter().enumerate() {
             if self.is_unmatched(piece) {
-                self.hatch(&painter, sheet, k, inks.faint);
+                self.hatch(&painter, sheet, k, colours.faint);
             }
         }
-        self.boundaries(&painter, sheet, inks);
-        self.parts(&painter, state, inks);
-        self.title(&painter, state, inks);
+        self.boundaries(&painter, sheet, colours);
+        self.parts(&painter, state, colours);
+        self.title(&painter, state, colours);
     }
 
     /// Draws the imported picture, if the project blends pictures.
@@ -127,7 +127,7 @@ impl DesignPane {
             return;
         };
         let id = Id::new(("backdrop", self.side.index()));
-        let texture = texture(painter.ctx(), id, picture.pixels(), LONGEST_PX);
+        let texture = texture(painter.ctx(), id, picture.pixels(), MAX_IMAGE_PX);
         let (width, height) = picture.pixels().dimensions();
         let corner = |x: f64, y: f64| {
             let own = DVec2::new(x * f64::from(width), y * f64::from(height));
@@ -154,7 +154,7 @@ impl DesignPane {
         }
     }
 
-    fn fill(&self, painter: &Painter, state: &UiState, inks: &EditorColours) {
+    fn fill(&self, painter: &Painter, state: &UiState, colours: &EditorColours) {
         let compatible = state.session.transition().and_then(|t| t.compatible());
         let Some(mesh) = compatible.filter(|_| !state.sheet.rings.is_empty()) else {
             return;
@@ -164,7 +164,7 @@ impl DesignPane {
             Side::Target => mesh.target(),
         };
         let points: Vec<Pos2> = points.iter().map(|p| self.px(*p)).collect();
-        let colour = inks.fills[self.side];
+        let colour = colours.fills[self.side];
         let mut filled = Mesh::default();
         for p in &points {
             filled.colored_vertex(*p, colour);
@@ -174,7 +174,7 @@ impl DesignPane {
         }
         painter.add(Shape::mesh(filled));
         if state.editor.triangles {
-            let stroke = (0.75, inks.faint);
+            let stroke = (0.75, colours.faint);
             for face in mesh.faces().iter() {
                 for k in 0..3 {
                     let (a, b) = (face[k], face[(k + 1) % 3]);
@@ -187,10 +187,10 @@ impl DesignPane {
         }
     }
 
-    fn boundaries(&self, painter: &Painter, sheet: &MatchSheet, inks: &EditorColours) {
+    fn boundaries(&self, painter: &Painter, sheet: &MatchSheet, colours: &EditorColours) {
         if sheet.rings.is_empty() {
             for ring in self.parts_of(sheet).iter().flatten() {
-                let stroke = (2.0, inks.faint);
+                let stroke = (2.0, colours.faint);
                 painter.add(Shape::closed_line(self.line(ring), stroke));
             }
         }
@@ -199,11 +199,11 @@ impl DesignPane {
             let is_unmatched = piece.is_some_and(|piece| piece.fate != PieceFate::Paired);
             let points = self.line(&ring.sides[self.side]);
             if ring.kind == RingKind::Matched && !is_unmatched {
-                boundary_stripe::stripe(painter, &points, &ring.places, k, inks.is_light);
+                boundary_stripe::stripe(painter, &points, &ring.places, k, colours.is_light);
             } else {
-                unmatched(painter, points, inks);
+                draw_unmatched_ring(painter, points, colours);
                 if !is_unmatched {
-                    self.hole_word(painter, ring, inks);
+                    self.label_hole(painter, ring, colours);
                 }
             }
         }
@@ -220,8 +220,8 @@ impl DesignPane {
     }
 
     /// Labels a hole that exists in only one design.
-    fn hole_word(&self, painter: &Painter, ring: &SheetRing, inks: &EditorColours) {
-        let word = match (ring.kind, self.side) {
+    fn label_hole(&self, painter: &Painter, ring: &SheetRing, colours: &EditorColours) {
+        let text = match (ring.kind, self.side) {
             (RingKind::Closes, Side::Source) => "closes",
             (RingKind::Opens, Side::Target) => "opens",
             _ => return,
@@ -229,8 +229,8 @@ impl DesignPane {
         let bounds = Rect::from_points(&self.line(&ring.sides[self.side]));
         // A smaller hole would be covered; its dashed boundary marks it, and the label appears on
         // zooming in.
-        if bounds.size().max_elem() > HOLE_WORD {
-            label_card(painter, bounds.center(), word, inks, false);
+        if bounds.size().max_elem() > MIN_LABELLED_HOLE {
+            label_card(painter, bounds.center(), text, colours, false);
         }
     }
 
@@ -251,9 +251,9 @@ impl DesignPane {
             return;
         };
         // (x + y, y − x) is a rotation scaled by √2.
-        let step = f64::from(HATCH) * std::f64::consts::SQRT_2;
+        let step = f64::from(HATCH_SPACING) * std::f64::consts::SQRT_2;
         // Zoomed in far, most lines lie outside the pane and are skipped.
-        let visible = self.rect.expand(HATCH);
+        let visible = self.rect.expand(HATCH_SPACING);
         let mut y = (bounds.min.y / step).ceil() * step;
         let min_visible = f64::from(visible.top() - visible.right());
         y = y.max((min_visible / step).floor() * step);
@@ -263,18 +263,18 @@ impl DesignPane {
             .min(f64::from(visible.bottom() - visible.left()));
         while y <= max_y {
             for [a, b] in spans(rings.iter().map(Vec::as_slice), y) {
-                let back = |x: f64| pos2(((x - y) / 2.0) as f32, ((x + y) / 2.0) as f32);
-                painter.line_segment([back(a), back(b)], (1.0, colour));
+                let unrotated = |x: f64| pos2(((x - y) / 2.0) as f32, ((x + y) / 2.0) as f32);
+                painter.line_segment([unrotated(a), unrotated(b)], (1.0, colour));
             }
             y += step;
         }
     }
 
-    fn parts(&self, painter: &Painter, state: &UiState, inks: &EditorColours) {
+    fn parts(&self, painter: &Painter, state: &UiState, colours: &EditorColours) {
         let (sheet, editor) = (&state.sheet, &state.editor);
         let outline = |part: usize, width: f32| {
             for ring in self.parts_of(sheet).get(part).into_iter().flatten() {
-                painter.add(Shape::closed_line(self.line(ring), (width, inks.accent)));
+                painter.add(Shape::closed_line(self.line(ring), (width, colours.accent)));
             }
         };
         if let Some((_, part)) = editor.part.filter(|(side, _)| *side == self.side) {
@@ -289,31 +289,31 @@ impl DesignPane {
             return;
         }
         for (k, piece) in sheet.pieces.iter().enumerate() {
-            let word = match (piece.fate, self.is_unmatched(piece)) {
+            let text = match (piece.fate, self.is_unmatched(piece)) {
                 (PieceFate::Disappears, true) => format!("{} disappears", piece.name),
                 (PieceFate::Appears, true) => format!("{} appears", piece.name),
                 _ => piece.name.clone(),
             };
             let at = self.px(piece.label_at[self.side]) + self.name_offset(sheet, k);
-            label_card(painter, at, &word, inks, piece.is_linked);
+            label_card(painter, at, &text, colours, piece.is_linked);
         }
     }
 
     /// Returns the offset of a part's name from its anchor: names of small parts move above them.
     fn name_offset(&self, sheet: &MatchSheet, piece: usize) -> Vec2 {
         /// Size from which a part has room for its name, in points.
-        const ROOMY: f32 = 56.0;
+        const MIN_SIZE_FOR_NAME: f32 = 56.0;
         let rings = sheet.rings.iter().filter(|ring| ring.piece == piece);
         let points = rings.flat_map(|ring| self.line(&ring.sides[self.side]));
         let bounds = Rect::from_points(&points.collect::<Vec<_>>());
-        if bounds.size().max_elem() < ROOMY {
+        if bounds.size().max_elem() < MIN_SIZE_FOR_NAME {
             vec2(0.0, -bounds.height() / 2.0 - 14.0)
         } else {
             Vec2::ZERO
         }
     }
 
-    fn title(&self, painter: &Painter, state: &UiState, inks: &EditorColours) {
+    fn title(&self, painter: &Painter, state: &UiState, colours: &EditorColours) {
         let name = state
             .session
             .transition()
@@ -321,33 +321,39 @@ impl DesignPane {
             .unwrap_or_default();
         let role = ["Source", "Target"][self.side];
         let at = self.rect.left_top() + vec2(2.0 * GRID, BAR_HEIGHT + 2.0 * GRID);
-        let words = format!("{role}  {name}");
-        painter.text(at, Align2::LEFT_TOP, words, SMALL, inks.ink);
+        let text = format!("{role}  {name}");
+        painter.text(at, Align2::LEFT_TOP, text, SMALL, colours.ink);
     }
 }
 
 /// Draws a ring without a partner: dashed, or as a small circle if it has shrunk to a point.
-fn unmatched(painter: &Painter, mut points: Vec<Pos2>, inks: &EditorColours) {
+fn draw_unmatched_ring(painter: &Painter, mut points: Vec<Pos2>, colours: &EditorColours) {
     let Some(first) = points.first().copied() else {
         return;
     };
     if Rect::from_points(&points).size().max_elem() < 3.0 {
-        painter.circle_stroke(first, 4.0, (1.5, inks.ink));
+        painter.circle_stroke(first, 4.0, (1.5, colours.ink));
         return;
     }
     points.push(first);
-    let stroke = (2.0, inks.ink);
+    let stroke = (2.0, colours.ink);
     painter.extend(Shape::dashed_line(&points, stroke, 5.0, 4.0));
 }
 
 /// Draws a label on a card, with an accented frame if the match was set by hand.
-pub fn label_card(painter: &Painter, at: Pos2, word: &str, inks: &EditorColours, is_manual: bool) {
-    let galley = painter.layout_no_wrap(word.to_owned(), SMALL, inks.ink);
+pub fn label_card(
+    painter: &Painter,
+    at: Pos2,
+    text: &str,
+    colours: &EditorColours,
+    is_manual: bool,
+) {
+    let galley = painter.layout_no_wrap(text.to_owned(), SMALL, colours.ink);
     let card = Align2::CENTER_CENTER.anchor_size(at, galley.size() + vec2(10.0, 4.0));
     let line = if is_manual {
-        (2.0, inks.accent)
+        (2.0, colours.accent)
     } else {
-        (1.0, inks.faint)
+        (1.0, colours.faint)
     };
-    text_card(painter, card, galley, inks.ground, line);
+    text_card(painter, card, galley, colours.ground, line);
 }

@@ -19,30 +19,30 @@ pub fn show(
     root: &Ui,
     state: &UiState,
     column: Rect,
-    inks: &EditorColours,
+    colours: &EditorColours,
     intents: &mut Intents,
 ) -> Rect {
-    let room = Rect::from_min_max(
+    let film_rect = Rect::from_min_max(
         column.min + vec2(0.0, BAR_HEIGHT + 4.0 * GRID),
         column.max - vec2(0.0, ADVICE_HEIGHT),
     );
     let painter = root.painter().with_clip_rect(column);
-    let (above, rest) = column.split_top_bottom_at_y(room.top());
-    let (_, below) = rest.split_top_bottom_at_y(room.bottom());
+    let (above, rest) = column.split_top_bottom_at_y(film_rect.top());
+    let (_, below) = rest.split_top_bottom_at_y(film_rect.bottom());
     for around in [above, below] {
-        painter.rect_filled(around, 0.0, inks.ground);
+        painter.rect_filled(around, 0.0, colours.ground);
     }
     let at = column.left_top() + vec2(2.0 * GRID, BAR_HEIGHT + 2.0 * GRID);
-    painter.text(at, Align2::LEFT_TOP, "Film", SMALL, inks.ink);
-    area::empty_hint(root, state, room);
-    onion::show(root, state, room);
-    checks::mark(root, state, room);
-    pan_and_zoom(root, room, intents);
-    room
+    painter.text(at, Align2::LEFT_TOP, "Film", SMALL, colours.ink);
+    area::empty_hint(root, state, film_rect);
+    onion::show(root, state, film_rect);
+    checks::mark(root, state, film_rect);
+    pan_and_zoom(root, film_rect, intents);
+    film_rect
 }
 
-fn pan_and_zoom(root: &Ui, room: Rect, intents: &mut Intents) {
-    let response = root.interact(room, root.id().with("film"), Sense::click_and_drag());
+fn pan_and_zoom(root: &Ui, film_rect: Rect, intents: &mut Intents) {
+    let response = root.interact(film_rect, root.id().with("film"), Sense::click_and_drag());
     let delta = response.drag_delta();
     if response.dragged() && delta != vec2(0.0, 0.0) {
         let delta = Vec2::new(delta.x, delta.y);
@@ -54,7 +54,7 @@ fn pan_and_zoom(root: &Ui, room: Rect, intents: &mut Intents) {
     if let Some(pointer) = response.hover_pos()
         && let Some(factor) = zoom_factor(root)
     {
-        let at = pointer - room.center();
+        let at = pointer - film_rect.center();
         intents.push(Intent::Editor(EditorAction::Zoom {
             pane: EditorPane::Film,
             at: Vec2::new(at.x, at.y),

@@ -22,25 +22,25 @@ const PIN_RADIUS: f32 = 8.5;
 const FEATURE_RADIUS: f32 = 7.0;
 
 /// Draws all handles, and the link of the one under the pointer.
-pub fn draw(painter: &Painter, state: &UiState, halves: &[DesignPane; 2], inks: &EditorColours) {
+pub fn draw(painter: &Painter, state: &UiState, panes: &[DesignPane; 2], colours: &EditorColours) {
     let (sheet, editor) = (&state.sheet, &state.editor);
-    for half in halves {
-        let clipped = half.clip(painter);
-        features(&clipped, sheet, editor, half, inks);
-        cuts(&clipped, sheet, editor, half, inks);
+    for pane in panes {
+        let clipped = pane.clip(painter);
+        features(&clipped, sheet, editor, pane, colours);
+        cuts(&clipped, sheet, editor, pane, colours);
         if sheet.has_free_pins() {
-            lines(&clipped, sheet, editor, half, inks);
+            lines(&clipped, sheet, editor, pane, colours);
         }
     }
     // The link crosses both panes, so it is not clipped. Pins lie on top, because they can be
     // grabbed.
-    link(painter, sheet, editor, halves, inks);
-    for half in halves {
-        let clipped = half.clip(painter);
-        pins(&clipped, state, half, inks);
+    link(painter, sheet, editor, panes, colours);
+    for pane in panes {
+        let clipped = pane.clip(painter);
+        pins(&clipped, state, pane, colours);
     }
     if let Some(problem) = state.session.problem() {
-        problem_card(painter, state, halves, &problem.to_string(), inks);
+        problem_card(painter, state, panes, &problem.to_string(), colours);
     }
 }
 
@@ -48,24 +48,24 @@ fn features(
     painter: &Painter,
     sheet: &MatchSheet,
     editor: &MatchEditor,
-    half: &DesignPane,
-    inks: &EditorColours,
+    pane: &DesignPane,
+    colours: &EditorColours,
 ) {
     for (k, pair) in sheet.features.iter().enumerate() {
         let handle = EditorHandle::Feature(k);
         let colour = if editor.is_lit(handle) {
-            inks.ink
+            colours.ink
         } else {
-            inks.ground.lerp_to_gamma(inks.ink, 0.65)
+            colours.ground.lerp_to_gamma(colours.ink, 0.65)
         };
-        let at = half.px(pair[half.side]);
-        painter.circle(at, FEATURE_RADIUS, inks.ground, (1.0, colour));
+        let at = pane.px(pair[pane.side]);
+        painter.circle(at, FEATURE_RADIUS, colours.ground, (1.0, colour));
         let letter = sheet.letters.get(k).copied().unwrap_or(k);
         disc_label(painter, at, labels::of_point(letter), colour);
     }
 }
 
-fn pins(painter: &Painter, state: &UiState, half: &DesignPane, inks: &EditorColours) {
+fn pins(painter: &Painter, state: &UiState, pane: &DesignPane, colours: &EditorColours) {
     let (sheet, editor) = (&state.sheet, &state.editor);
     for (k, pin) in sheet.pins.iter().enumerate() {
         let handle = EditorHandle::Pin(k);
@@ -77,15 +77,15 @@ fn pins(painter: &Painter, state: &UiState, half: &DesignPane, inks: &EditorColo
         } else {
             PIN_RADIUS
         };
-        let at = half.px(pin[half.side]);
+        let at = pane.px(pin[pane.side]);
         let is_faulty = sheet.faulty.contains(&k);
         let fill = match (is_faulty, is_selected) {
-            (true, _) => inks.problem,
-            (false, true) => inks.accent,
-            (false, false) => inks.ink,
+            (true, _) => colours.problem,
+            (false, true) => colours.accent,
+            (false, false) => colours.ink,
         };
-        painter.circle(at, radius, fill, (1.5, inks.ground));
-        disc_label(painter, at, (k + 1).to_string(), inks.ground);
+        painter.circle(at, radius, fill, (1.5, colours.ground));
+        disc_label(painter, at, (k + 1).to_string(), colours.ground);
     }
 }
 
@@ -94,25 +94,29 @@ fn lines(
     painter: &Painter,
     sheet: &MatchSheet,
     editor: &MatchEditor,
-    half: &DesignPane,
-    inks: &EditorColours,
+    pane: &DesignPane,
+    colours: &EditorColours,
 ) {
     for (k, line) in sheet.lines.iter().enumerate() {
-        let ends = line[half.side].map(|p| half.px(p));
+        let ends = line[pane.side].map(|p| pane.px(p));
         let is_selected = matches!(editor.selected, Some(EditorHandle::Line(of, _)) if of == k);
-        let colour = if is_selected { inks.accent } else { inks.ink };
+        let colour = if is_selected {
+            colours.accent
+        } else {
+            colours.ink
+        };
         // A wider line in the background colour below makes it visible on any fill.
-        painter.line_segment(ends, (5.0, inks.ground));
+        painter.line_segment(ends, (5.0, colours.ground));
         painter.line_segment(ends, (2.0, colour));
         for (end, at) in ends.into_iter().enumerate() {
             let is_lit = editor.hovered == Some(EditorHandle::Line(k, end));
             let radius = if is_lit { 6.0 } else { 4.5 };
-            let fill = if end == 0 { colour } else { inks.ground };
+            let fill = if end == 0 { colour } else { colours.ground };
             painter.circle(at, radius, fill, (2.0, colour));
         }
         let middle = ends[0].lerp(ends[1], 0.5);
-        painter.circle(middle, FEATURE_RADIUS, inks.ground, (1.5, colour));
-        disc_label(painter, middle, (k + 1).to_string(), inks.ink);
+        painter.circle(middle, FEATURE_RADIUS, colours.ground, (1.5, colour));
+        disc_label(painter, middle, (k + 1).to_string(), colours.ink);
     }
 }
 
@@ -127,28 +131,28 @@ fn cuts(
     painter: &Painter,
     sheet: &MatchSheet,
     editor: &MatchEditor,
-    half: &DesignPane,
-    inks: &EditorColours,
+    pane: &DesignPane,
+    colours: &EditorColours,
 ) {
     for (k, shown) in sheet.cuts.iter().enumerate() {
         let cut = sheet.drawn(shown, editor.grabbed.map(|(_, grab)| grab));
-        if cut.side != half.side {
+        if cut.side != pane.side {
             continue;
         }
-        let ends = [half.px(cut.outer), half.px(cut.hole)];
-        painter.line_segment(ends, (4.0, inks.ground));
-        let stroke = (2.0, inks.accent);
+        let ends = [pane.px(cut.outer), pane.px(cut.hole)];
+        painter.line_segment(ends, (4.0, colours.ground));
+        let stroke = (2.0, colours.accent);
         painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 3.0));
         for (at, end) in ends.into_iter().zip([CutEnd::Outer, CutEnd::Hole]) {
             let is_lit = editor.is_lit(EditorHandle::Cut(k, end));
             let size = if is_lit { 13.0 } else { 10.0 };
             let fill = if shown.requested_index.is_some() {
-                inks.accent
+                colours.accent
             } else {
-                inks.ground
+                colours.ground
             };
             let square = Rect::from_center_size(at, vec2(size, size));
-            let line = (2.0, inks.accent);
+            let line = (2.0, colours.accent);
             painter.rect(square, 2, fill, line, StrokeKind::Inside);
         }
     }
@@ -159,10 +163,10 @@ fn link(
     painter: &Painter,
     sheet: &MatchSheet,
     editor: &MatchEditor,
-    halves: &[DesignPane; 2],
-    inks: &EditorColours,
+    panes: &[DesignPane; 2],
+    colours: &EditorColours,
 ) {
-    let lit = match editor.grabbed {
+    let highlighted = match editor.grabbed {
         Some((_, EditorGrab::Pin(k))) => Some(EditorHandle::Pin(k)),
         Some((_, EditorGrab::Feature(k))) => Some(EditorHandle::Feature(k)),
         Some((_, EditorGrab::Line(k, end))) => Some(EditorHandle::Line(k, end)),
@@ -173,17 +177,17 @@ fn link(
         let [source, target] = Side::BOTH.map(|side| sheet.place(handle, side));
         Some([source?, target?])
     };
-    let ends = lit.and_then(of_handle);
+    let ends = highlighted.and_then(of_handle);
     let is_trace = ends.is_none();
     let Some(ends) = ends.or(editor.trace) else {
         return;
     };
-    let [a, b] = [halves[0].px(ends[0]), halves[1].px(ends[1])];
-    let stroke = (1.25, inks.ground.lerp_to_gamma(inks.ink, 0.7));
+    let [a, b] = [panes[0].px(ends[0]), panes[1].px(ends[1])];
+    let stroke = (1.25, colours.ground.lerp_to_gamma(colours.ink, 0.7));
     painter.extend(Shape::dashed_line(&[a, b], stroke, 5.0, 4.0));
     if is_trace {
         for at in [a, b] {
-            painter.circle(at, 5.0, inks.ground, (2.0, inks.ink));
+            painter.circle(at, 5.0, colours.ground, (2.0, colours.ink));
         }
     }
 }
@@ -192,16 +196,16 @@ fn link(
 fn problem_card(
     painter: &Painter,
     state: &UiState,
-    halves: &[DesignPane; 2],
+    panes: &[DesignPane; 2],
     problem: &str,
-    inks: &EditorColours,
+    colours: &EditorColours,
 ) {
     /// Maximum width of the text, in points.
     const WIDTH: f32 = 240.0;
     let editor = &state.editor;
     // In the pane that is being edited, because the edit caused the problem.
     let side = editor.grabbed.map_or(Side::Source, |(side, _)| side);
-    let half = &halves[side];
+    let pane = &panes[side];
     let faulty = state.sheet.faulty.last().map(|k| EditorHandle::Pin(*k));
     let selected_faulty = editor
         .selected
@@ -210,26 +214,32 @@ fn problem_card(
         .or(faulty)
         .or(editor.selected)
         .and_then(|handle| state.sheet.place(handle, side))
-        .map(|p| half.px(p) + vec2(2.0 * GRID, GRID));
-    let stays = if state.session.transition().is_some() {
+        .map(|p| pane.px(p) + vec2(2.0 * GRID, GRID));
+    let unchanged = if state.session.transition().is_some() {
         " The transition is unchanged."
     } else {
         ""
     };
-    let text = format!("{}.{stays}", capitalised(problem));
-    let width = WIDTH.min(half.rect.width() - 4.0 * GRID);
-    let galley = painter.layout(text, SMALL, inks.ink, width);
+    let text = format!("{}.{unchanged}", capitalised(problem));
+    let width = WIDTH.min(pane.rect.width() - 4.0 * GRID);
+    let galley = painter.layout(text, SMALL, colours.ink, width);
     let size = galley.size() + vec2(2.0 * GRID, 1.5 * GRID);
-    let room = half.rect.shrink(GRID);
-    let room = Rect::from_min_max(
-        room.min + vec2(0.0, BAR_HEIGHT + GRID),
-        room.max - vec2(0.0, ADVICE_HEIGHT),
+    let area = pane.rect.shrink(GRID);
+    let area = Rect::from_min_max(
+        area.min + vec2(0.0, BAR_HEIGHT + GRID),
+        area.max - vec2(0.0, ADVICE_HEIGHT),
     );
     // No pin is to blame: a corner, where the card covers least.
-    let corner = at.unwrap_or_else(|| room.left_bottom() - vec2(0.0, size.y));
+    let corner = at.unwrap_or_else(|| area.left_bottom() - vec2(0.0, size.y));
     // A card larger than the room would make `clamp` panic on an inverted range.
-    let max_corner = (room.max - size).max(room.min);
-    let corner = corner.clamp(room.min, max_corner);
+    let max_corner = (area.max - size).max(area.min);
+    let corner = corner.clamp(area.min, max_corner);
     let card = Rect::from_min_size(corner, size);
-    text_card(painter, card, galley, inks.ground, (1.5, inks.problem));
+    text_card(
+        painter,
+        card,
+        galley,
+        colours.ground,
+        (1.5, colours.problem),
+    );
 }

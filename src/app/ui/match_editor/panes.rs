@@ -23,43 +23,43 @@ use crate::geometry::Side;
 
 /// Draws both designs and the film pane and handles pointer input; returns the rectangle of the
 /// stage.
-pub fn show(root: &mut Ui, state: &UiState, whole: Rect, intents: &mut Intents) -> Rect {
+pub fn show(root: &mut Ui, state: &UiState, full_rect: Rect, intents: &mut Intents) -> Rect {
     let Some(sides) = &state.sheet.sides else {
-        return whole;
+        return full_rect;
     };
-    let inks = EditorColours::of(state);
-    let (stage, column) = columns(state, whole);
-    let shown = column.map(|column| film_pane::show(root, state, column, &inks, intents));
-    let painter = root.painter().with_clip_rect(whole);
-    painter.rect_filled(stage, CornerRadius::ZERO, inks.ground);
-    let halves = halves(state, stage, sides);
-    for half in &halves {
-        half.draw(&painter, state, &inks);
+    let colours = EditorColours::of(state);
+    let (stage, column) = columns(state, full_rect);
+    let shown = column.map(|column| film_pane::show(root, state, column, &colours, intents));
+    let painter = root.painter().with_clip_rect(full_rect);
+    painter.rect_filled(stage, CornerRadius::ZERO, colours.ground);
+    let design_panes = design_panes(state, stage, sides);
+    for pane in &design_panes {
+        pane.draw(&painter, state, &colours);
     }
     let between = stage.top() + BAR_HEIGHT + GRID..=stage.bottom() - ADVICE_HEIGHT;
     let right = column.map(|column| column.left());
     for x in right.into_iter().chain([stage.center().x]) {
-        painter.vline(x, between.clone(), (1.0, inks.faint));
+        painter.vline(x, between.clone(), (1.0, colours.faint));
     }
-    handles::draw(&painter, state, &halves, &inks);
-    instructions(&painter, state, whole, &inks);
-    for half in &halves {
-        let id = root.id().with(("half", half.side.index()));
-        let response = root.interact(half.rect, id, Sense::click_and_drag());
-        handle_pointer(root, state, half, &response, intents);
+    handles::draw(&painter, state, &design_panes, &colours);
+    instructions(&painter, state, full_rect, &colours);
+    for pane in &design_panes {
+        let id = root.id().with(("half", pane.side.index()));
+        let response = root.interact(pane.rect, id, Sense::click_and_drag());
+        handle_pointer(root, state, pane, &response, intents);
     }
     // Without a film pane the stage stays behind the designs, so that closing the editor does not
     // move it.
-    shown.unwrap_or(whole)
+    shown.unwrap_or(full_rect)
 }
 
 /// Splits off the film pane: a third of the width, in whole points.
-fn columns(state: &UiState, whole: Rect) -> (Rect, Option<Rect>) {
+fn columns(state: &UiState, full_rect: Rect) -> (Rect, Option<Rect>) {
     if !state.editor.shows_film() {
-        return (whole, None);
+        return (full_rect, None);
     }
-    let third = (whole.width() / 3.0).floor();
-    let (designs, film) = whole.split_left_right_at_x(whole.right() - third);
+    let third = (full_rect.width() / 3.0).floor();
+    let (designs, film) = full_rect.split_left_right_at_x(full_rect.right() - third);
     (designs, Some(film))
 }
 
@@ -68,9 +68,9 @@ pub fn overlay(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intent
     toolbar::show(ctx, state, stage, intents);
 }
 
-fn halves(state: &UiState, stage: Rect, sides: &[SheetSide; 2]) -> [DesignPane; 2] {
+fn design_panes(state: &UiState, stage: Rect, sides: &[SheetSide; 2]) -> [DesignPane; 2] {
     let (left, right) = stage.split_left_right_at_fraction(0.5);
-    let half = |side: Side, rect: Rect| {
+    let pane = |side: Side, rect: Rect| {
         let room = Rect::from_min_max(
             rect.min + vec2(3.0 * GRID, BAR_HEIGHT + 4.0 * GRID),
             rect.max - vec2(3.0 * GRID, ADVICE_HEIGHT + GRID),
@@ -84,13 +84,13 @@ fn halves(state: &UiState, stage: Rect, sides: &[SheetSide; 2]) -> [DesignPane; 
         let view = state.editor.panes.view(EditorPane::Design(side));
         DesignPane::new(side, rect, room, bounds, view)
     };
-    [half(Side::Source, left), half(Side::Target, right)]
+    [pane(Side::Source, left), pane(Side::Target, right)]
 }
 
 fn handle_pointer(
     ui: &Ui,
     state: &UiState,
-    half: &DesignPane,
+    pane: &DesignPane,
     response: &Response,
     intents: &mut Intents,
 ) {
@@ -102,67 +102,68 @@ fn handle_pointer(
             pointer.press_origin(),
         )
     });
-    let mut act = |act: EditorAction| intents.push(Intent::Editor(act));
+    let mut send = |action: EditorAction| intents.push(Intent::Editor(action));
     let primary = PointerButton::Primary;
     if response.drag_started_by(primary)
         && let Some(origin) = origin
     {
         // The press position: egui reports a drag only after the pointer has moved some points.
-        act(EditorAction::Press(half.pointer_target(origin, shift)));
+        send(EditorAction::Press(pane.pointer_target(origin, shift)));
     }
     if let Some(pointer) = response.interact_pointer_pos() {
         let delta = response.drag_delta();
         let delta = Vec2::new(delta.x, delta.y);
         if response.dragged_by(primary) && delta != Vec2::ZERO {
-            act(EditorAction::Drag(
-                half.pointer_target(pointer, shift),
+            send(EditorAction::Drag(
+                pane.pointer_target(pointer, shift),
                 delta,
             ));
         } else if response.dragged() && delta != Vec2::ZERO {
-            act(EditorAction::Pan(EditorPane::Design(half.side), delta));
+            send(EditorAction::Pan(EditorPane::Design(pane.side), delta));
         }
         if response.clicked_by(primary) {
-            act(EditorAction::Click(half.pointer_target(pointer, shift)));
+            send(EditorAction::Click(pane.pointer_target(pointer, shift)));
         }
         if response.clicked_by(PointerButton::Secondary) {
-            act(EditorAction::Remove(half.pointer_target(pointer, shift)));
+            send(EditorAction::Remove(pane.pointer_target(pointer, shift)));
         }
     }
     if response.drag_stopped_by(primary) {
-        act(EditorAction::Release);
+        send(EditorAction::Release);
     }
     if let Some(pointer) = response.hover_pos() {
         // Only on movement: an intent in every frame would keep the window redrawing.
         if moved && !response.dragged() {
-            act(EditorAction::Hover(Some(
-                half.pointer_target(pointer, shift),
+            send(EditorAction::Hover(Some(
+                pane.pointer_target(pointer, shift),
             )));
         }
-        zoom(ui, half, pointer - half.rect.center(), &mut act);
-    } else if has_left(state, half, response) {
-        act(EditorAction::Hover(None));
+        zoom(ui, pane, pointer - pane.rect.center(), &mut send);
+    } else if has_left(state, pane, response) {
+        send(EditorAction::Hover(None));
     }
 }
 
 /// Returns whether the pointer has left the panes while something is still highlighted.
-fn has_left(state: &UiState, half: &DesignPane, response: &Response) -> bool {
+fn has_left(state: &UiState, pane: &DesignPane, response: &Response) -> bool {
     let editor = &state.editor;
-    let is_marked = editor.hovered.is_some() || editor.trace.is_some() || editor.part.is_some();
+    let is_highlighted =
+        editor.hovered.is_some() || editor.trace.is_some() || editor.part.is_some();
     // The other pane reports by itself what is under the pointer.
     let is_elsewhere = response
         .ctx
         .input(|input| input.pointer.hover_pos())
-        .is_none_or(|p| !half.rect.union(half.opposite_pane()).contains(p));
+        .is_none_or(|p| !pane.rect.union(pane.opposite_pane()).contains(p));
     // A handle that is being dragged stays highlighted wherever the pointer goes.
-    is_marked && is_elsewhere && editor.grabbed.is_none()
+    is_highlighted && is_elsewhere && editor.grabbed.is_none()
 }
 
-fn zoom(ui: &Ui, half: &DesignPane, from_middle: egui::Vec2, act: &mut impl FnMut(EditorAction)) {
+fn zoom(ui: &Ui, pane: &DesignPane, from_middle: egui::Vec2, send: &mut impl FnMut(EditorAction)) {
     if let Some(factor) = zoom_factor(ui) {
         // The view zooms about the centre of the fitted area, which lies below the toolbar.
-        let at = from_middle - half.room_offset();
-        act(EditorAction::Zoom {
-            pane: EditorPane::Design(half.side),
+        let at = from_middle - pane.room_offset();
+        send(EditorAction::Zoom {
+            pane: EditorPane::Design(pane.side),
             at: Vec2::new(at.x, at.y),
             factor,
         });
@@ -170,9 +171,9 @@ fn zoom(ui: &Ui, half: &DesignPane, from_middle: egui::Vec2, act: &mut impl FnMu
 }
 
 /// Draws one line of instructions for the current tool, or why the last action was refused.
-fn instructions(painter: &Painter, state: &UiState, stage: Rect, inks: &EditorColours) {
+fn instructions(painter: &Painter, state: &UiState, stage: Rect, colours: &EditorColours) {
     let editor = &state.editor;
-    let usual = match (editor.tool, editor.first_part) {
+    let instruction = match (editor.tool, editor.first_part) {
         (EditorTool::Pins, _) if state.sheet.has_free_pins() => {
             "Click anywhere to add a pin on both sides, drag it into place, right-click to delete \
              it."
@@ -199,10 +200,10 @@ fn instructions(painter: &Painter, state: &UiState, stage: Rect, inks: &EditorCo
             "Now click the matching part in the source, or empty space to make this part appear."
         }
     };
-    let refusal = editor.refusal.map(|words| (words, inks.problem));
-    let (words, colour) = refusal.unwrap_or((usual, inks.ink));
+    let refusal = editor.refusal.map(|text| (text, colours.problem));
+    let (text, colour) = refusal.unwrap_or((instruction, colours.ink));
     let width = stage.width() - 4.0 * GRID;
-    let galley = painter.layout(words.to_owned(), SMALL, colour, width);
+    let galley = painter.layout(text.to_owned(), SMALL, colour, width);
     let at = Align2::CENTER_BOTTOM
         .anchor_size(stage.center_bottom() - vec2(0.0, GRID), galley.size())
         .min;

@@ -72,29 +72,29 @@ fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
 /// Draws the buttons for the film pane and for linked views.
 fn views(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let panes = &state.editor.panes;
-    let mut act = |act: EditorAction| intents.push(Intent::Editor(act));
+    let mut send = |action: EditorAction| intents.push(Intent::Editor(action));
     ui.add_space(GRID);
     let tip = "Shows the film next to the designs. The usual keys play and scrub it.";
     if choice_button(ui, panes.film, "Film", tip, 44.0) {
-        act(EditorAction::ShowFilm(!panes.film));
+        send(EditorAction::ShowFilm(!panes.film));
     }
     let tip = "On: all panes pan and zoom together. Off: each separately.";
     if choice_button(ui, panes.together, "Link views", tip, 68.0) {
-        act(EditorAction::LinkPanes(!panes.together));
+        send(EditorAction::LinkPanes(!panes.together));
     }
 }
 
 /// Draws the buttons that only outlines need: snapping to corners, and the triangles inside.
 fn outline_tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let editor = &state.editor;
-    let mut act = |act: EditorAction| intents.push(Intent::Editor(act));
+    let mut send = |action: EditorAction| intents.push(Intent::Editor(action));
     ui.add_space(GRID);
     let tip = "Snaps pins to nearby corners. Hold Shift to place a pin freely.";
     if choice_button(ui, editor.snaps, "Snap", tip, 52.0) {
-        act(EditorAction::Snap(!editor.snaps));
+        send(EditorAction::Snap(!editor.snaps));
     }
     let tip = "Shows the triangles that divide both designs, the same ones on either side.";
     if choice_button(ui, editor.triangles, "Triangles", tip, 68.0) {
-        act(EditorAction::ShowTriangles(!editor.triangles));
+        send(EditorAction::ShowTriangles(!editor.triangles));
     }
 }

@@ -28,14 +28,16 @@ struct OpenFileDialog {
 
 /// Draws the dialog while files are asked for.
 pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents: &mut Intents) {
-    let Some(asks) = state.dialog.purpose() else {
+    let Some(purpose) = state.dialog.purpose() else {
         files.0 = None;
         return;
     };
-    files.0.take_if(|shown| shown.purpose != *asks);
-    let shown = files.0.get_or_insert_with(|| OpenFileDialog {
-        purpose: asks.clone(),
-        dialog: dialog(asks, state),
+    files
+        .0
+        .take_if(|open_dialog| open_dialog.purpose != *purpose);
+    let open_dialog = files.0.get_or_insert_with(|| OpenFileDialog {
+        purpose: purpose.clone(),
+        dialog: dialog(purpose, state),
         typed: TypedPath::default(),
     });
     // Handled here, because the dialog itself would first take the focus off its text field.
@@ -44,13 +46,13 @@ pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents
         return;
     }
     // The dialog writes selected names in the colour of the selection's background.
-    theme::with_bright_selection(ctx, |ctx| match asks {
+    theme::with_bright_selection(ctx, |ctx| match purpose {
         DialogPurpose::Save(_) => {
-            shown.dialog.update(ctx);
+            open_dialog.dialog.update(ctx);
         }
-        _ => draw_with_side_panel(ctx, state, shown, intents),
+        _ => draw_with_side_panel(ctx, state, open_dialog, intents),
     });
-    match shown.dialog.state() {
+    match open_dialog.dialog.state() {
         DialogState::Open => {}
         DialogState::Picked(path) => intents.push(Intent::AnswerDialog(vec![path.clone()])),
         DialogState::PickedMultiple(paths) => intents.push(Intent::AnswerDialog(paths.clone())),
@@ -64,14 +66,14 @@ pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents
 fn draw_with_side_panel(
     ctx: &Context,
     state: &UiState,
-    shown: &mut OpenFileDialog,
+    open_dialog: &mut OpenFileDialog,
     intents: &mut Intents,
 ) {
-    let filters = shown.purpose.filters();
+    let filters = open_dialog.purpose.filters();
     let extensions = filters
         .first()
         .map_or(&[][..], |(_, extensions)| extensions);
-    let typed = &mut shown.typed;
+    let typed = &mut open_dialog.typed;
     let mut panel = |ui: &mut Ui, dialog: &mut FileDialog| {
         let last_selected = dialog.selected_entries().last();
         let entry = last_selected.or(dialog.selected_entry());
@@ -87,12 +89,14 @@ fn draw_with_side_panel(
         let file = entry.filter(|entry| entry.is_file() && !typed.has_completions());
         file_side_panel::preview(ui, state, file.map(DirectoryEntry::as_path), intents);
     };
-    shown.dialog.update_with_right_panel_ui(ctx, &mut panel);
+    open_dialog
+        .dialog
+        .update_with_right_panel_ui(ctx, &mut panel);
 }
 
-fn dialog(asks: &DialogPurpose, state: &UiState) -> FileDialog {
+fn dialog(purpose: &DialogPurpose, state: &UiState) -> FileDialog {
     let mut dialog = FileDialog::new()
-        .title(asks.title())
+        .title(purpose.title())
         .opening_mode(OpeningMode::AlwaysInitialDir)
         .default_size(SIZE)
         .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
@@ -115,13 +119,13 @@ fn dialog(asks: &DialogPurpose, state: &UiState) -> FileDialog {
             }
         });
     }
-    for (index, (name, extensions)) in asks.filters().into_iter().enumerate() {
+    for (index, (name, extensions)) in purpose.filters().into_iter().enumerate() {
         dialog = dialog.add_file_filter_extensions(&name, extensions);
         if index == 0 {
             dialog = dialog.default_file_filter(&name);
         }
     }
-    match asks {
+    match purpose {
         DialogPurpose::Open | DialogPurpose::Insert(_) => dialog.pick_multiple(),
         DialogPurpose::Replace(_) => dialog.pick_file(),
         DialogPurpose::Save(name) => {

@@ -55,8 +55,9 @@ pub fn field(
     let id = ui.id().with("typed");
     let has_focus = ui.memory(|memory| memory.has_focus(id));
     // Tab is consumed before the field handles it, which would move the focus away.
-    let completes = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
-    let mut chosen = completes
+    let is_tab_pressed =
+        has_focus && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
+    let mut chosen = is_tab_pressed
         .then(|| typed.completions.first().cloned())
         .flatten();
     let hint = "Type a path …";
@@ -67,18 +68,18 @@ pub fn field(
         .desired_width(f32::INFINITY);
     let response = ui.add(edit);
     let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    for offer in &typed.completions {
-        let name = offer.file_name().unwrap_or(offer.as_os_str());
-        let slash = if offer.is_dir() { "/" } else { "" };
+    for completion in &typed.completions {
+        let name = completion.file_name().unwrap_or(completion.as_os_str());
+        let slash = if completion.is_dir() { "/" } else { "" };
         let line = Button::new(format!("{}{slash}", name.to_string_lossy()))
             .frame_when_inactive(false)
             .truncate();
         if ui
             .add(line)
-            .on_hover_text(offer.display().to_string())
+            .on_hover_text(completion.display().to_string())
             .clicked()
         {
-            chosen = Some(offer.clone());
+            chosen = Some(completion.clone());
         }
     }
     if let Some(path) = chosen {
@@ -108,8 +109,8 @@ pub fn preview(ui: &mut Ui, state: &UiState, file: Option<&Path>, intents: &mut 
     ui.add_space(GRID);
     match state.preview.of(file) {
         Some(Ok(picture)) => draw_picture(ui, state, picture),
-        Some(Err(why)) => {
-            ui.label(secondary_text(ui, why));
+        Some(Err(reason)) => {
+            ui.label(secondary_text(ui, reason));
         }
         None => {
             ui.label(secondary_text(ui, "Loading preview …"));
@@ -124,20 +125,20 @@ fn draw_picture(ui: &mut Ui, state: &UiState, picture: &Arc<RgbaImage>) {
     let longest = PREVIEW_PX.0.max(PREVIEW_PX.1);
     let texture = texture(ui.ctx(), Id::new("preview"), picture, longest);
     let side = ui.available_width();
-    let (room, _) = ui.allocate_exact_size(vec2(side, side), bevy_egui::egui::Sense::hover());
+    let (frame_rect, _) = ui.allocate_exact_size(vec2(side, side), bevy_egui::egui::Sense::hover());
     let [r, g, b] = state.session.style().ground.0;
     let painter = ui.painter();
-    painter.rect_filled(room, RADIUS, Color32::from_rgb(r, g, b));
+    painter.rect_filled(frame_rect, RADIUS, Color32::from_rgb(r, g, b));
     painter.rect_stroke(
-        room,
+        frame_rect,
         RADIUS,
         (1.0, ThemePalette::of(ui).line),
         bevy_egui::egui::StrokeKind::Inside,
     );
     let size = vec2(picture.width() as f32, picture.height() as f32);
-    let inner = room.shrink(4.0);
+    let inner = frame_rect.shrink(4.0);
     let fitted = size * (inner.size() / size).min_elem();
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    let at = Rect::from_center_size(inner.center(), fitted);
-    painter.image(texture.id(), at, whole, Color32::WHITE);
+    let full_uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let image_rect = Rect::from_center_size(inner.center(), fitted);
+    painter.image(texture.id(), image_rect, full_uv, Color32::WHITE);
 }

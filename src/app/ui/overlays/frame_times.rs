@@ -23,13 +23,13 @@ pub fn strip(root: &mut Ui, state: &UiState) {
 fn line(ui: &mut Ui, state: &UiState) {
     ui.label(secondary_text(ui, "Frame time"))
         .on_hover_text("Median of the last frames");
-    let whole = ("Total", &state.frame_intervals.0);
+    let total = ("Total", &state.frame_intervals.0);
     let stages = match state.map.is_shown {
-        true => vec![("Blend and draw", state.map.times()), whole],
+        true => vec![("Blend and draw", state.map.times()), total],
         false => vec![
             ("Solve", &state.times.solve),
             ("Draw", &state.times.draw),
-            whole,
+            total,
         ],
     };
     for (stage, durations) in stages {
@@ -50,13 +50,13 @@ fn frame_source(state: &UiState) -> (String, String) {
     match state.session.transition().and_then(Transition::recording) {
         Some(Ok(film)) => {
             let megabytes = film.bytes() as f64 / 1e6;
-            let (kind, by) = match state.times.is_gpu_played {
+            let (kind, source) = match state.times.is_gpu_played {
                 true => ("GPU recording", "the GPU"),
                 false => ("Recording", "memory"),
             };
             let details = format!(
-                "Frames are played from {by}: recorded with {} solves, accurate to {:.0e} of the \
-                 designs' size",
+                "Frames are played from {source}: recorded with {} solves, accurate to {:.0e} of \
+                the designs' size",
                 film.evaluation_count(),
                 film.error()
             );
@@ -64,8 +64,8 @@ fn frame_source(state: &UiState) -> (String, String) {
         }
         Some(Err(error)) => (solved(), error.to_string()),
         None => match (state.recording.progress(), state.recording.refused()) {
-            (Some((doing, share)), _) => (
-                format!("Solved, {doing} {:.0} %", 100.0 * share),
+            (Some((stage, fraction)), _) => (
+                format!("Solved, {stage} {:.0} %", 100.0 * fraction),
                 "Frames are solved until the transition has been recorded".to_owned(),
             ),
             (None, Some(error)) => (solved(), error.to_string()),

@@ -28,20 +28,20 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
     let area = fixed_layer("notices", Align2::CENTER_BOTTOM, at).order(Order::Foreground);
     area.show(ctx, |ui| {
         for notice in &list[list.len().saturating_sub(MAX_SHOWN)..] {
-            let too_much = is_too_much(state, notice);
-            message(ui, notice, too_much, width, intents);
+            let exceeds_limits = exceeds_limits(state, notice);
+            message(ui, notice, exceeds_limits, width, intents);
         }
     });
 }
 
 /// Returns whether the notice reports a transition that was not built because it would take long.
-fn is_too_much(state: &UiState, notice: &Notice) -> bool {
+fn exceeds_limits(state: &UiState, notice: &Notice) -> bool {
     let problem = state.session.problem();
     notice.kind == NoticeKind::Problem(NoticeTopic::Transition)
         && problem.is_some_and(TransitionProblem::is_too_much)
 }
 
-fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, intents: &mut Intents) {
+fn message(ui: &mut Ui, notice: &Notice, exceeds_limits: bool, width: f32, intents: &mut Intents) {
     let palette = ThemePalette::of(ui);
     let (icon, colour) = match notice.kind {
         NoticeKind::Problem(_) => (icons::WARNING, palette.problem),
@@ -64,9 +64,9 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, intents: &m
                 ui.add(Label::new(&notice.text).wrap().selectable(true));
                 if let Some(file) = &notice.file {
                     ui.add_space(GRID);
-                    go_to(ui, file);
+                    file_buttons(ui, file);
                 }
-                if too_much {
+                if exceeds_limits {
                     ui.add_space(GRID);
                     let tip = "Builds it no matter how long it takes. You can cancel at any time.";
                     if ui.button("Build anyway").on_hover_text(tip).clicked() {
@@ -83,7 +83,7 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, intents: &m
 }
 
 /// Draws buttons that lead to an exported file.
-fn go_to(ui: &mut Ui, file: &Path) {
+fn file_buttons(ui: &mut Ui, file: &Path) {
     ui.horizontal(|ui| {
         let folder = if file.is_dir() {
             Some(file)

@@ -12,7 +12,7 @@ use crate::app::ui::kit::widgets::{card, fixed_layer};
 use crate::app::ui::ui_state::{Intents, UiState};
 
 /// Longer side of the frame shown while a film is exported, in points.
-const PICTURE: f32 = 120.0;
+const PREVIEW_SIDE: f32 = 120.0;
 
 /// Draws a card at the top of the stage for each running job.
 pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
@@ -21,7 +21,7 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
     let export = state.recorder.work();
     let export = export.map(|work| (work, Intent::CancelExport));
     let choice = state.choosing.visible_progress();
-    let choice = choice.map(|share| (("Trying methods", share), Intent::CancelMethodSearch));
+    let choice = choice.map(|fraction| (("Trying methods", fraction), Intent::CancelMethodSearch));
     let all: Vec<_> = build.into_iter().chain(choice).chain(export).collect();
     if all.is_empty() {
         return;
@@ -33,12 +33,12 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
                 Intent::CancelExport => state.recorder.preview(),
                 _ => None,
             };
-            pill(ui, stage, fraction, picture, cancel, intents);
+            progress_card(ui, stage, fraction, picture, cancel, intents);
         }
     });
 }
 
-fn pill(
+fn progress_card(
     ui: &mut Ui,
     stage: &str,
     fraction: f64,
@@ -51,7 +51,7 @@ fn pill(
             if let Some(picture) = picture {
                 let texture = texture(ui.ctx(), Id::new("film"), &picture, u32::MAX);
                 let size = texture.size_vec2();
-                ui.image((texture.id(), size * (PICTURE / size.max_elem())));
+                ui.image((texture.id(), size * (PREVIEW_SIDE / size.max_elem())));
             }
             ui.label(stage);
             let bar = ProgressBar::new(fraction as f32)

@@ -13,8 +13,8 @@ use crate::app::unsaved_question::UnsavedKind;
 
 /// Draws the pending question, if any.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
-    if let (Some(words), Some(lost)) = (state.question.text(), state.question.kind()) {
-        ask_before_closing(ctx, lost, words, intents);
+    if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind()) {
+        ask_before_closing(ctx, kind, words, intents);
     } else if let Some((title, age)) = state.autosave.recoverable() {
         ask_recover(ctx, title, age, intents);
     } else if let Some(path) = state.drop.undecided() {
@@ -23,15 +23,15 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
 }
 
 /// Heading, label that keeps the work, and label that discards it.
-fn words(lost: UnsavedKind) -> [&'static str; 3] {
-    match lost {
+fn labels(kind: UnsavedKind) -> [&'static str; 3] {
+    match kind {
         UnsavedKind::Changes => ["Unsaved changes", "Save", "Don't save"],
         UnsavedKind::Film => ["Export in progress", "Wait", "Stop export"],
     }
 }
 
-fn ask_before_closing(ctx: &Context, lost: UnsavedKind, question: &str, intents: &mut Intents) {
-    let [heading, keep, discard] = words(lost);
+fn ask_before_closing(ctx: &Context, kind: UnsavedKind, question: &str, intents: &mut Intents) {
+    let [heading, keep, discard] = labels(kind);
     Modal::new(Id::new("unsaved changes")).show(ctx, |ui| {
         ui.set_width(400.0);
         ui.heading(heading);
@@ -57,11 +57,11 @@ fn ask_recover(ctx: &Context, title: &str, age: Option<Duration>, intents: &mut 
         ui.set_width(400.0);
         ui.heading("Recover unsaved work?");
         let when = age.map_or_else(String::new, |age| format!(", {}", ago(age)));
-        let words = format!(
+        let text = format!(
             "Morphospace closed before changes to “{title}” were saved{when}. They can be \
              recovered."
         );
-        ui.add(Label::new(words).wrap());
+        ui.add(Label::new(text).wrap());
         answers(ui, |ui| {
             if primary_button(ui, "Recover").clicked() {
                 intents.push(Intent::AnswerRecovery(RecoveryAnswer::Restore));
@@ -94,26 +94,26 @@ fn ago(age: Duration) -> String {
 
 fn ask_drop(ctx: &Context, state: &UiState, path: &Path, intents: &mut Intents) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let Some(whole) = state.session.whole_project() else {
+    let Some(project) = state.session.whole_project() else {
         return;
     };
     // The two designs of the current segment.
-    let [source, target] = whole.segment_designs(state.session.segment());
+    let [source, target] = project.segment_designs(state.session.segment());
     Modal::new(Id::new("drop")).show(ctx, |ui| {
         ui.set_width(440.0);
         ui.heading("Add or replace a design");
-        let words = format!(
+        let text = format!(
             "Where should {name} go? Add it as the last design of the film, or replace the target \
              or the source. To open a new project instead, drop two or more files."
         );
-        ui.add(Label::new(words).wrap());
+        ui.add(Label::new(text).wrap());
         answers(ui, |ui| {
             if primary_button(ui, "Add at end").clicked() {
-                let end = whole.designs.len();
+                let end = project.designs.len();
                 intents.push(Intent::InsertDesigns(end, vec![path.to_owned()]));
             }
-            let mut replace = |ui: &mut Ui, words: &str, index: usize| {
-                if ui.button(words).clicked() {
+            let mut replace = |ui: &mut Ui, text: &str, index: usize| {
+                if ui.button(text).clicked() {
                     intents.push(Intent::ReplaceDesign(index, path.to_owned()));
                 }
             };

@@ -54,7 +54,7 @@ fn paint_layers(ui: &mut Ui, layers: &mut PaintLayerOptions) {
     );
 }
 
-const EQUAL: &str = "Lines of equal distance in the blended field.";
+const CONTOURS_TIP: &str = "Lines of equal distance in the blended field.";
 
 /// Toggle of one layer: whether it is visible, its name and tooltip, and whether it applies.
 type LayerToggle<'a> = (&'a mut bool, &'static str, &'static str, bool);
@@ -96,7 +96,7 @@ fn layer_toggles<'a>(
             "Edges of the triangles that carry the motion.",
             !is_field,
         ),
-        (&mut show.iso_lines, "Contours", EQUAL, is_field),
+        (&mut show.iso_lines, "Contours", CONTOURS_TIP, is_field),
         (
             &mut show.signed_colours,
             "Signed field",

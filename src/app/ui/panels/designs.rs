@@ -24,31 +24,31 @@ const MIDDLE_GREY: u8 = 128;
 
 /// Range of the scale slider (tolerance: on a slider about 100 points long, a wider range could not
 /// be set precisely).
-const SCALES: RangeInclusive<f64> = 0.25..=4.0;
+const SCALE_RANGE: RangeInclusive<f64> = 0.25..=4.0;
 
 /// Draws the list of all designs, and all settings of those in the current segment.
 pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
-    let Some(whole) = state.session.whole_project() else {
+    let Some(project) = state.session.whole_project() else {
         return;
     };
     // A path over the map blends all designs.
-    let numbers = match whole.follows_path() {
-        true => (0..whole.designs.len()).collect(),
-        false => whole.segment_designs(state.session.segment()).to_vec(),
+    let numbers = match project.follows_path() {
+        true => (0..project.designs.len()).collect(),
+        false => project.segment_designs(state.session.segment()).to_vec(),
     };
     let last = numbers.len().saturating_sub(1).max(1) as f64;
     section(ui, "Designs", |ui| {
-        if whole.is_sequence() {
-            order(ui, state, whole, intents);
+        if project.is_sequence() {
+            order(ui, state, project, intents);
         }
-        add(ui, whole, intents);
+        add(ui, project, intents);
         let tip = "How the designs are aligned before they are matched.";
         choice_row(ui, "Align", tip, &mut draft.fit);
         let style = state.session.segment_style();
-        let seen = draft.designs.iter_mut().zip(&numbers).enumerate();
-        for (index, (entry, &number)) in seen {
+        let entries = draft.designs.iter_mut().zip(&numbers).enumerate();
+        for (index, (entry, &number)) in entries {
             let colour = style.fill_at(index as f64 / last);
-            let role = match (whole.follows_path(), index) {
+            let role = match (project.follows_path(), index) {
                 (true, _) => format!("{}", number + 1),
                 (false, 0) => "Source".to_owned(),
                 (false, _) => "Target".to_owned(),
@@ -64,55 +64,55 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
                 notes(ui, index, &design.notes);
             }
         }
-        if !whole.is_sequence() && swap(ui) {
+        if !project.is_sequence() && swap(ui) {
             draft.designs.swap(0, 1);
             // Settings made by hand refer to points of the designs, so they change sides too.
             draft.options.matching = draft.options.matching.swapped();
             let parts = draft.options.parts.iter_mut();
             parts.for_each(|part| *part = part.swapped());
-            let coats = &mut draft.options.coats;
-            coats.reorder_at = 1.0 - coats.reorder_at;
+            let layers = &mut draft.options.coats;
+            layers.reorder_at = 1.0 - layers.reorder_at;
         }
     });
 }
 
 /// Draws the list of all designs, with buttons to reorder them.
-fn order(ui: &mut Ui, state: &UiState, whole: &Project, intents: &mut Intents) {
-    let here = whole.segment_designs(state.session.segment());
-    for (k, entry) in whole.designs.iter().enumerate() {
+fn order(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents) {
+    let current = project.segment_designs(state.session.segment());
+    for (k, entry) in project.designs.iter().enumerate() {
         ui.horizontal(|ui| {
-            let words = RichText::new(format!("{}", k + 1)).color(ThemePalette::of(ui).weak);
-            ui.add_sized([16.0, CONTROL_HEIGHT], Label::new(words));
+            let number = RichText::new(format!("{}", k + 1)).color(ThemePalette::of(ui).weak);
+            ui.add_sized([16.0, CONTROL_HEIGHT], Label::new(number));
             from_right(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
-                list_buttons(ui, whole, k, intents);
+                list_buttons(ui, project, k, intents);
                 let name = RichText::new(entry.display_name());
-                let name = match here.contains(&k) {
+                let name = match current.contains(&k) {
                     true => name.strong(),
                     false => name,
                 };
                 let label = Label::new(name).truncate().sense(Sense::click());
                 let tip = format!("{}\nClick to go there.", entry.path.display());
                 let left = Layout::left_to_right(Align::Center);
-                let room = vec2(ui.available_width(), CONTROL_HEIGHT);
-                let label = ui.allocate_ui_with_layout(room, left, |ui| ui.add(label));
+                let size = vec2(ui.available_width(), CONTROL_HEIGHT);
+                let label = ui.allocate_ui_with_layout(size, left, |ui| ui.add(label));
                 if label.inner.on_hover_text(tip).clicked() {
                     intents.push(Intent::Seek(k as f64));
                 }
             });
         });
     }
-    let mut closed = whole.closed;
+    let mut closed = project.closed;
     let tip = "Continues from the last design to the first, so that the film can repeat forever.";
     toggle(ui, "Close the loop", tip, &mut closed);
-    if closed != whole.closed {
+    if closed != project.closed {
         intents.push(Intent::CloseLoop(closed));
     }
 }
 
 /// Draws the buttons of one design in the list, from right to left.
-fn list_buttons(ui: &mut Ui, whole: &Project, k: usize, intents: &mut Intents) {
-    let last = whole.designs.len() - 1;
+fn list_buttons(ui: &mut Ui, project: &Project, k: usize, intents: &mut Intents) {
+    let last = project.designs.len() - 1;
     let mut button = |icon, tip: &str, order: Option<Vec<MovedDesigns>>| {
         ui.add_enabled_ui(order.is_some(), |ui| {
             if icon_button(ui, icon, tip, vec2(24.0, 24.0)).clicked() {
@@ -120,21 +120,21 @@ fn list_buttons(ui: &mut Ui, whole: &Project, k: usize, intents: &mut Intents) {
             }
         });
     };
-    let removed = (last > 1).then(|| whole.without(k));
+    let removed = (last > 1).then(|| project.without(k));
     button(icons::CLOSE, "Remove", removed);
-    let duplicated = whole.with_duplicated(k);
+    let duplicated = project.with_duplicated(k);
     button(icons::COPY, "Duplicate", Some(duplicated));
-    let later = (k < last).then(|| whole.with_moved(k, k + 2)).flatten();
+    let later = (k < last).then(|| project.with_moved(k, k + 2)).flatten();
     button(icons::DOWN, "Move down", later);
-    let earlier = k.checked_sub(1).and_then(|to| whole.with_moved(k, to));
+    let earlier = k.checked_sub(1).and_then(|to| project.with_moved(k, to));
     button(icons::UP, "Move up", earlier);
 }
 
-fn add(ui: &mut Ui, whole: &Project, intents: &mut Intents) {
+fn add(ui: &mut Ui, project: &Project, intents: &mut Intents) {
     let button = ui.button("Add designs …");
     let tip = "Adds designs after the last one. The film goes through all of them.";
     if button.on_hover_text(tip).clicked() {
-        intents.push(Intent::AskInsert(whole.designs.len()));
+        intents.push(Intent::AskInsert(project.designs.len()));
     }
     ui.add_space(4.0);
 }
@@ -221,7 +221,7 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
         },
     );
     let tip = "Scales this design about its centre.";
-    slider(ui, "Scale", tip, &mut place.scale, SCALES, true);
+    slider(ui, "Scale", tip, &mut place.scale, SCALE_RANGE, true);
     let mut degrees = place.rotation.to_degrees();
     let tip = "Rotates this design counter-clockwise, in degrees.";
     slider(ui, "Rotation", tip, &mut degrees, -180.0..=180.0, false);

@@ -18,7 +18,7 @@ use crate::io::sanitize::SanitizedLine;
 use crate::settings::Choice;
 
 /// Standard sizes, in pixels along the shorter side: value, label and tooltip.
-const SIDES: [(u32, &str, &str); 4] = [
+const STANDARD_SIZES: [(u32, &str, &str); 4] = [
     (480, "480", "480 pixels along the shorter side"),
     (720, "720", "720 pixels along the shorter side: HD"),
     (1080, "1080", "1080 pixels along the shorter side: Full HD"),
@@ -27,7 +27,7 @@ const SIDES: [(u32, &str, &str); 4] = [
 
 /// Maximum frame rate of a GIF, in frames per second: its delays are whole hundredths of a second,
 /// and players slow down delays below two of them.
-const GIF_FPS: u32 = 50;
+const MAX_GIF_FPS: u32 = 50;
 
 /// Draws the settings, in the place of the transition's.
 pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
@@ -68,7 +68,7 @@ pub fn foot(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
 }
 
 fn film(ui: &mut Ui, state: &UiState, draft: &mut Preferences, intents: &mut Intents) {
-    purpose(ui, draft);
+    preset(ui, draft);
     my_presets(ui, state, intents);
     let layout = &mut draft.film.layout;
     let tip = "Aspect ratio of the film. The stage shows the frame.";
@@ -77,7 +77,7 @@ fn film(ui: &mut Ui, state: &UiState, draft: &mut Preferences, intents: &mut Int
     row(ui, "Size", tip, |ui| {
         let custom = drag(&mut layout.lines, 16..=4320, 4.0, 0);
         let custom = ui.add_sized([48.0, CONTROL_HEIGHT], custom);
-        custom | choices(ui, &mut layout.lines, &SIDES)
+        custom | choices(ui, &mut layout.lines, &STANDARD_SIZES)
     });
     let tip = "Empty space all around, as a fraction of the shorter side.";
     slider(ui, "Margin", tip, &mut layout.margin, 0.0..=0.3, false);
@@ -88,7 +88,7 @@ fn film(ui: &mut Ui, state: &UiState, draft: &mut Preferences, intents: &mut Int
     let tip = "What happens at the end of the film.";
     choice_row(ui, "At the end", tip, &mut draft.film.ending);
     file(ui, state, draft);
-    advice(ui, state, draft);
+    format_advice(ui, state, draft);
 }
 
 /// Returns the kind of content on the stage.
@@ -122,7 +122,7 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
     }
     let is_gif = format == GIF;
     if is_gif {
-        draft.film.fps = draft.film.fps.min(GIF_FPS);
+        draft.film.fps = draft.film.fps.min(MAX_GIF_FPS);
     }
     let rates = [
         (25, "25", "25 fps (PAL)"),
@@ -135,14 +135,14 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
         ),
     ];
     row(ui, "Frame rate", "Frames per second.", |ui| {
-        let is_available = |fps: &u32| !is_gif || *fps <= GIF_FPS;
+        let is_available = |fps: &u32| !is_gif || *fps <= MAX_GIF_FPS;
         choices_where(ui, &mut draft.film.fps, &rates, is_available)
     });
     let is_opaque = format == FilmFileFormat::OPAQUE;
     let mut is_transparent = draft.film.is_transparent && !is_opaque;
     row(ui, "Background", "Background of the film.", |ui| {
-        choices_where(ui, &mut is_transparent, &BACKGROUNDS, |wish| {
-            !wish || !is_opaque
+        choices_where(ui, &mut is_transparent, &BACKGROUNDS, |transparent| {
+            !transparent || !is_opaque
         })
     });
     // MP4 has no transparency; the setting is kept for other file types.
@@ -152,20 +152,20 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
 }
 
 /// Draws the presets for common uses, which set most of the settings below.
-fn purpose(ui: &mut Ui, draft: &mut Preferences) {
+fn preset(ui: &mut Ui, draft: &mut Preferences) {
     let layout = &mut draft.film.layout;
     let before = LayoutPreset::ALL
         .into_iter()
         .find(|p| p.layout() == *layout);
-    let mut purpose = before;
-    let purposes = LayoutPreset::ALL.map(|p| (Some(p), p.name().title, p.name().sentence));
+    let mut preset = before;
+    let presets = LayoutPreset::ALL.map(|p| (Some(p), p.name().title, p.name().sentence));
     let tip = "Sets aspect ratio, size, captions and file type for a common use.";
-    choices_row(ui, "Preset", tip, &mut purpose, &purposes);
-    if let Some(purpose) = purpose.filter(|_| purpose != before) {
-        *layout = purpose.layout();
+    choices_row(ui, "Preset", tip, &mut preset, &presets);
+    if let Some(preset) = preset.filter(|_| preset != before) {
+        *layout = preset.layout();
         // Slides and posts accept MP4. For a web page, the type that plays without a player depends
         // on the content.
-        draft.record_format = match purpose {
+        draft.record_format = match preset {
             LayoutPreset::WebPage => None,
             _ if has_ffmpeg() => Some(FilmFileFormat::Film(FilmKind::Mp4)),
             _ => None,
@@ -224,24 +224,24 @@ fn save_preset(ui: &mut Ui, intents: &mut Intents) {
 }
 
 /// Draws the lists that choose where the film starts and ends.
-fn range(ui: &mut Ui, state: &UiState, look: &mut FilmExportOptions) {
+fn range(ui: &mut Ui, state: &UiState, options: &mut FilmExportOptions) {
     let tip = "Stops at which the film starts and ends. Add stops with M.";
     row(ui, "Range", tip, |ui| {
-        let mut places = look.places(state.session.timing(), state.session.stops());
+        let mut places = options.places(state.session.timing(), state.session.stops());
         let before = places;
         let [from, to] = &mut places;
         let width = (ui.available_width() - GRID) / 2.0;
-        let first = place(ui, state, "film from", from, "Start", width);
-        let last = place(ui, state, "film to", to, "End", width);
+        let first = end_list(ui, state, "film from", from, "Start", width);
+        let last = end_list(ui, state, "film to", to, "End", width);
         if places != before {
-            look.span = places;
+            options.span = places;
         }
         first | last
     });
 }
 
 /// Drop-down list of the film's ends and the stops; `None` is the film's own end, `default_name`.
-fn place(
+fn end_list(
     ui: &mut Ui,
     state: &UiState,
     salt: &str,
@@ -271,7 +271,7 @@ fn place(
 }
 
 /// Warns about file types that suit the content badly.
-fn advice(ui: &mut Ui, state: &UiState, draft: &Preferences) {
+fn format_advice(ui: &mut Ui, state: &UiState, draft: &Preferences) {
     let content = content(state);
     if draft.format(content) == GIF && content == Some(ContentKind::Colours) {
         hint(
@@ -285,18 +285,18 @@ fn advice(ui: &mut Ui, state: &UiState, draft: &Preferences) {
 /// Describes the file that would be exported.
 fn summary(ui: &mut Ui, state: &UiState) {
     let Some(framed) = &state.film.0 else {
-        let words = match state.session.transition() {
+        let text = match state.session.transition() {
             Some(_) => "Nothing to export: the film would end where it starts.",
             None => "Nothing to export yet.",
         };
-        ui.label(secondary_text(ui, words));
+        ui.label(secondary_text(ui, text));
         return;
     };
     let size = framed.view.size();
     let (width, height) = (size.width(), size.height());
     let (frames, secs) = (framed.frames, framed.secs);
-    let words = format!("{width} × {height} pixels, {frames} frames, {secs:.1} s");
-    ui.label(secondary_text(ui, words));
+    let text = format!("{width} × {height} pixels, {frames} frames, {secs:.1} s");
+    ui.label(secondary_text(ui, text));
     let cost = match state.estimate.cost() {
         Some(cost) => format!(
             "About {}, takes about {}",

@@ -13,22 +13,22 @@ use crate::project::{MapSettings, SavedPlace};
 use crate::space::MapPath;
 
 /// Width of a row's number, in points.
-const NUMBER: f32 = 16.0;
+const NUMBER_WIDTH: f32 = 16.0;
 
 /// Width of a star, in points.
-const STAR: f32 = 14.0;
+const STAR_WIDTH: f32 = 14.0;
 
 /// Draws both sections.
 pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let Some(whole) = state.session.whole_project() else {
+    let Some(project) = state.session.whole_project() else {
         return;
     };
-    let mut draft = whole.map.clone();
+    let mut draft = project.map.clone();
     section(ui, "Path", |ui| path(ui, &mut draft));
     section(ui, "Saved blends", |ui| {
         saved_blends(ui, state, &mut draft, intents)
     });
-    if draft != whole.map {
+    if draft != project.map {
         intents.push(Intent::EditMap(Box::new(draft)));
     }
 }
@@ -57,7 +57,7 @@ fn path(ui: &mut Ui, draft: &mut MapSettings) {
     for (number, (_, stop)) in stops.enumerate() {
         ui.horizontal(|ui| {
             let words = RichText::new(format!("{}", number + 1)).color(ThemePalette::of(ui).weak);
-            ui.add_sized([NUMBER, CONTROL_HEIGHT], Label::new(words));
+            ui.add_sized([NUMBER_WIDTH, CONTROL_HEIGHT], Label::new(words));
             let name = TextEdit::singleline(&mut stop.name).hint_text("Stop");
             ui.add_sized([ui.available_width(), CONTROL_HEIGHT], name);
         });
@@ -108,17 +108,17 @@ fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedPlace, intents: 
     let side = 2.0 * CONTROL_HEIGHT + ui.spacing().item_spacing.y;
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     let Rgb([r, g, b]) = state.session.style().ground;
-    let ground = Color32::from_rgb(r, g, b);
-    ui.painter().rect_filled(rect, RADIUS, ground);
+    let background = Color32::from_rgb(r, g, b);
+    ui.painter().rect_filled(rect, RADIUS, background);
     let thumbnail = state
         .map
         .pictures()
-        .and_then(|made| made.saved_blend(place.at));
+        .and_then(|pictures| pictures.saved_blend(place.at));
     if let Some(thumbnail) = thumbnail {
         let texture = texture(ui.ctx(), Id::new(("kept", k)), thumbnail, u32::MAX);
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let full_uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let painter = ui.painter();
-        painter.image(texture.id(), rect.shrink(2.0), whole, Color32::WHITE);
+        painter.image(texture.id(), rect.shrink(2.0), full_uv, Color32::WHITE);
     }
     if response.on_hover_text("Go there").clicked() {
         intents.push(Intent::MoveMarker(place.at));
@@ -146,20 +146,21 @@ fn entry(ui: &mut Ui, place: &mut SavedPlace) -> bool {
 /// Draws the rating: a click on a star sets it, a click on the last filled star clears it.
 fn stars(ui: &mut Ui, place: &mut SavedPlace) {
     ui.spacing_mut().item_spacing.x = 0.0;
-    let given = place.stars;
+    let rating = place.stars;
     for star in 1..=SavedPlace::MOST_STARS {
         let palette = ThemePalette::of(ui);
-        let (icon, ink) = match star <= given {
+        let (icon, ink) = match star <= rating {
             true => (icons::STAR, palette.amber),
             false => (icons::STAR_OUTLINE, palette.weak),
         };
-        let (rect, response) = ui.allocate_exact_size(vec2(STAR, CONTROL_HEIGHT), Sense::click());
+        let (rect, response) =
+            ui.allocate_exact_size(vec2(STAR_WIDTH, CONTROL_HEIGHT), Sense::click());
         icons::paint_icon(ui.painter(), icon, rect, ink);
         if response
             .on_hover_text(format!("{star} of 5 stars"))
             .clicked()
         {
-            place.stars = if star == given { 0 } else { star };
+            place.stars = if star == rating { 0 } else { star };
         }
     }
     ui.add_space(GRID);

@@ -14,7 +14,7 @@ use crate::project::Project;
 use crate::warp::WarpKind;
 
 /// Initial edge length when it is set by hand, as a fraction of the design's size.
-const DEFAULT_EDGE: f64 = 0.05;
+const DEFAULT_EDGE_LENGTH: f64 = 0.05;
 
 /// Draws the section.
 pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
@@ -75,7 +75,7 @@ fn rules(ui: &mut Ui, matching: &mut MatchSettings) {
 
 fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {
     let tip = "Makes triangles as coarse as good angles allow. Off: set the edge length yourself.";
-    automatic_toggle(ui, "Auto mesh", tip, edge_length, DEFAULT_EDGE);
+    automatic_toggle(ui, "Auto mesh", tip, edge_length, DEFAULT_EDGE_LENGTH);
     if let Some(length) = edge_length {
         let tip = "Maximum edge length inside, as a fraction of the design's size. Smaller values \
                    give more triangles, softer bends and slower frames.";

@@ -146,9 +146,16 @@ fn cell(
     tooltip_left(&response, ui.min_rect().left(), &tip);
 }
 
-fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool, can: bool) {
+fn paint_cell(
+    ui: &Ui,
+    rect: Rect,
+    name: &str,
+    response: &Response,
+    is_chosen: bool,
+    is_available: bool,
+) {
     let palette = ThemePalette::of(ui);
-    let (fill, line, text) = match (can, chosen, response.hovered()) {
+    let (fill, line, text) = match (is_available, is_chosen, response.hovered()) {
         (_, true, _) => (palette.accent_fill, palette.accent, palette.text),
         (false, ..) => (palette.panel, palette.line, palette.disabled_text()),
         (true, false, true) => (palette.hover, palette.line, palette.text),

@@ -20,10 +20,10 @@ use crate::warp::PartClock;
 const LIST_HEIGHT: f32 = 8.0 * (CONTROL_HEIGHT + 4.0);
 
 /// Width of a part's thumbnail, in points.
-const PICTURE: f32 = 30.0;
+const THUMBNAIL_WIDTH: f32 = 30.0;
 
 /// Width of the list of easings, in points.
-const EASING: f32 = 84.0;
+const EASING_WIDTH: f32 = 84.0;
 
 /// Maximum number of rings for thumbnails that also show the other parts (tolerance: with more, a
 /// thumbnail would be solid ink).
@@ -86,13 +86,13 @@ fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Opti
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         picture(ui, sheet, piece);
-        let wide = ui.available_width() - EASING - 22.0;
-        time_bar::bar(ui, piece, wide, &mut clock);
+        let bar_width = ui.available_width() - EASING_WIDTH - 22.0;
+        time_bar::bar(ui, piece, bar_width, &mut clock);
         easing_editor::menu(
             ui,
             &format!("easing of part {piece}"),
             &mut clock.easing,
-            EASING,
+            EASING_WIDTH,
         );
     });
     if before == PartClock::WHOLE && (clock.from, clock.to) != (0.0, 1.0) {
@@ -106,9 +106,9 @@ fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Opti
 fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let part = &sheet.pieces[piece];
     let (rect, response) =
-        ui.allocate_exact_size(vec2(PICTURE + 18.0, CONTROL_HEIGHT), Sense::hover());
+        ui.allocate_exact_size(vec2(THUMBNAIL_WIDTH + 18.0, CONTROL_HEIGHT), Sense::hover());
     let palette = ThemePalette::of(ui);
-    let (side, words) = match part.fate {
+    let (side, presence) = match part.fate {
         PieceFate::Paired => (Side::Source, "is in both designs"),
         PieceFate::Disappears => (Side::Source, "is only in the source and disappears"),
         PieceFate::Appears => (Side::Target, "is only in the target and appears"),
@@ -116,7 +116,7 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     tooltip_left(
         &response,
         rect.left(),
-        &format!("Part {} {words}.", part.name),
+        &format!("Part {} {presence}.", part.name),
     );
     let font = FontId::proportional(12.5);
     let middle = rect.left_center() + vec2(8.0, 0.0);
@@ -144,15 +144,19 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
 /// Transform that fits a design into a thumbnail.
 struct PartThumbnail {
     bounds: Bounds,
-    to: Rect,
+    rect: Rect,
     scale: f32,
 }
 
 impl PartThumbnail {
-    fn of(bounds: Bounds, to: Rect) -> Self {
+    fn of(bounds: Bounds, rect: Rect) -> Self {
         let size = bounds.max - bounds.min;
-        let scale = (to.width() / size.x as f32).min(to.height() / size.y as f32);
-        Self { bounds, to, scale }
+        let scale = (rect.width() / size.x as f32).min(rect.height() / size.y as f32);
+        Self {
+            bounds,
+            rect,
+            scale,
+        }
     }
 
     fn draw(&self, painter: &Painter, ring: &[DVec2], width: f32, ink: Color32) {
@@ -161,7 +165,7 @@ impl PartThumbnail {
         let step = ring.len().div_ceil(48).max(1);
         let points = ring.iter().step_by(step).map(|p| {
             let from_middle = (*p - middle).as_vec2() * self.scale;
-            self.to.center() + vec2(from_middle.x, -from_middle.y)
+            self.rect.center() + vec2(from_middle.x, -from_middle.y)
         });
         painter.add(Shape::closed_line(points.collect(), (width, ink)));
     }

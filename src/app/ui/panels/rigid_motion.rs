@@ -16,7 +16,7 @@ const MAX_PARTS: usize = 8;
 const MAX_SUBDIVISIONS: u32 = 4;
 
 /// Extra turns that the window offers (tolerance: faster rotation cannot be followed by eye).
-const TURNS: RangeInclusive<i32> = -9..=9;
+const TURN_RANGE: RangeInclusive<i32> = -9..=9;
 
 /// Draws the section.
 pub fn show(ui: &mut Ui, state: &UiState, arap: &mut ArapOptions) {
@@ -105,11 +105,11 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
     if is_per_part {
         for (part, turn) in turns.iter_mut().enumerate().take(MAX_PARTS) {
             let label = format!("Turns, part {}", part + 1);
-            number(ui, &label, tip, drag(turn, TURNS, 0.02, 0));
+            number(ui, &label, tip, drag(turn, TURN_RANGE, 0.02, 0));
         }
     } else {
         let mut all = first;
-        number(ui, "Extra turns", tip, drag(&mut all, TURNS, 0.02, 0));
+        number(ui, "Extra turns", tip, drag(&mut all, TURN_RANGE, 0.02, 0));
         if all != first {
             *turns = if all == 0 { Vec::new() } else { vec![all] };
         }

@@ -39,11 +39,11 @@ pub fn show(root: &mut Ui, rect: Rect, name: &str, intents: &mut Intents) {
 
 /// Shows a hint while there is nothing to see.
 pub fn empty_hint(root: &Ui, state: &UiState, rect: Rect) {
-    if let Some(words) = empty_words(state) {
+    if let Some(text) = empty_words(state) {
         let ink = ink_on(state.session.style().ground);
         let font = FontId::proportional(16.0);
         root.painter()
-            .text(rect.center(), Align2::CENTER_CENTER, words, font, ink);
+            .text(rect.center(), Align2::CENTER_CENTER, text, font, ink);
     }
 }
 

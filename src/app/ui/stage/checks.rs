@@ -38,12 +38,12 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         .frame(frame)
         .show(root, |ui| match measures {
             Some(measures) => show(ui, state, measures, intents),
-            None => waiting(ui, state, intents),
+            None => pending_row(ui, state, intents),
         });
 }
 
 /// Draws the strip while there are no results: the checks are running or were stopped.
-fn waiting(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+fn pending_row(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.horizontal(|ui| {
         ui.label(secondary_text(ui, unmeasured_reason(state)));
         let tip = "Check the whole film for folds, crossings and distortion.";
@@ -77,7 +77,7 @@ fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Int
         });
     }
     if !verdict.is_clear() {
-        offers(ui, state, intents);
+        fixes(ui, state, intents);
     }
     for note in &verdict.notes {
         row(ui, false, |ui| {
@@ -91,23 +91,26 @@ fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Int
 /// Draws the clear result: for the sampled moments or, if it could be proved, for every moment.
 fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents) {
     let sampled = format!("Checked {} moments from source to target.", verdict.steps);
-    let seen = capitalised(verdict.clear);
-    let Some(proved) = state.recording.proved() else {
-        ui.label(RichText::new(seen).small()).on_hover_text(sampled);
+    let clear_text = capitalised(verdict.clear);
+    let Some(proof) = state.recording.proved() else {
+        ui.label(RichText::new(clear_text).small())
+            .on_hover_text(sampled);
         return;
     };
-    let tip = format!("{sampled}\nBetween them: {proved}.");
-    let Some(first) = proved.first_failure_time() else {
-        let exception = match (proved.is_complete(), proved.left_out > 0) {
+    let tip = format!("{sampled}\nBetween them: {proof}.");
+    let Some(first) = proof.first_failure_time() else {
+        let exception = match (proof.is_complete(), proof.left_out > 0) {
             (true, _) => "",
             (false, true) => ", except appearing and disappearing parts",
             (false, false) => ", except cuts while they open",
         };
-        let text = RichText::new(format!("{seen}: checked at every moment{exception}")).small();
+        let text =
+            RichText::new(format!("{clear_text}: checked at every moment{exception}")).small();
         ui.label(text).on_hover_text(tip);
         return;
     };
-    ui.label(RichText::new(seen).small()).on_hover_text(&tip);
+    ui.label(RichText::new(clear_text).small())
+        .on_hover_text(&tip);
     let text = format!(
         "checked at {} moments; uncertain at t = {first:.4}",
         verdict.steps
@@ -147,41 +150,51 @@ fn headline(ui: &mut Ui, state: &UiState, finding: &Finding, intents: &mut Inten
         intents.push(Intent::Seek(state.session.whole_t(finding.t)));
     }
     let here = state.session.segment_t(state.playback.t());
-    let go = if (here - finding.t).abs() <= NEAR_T {
+    let hint = if (here - finding.t).abs() <= NEAR_T {
         "The place is marked on the stage."
     } else {
         "Click to go there."
     };
-    let tip = format!("Cause: {}.\nFix: {}.\n{go}", finding.cause, finding.remedy);
+    let tip = format!(
+        "Cause: {}.\nFix: {}.\n{hint}",
+        finding.cause, finding.remedy
+    );
     response.on_hover_text(tip);
 }
 
 /// Draws a button for each tested fix that helps.
-fn offers(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let helping = &state.helping;
+fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
+    let suggestions = &state.helping;
     ui.horizontal(|ui| {
         ui.set_min_height(ROW_HEIGHT);
         ui.spacing_mut().item_spacing.x = 6.0;
         ui.add_space(22.0);
-        let now = helping
+        let current = suggestions
             .current_rating()
-            .map(|now| now.to_string())
+            .map(|current| current.to_string())
             .unwrap_or_default();
-        let words = match (helping.suggestions(), helping.is_busy(), helping.is_done()) {
+        let text = match (
+            suggestions.suggestions(),
+            suggestions.is_busy(),
+            suggestions.is_done(),
+        ) {
             ([], true, _) => "Looking for fixes: flipping, rotating, other methods …",
             ([], _, true) => "No fix found: tried flipping, rotating and other methods.",
             ([], ..) => "",
             // Short, because the offers follow it.
             _ => "Try:",
         };
-        ui.label(secondary_text(ui, words));
-        for (index, offer) in helping.suggestions().iter().enumerate() {
-            let left = match offer.rating {
+        ui.label(secondary_text(ui, text));
+        for (index, suggestion) in suggestions.suggestions().iter().enumerate() {
+            let remaining = match suggestion.rating {
                 rating if rating.is_flawless() => "no defects".to_owned(),
                 rating => rating.to_string(),
             };
-            let text = format!("{} ({left})", offer.what.label());
-            let tip = format!("Tested: {} instead of {now}. Can be undone.", offer.rating);
+            let text = format!("{} ({remaining})", suggestion.what.label());
+            let tip = format!(
+                "Tested: {} instead of {current}. Can be undone.",
+                suggestion.rating
+            );
             if ui.small_button(text).on_hover_text(tip).clicked() {
                 intents.push(Intent::ApplySuggestion(index));
             }

@@ -22,7 +22,7 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
     let left = Rect::from_min_size(stage.min, half);
     let right = left.translate(vec2(half.x, 0.0));
     area::show(root, left, "stage", intents);
-    area::show(root, right, "twin", intents);
+    area::show(root, right, "comparison", intents);
     if state.preferences.panels {
         overlays(root, state, [left, right]);
     }
@@ -36,7 +36,7 @@ fn overlays(root: &mut Ui, state: &UiState, [left, right]: [Rect; 2]) {
     let ink = ink_on(state.session.style().ground);
     let line = (1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), right.y_range(), line);
-    missing(root, state, right);
+    comparison_status(root, state, right);
 }
 
 /// Draws the names of both methods in a strip above the stage.
@@ -55,19 +55,19 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
 }
 
 /// Shows why the right half is empty.
-fn missing(ui: &Ui, state: &UiState, rect: Rect) {
-    let twin = &state.comparison;
-    let words = match (twin.transition(), twin.problem()) {
+fn comparison_status(ui: &Ui, state: &UiState, rect: Rect) {
+    let comparison = &state.comparison;
+    let text = match (comparison.transition(), comparison.problem()) {
         (Some(_), _) => return,
         (None, Some(problem)) => problem.to_string(),
-        (None, None) if twin.is_busy() => "Building …".to_owned(),
+        (None, None) if comparison.is_busy() => "Building …".to_owned(),
         // Its job has not started; the next frame knows more.
         (None, None) => return,
     };
     let ink = ink_on(state.session.style().ground);
     let width = rect.width() - 4.0 * GRID;
     let font = FontId::proportional(14.0);
-    let galley = ui.painter().layout(words, font, ink, width);
+    let galley = ui.painter().layout(text, font, ink, width);
     let at = Align2::CENTER_CENTER.anchor_size(rect.center(), galley.size());
     ui.painter().galley(at.min, galley, ink);
 }

@@ -23,12 +23,12 @@ pub fn frame(ui: &Ui, state: &UiState, stage: Rect) {
     let painter = ui.painter().with_clip_rect(stage);
     let shade = Color32::from_black_alpha(SHADE);
     let (above, below) = stage.split_top_bottom_at_y(inside.top());
-    let (row, under) = below.split_top_bottom_at_y(inside.bottom());
-    let (left, rest) = row.split_left_right_at_x(inside.left());
-    let (_, right) = rest.split_left_right_at_x(inside.right());
-    for around in [above, under, left, right] {
-        if around.is_positive() {
-            painter.rect_filled(around, 0.0, shade);
+    let (middle_row, below_frame) = below.split_top_bottom_at_y(inside.bottom());
+    let (left, right_of_left_edge) = middle_row.split_left_right_at_x(inside.left());
+    let (_, right) = right_of_left_edge.split_left_right_at_x(inside.right());
+    for shaded in [above, below_frame, left, right] {
+        if shaded.is_positive() {
+            painter.rect_filled(shaded, 0.0, shade);
         }
     }
     let ink = ThemePalette::on(is_light(state.session.style().ground)).accent;

@@ -21,16 +21,16 @@ use crate::colour::Rgb;
 use crate::geometry::DVec2;
 
 /// Radius of the marker, in points.
-const MARKER: f32 = 11.0;
+const MARKER_RADIUS: f32 = 11.0;
 
 /// Thickness of the ring of weights around the marker, in points.
-const RING: f32 = 4.0;
+const RING_WIDTH: f32 = 4.0;
 
 /// Distance within which a design is grabbed, in points.
 const GRAB_DISTANCE: f32 = 40.0;
 
 /// Longest side of an uploaded picture, in pixels (resource limit: GPU memory).
-const LONGEST_PX: u32 = 2048;
+const MAX_IMAGE_PX: u32 = 2048;
 
 /// Drag in progress on the map.
 #[derive(Clone, Default)]
@@ -46,33 +46,33 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
     let mut right = left.translate(vec2(half.x, 0.0));
-    let back = state.session.style().ground;
-    let [r, g, b] = back.0;
+    let background = state.session.style().ground;
+    let [r, g, b] = background.0;
     root.painter()
         .rect_filled(stage, 0.0, Color32::from_rgb(r, g, b));
-    let ink = ink_on(back);
-    let Some(made) = state.map.pictures() else {
-        missing(root, state, stage, ink);
+    let ink = ink_on(background);
+    let Some(pictures) = state.map.pictures() else {
+        map_status(root, state, stage, ink);
         return right;
     };
     let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), right.y_range(), line);
     // Below the blend is the legend of the designs' weights.
-    let height = WeightLegend::height(root, made, right.width());
+    let height = WeightLegend::height(root, pictures, right.width());
     let below = right.split_top_bottom_at_y(right.bottom() - height).1;
     right.max.y = below.top();
     let side = left.width().min(left.height());
     let square = Rect::from_center_size(left.center(), vec2(side, side));
-    handle_drag(root, state, made, square, intents);
-    draw(root, state, made, left, square, ink);
-    if let Some(picture) = made.blend() {
+    handle_drag(root, state, pictures, square, intents);
+    draw(root, state, pictures, left, square, ink);
+    if let Some(picture) = pictures.blend() {
         image(root, "the blend", picture, right, Color32::WHITE);
     }
-    draw_legend(root, state, made, below, ink);
+    draw_legend(root, state, pictures, below, ink);
     right
 }
 
-fn missing(ui: &Ui, state: &UiState, rect: Rect, ink: Color32) {
+fn map_status(ui: &Ui, state: &UiState, rect: Rect, ink: Color32) {
     let words = match state.map.problem() {
         Some(problem) => problem.to_string(),
         None if state.session.whole_project().is_none() => {
@@ -90,8 +90,8 @@ fn missing(ui: &Ui, state: &UiState, rect: Rect, ink: Color32) {
 
 /// Converts map coordinates to the window; the map fills `square`.
 fn on_screen(square: Rect, place: DVec2) -> Pos2 {
-    let share = (place / REACH).as_vec2() * 0.5;
-    let offset = vec2(share.x, -share.y) * square.width();
+    let fraction = (place / REACH).as_vec2() * 0.5;
+    let offset = vec2(fraction.x, -fraction.y) * square.width();
     square.center() + offset
 }
 
@@ -105,65 +105,77 @@ fn on_map(square: Rect, at: Pos2) -> DVec2 {
 fn handle_drag(
     root: &Ui,
     state: &UiState,
-    made: &MapPictures,
+    pictures: &MapPictures,
     square: Rect,
     intents: &mut Intents,
 ) {
     let id = root.id().with("map");
     let response = root.interact(square, id, Sense::click_and_drag());
-    let mut held: MapDrag = root.data(|data| data.get_temp(id)).unwrap_or_default();
+    let mut drag: MapDrag = root.data(|data| data.get_temp(id)).unwrap_or_default();
     let Some(at) = response.interact_pointer_pos() else {
-        if !held.line.is_empty() {
-            intents.push(Intent::ExtendPath(std::mem::take(&mut held.line)));
+        if !drag.line.is_empty() {
+            intents.push(Intent::ExtendPath(std::mem::take(&mut drag.line)));
         }
         root.data_mut(|data| data.insert_temp(id, MapDrag::default()));
         return;
     };
     let place = on_map(square, at);
     if response.drag_started() && root.input(|input| input.modifiers.shift) {
-        let sites = made.map().sites().iter().enumerate();
-        let far = |site: DVec2| on_screen(square, site).distance(at);
-        let nearest = sites.min_by(|a, b| far(*a.1).total_cmp(&far(*b.1)));
-        let near = nearest.filter(|(_, site)| far(**site) < GRAB_DISTANCE);
-        held.design = near.map(|(design, _)| design);
+        let sites = pictures.map().sites().iter().enumerate();
+        let distance_to = |site: DVec2| on_screen(square, site).distance(at);
+        let nearest = sites.min_by(|a, b| distance_to(*a.1).total_cmp(&distance_to(*b.1)));
+        let near = nearest.filter(|(_, site)| distance_to(**site) < GRAB_DISTANCE);
+        drag.design = near.map(|(design, _)| design);
     }
-    match held.design {
+    match drag.design {
         Some(design) => intents.push(Intent::MoveMapDesign(design, place)),
         // The press position becomes the first point.
-        None if state.map.is_drawing_path && held.line.last() != Some(&place) => {
-            held.line.push(place)
+        None if state.map.is_drawing_path && drag.line.last() != Some(&place) => {
+            drag.line.push(place)
         }
         None if state.map.is_drawing_path => {}
         None if place != state.map.marker() => intents.push(Intent::MoveMarker(place)),
         None => {}
     }
-    root.data_mut(|data| data.insert_temp(id, held));
+    root.data_mut(|data| data.insert_temp(id, drag));
 }
 
-fn draw(root: &Ui, state: &UiState, made: &MapPictures, left: Rect, square: Rect, ink: Color32) {
+fn draw(
+    root: &Ui,
+    state: &UiState,
+    pictures: &MapPictures,
+    left: Rect,
+    square: Rect,
+    ink: Color32,
+) {
     let painter = root.painter_at(left);
-    if let Some(land) = made.contours().picture() {
-        image(root, "land", land, square, Color32::WHITE);
+    if let Some(contours) = pictures.contours().picture() {
+        image(root, "contours", contours, square, Color32::WHITE);
     }
-    if let Some(pictures) = made.thumbnails() {
+    if let Some(thumbnails) = pictures.thumbnails() {
         image(
             root,
-            "between",
-            &pictures.blends,
+            "blends",
+            &thumbnails.blends,
             square,
             Color32::from_white_alpha(170),
         );
-        image(root, "designs", &pictures.designs, square, Color32::WHITE);
+        image(root, "designs", &thumbnails.designs, square, Color32::WHITE);
     }
     let font = FontId::proportional(12.0);
     let below = square.width() * 0.072;
-    for (site, design) in made.map().sites().iter().zip(made.space().designs()) {
+    for (site, design) in pictures
+        .map()
+        .sites()
+        .iter()
+        .zip(pictures.space().designs())
+    {
         let at = on_screen(square, *site) + vec2(0.0, below);
         let at = at.min(left.max - vec2(0.0, 18.0));
         painter.text(at, Align2::CENTER_TOP, &design.name, font.clone(), ink);
     }
     draw_path(root, state, left, square, ink);
-    draw_marker(root, state, made, left, square, ink);
+    draw_marker(root, state, pictures, left, square, ink);
 }
 
 /// Draws the path with its stops, the line being drawn, and the saved blends.
@@ -178,25 +190,25 @@ fn draw_path(root: &Ui, state: &UiState, left: Rect, square: Rect, ink: Color32)
         let points = (0..=count).map(|k| on(curve.at(k as f64 / POINTS as f64)));
         painter.add(Shape::line(points.collect(), stroke));
     }
-    let held: Option<MapDrag> = root.data(|data| data.get_temp(root.id().with("map")));
-    if let Some(held) = held.filter(|held| held.line.len() > 1) {
-        let points = held.line.iter().map(|place| on(*place));
+    let drag: Option<MapDrag> = root.data(|data| data.get_temp(root.id().with("map")));
+    if let Some(drag) = drag.filter(|drag| drag.line.len() > 1) {
+        let points = drag.line.iter().map(|place| on(*place));
         painter.add(Shape::line(points.collect(), stroke));
     }
-    let Some(whole) = state.session.whole_project() else {
+    let Some(project) = state.session.whole_project() else {
         return;
     };
-    for kept in &whole.map.kept {
-        let place = Rect::from_center_size(on(kept.at), vec2(14.0, 14.0));
+    for saved in &project.map.kept {
+        let place = Rect::from_center_size(on(saved.at), vec2(14.0, 14.0));
         icons::paint_icon(&painter, icons::STAR, place, ThemePalette::of(root).amber);
     }
-    let path = &whole.map.path;
+    let path = &project.map.path;
     let first = path.places.iter().take(1).map(|place| place.at);
     let stops = path.stops().skip(1).map(|(_, stop)| stop.at);
-    let [paper, font] = [contrast(ink), ink].map(|colour| (colour, FontId::proportional(11.0)));
+    let [fill, font] = [contrast(ink), ink].map(|colour| (colour, FontId::proportional(11.0)));
     for (number, place) in first.chain(stops).enumerate() {
         let at = on(place);
-        painter.circle(at, 9.0, paper.0, Stroke::new(1.5, ink));
+        painter.circle(at, 9.0, fill.0, Stroke::new(1.5, ink));
         let words = format!("{}", number + 1);
         painter.text(at, Align2::CENTER_CENTER, words, font.1.clone(), font.0);
     }
@@ -214,24 +226,24 @@ fn contrast(ink: Color32) -> Color32 {
 fn draw_marker(
     root: &Ui,
     state: &UiState,
-    made: &MapPictures,
+    pictures: &MapPictures,
     left: Rect,
     square: Rect,
     ink: Color32,
 ) {
     let painter = root.painter_at(left);
     let at = on_screen(square, state.map.marker());
-    painter.circle(at, MARKER, Color32::WHITE, Stroke::new(1.5, ink));
+    painter.circle(at, MARKER_RADIUS, Color32::WHITE, Stroke::new(1.5, ink));
     let mut from = -FRAC_PI_2;
-    for (design, &weight) in made.weights().iter().enumerate() {
+    for (design, &weight) in pictures.weights().iter().enumerate() {
         let sweep = weight.clamp(0.0, 1.0) as f32 * TAU;
         if sweep > 0.0 {
             let steps = (sweep * 12.0).ceil().max(1.0) as usize;
             let points = (0..=steps).map(|k| {
                 let angle = from + sweep * k as f32 / steps as f32;
-                at + vec2(angle.cos(), angle.sin()) * (MARKER + RING)
+                at + vec2(angle.cos(), angle.sin()) * (MARKER_RADIUS + RING_WIDTH)
             });
-            let stroke = Stroke::new(RING, colour_of(state, made, design));
+            let stroke = Stroke::new(RING_WIDTH, colour_of(state, pictures, design));
             painter.add(Shape::line(points.collect(), stroke));
         }
         from += sweep;
@@ -240,47 +252,47 @@ fn draw_marker(
 }
 
 /// Returns the colour of a design on the map.
-fn colour_of(state: &UiState, made: &MapPictures, design: usize) -> Color32 {
-    let mut weights = vec![0.0; made.weights().len()];
+fn colour_of(state: &UiState, pictures: &MapPictures, design: usize) -> Color32 {
+    let mut weights = vec![0.0; pictures.weights().len()];
     weights[design] = 1.0;
     let Rgb([r, g, b]) = state
         .session
         .style()
-        .fill_at(made.space().colour_fraction(&weights));
+        .fill_at(pictures.space().colour_fraction(&weights));
     Color32::from_rgb(r, g, b)
 }
 
 /// Draws the legend: the designs of the blend with their weights, from the top left.
-fn draw_legend(root: &Ui, state: &UiState, made: &MapPictures, rect: Rect, ink: Color32) {
+fn draw_legend(root: &Ui, state: &UiState, pictures: &MapPictures, rect: Rect, ink: Color32) {
     let mut layout = WeightLegend::new(rect.width());
-    for (design, words) in WeightLegend::labels(made, made.weights()) {
+    for (design, words) in WeightLegend::labels(pictures, pictures.weights()) {
         let galley = root
             .painter()
             .layout_no_wrap(words, WeightLegend::font(), ink);
         let at = rect.min + layout.place(galley.size().x);
-        let colour = colour_of(state, made, design);
+        let colour = colour_of(state, pictures, design);
         root.painter()
             .circle_filled(at + vec2(4.0, 7.0), 4.0, colour);
         root.painter()
-            .galley(at + vec2(WeightLegend::DOT, 0.0), galley, ink);
+            .galley(at + vec2(WeightLegend::DOT_WIDTH, 0.0), galley, ink);
     }
 }
 
 /// Layout of the legend: labels from left to right, in as many rows as they need.
 struct WeightLegend {
-    room: f32,
+    width_limit: f32,
     next: Vec2,
 }
 
 impl WeightLegend {
     /// Height of a row, in points.
-    const ROW: f32 = 18.0;
+    const ROW_HEIGHT: f32 = 18.0;
     /// Width of a dot with the gap after it, in points.
-    const DOT: f32 = 13.0;
+    const DOT_WIDTH: f32 = 13.0;
 
     fn new(width: f32) -> Self {
         Self {
-            room: width - 4.0 * GRID,
+            width_limit: width - 4.0 * GRID,
             next: vec2(0.0, 0.5 * GRID),
         }
     }
@@ -290,8 +302,8 @@ impl WeightLegend {
     }
 
     /// Returns index and label of each design whose weight rounds to at least 1 %.
-    fn labels(made: &MapPictures, weights: &[f64]) -> Vec<(usize, String)> {
-        let all = made.space().designs().iter().zip(weights).enumerate();
+    fn labels(pictures: &MapPictures, weights: &[f64]) -> Vec<(usize, String)> {
+        let all = pictures.space().designs().iter().zip(weights).enumerate();
         let visible = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
         visible
             .map(|(k, (form, weight))| (k, format!("{} {:.0} %", form.name, weight * 100.0)))
@@ -299,21 +311,21 @@ impl WeightLegend {
     }
 
     /// Returns the height with all designs at 100 %, so that it stays while the marker moves.
-    fn height(root: &Ui, made: &MapPictures, width: f32) -> f32 {
+    fn height(root: &Ui, pictures: &MapPictures, width: f32) -> f32 {
         let mut layout = Self::new(width);
-        for (_, words) in Self::labels(made, &vec![1.0; made.weights().len()]) {
+        for (_, words) in Self::labels(pictures, &vec![1.0; pictures.weights().len()]) {
             let ink = Color32::WHITE;
             let galley = root.painter().layout_no_wrap(words, Self::font(), ink);
             layout.place(galley.size().x);
         }
-        layout.next.y + Self::ROW + GRID
+        layout.next.y + Self::ROW_HEIGHT + GRID
     }
 
     /// Returns the position of the next label, which is `width` points wide.
     fn place(&mut self, width: f32) -> Vec2 {
-        let width = Self::DOT + width;
-        if self.next.x + width > self.room && self.next.x > 0.0 {
-            self.next = vec2(0.0, self.next.y + Self::ROW);
+        let width = Self::DOT_WIDTH + width;
+        if self.next.x + width > self.width_limit && self.next.x > 0.0 {
+            self.next = vec2(0.0, self.next.y + Self::ROW_HEIGHT);
         }
         let at = self.next + vec2(2.0 * GRID, 0.0);
         self.next.x += width + 2.0 * GRID;
@@ -322,7 +334,7 @@ impl WeightLegend {
 }
 
 fn image(root: &Ui, name: &str, pixels: &Arc<RgbaImage>, rect: Rect, tint: Color32) {
-    let texture = texture(root.ctx(), Id::new(("map", name)), pixels, LONGEST_PX);
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    root.painter().image(texture.id(), rect, whole, tint);
+    let texture = texture(root.ctx(), Id::new(("map", name)), pixels, MAX_IMAGE_PX);
+    let full_uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    root.painter().image(texture.id(), rect, full_uv, tint);
 }

@@ -14,7 +14,7 @@ use crate::settings::Choice;
 use crate::space::MapLayout;
 
 /// Width of the layout choices, in points.
-const LAYOUTS: f32 = 288.0;
+const LAYOUTS_WIDTH: f32 = 288.0;
 
 /// Draws the toolbar.
 pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
@@ -29,10 +29,10 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
                     let name = layout.name();
                     (layout, name.title, name.sentence)
                 });
-                let now = state.session.whole_project().map(|whole| whole.map.layout);
-                let mut layout = now.unwrap_or_default();
+                let current = state.session.whole_project().map(|whole| whole.map.layout);
+                let mut layout = current.unwrap_or_default();
                 let before = layout;
-                ui.allocate_ui(vec2(LAYOUTS, CONTROL_HEIGHT), |ui| {
+                ui.allocate_ui(vec2(LAYOUTS_WIDTH, CONTROL_HEIGHT), |ui| {
                     choices(ui, &mut layout, &all.collect::<Vec<_>>());
                 });
                 if layout != before {
@@ -51,14 +51,14 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
 
 /// Draws the list of measures whose contours the map can show.
 fn measures(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let named = |shown: Option<MapMeasure>| shown.map_or("No contours", |m| m.name().title);
+    let measure_name = |shown: Option<MapMeasure>| shown.map_or("No contours", |m| m.name().title);
     let mut shown = state.map.measure;
     let all = MapMeasure::CHOICES.iter().copied().map(Some);
-    let list = ComboBox::from_id_salt("contours").selected_text(named(shown));
+    let list = ComboBox::from_id_salt("contours").selected_text(measure_name(shown));
     list.width(112.0).show_ui(ui, |ui| {
         for measure in std::iter::once(None).chain(all) {
             let tip = measure.map_or("Only the blends between the designs", |m| m.name().sentence);
-            ui.selectable_value(&mut shown, measure, named(measure))
+            ui.selectable_value(&mut shown, measure, measure_name(measure))
                 .on_hover_text(tip);
         }
     });
@@ -76,9 +76,14 @@ fn tools(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
             intents.push(intent);
         }
     };
-    let draws = state.map.is_drawing_path;
+    let is_drawing = state.map.is_drawing_path;
     let tip = "Draw a path (E): click to add a stop, drag to draw the way to the next stop";
-    tool(icons::PATH, draws, tip, Intent::SetPathDrawing(!draws));
+    tool(
+        icons::PATH,
+        is_drawing,
+        tip,
+        Intent::SetPathDrawing(!is_drawing),
+    );
     let tip = "Record the marker's movement as a path (W)";
     tool(
         icons::RECORD,
@@ -93,10 +98,10 @@ fn tools(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
 fn status(state: &UiState) -> String {
     match state.map.pictures() {
         _ if state.map.is_busy() => "Computing …".to_owned(),
-        Some(made) => {
-            let space = made.space();
+        Some(pictures) => {
+            let space = pictures.space();
             let note = space.notes().iter().map(ToString::to_string).next();
-            let how = match space.family() {
+            let kind = match space.family() {
                 Some(family) => format!(
                     "Rigid parts, one mesh of {} vertices",
                     family.embeddings()[0].len()
@@ -104,7 +109,7 @@ fn status(state: &UiState) -> String {
                 None if space.is_of_pictures() => "Pictures".to_owned(),
                 None => "Distance fields".to_owned(),
             };
-            note.map_or(how, |note| capitalised(&note))
+            note.map_or(kind, |note| capitalised(&note))
         }
         None => String::new(),
     }

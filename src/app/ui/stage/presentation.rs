@@ -7,44 +7,44 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::export::Captions;
 
 /// Draws captions or black and handles clicks; returns the rectangle left for the drawing.
-pub fn show(root: &Ui, state: &UiState, whole: Rect, intents: &mut Intents) -> Rect {
-    let hand = root.interact(whole, root.id().with("talk"), Sense::click());
-    if hand.clicked() {
+pub fn show(root: &Ui, state: &UiState, full_rect: Rect, intents: &mut Intents) -> Rect {
+    let response = root.interact(full_rect, root.id().with("talk"), Sense::click());
+    if response.clicked() {
         intents.push(Intent::PlayToNextStop);
     }
-    if hand.secondary_clicked() {
+    if response.secondary_clicked() {
         intents.push(Intent::PlayToPreviousStop);
     }
-    let mut stage = whole;
+    let mut stage = full_rect;
     if let Some(captions) = state.presenting.captions(&state.session) {
-        let band = Captions::BAND as f32 * whole.size().min_elem();
+        let band = Captions::BAND as f32 * full_rect.size().min_elem();
         stage.max.y -= band;
-        if let Some((words, opacity)) = captions.at(state.playback.t()) {
+        if let Some((text, opacity)) = captions.at(state.playback.t()) {
             let [r, g, b] = captions.colour().0;
             let ink = Color32::from_rgb(r, g, b).gamma_multiply(opacity as f32);
-            caption(root, words, whole, ink);
+            caption(root, text, full_rect, ink);
         }
     }
     if state.presenting.is_black() {
-        root.painter().rect_filled(whole, 0.0, Color32::BLACK);
+        root.painter().rect_filled(full_rect, 0.0, Color32::BLACK);
     }
     stage
 }
 
 /// Draws one line centred at the bottom, as large as in exported films.
-fn caption(root: &Ui, words: &str, whole: Rect, ink: Color32) {
-    let shorter = whole.size().min_elem();
+fn caption(root: &Ui, text: &str, full_rect: Rect, ink: Color32) {
+    let shorter = full_rect.size().min_elem();
     let layout = |height: f32| {
         let font = FontId::proportional(height);
-        root.painter().layout_no_wrap(words.to_owned(), font, ink)
+        root.painter().layout_no_wrap(text.to_owned(), font, ink)
     };
     let height = Captions::LETTERS as f32 * shorter;
     let mut line = layout(height);
-    let max_width = Captions::WIDEST as f32 * whole.width();
+    let max_width = Captions::WIDEST as f32 * full_rect.width();
     if line.size().x > max_width {
         line = layout(height * max_width / line.size().x);
     }
-    let middle = whole.center_bottom() - vec2(0.0, 0.5 * Captions::BAND as f32 * shorter);
-    let place = Align2::CENTER_CENTER.anchor_size(middle, line.size());
+    let centre = full_rect.center_bottom() - vec2(0.0, 0.5 * Captions::BAND as f32 * shorter);
+    let place = Align2::CENTER_CENTER.anchor_size(centre, line.size());
     root.painter().galley(place.min, line, ink);
 }

@@ -12,7 +12,7 @@ use crate::project::Project;
 
 /// Pointer interaction with the thumbnails of designs.
 pub struct ThumbnailDrag<'a> {
-    whole: &'a Project,
+    project: &'a Project,
     ruler: TimelineRuler,
     /// Index of the dragged design, and the index before which it would be inserted.
     dragged: Option<(usize, usize)>,
@@ -21,9 +21,9 @@ pub struct ThumbnailDrag<'a> {
 impl<'a> ThumbnailDrag<'a> {
     /// Interaction for the open project; `None` if its designs have no order on the timeline.
     pub fn new(state: &'a UiState<'a>, ruler: TimelineRuler) -> Option<Self> {
-        let whole = state.session.whole_project()?;
-        (whole.is_sequence() && !whole.follows_path()).then_some(Self {
-            whole,
+        let project = state.session.whole_project()?;
+        (project.is_sequence() && !project.follows_path()).then_some(Self {
+            project,
             ruler,
             dragged: None,
         })
@@ -33,7 +33,7 @@ impl<'a> ThumbnailDrag<'a> {
     pub fn interact(&mut self, ui: &Ui, t: f64, rect: Rect, intents: &mut Intents) -> f32 {
         let k = t.round();
         // Frames between designs cannot be dragged, nor the first design repeated by a closed loop.
-        if (t - k).abs() > 1e-9 || k < 0.0 || k as usize >= self.whole.designs.len() {
+        if (t - k).abs() > 1e-9 || k < 0.0 || k as usize >= self.project.designs.len() {
             return 0.0;
         }
         let k = k as usize;
@@ -43,13 +43,13 @@ impl<'a> ThumbnailDrag<'a> {
         if response.clicked() {
             intents.push(Intent::Seek(t));
         }
-        let name = self.whole.designs[k].display_name();
+        let name = self.project.designs[k].display_name();
         let tip = format!(
             "{}. Drag to reorder, right-click to replace, duplicate or remove.",
             SanitizedLine(&name)
         );
         let response = response.on_hover_text(tip);
-        response.context_menu(|ui| menu(ui, self.whole, k, intents));
+        response.context_menu(|ui| menu(ui, self.project, k, intents));
         offset
     }
 
@@ -64,7 +64,7 @@ impl<'a> ThumbnailDrag<'a> {
         let drop_index = self.drop_index(pointer.x);
         if response.drag_stopped() {
             intents.extend(
-                self.whole
+                self.project
                     .with_moved(k, drop_index)
                     .map(Intent::ReorderDesigns),
             );
@@ -81,7 +81,7 @@ impl<'a> ThumbnailDrag<'a> {
     /// Returns the index, in the current order, before which a thumbnail dropped at `x` would come.
     fn drop_index(&self, x: f32) -> usize {
         let is_left = |k: &usize| self.ruler.x(*k as f64) < x;
-        (0..self.whole.designs.len()).filter(is_left).count()
+        (0..self.project.designs.len()).filter(is_left).count()
     }
 
     /// Marks where the dragged thumbnail would be inserted.
@@ -89,7 +89,7 @@ impl<'a> ThumbnailDrag<'a> {
         let Some((k, drop_index)) = self.dragged else {
             return;
         };
-        if self.whole.with_moved(k, drop_index).is_none() {
+        if self.project.with_moved(k, drop_index).is_none() {
             return;
         }
         let x = self.ruler.x(drop_index as f64 - 0.5);
@@ -102,17 +102,17 @@ impl<'a> ThumbnailDrag<'a> {
     }
 }
 
-fn menu(ui: &mut Ui, whole: &Project, k: usize, intents: &mut Intents) {
+fn menu(ui: &mut Ui, project: &Project, k: usize, intents: &mut Intents) {
     ui.set_width(180.0);
     let mut choices: Vec<(&str, Intent)> = vec![
         ("Replace …", Intent::AskReplace(k)),
         ("Insert before …", Intent::AskInsert(k)),
         ("Insert after …", Intent::AskInsert(k + 1)),
     ];
-    let duplicated = Intent::ReorderDesigns(whole.with_duplicated(k));
+    let duplicated = Intent::ReorderDesigns(project.with_duplicated(k));
     choices.push(("Duplicate", duplicated));
-    if whole.designs.len() > 2 {
-        choices.push(("Remove", Intent::ReorderDesigns(whole.without(k))));
+    if project.designs.len() > 2 {
+        choices.push(("Remove", Intent::ReorderDesigns(project.without(k))));
     }
     for (label, intent) in choices {
         if ui.button(label).clicked() {

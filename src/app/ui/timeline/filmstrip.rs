@@ -14,10 +14,10 @@ use crate::app::view::filmstrip::THUMBNAIL_PX;
 pub const HEIGHT: f32 = 40.0;
 
 /// Size of the largest thumbnail, in points: half its pixels, so it is sharp on 2× displays.
-const LARGEST: (f32, f32) = (THUMBNAIL_PX.x as f32 / 2.0, THUMBNAIL_PX.y as f32 / 2.0);
+const MAX_THUMBNAIL: (f32, f32) = (THUMBNAIL_PX.x as f32 / 2.0, THUMBNAIL_PX.y as f32 / 2.0);
 
 /// Minimum width of a recognisable thumbnail, in points: in less room some are skipped.
-const MIN_WIDTH: f32 = 40.0;
+const MIN_THUMBNAIL_WIDTH: f32 = 40.0;
 
 /// Gap between two thumbnails, in points.
 const GAP: f32 = 6.0;
@@ -38,31 +38,31 @@ pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &
     // Steps that divide `last` (for a pair 1, 2, 5 or 10) always include both ends.
     let Some(step) = (1..=last)
         .filter(|step| last.is_multiple_of(*step))
-        .find(|step| spacing * *step as f32 >= MIN_WIDTH + GAP)
+        .find(|step| spacing * *step as f32 >= MIN_THUMBNAIL_WIDTH + GAP)
     else {
         return;
     };
-    let width = (spacing * step as f32 - GAP).min(LARGEST.0);
-    let size = vec2(width, width * LARGEST.1 / LARGEST.0);
+    let width = (spacing * step as f32 - GAP).min(MAX_THUMBNAIL.0);
+    let size = vec2(width, width * MAX_THUMBNAIL.1 / MAX_THUMBNAIL.0);
     let [r, g, b] = state.session.style().ground.0;
     let current = state.playback.t() / segments as f64 * last as f64;
     let mut drag = ThumbnailDrag::new(state, ruler);
     for index in (0..count).step_by(step) {
-        let middle = pos2(ruler.x(t(index)), top + LARGEST.1 / 2.0);
-        let place = Rect::from_center_size(middle, size);
+        let middle = pos2(ruler.x(t(index)), top + MAX_THUMBNAIL.1 / 2.0);
+        let slot = Rect::from_center_size(middle, size);
         let offset = drag
             .as_mut()
-            .map_or(0.0, |drag| drag.interact(ui, t(index), place, intents));
-        let rect = place.translate(vec2(offset, 0.0));
+            .map_or(0.0, |drag| drag.interact(ui, t(index), slot, intents));
+        let rect = slot.translate(vec2(offset, 0.0));
         // The dragged thumbnail lies above the others.
         let painter = match offset == 0.0 {
             true => ui.painter().clone(),
             false => ui.painter().clone().with_layer_id(drag_layer()),
         };
         painter.rect_filled(rect, RADIUS, Color32::from_rgb(r, g, b));
-        let share = |k: usize| k as f32 / count as f32;
-        let part = Rect::from_min_max(pos2(share(index), 0.0), pos2(share(index + 1), 1.0));
-        painter.image(texture.id(), rect.shrink(2.0), part, Color32::WHITE);
+        let u = |k: usize| k as f32 / count as f32;
+        let uv = Rect::from_min_max(pos2(u(index), 0.0), pos2(u(index + 1), 1.0));
+        painter.image(texture.id(), rect.shrink(2.0), uv, Color32::WHITE);
         let is_current = (current - index as f64).abs() <= 0.5 * step as f64;
         let ink = if is_current || offset != 0.0 {
             palette.accent

@@ -11,15 +11,15 @@ use crate::app::ui::ui_state::{Intents, UiState};
 const HEIGHT: f32 = 128.0;
 
 /// Height below the toolbar from which the film strip is shown, in points.
-const ROOMY: f32 = 600.0;
+const MIN_HEIGHT_WITH_FILMSTRIP: f32 = 600.0;
 
 /// Draws the timeline.
 pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 16, 8, 8]);
-    let has_pictures = root.available_height() >= ROOMY;
-    let pictures = if has_pictures { filmstrip::HEIGHT } else { 0.0 };
+    let has_pictures = root.available_height() >= MIN_HEIGHT_WITH_FILMSTRIP;
+    let filmstrip_height = if has_pictures { filmstrip::HEIGHT } else { 0.0 };
     Panel::bottom("timeline")
-        .exact_size(HEIGHT + pictures)
+        .exact_size(HEIGHT + filmstrip_height)
         .frame(frame)
         .show(root, |ui| {
             let Some(project) = state.session.project() else {

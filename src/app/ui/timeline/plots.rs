@@ -25,17 +25,17 @@ pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         .resizable(false)
         .frame(frame)
         .show(root, |ui| match state.measured.measures() {
-            Some(measures) => row(ui, state, &measures.film, intents),
-            None => waiting(ui, state),
+            Some(measures) => graphs_row(ui, state, &measures.film, intents),
+            None => pending(ui, state),
         });
 }
 
-fn waiting(ui: &mut Ui, state: &UiState) {
+fn pending(ui: &mut Ui, state: &UiState) {
     let text = unmeasured_reason(state);
     ui.centered_and_justified(|ui| ui.label(secondary_text(ui, text)));
 }
 
-fn row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Intents) {
+fn graphs_row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Intents) {
     let graphs: Vec<(Quantity, Vec<[f64; 2]>)> = Quantity::ALL
         .into_iter()
         .map(|quantity| (quantity, film.series(quantity)))
@@ -44,15 +44,15 @@ fn row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Intents) {
     let gap = 2.0 * GRID;
     // As many whole graphs as fit; the others are reached by scrolling.
     let width = ui.available_width();
-    let fit = ((width + gap) / (MIN_WIDTH + gap)).floor().max(1.0);
-    let count = fit.min(graphs.len().max(1) as f32);
-    let each = (width + gap) / count - gap;
+    let max_count = ((width + gap) / (MIN_WIDTH + gap)).floor().max(1.0);
+    let count = max_count.min(graphs.len().max(1) as f32);
+    let graph_width = (width + gap) / count - gap;
     ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = gap;
             for (quantity, series) in &graphs {
-                ui.allocate_ui(vec2(each, HEIGHT - 24.0), |ui| {
-                    ui.vertical(|ui| one(ui, state, *quantity, series, intents));
+                ui.allocate_ui(vec2(graph_width, HEIGHT - 24.0), |ui| {
+                    ui.vertical(|ui| graph(ui, state, *quantity, series, intents));
                 });
             }
         });
@@ -60,10 +60,10 @@ fn row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Intents) {
 }
 
 /// Shown instead of a graph for a quantity without any finite value.
-const UNBOUNDED: &str = "Unbounded at every t: some triangle has no area or is flipped, so it is \
-    stretched and sheared without limit.";
+const UNBOUNDED_TEXT: &str = "Unbounded at every t: some triangle has no area or is flipped, so \
+    it is stretched and sheared without limit.";
 
-fn one(
+fn graph(
     ui: &mut Ui,
     state: &UiState,
     quantity: Quantity,
@@ -76,17 +76,17 @@ fn one(
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
     if !series.iter().any(|[_, value]| value.is_finite()) {
-        ui.add(Label::new(secondary_text(ui, UNBOUNDED)).wrap());
+        ui.add(Label::new(secondary_text(ui, UNBOUNDED_TEXT)).wrap());
         return;
     }
     let plot = axes(quantity, palette.weak).height(ui.available_height().min(HEIGHT - 52.0));
-    let on_axis = |value: f64| drawn(quantity, value);
+    let on_axis = |value: f64| axis_value(quantity, value);
     let response = plot.show(ui, |plot| {
         if quantity == Quantity::MinDet {
-            plot.hline(level(0.0, palette.problem));
+            plot.hline(zero_line(0.0, palette.problem));
         }
-        let drawn: Vec<[f64; 2]> = series.iter().map(|[t, v]| [*t, on_axis(*v)]).collect();
-        for run in runs(&drawn) {
+        let axis_series: Vec<[f64; 2]> = series.iter().map(|[t, v]| [*t, on_axis(*v)]).collect();
+        for run in runs(&axis_series) {
             plot.line(
                 Line::new(quantity.name().title, PlotPoints::from(run))
                     .color(palette.accent)
@@ -102,9 +102,9 @@ fn one(
         );
         plot.pointer_coordinate()
     });
-    let is_held = response.response.is_pointer_button_down_on()
+    let is_pressed = response.response.is_pointer_button_down_on()
         || response.response.dragged_by(PointerButton::Primary);
-    if let Some(pointer) = response.inner.filter(|_| is_held) {
+    if let Some(pointer) = response.inner.filter(|_| is_pressed) {
         // The axis extends a little beyond the measured range.
         let t = state.session.whole_t(pointer.x.clamp(0.0, 1.0));
         intents.push(Intent::Seek(t));
@@ -136,9 +136,9 @@ fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
         .y_grid_spacer(|input| marks(input.bounds.0, input.bounds.1))
         .custom_x_axes(vec![t_axis(colour)])
         .custom_y_axes(vec![value_axis(quantity, colour)]);
-    always_shown(quantity)
+    included_values(quantity)
         .into_iter()
-        .map(|value| drawn(quantity, value))
+        .map(|value| axis_value(quantity, value))
         .fold(plot, Plot::include_y)
 }
 
@@ -151,7 +151,7 @@ fn is_ratio(quantity: Quantity) -> bool {
 }
 
 /// Maps a value to its axis, which is logarithmic for ratios.
-fn drawn(quantity: Quantity, value: f64) -> f64 {
+fn axis_value(quantity: Quantity, value: f64) -> f64 {
     if is_ratio(quantity) {
         value.log10()
     } else {
@@ -168,11 +168,11 @@ fn t_axis(colour: Color32) -> AxisHints<'static> {
 /// Returns three to six marks at round steps. (egui's own steps are powers of ten, which leaves an
 /// axis up to 9,000 without any mark that fits.)
 fn marks(min: f64, max: f64) -> Vec<GridMark> {
-    let rough = (max - min) / 5.0;
-    let ten = 10_f64.powf(rough.log10().floor());
-    let round = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * ten);
-    let is_wide = |step: &f64| *step > 0.0 && *step >= rough;
-    let Some(step_size) = round.into_iter().find(is_wide) else {
+    let min_step = (max - min) / 5.0;
+    let power_of_ten = 10_f64.powf(min_step.log10().floor());
+    let round_steps = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power_of_ten);
+    let is_wide_enough = |step: &f64| *step > 0.0 && *step >= min_step;
+    let Some(step_size) = round_steps.into_iter().find(is_wide_enough) else {
         return Vec::new(); // the axis has no length
     };
     let first = (min / step_size).ceil() as i64;
@@ -199,7 +199,7 @@ fn value_axis(quantity: Quantity, colour: Color32) -> AxisHints<'static> {
         })
 }
 
-fn level(y: f64, colour: Color32) -> HLine {
+fn zero_line(y: f64, colour: Color32) -> HLine {
     HLine::new("zero", y)
         .color(colour)
         .width(1.0)
@@ -230,7 +230,7 @@ fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// Returns the values that an axis always includes, such as 0 and 1 for counts.
-fn always_shown(quantity: Quantity) -> Vec<f64> {
+fn included_values(quantity: Quantity) -> Vec<f64> {
     match quantity {
         Quantity::Area | Quantity::Perimeter | Quantity::Turning => vec![0.0],
         Quantity::WorstConformal | Quantity::WorstIsometric => vec![1.0, 2.0],

@@ -7,7 +7,7 @@ use crate::app::ui::ui_state::UiState;
 use crate::transition::TransitionStop;
 
 /// Range shown beyond either end by default, as a fraction of the film's range of t.
-const BEYOND: f64 = 0.25;
+const DEFAULT_MARGIN: f64 = 0.25;
 
 /// Linear mapping between t and the x coordinate in the window.
 #[derive(Clone, Copy)]
@@ -36,15 +36,15 @@ impl TimelineRuler {
         let places = places.chain([state.playback.t()]);
         // Relative to the film, so the margin does not depend on the number of segments.
         let end = state.session.segment_count() as f64;
-        let (mut from, mut to) = (-BEYOND * end, (1.0 + BEYOND) * end);
+        let (mut from, mut to) = (-DEFAULT_MARGIN * end, (1.0 + DEFAULT_MARGIN) * end);
         for t in places {
             from = from.min(t);
             to = to.max(t);
         }
-        let line = rect.shrink2(vec2(GRID, 0.0));
+        let track = rect.shrink2(vec2(GRID, 0.0));
         Self {
-            left: line.left(),
-            width: line.width(),
+            left: track.left(),
+            width: track.width(),
             y: rect.top() + 34.0,
             from,
             to,

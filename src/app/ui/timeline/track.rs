@@ -19,10 +19,10 @@ use crate::transition::{SequenceLayout, TransitionStop, TransitionStyle, colour_
 
 /// Distance within which scrubbing snaps to designs and stops, in points (tolerance: tenths are
 /// about 60 points apart in the smallest window).
-const SNAP: f32 = 5.0;
+const SNAP_DISTANCE: f32 = 5.0;
 
 /// Initial value of a custom time to the next stop, in seconds.
-const DEFAULT_SECS: f64 = 2.0;
+const DEFAULT_CUSTOM_SECS: f64 = 2.0;
 
 /// Height of the coloured bar, in points.
 const BAR_HEIGHT: f32 = 6.0;
@@ -49,7 +49,7 @@ pub fn show(
     let ruler = TimelineRuler::new(rect, state, &draft.stops);
     let names = state.session.names_along_path();
     scrub(&response, ruler, &draft.stops, intents);
-    beyond(ui, ruler);
+    extrapolation_ranges(ui, ruler);
     bar(ui, ruler, &draft.style, state.session.sequence_layout());
     let is_path = state
         .session
@@ -70,18 +70,20 @@ fn scrub(
     intents: &mut Intents,
 ) {
     // A press moves t at once, before it counts as a drag.
-    let is_held = response.dragged() || response.is_pointer_button_down_on();
-    let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held) else {
+    let is_pressed = response.dragged() || response.is_pointer_button_down_on();
+    let Some(pointer) = response.interact_pointer_pos().filter(|_| is_pressed) else {
         return;
     };
-    let places = stops.iter().map(|stop| stop.t);
+    let snap_ts = stops.iter().map(|stop| stop.t);
     let designs = (0..=ruler.end as usize).map(|k| k as f64);
-    let places = places.chain(designs);
-    let near = places
+    let snap_ts = snap_ts.chain(designs);
+    let snap_candidates = snap_ts
         .map(|t| (t, (ruler.x(t) - pointer.x).abs()))
-        .filter(|(_, d)| *d < SNAP);
+        .filter(|(_, d)| *d < SNAP_DISTANCE);
     // A point on screen is wider than a thousandth of t; snapping makes designs and stops exact.
-    let snapped = near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(t, _)| t);
+    let snapped = snap_candidates
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(t, _)| t);
     intents.push(Intent::Seek(
         snapped.unwrap_or_else(|| rounded(ruler.t(pointer.x))),
     ));
@@ -92,12 +94,12 @@ fn rounded(t: f64) -> f64 {
     (t * 1000.0).round() / 1000.0
 }
 
-fn draw_label(ui: &Ui, at: Pos2, word: &str, colour: Color32) {
+fn draw_label(ui: &Ui, at: Pos2, text: &str, colour: Color32) {
     ui.painter()
-        .text(at, Align2::CENTER_CENTER, word, FONT, colour);
+        .text(at, Align2::CENTER_CENTER, text, FONT, colour);
 }
 
-fn beyond(ui: &Ui, ruler: TimelineRuler) {
+fn extrapolation_ranges(ui: &Ui, ruler: TimelineRuler) {
     let palette = ThemePalette::of(ui);
     for (from, to) in [(ruler.from, 0.0), (ruler.end, ruler.to)] {
         let (a, b) = (pos2(ruler.x(from), ruler.y), pos2(ruler.x(to), ruler.y));
@@ -110,6 +112,7 @@ fn beyond(ui: &Ui, ruler: TimelineRuler) {
 }
 
 fn bar(ui: &Ui, ruler: TimelineRuler, style: &TransitionStyle, layout: SequenceLayout) {
+    /// Number of colour steps along the bar (heuristic).
     const STEPS: u32 = 32;
     let mut mesh = Mesh::default();
     for i in 0..=STEPS {
@@ -155,26 +158,26 @@ fn ticks(ui: &Ui, ruler: TimelineRuler, names: &[String], is_path: bool) {
 /// Draws the number of each design and, as far as it fits, its name.
 fn designs(ui: &Ui, ruler: TimelineRuler, names: &[String]) {
     let palette = ThemePalette::of(ui);
-    let between = ruler.x(1.0) - ruler.x(0.0) - 2.0 * GRID;
+    let segment_room = ruler.x(1.0) - ruler.x(0.0) - 2.0 * GRID;
     // The outermost names must not cover the word “extrapolation”, centred beyond the ends.
-    let outside = ruler.x(0.0) - ruler.x(ruler.from);
-    let at_ends = outside - EXTRAPOLATION_WIDTH - 2.0 * GRID;
+    let margin_room = ruler.x(0.0) - ruler.x(ruler.from);
+    let end_room = margin_room - EXTRAPOLATION_WIDTH - 2.0 * GRID;
     for (k, name) in names.iter().enumerate() {
         let x = ruler.x(k as f64);
         let top = ruler.y + BAR_HEIGHT / 2.0 + 3.0;
         ui.painter().vline(x, top..=top + 6.0, (1.0, palette.weak));
         let is_end = k == 0 || k + 1 == names.len();
-        let room = if is_end {
-            between.min(at_ends)
+        let name_width = if is_end {
+            segment_room.min(end_room)
         } else {
-            between
+            segment_room
         };
-        let words = match room >= MIN_NAME_WIDTH {
+        let text = match name_width >= MIN_NAME_WIDTH {
             true => format!("{k} {}", SanitizedLine(name)),
             false => k.to_string(),
         };
-        let mut job = LayoutJob::simple_singleline(words, FONT, palette.text);
-        job.wrap = TextWrapping::truncate_at_width(room.max(MIN_NAME_WIDTH));
+        let mut job = LayoutJob::simple_singleline(text, FONT, palette.text);
+        job.wrap = TextWrapping::truncate_at_width(name_width.max(MIN_NAME_WIDTH));
         let galley = ui.painter().layout_job(job);
         let corner = pos2(x, ruler.y + 20.0) - 0.5 * galley.size();
         ui.painter().galley(corner, galley, palette.text);
@@ -305,7 +308,7 @@ fn stop_menu(ui: &mut Ui, stop: &mut TransitionStop) -> bool {
                 let number = DragValue::new(secs).range(0.1..=600.0);
                 ui.add(number.speed(0.02).max_decimals(2).suffix(" s"));
             }
-            secs => *secs = has_custom.then_some(DEFAULT_SECS),
+            secs => *secs = has_custom.then_some(DEFAULT_CUSTOM_SECS),
         }
     });
     let is_deleted = ui.button("Delete stop").clicked();

@@ -37,8 +37,8 @@ fn buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let tip = "Go to start (Home)";
     intent_button(ui, icons::TO_START, tip, Intent::SeekStart, intents);
     let tip = "Play backwards to the previous stop (Page Up)";
-    let back = Intent::PlayToPreviousStop;
-    intent_button(ui, icons::PREVIOUS_STOP, tip, back, intents);
+    let previous = Intent::PlayToPreviousStop;
+    intent_button(ui, icons::PREVIOUS_STOP, tip, previous, intents);
     if play_button(ui, state).clicked() {
         intents.push(Intent::TogglePlay);
     }
@@ -83,12 +83,12 @@ fn time_field(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         intents.push(Intent::Seek(t));
     }
     // In words as well, because colour alone must not carry this meaning.
-    let beyond = match state.playback.t() {
+    let range_text = match state.playback.t() {
         t if t < 0.0 => "before the source",
         t if t > state.session.segment_count() as f64 => "beyond the target",
         _ => return,
     };
-    ui.label(RichText::new(beyond).small().color(palette.amber));
+    ui.label(RichText::new(range_text).small().color(palette.amber));
 }
 
 /// Draws speed, timing and play mode, from right to left.

@@ -19,7 +19,7 @@ pub type Uses<'a> = BTreeMap<&'a Path, BTreeMap<&'a Path, String>>;
 
 /// A module: its file, the items it defines and its imports.
 #[derive(Default)]
-struct Module {
+pub struct Module {
     file: PathBuf,
     defined: BTreeSet<String>,
     /// Imported names and the paths they stand for.
@@ -32,7 +32,7 @@ struct Module {
 
 /// All modules of a crate, by path.
 #[derive(Default)]
-pub struct Crate(BTreeMap<Names, Module>);
+pub struct Crate(pub BTreeMap<Names, Module>);
 
 /// Whether an item is compiled for tests only.
 pub fn is_test(attributes: &[syn::Attribute]) -> bool {
@@ -120,12 +120,6 @@ impl Crate {
             let path = [glob.as_slice(), path].concat();
             self.file_of(module, &path, depth + 1)
         })
-    }
-
-    /// Paths of the top-level modules.
-    pub fn top_modules(&self) -> Names {
-        let top = self.0.keys().filter(|path| path.len() == 1);
-        top.map(|path| path[0].clone()).collect()
     }
 
     /// Returns which file uses which.
@@ -222,81 +216,4 @@ impl<'ast> Visit<'ast> for Module {
         }
         visit::visit_macro(self, mac);
     }
-}
-
-/// The folder of the crate's source.
-pub fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
-}
-
-/// Every Rust file below a folder, sorted.
-pub fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder").flatten() {
-            let path = entry.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    files
-}
-
-/// Lists imports between neighbours in one folder (files, or subfolders with all their files)
-/// that lie on a cycle.
-pub fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
-    let mut graphs: BTreeMap<PathBuf, NeighbourGraph> = BTreeMap::new();
-    for (from, used) in uses {
-        for (to, name) in used {
-            if let Some((parent, [a, b])) = neighbours(from, to) {
-                let edges = graphs.entry(parent).or_default().entry(a).or_default();
-                edges.insert(b, name.clone());
-            }
-        }
-    }
-    let mut cycles = Vec::new();
-    for (parent, graph) in &graphs {
-        for (a, edges) in graph {
-            let back = edges.iter().filter(|(b, _)| leads_to(graph, b, a));
-            cycles
-                .extend(back.map(|(b, name)| format!("{}: {a} -> {b}: {name}", parent.display())));
-        }
-    }
-    cycles
-}
-
-/// Neighbours in a folder, and a path by which one uses the other.
-type NeighbourGraph = BTreeMap<String, BTreeMap<String, String>>;
-
-/// The deepest folder that holds both files, and the two entries of it they lie in. A folder
-/// and the file that declares its modules (`a/` and `a.rs`) are one entry.
-fn neighbours(from: &Path, to: &Path) -> Option<(PathBuf, [String; 2])> {
-    let [a, b] = [from, to].map(|file| -> Names {
-        let file = file.with_extension("");
-        let parts = file.components();
-        parts
-            .map(|part| part.as_os_str().to_string_lossy().into_owned())
-            .collect()
-    });
-    let shared = a.iter().zip(&b).take_while(|(x, y)| x == y).count();
-    let entries = [a.get(shared)?.clone(), b.get(shared)?.clone()];
-    Some((a[..shared].iter().collect(), entries))
-}
-
-fn leads_to(graph: &NeighbourGraph, from: &str, to: &str) -> bool {
-    let mut seen = BTreeSet::new();
-    let mut open = vec![from];
-    while let Some(entry) = open.pop() {
-        if entry == to {
-            return true;
-        }
-        let next = graph.get(entry).into_iter().flat_map(|edges| edges.keys());
-        open.extend(next.map(String::as_str).filter(|entry| seen.insert(*entry)));
-    }
-    false
 }
