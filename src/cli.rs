@@ -1,4 +1,4 @@
-//! The command line: argument parsing and the subcommands, one file each.
+//! The command line: parses the arguments and runs the subcommands, one file each.
 //!
 //! Data goes to stdout, messages go to stderr. The exit code is 0 for success, 1 for failure and 2
 //! for wrong usage; a closed pipe at stdout ends the program silently with 0. Subcommands need no
@@ -60,30 +60,31 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum CliCommand {
-    /// Write an image, a contact sheet, a map, numbered images or an animation
+    /// Write an image, a contact sheet, a map of blends, numbered images or an animation
     Render(Box<render::RenderArgs>),
-    /// Measure a transition, a table of pairs, or the space of many designs
+    /// Measure the quality of a transition, of each pair in a table, or of blends of many designs
     Check(Box<check::CheckArgs>),
     /// Write a project file
     New(Box<new::NewArgs>),
-    /// Write the saved blends of a map as files
+    /// Write the blends that were saved on a project's map of designs, as SVG and DXF files
     Catalogue(Box<catalogue::CatalogueArgs>),
     /// List the bundled projects
     Gallery(gallery::GalleryArgs),
 }
 
-/// Arguments for opening the window.
+/// Arguments of the command line without a subcommand: the window is opened.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowRequest {
     /// A project (.morph, or gallery:NAME), or two or more designs, to open in the window
     #[arg(value_name = "FILE", num_args = 0..)]
     pub files: Vec<PathBuf>,
 
-    /// Folder for images and films exported in the window [default: the pictures folder]
+    /// Folder in which the window saves images and films [default: the pictures folder]
     #[arg(long, value_name = "DIR")]
     pub captures: Option<PathBuf>,
 
-    /// Memory limit of a recording, in MiB; larger films are solved frame by frame [default: 512]
+    /// Maximum memory of a film that is computed in advance, in MiB; larger films are computed
+    /// frame by frame while they play [default: 512]
     #[arg(long, value_name = "MIB")]
     pub film_memory: Option<usize>,
 
@@ -92,7 +93,7 @@ pub struct WindowRequest {
     pub present: bool,
 }
 
-/// What remains to be done after the command line was processed.
+/// Next step of the program after the command line was processed.
 #[derive(Debug)]
 pub enum LaunchOutcome {
     /// Open the window.
@@ -103,7 +104,7 @@ pub enum LaunchOutcome {
 
 /// Parses the command line (program name first) and runs the subcommand, if there is one.
 ///
-/// Does not open the window; that is left to the caller.
+/// Does not open the window: the caller does, if [`LaunchOutcome::Window`] is returned.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> LaunchOutcome {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     match Cli::try_parse_from(&arguments) {
@@ -121,8 +122,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> LaunchOutcome {
 }
 
 impl WindowRequest {
-    /// Returns whether the first argument looks like a file; otherwise it may be a misspelt
-    /// subcommand.
+    /// Returns whether the first argument looks like a design or a project. If not, it may be a
+    /// misspelt subcommand.
     fn names_files(&self) -> bool {
         let first = self.files.first();
         first.is_some_and(|first| {

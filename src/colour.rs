@@ -1,8 +1,9 @@
 //! Colours, flat paints, gradients and strokes, and interpolation between them.
 //!
-//! A [`Paint`] is interpolated in OKLab (Ottosson 2020), a space in which equal steps look equal.
-//! Its opacity is premultiplied, so a paint that fades in keeps its own colour. The colour of a
-//! design without paints of its own is mixed in linear light instead ([`Rgb::mixed`]).
+//! A [`Paint`] is interpolated in OKLab (Ottosson 2020), a colour space in which equal distances
+//! look equal. Its colour is multiplied by its opacity first, so a paint that fades in from full
+//! transparency keeps its own colour. The colour of a design that has no paints of its own is
+//! interpolated in linear light instead ([`Rgb::mixed`]).
 
 mod gradient;
 
@@ -28,11 +29,11 @@ pub(crate) fn srgb_from_linear(linear: f64) -> f64 {
     }
 }
 
-/// An opaque sRGB colour: red, green, blue. Written as `#rrggbb`.
+/// Opaque sRGB colour: red, green and blue, 0 to 255 each. Its text form is `#rrggbb`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Rgb(pub [u8; 3]);
 
-/// Error of parsing a colour. Holds the text.
+/// Error of parsing a colour. Holds the text that is not a colour.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("\"{0}\" is not a colour; write it as #rrggbb, for example #3b78c2")]
 pub struct ColourError(String);
@@ -74,7 +75,8 @@ impl<'de> Deserialize<'de> for Rgb {
 }
 
 impl Rgb {
-    /// Interpolates towards `other` in linear light. `t` is clamped to [0, 1].
+    /// Interpolates towards `other` in linear light: `t` = 0 gives `self`, `t` = 1 gives `other`.
+    /// `t` is clamped to [0, 1].
     ///
     /// ```
     /// use morphospace::colour::Rgb;
@@ -97,22 +99,22 @@ impl Rgb {
     }
 }
 
-/// Decodes an 8-bit channel to linear light in [0, 1].
+/// Decodes an 8-bit sRGB channel to linear light in [0, 1].
 fn decode_channel(channel: u8) -> f64 {
     linear_from_srgb(f64::from(channel) / 255.0)
 }
 
-/// Encodes linear light as an 8-bit channel; clamps to the valid range.
+/// Encodes linear light as an 8-bit sRGB channel; light outside [0, 1] is clamped.
 fn encode_channel(light: f64) -> u8 {
     (srgb_from_linear(light) * 255.0).round().clamp(0.0, 255.0) as u8
 }
 
-/// A flat paint: a colour and its opacity.
+/// Flat paint: one colour with an opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paint {
     /// Colour of the paint.
     pub colour: Rgb,
-    /// Opacity: 1 hides everything below, 0 is invisible.
+    /// Opacity in [0, 1]: 1 hides everything below, 0 is invisible.
     pub opacity: f64,
 }
 
@@ -127,7 +129,7 @@ impl From<Rgb> for Paint {
 
 impl Paint {
     /// Interpolates towards `other` in OKLab with premultiplied opacity. `t` is clamped to [0, 1];
-    /// the ends are exact.
+    /// `t` = 0 returns `self` and `t` = 1 returns `other` exactly.
     ///
     /// ```
     /// use morphospace::colour::{Paint, Rgb};
@@ -163,8 +165,8 @@ impl Paint {
         self.opacity >= 1.0
     }
 
-    /// Returns how different two paints look: their distance in OKLab with premultiplied opacity.
-    /// Black and white have distance 1.
+    /// Returns how different two paints look: their distance in OKLab with premultiplied opacity,
+    /// where opacity is the fourth coordinate. Opaque black and white have distance 1.
     #[must_use]
     pub fn difference(&self, other: &Self) -> f64 {
         let [a, b] = [self, other].map(|paint| {
@@ -176,14 +178,14 @@ impl Paint {
     }
 }
 
-/// A stroke along an outline, centred on it.
+/// Style of a stroke that is centred on an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrokeStyle {
     /// Paint of the stroke.
     pub paint: Paint,
-    /// Width, in units of the design.
+    /// Full width of the stroke, in units of the design.
     pub width: f64,
-    /// Shape of its corners.
+    /// Shape of the corners of the stroke.
     pub join: StrokeJoin,
 }
 
@@ -191,8 +193,8 @@ pub struct StrokeStyle {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StrokeJoin {
-    /// Pointed, if the point is at most this many half widths away from the corner; otherwise
-    /// bevelled.
+    /// Pointed, if the distance from the corner of the outline to the tip is at most this many half
+    /// widths of the stroke; otherwise bevelled.
     Mitre(f64),
     /// Rounded by a sector of a disc.
     Round,
@@ -201,8 +203,10 @@ pub enum StrokeJoin {
 }
 
 impl StrokeStyle {
-    /// Interpolates between two strokes. Paint and width change linearly; the corner shape switches
-    /// at t = 0.5. An end without a stroke counts as a stroke of width 0. `t` is clamped to [0, 1].
+    /// Interpolates between the strokes at t = 0 and t = 1. The width changes linearly and the
+    /// paint as in [`Paint::mixed`]; the corner shape switches at t = 0.5. An end without a stroke
+    /// counts as the other stroke with width 0. Returns `None` if neither end has a stroke. `t` is
+    /// clamped to [0, 1].
     #[must_use]
     pub fn interpolated(ends: [Option<Self>; 2], t: f64) -> Option<Self> {
         let without_width = |line: Self| Self { width: 0.0, ..line };
@@ -222,7 +226,8 @@ impl StrokeStyle {
 }
 
 impl Rgb {
-    /// Converts to OKLab: lightness in [0, 1], and the green–red and blue–yellow axes.
+    /// Converts to OKLab: lightness in [0, 1], then the coordinates from green to red and from blue
+    /// to yellow.
     fn to_oklab(self) -> [f64; 3] {
         let [r, g, b] = self.0.map(decode_channel);
         let cones = [
@@ -238,7 +243,7 @@ impl Rgb {
         ]
     }
 
-    /// Converts from OKLab, clamping each channel to the range of sRGB.
+    /// Converts from OKLab and clamps each channel to the range of sRGB.
     fn from_oklab([light, a, b]: [f64; 3]) -> Self {
         let cones = [
             light + 0.396_337_777_4 * a + 0.215_803_757_3 * b,
@@ -287,7 +292,7 @@ mod tests {
         }
     }
 
-    /// Reference values of Ottosson for white and for a red.
+    /// Compares with the reference values of Ottosson for white and pure red.
     #[test]
     fn oklab_matches_the_reference_values() {
         let [l, a, b] = Rgb([255; 3]).to_oklab();

@@ -76,7 +76,7 @@ impl CompatibleMesh {
         validation::check_points(&target, Side::Target)?;
         check_faces(&faces, source.len())?;
         validation::check_elements(&elements, &source, &target)?;
-        let faces = validation::oriented(faces, &source, &target)?;
+        let faces = validation::orient_faces(faces, &source, &target)?;
         validation::check_no_loose_vertex(&faces, &elements, source.len())?;
         let connectivity = Connectivity::new(&faces).map_err(crate::mesh::MeshError::from)?;
         Ok(Self {

@@ -1,9 +1,9 @@
-//! Contents: the drawable data that a warp moves, one kind per column of the table in the crate
-//! documentation.
+//! Contents: the drawable data that a warp moves. Each kind is a column of the table of transitions
+//! in the crate documentation.
 //!
-//! There are three: filled regions and bars ([`SolidContent`]), blended distance fields
-//! ([`FieldContent`]) and cross-dissolved pictures ([`PicturePair`]). A content reads vertex
-//! positions from a [`Placement`] and depends on nothing else of the warp.
+//! There are three kinds: filled regions and bars ([`SolidContent`]), blended distance fields
+//! ([`FieldContent`]) and cross-dissolved pictures ([`PicturePair`]). A content reads the positions
+//! of vertices from a [`Placement`] and depends on nothing else of the warp.
 
 mod colours;
 mod field;
@@ -30,7 +30,7 @@ pub use transient_hole::TransientHole;
 use crate::settings::named;
 use crate::warp::Placement;
 
-/// Kind of content: a column of the table of transitions.
+/// Kind of content: a column of the table of transitions in the crate documentation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ContentKind {
@@ -48,7 +48,7 @@ named! { ContentKind {
     Colours: "colours", "Colours", "Two cross-dissolved pictures";
 } }
 
-/// Data that is drawn at each t, by kind.
+/// The data that is drawn at each t, by kind.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Content {
@@ -61,31 +61,32 @@ pub enum Content {
 }
 
 impl Content {
-    /// Returns the paint layers; `None` for a content in one colour and for pictures.
+    /// Returns the paint layers; `None` for a content in a single colour and for pictures.
     #[must_use]
     pub fn paint_layers(&self) -> Option<&PaintLayerStack> {
         match self {
             Self::Solid(solid) => solid.paint_layers.as_ref(),
-            Self::Field(fields) => fields.painted().map(|painted| &painted.paint_layers),
+            Self::Field(fields) => fields.painted_fields().map(|painted| &painted.paint_layers),
             Self::Colours(_) => None,
         }
     }
 
-    /// Mutable access to the paint layers; `None` for a content in one colour and for pictures.
+    /// Returns the paint layers for changing them; `None` for a content in a single colour and for
+    /// pictures.
     pub(crate) fn paint_layers_mut(&mut self) -> Option<&mut PaintLayerStack> {
         match self {
             Self::Solid(solid) => solid.paint_layers.as_mut(),
             Self::Field(fields) => fields
-                .painted_mut()
+                .painted_fields_mut()
                 .map(|painted| &mut painted.paint_layers),
             Self::Colours(_) => None,
         }
     }
 
-    /// Returns the rings at `t`, grouped by paint layer in drawing order, lowest first. A content
-    /// in one colour has a single group; pictures have none.
+    /// Returns the rings that are drawn at `t`, grouped by paint layer, the lowest layer first. A
+    /// content in a single colour has one group; pictures have none.
     ///
-    /// `placement` must be the placement at the same `t`.
+    /// `placement` must be the placement of the warp at the same `t`.
     ///
     /// # Panics
     /// Panics if a ring uses a vertex that `placement` does not have.

@@ -1,10 +1,10 @@
 //! Correspondence: pairs the boundary points, parts and holes of two designs.
 //!
 //! Parts and holes are paired by an optimal assignment. Boundaries are matched by a cyclic dynamic
-//! program over all starting points ([`match_curves`]), with the user's pins as hard constraints. A
-//! [`BoundaryMatch`] gives both polygons the same number of corresponding vertices
-//! ([`BoundaryMatch::polygons`]). [`match_regions`] does all of this for two designs, and also
-//! handles parts and holes that exist in only one of them.
+//! program over all starting points ([`match_curves`]), with the user's pins (pairs of
+//! corresponding points) as hard constraints. A [`BoundaryMatch`] gives both polygons the same
+//! number of corresponding vertices ([`BoundaryMatch::polygons`]). [`match_regions`] does all of
+//! this for two designs, and also handles parts and holes that exist in only one of them.
 
 mod boundary;
 mod boundary_match;
@@ -40,12 +40,15 @@ pub use curve::{BoundaryCurve, CurveLengthError};
 pub use options::{MatchError, MatchOptions};
 pub use pairing::PairError;
 pub use pins::{Pin, PinError};
-pub(crate) use regions::{HolePolicy, MatchPlan, PartGroup, PartLook, PartLooks, paired_parts};
+pub(crate) use regions::{
+    HolePolicy, MatchPlan, PartAppearance, PartAppearances, PartGroup, paired_parts,
+};
 pub use regions::{
     MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,
     match_regions,
 };
 pub use settings::{
-    HoleRule, LinePair, MatchPlaceError, MatchSettings, PartRule, PointPair, RingCut, UnmatchedPart,
+    HoleRule, LinePair, MatchSettings, MatchSettingsError, PartRule, PointPair, RingCut,
+    UnmatchedPart,
 };
 pub use shared_polygons::SharedPolygons;

@@ -1,14 +1,13 @@
 //! Designs (the shapes to blend) and their importers, one per file format.
 //!
-//! A [`Design`] holds an outline with holes (from a picture or a drawing), a
-//! triangle mesh, or a truss. The format of a file is recognised by its
-//! content, not by its name, and an importer opens nothing but the given bytes.
+//! A [`Design`] holds an outline with holes (from a picture, a drawing or text), a triangle mesh,
+//! or a truss. The format of a file is recognised by its content, not by its name. An importer
+//! reads only the given bytes and, for text in a drawing, the installed fonts.
 //!
-//! Guarantees that for any bytes [`import`] returns either a drawable design or
-//! an [`ImportError`] whose message says what to do. It never panics, and it
-//! refuses files that would need excessive memory or time before spending it.
-//! Does not check that two designs can be blended; that happens when they are
-//! paired.
+//! Guarantees that for any bytes [`import`] returns either a drawable design or an [`ImportError`]
+//! whose message advises the user. It never panics, and it refuses files that would need excessive
+//! memory or time before it uses them. Does not check that two designs can be blended; that happens
+//! when they are paired.
 
 mod dxf;
 mod error;

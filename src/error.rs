@@ -1,5 +1,5 @@
-//! Convenience functions of the crate root: from files straight to a transition, and the one
-//! error type that covers every step from designs to an image.
+//! Convenience functions of the crate root that build a transition straight from files, and the one
+//! error type for every step from reading designs to writing an image.
 //!
 //! The functions only combine other public functions, which their documentation names.
 
@@ -39,22 +39,24 @@ pub enum Error {
 
 /// Builds the transition between two files with default options.
 ///
-/// Chooses the method that suits the designs. Short for [`LoadedProject::open_pair`] followed by
+/// The method is the one that suits the designs. Short for [`LoadedProject::open_pair`] followed by
 /// [`LoadedProject::build`]. A path may also be any other form that
 /// [`DesignSource`](crate::design::DesignSource) parses, such as `glyph:D`.
 ///
 /// # Errors
-/// [`Error`] names the file and the place in it, or says why the designs are incompatible.
+/// [`Error`] names the file and the place of an error in it, or says why the designs are
+/// incompatible.
 pub fn open_pair(source: impl AsRef<Path>, target: impl AsRef<Path>) -> Result<Transition, Error> {
     build_first_segment(&LoadedProject::open_pair(source.as_ref(), target.as_ref())?)
 }
 
-/// Builds the transition of a `.morph` file; of several segments, the first.
+/// Builds the transition of a `.morph` file, or its first segment if it has several.
 ///
 /// Short for [`LoadedProject::open`] followed by [`LoadedProject::build`].
 ///
 /// # Errors
-/// [`Error`] names the file and the place in it, or says why the designs are incompatible.
+/// [`Error`] names the file and the place of an error in it, or says why the designs are
+/// incompatible.
 pub fn open_project(path: impl AsRef<Path>) -> Result<Transition, Error> {
     build_first_segment(&LoadedProject::open(path.as_ref())?)
 }

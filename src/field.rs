@@ -1,11 +1,12 @@
 //! Signed distance fields: grids, masks, distance transforms and contours.
 //!
-//! A field is positive inside a design and negative outside, **in cells of its grid**, so ε and the
-//! threshold of a blend depend on the grid. A field is computed in one of two ways: as the exact
-//! distance to the edges of polygons ([`DistanceField::from_regions`]), or by the distance
-//! transform of a binary image in one of four metrics ([`distance_transform`]).
+//! A field is positive inside a design and negative outside, **in cells of its grid**, so the
+//! meaning of the parameters ε and τ of a [`FieldBlend`](crate::content::FieldBlend) depends on the
+//! grid. A field is computed in one of two ways: as the exact distance to the edges of polygons
+//! ([`DistanceField::from_regions`]), or by the distance transform of a binary image in one of four
+//! metrics ([`distance_transform`]).
 //!
-//! Row 0 is the lowest row everywhere.
+//! In this module, row 0 of a grid, mask or field is its lowest row.
 
 mod chamfer;
 pub mod contour;

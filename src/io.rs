@@ -1,5 +1,5 @@
-//! File input and output: atomic writes, bounded reads, portable file names, and escaping of
-//! text from files for display.
+//! File input and output: atomic writes, bounded reads, portable file names, and escaping of text
+//! from files so that it is safe to display.
 
 pub(crate) mod atomic_file;
 #[cfg(feature = "cli")]

@@ -13,8 +13,8 @@
 //! | scattered points | – | carried fields | morph |
 //! | B-spline lattices | – | carried fields | morph |
 //!
-//! The two are joined by a [`warp::Placement`]: faces, and for each vertex its position in the
-//! frame, in the source and in the target.
+//! Warp and content meet in a [`warp::Placement`]: a list of faces, and for each vertex its
+//! position in the frame, in the source and in the target.
 //!
 //! # Basic use
 //!

@@ -21,6 +21,6 @@ mod tests;
 pub use document::{DesignEntry, FORMAT_VERSION, Project};
 pub use error::ProjectError;
 pub use loaded::LoadedProject;
-pub use map::{MAX_PLACES, MapError, MapSettings, SavedPlace};
+pub use map::{MAX_PLACES, MapError, MapSettings, SavedBlend};
 pub use segment_settings::SegmentRecord;
 pub use segments::MovedDesigns;

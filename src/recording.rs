@@ -1,25 +1,26 @@
-//! Recordings: warps stored as piecewise polynomials in t.
+//! Recordings: warps whose vertex positions are stored as piecewise polynomials in the blend
+//! parameter t.
 //!
-//! Vertex positions are smooth functions of t between the times at which a part starts, stops or
-//! changes pace. A few placements therefore determine the whole motion, and every other placement
-//! is a short sum, however expensive one placement of the warp is. Each time interval stores the
-//! deviation from the straight line between its two ends, as a polynomial that vanishes at both
-//! ends; the positions at the ends are exact.
+//! Between the times at which a part starts, stops or changes pace, vertex positions are smooth
+//! functions of t. A few placements (evaluations of the warp at one t) therefore determine the
+//! whole motion. Every other placement is a short sum, however expensive it is to evaluate the
+//! warp. For each vertex, a time interval stores the exact positions at both ends, and a polynomial
+//! for the deviation from the straight line between them; it vanishes at both ends.
 //!
-//! A [`Recording`] is itself a warp, so that contents, stage, export and measures treat it like any
-//! other. Outside [0, 1] it evaluates the warp that was recorded.
+//! A [`Recording`] is itself a warp, so contents, stage, export and measures treat it like any
+//! other warp. Outside [0, 1] it evaluates the warp that was recorded.
 //!
-//! Guaranteed: at t = 0 and t = 1 the warp's positions bit for bit; continuity between intervals;
-//! the same recording on any number of threads. Not guaranteed: the stated
-//! [`error`](Recording::error) is measured against fresh placements, not proved.
+//! Guaranteed: at t = 0 and t = 1 the positions of the warp, bit for bit; continuity between
+//! intervals; the same recording on any number of threads. Not guaranteed: the stated
+//! [`error`](Recording::error), which is measured at sampled times and not proved.
 //!
-//! - `options`: tolerance and memory limit
-//! - `channels`: the positions of a placement that a warp moves
-//! - `nodes`: times at which a warp is evaluated, and the polynomials through them
-//! - `record`: from placements to as few intervals as the tolerance allows
+//! - `options`: tolerance and memory limit of a recording
+//! - `channels`: which of a placement's three position lists a warp moves
+//! - `nodes`: times at which a warp is evaluated, and the polynomials through the values there
+//! - `record`: converts placements to as few intervals as the tolerance allows
 //! - `interval`: the polynomials of one time interval, and their evaluation
-//! - `single_precision`: the same in single precision, for graphics cards
-//! - [`proof`]: certificates that no face folds and no outlines meet at any t
+//! - `single_precision`: the intervals in single precision, for graphics cards
+//! - [`proof`]: certificates that no face folds and no outlines meet, at any t
 
 mod channels;
 mod interval;
@@ -46,7 +47,7 @@ use channels::MovingChannels;
 use interval::RecordingInterval;
 use std::sync::Arc;
 
-/// A warp stored as piecewise polynomials in t. Cloning is cheap.
+/// Warp whose vertex positions are stored as piecewise polynomials in t. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::compatible::CompatibleMesh;
@@ -71,16 +72,16 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Recording(Arc<RecordingData>);
 
-/// The shared data of a recording.
+/// Data of a recording, shared by its clones.
 #[derive(Debug)]
 struct RecordingData {
     warp: Arc<dyn Warp>,
     channels: MovingChannels,
     /// Intervals in ascending order of t, covering [0, 1] without gaps.
     intervals: Vec<RecordingInterval>,
-    /// Largest measured error, as a fraction of the diameter.
+    /// Largest measured distance from the warp, as a fraction of the diameter of all positions.
     error: f64,
-    /// Number of placements of the warp that were computed.
+    /// Number of times that the warp was evaluated.
     evaluation_count: usize,
 }
 
@@ -89,7 +90,7 @@ impl Recording {
     ///
     /// # Errors
     /// [`RecordingError`] if the recording would exceed its memory limit, if the warp jumps or is
-    /// not smooth at a time that [`Warp::break_times`] does not list, and if the work is cancelled.
+    /// not smooth at a time that [`Warp::break_times`] does not list, or if the work is cancelled.
     pub fn record(
         warp: Arc<dyn Warp>,
         options: &RecordingOptions,
@@ -105,26 +106,27 @@ impl Recording {
         })))
     }
 
-    /// Returns the largest measured distance between a vertex of the recording and of the warp,
-    /// including rounding, as a fraction of the diameter.
+    /// Returns the largest measured distance between a vertex in the recording and the same vertex
+    /// in the warp, including rounding, as a fraction of the diameter of all positions at both
+    /// ends.
     #[must_use]
     pub fn error(&self) -> f64 {
         self.0.error
     }
 
-    /// Returns the number of placements of the warp that recording took.
+    /// Returns how many times the warp was evaluated for the recording.
     #[must_use]
     pub fn evaluation_count(&self) -> usize {
         self.0.evaluation_count
     }
 
-    /// Returns the number of time intervals, each with its own polynomials.
+    /// Returns the number of time intervals, each of which has its own polynomials.
     #[must_use]
     pub fn interval_count(&self) -> usize {
         self.0.intervals.len()
     }
 
-    /// Returns the size of the coefficients in bytes.
+    /// Returns the size of the stored positions and coefficients in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.0.intervals.iter().map(RecordingInterval::bytes).sum()
@@ -132,8 +134,8 @@ impl Recording {
 }
 
 impl Recording {
-    /// Moves a placement of the warp to `t` and returns true; outside [0, 1] leaves it unchanged
-    /// and returns false.
+    /// Sets the positions in a placement of the warp to those at `t` and returns true. Outside [0,
+    /// 1] leaves the placement unchanged and returns false.
     pub(crate) fn place(&self, t: f64, placement: &mut Placement) -> bool {
         let is_within = (0.0..=1.0).contains(&t);
         if is_within {
@@ -150,7 +152,7 @@ impl RecordingData {
         index.min(self.intervals.len() - 1)
     }
 
-    /// Evaluates every moving channel at `t`, for `t` in [0, 1].
+    /// Writes the positions at `t` of every moving channel, for `t` in [0, 1].
     fn place(&self, t: f64, placement: &mut Placement) {
         let interval = &self.intervals[self.interval_at(t)];
         let mut first_block = 0;

@@ -1,8 +1,8 @@
 //! Design spaces: blends of any number of designs, and maps on which every place is a blend.
 //!
-//! A blend is a list of weights, one per design, that sum to one. A transition between two designs
+//! A blend is given by weights, one per design, that sum to one. A transition between two designs
 //! is the blend with weights (1 − t, t). A [`Sequence`](crate::transition::Sequence) follows edges
-//! of the space, a path over a map crosses its interior.
+//! of the space, that is, blends of two designs; a path over a map crosses its interior.
 //!
 //! - `build`: builds a [`DesignSpace`] as rigid parts of a common mesh if there is one, otherwise
 //!   as distance fields; `picture_space`: as pictures, warped by features common to all
@@ -12,8 +12,9 @@
 //! - `path`, `path_transition`: paths over a map and the films along them, with weights smoothed by
 //!   `weight_polynomials`; `steered_transition`: a transition whose weights are set from outside
 //!
-//! Weight 1 on one design reproduces it exactly. Once the hub of a common mesh is chosen, the order
-//! of the designs affects blends only by rounding. All errors occur while a space is built.
+//! Weight 1 on one design reproduces it exactly. A common mesh starts from a hub, the design with
+//! which all others are matched. For a given hub, the order of the designs affects blends only by
+//! rounding. Errors occur only while a space or a path is built, never in a frame.
 
 mod blend;
 mod build;

@@ -1,18 +1,20 @@
-//! The stage: a Bevy plugin that builds and draws transitions.
+//! The stage: a Bevy plugin that builds transitions, moves them to their blend parameter and draws
+//! them, and that captures pictures of them.
 //!
-//! A transition on the stage is an entity with [`SourceMesh`], [`TargetMesh`] and [`Blend`]; the
-//! plugin adds the [`Morph`] that it builds from them. Each frame, one system moves the morphs
-//! whose `Blend` changed to the new t, and another one draws them according to their content:
-//! solids as render meshes, distance fields and pictures as meshes whose fragment shader samples
-//! both designs as textures.
+//! The simplest transition is an entity with [`SourceMesh`], [`TargetMesh`] and [`Blend`], from
+//! which the plugin builds a [`Morph`]. A [`MeshFamily`] blends several meshes, [`MorphDesigns`]
+//! loads designs as assets, and a [`StageTransition`] holds a transition built elsewhere. Each
+//! frame, one system moves the morphs whose `Blend` changed to the new t, and another one draws
+//! them according to their content: solids as render meshes, distance fields and pictures as meshes
+//! whose fragment shader samples both designs as textures.
 //!
-//! [`MorphPlugin`] contains just that, without window, keys or panels. [`MorphSystems`] lists the
-//! system sets, so that a program can order its own systems among them.
+//! [`MorphPlugin`] adds no window, keys or panels. [`MorphSystems`] lists its system sets, so that
+//! a program can order its own systems among them.
 //!
-//! A transition of solids that has been recorded
-//! ([`Transition::record`](crate::transition::Transition::record)) is played by the graphics card.
-//! Its recorded intervals are uploaded once, the vertex shader evaluates the positions of faces and
-//! wireframes, and no vertices are written while t moves within [0, 1].
+//! The graphics card plays transitions of solids that have been recorded
+//! ([`Transition::record`](crate::transition::Transition::record)): the intervals of the recording
+//! are uploaded once, the vertex shader evaluates the positions of faces and wireframes, and the
+//! CPU writes no vertices while t moves within [0, 1].
 //!
 //! Guaranteed: frames cannot fail, and they reuse their memory, except that boundaries without
 //! faces are triangulated anew in each frame. Builds run on a task pool; a failed build triggers
@@ -123,18 +125,18 @@ pub struct MorphPlugin;
 /// ```
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MorphSystems {
-    /// For programs that translate input into intents. The plugin has no systems here.
+    /// Empty set for a program's own systems that read input. The plugin has no systems here.
     Input,
-    /// For programs that change [`Blend`], meshes, options and styles. The plugin has no systems
-    /// here.
+    /// Empty set for a program's own systems that change [`Blend`], meshes, options and styles. The
+    /// plugin has no systems here.
     Playback,
-    /// Starts builds for new meshes or options, takes in finished ones, and triggers
-    /// [`BuildFailed`] for failed ones. Turns a [`StageTransition`] into a [`Morph`].
+    /// Starts builds for new meshes or options, adds a [`Morph`] for each finished build, and
+    /// triggers [`BuildFailed`] for each failed one. Turns a [`StageTransition`] into a [`Morph`].
     Build,
-    /// Moves each [`Morph`] to its [`Blend`]. Afterwards its frame is that of this update; if the
-    /// graphics card plays it, its vertices are placed when they are read.
+    /// Moves each [`Morph`] to its [`Blend`]. Systems that run later see the frame of this update.
+    /// If the graphics card plays the morph, the CPU computes its vertices only when they are read.
     Solve,
-    /// Writes render meshes, uniforms and cameras.
+    /// Updates render meshes, material uniforms and cameras.
     Draw,
     /// Takes the pictures requested by [`CaptureStage`].
     Capture,
@@ -160,7 +162,7 @@ impl Plugin for MorphPlugin {
                 (solve::solve_frames, mesh_family::solve_families).in_set(Solve),
             )
             .add_systems(Update, camera::apply_view.in_set(Draw));
-        // Without assets there are no meshes; such a program only builds and solves.
+        // A program without assets has no render meshes; it only builds and solves.
         if app.is_plugin_added::<AssetPlugin>() {
             add_drawing(app);
         }
@@ -168,7 +170,7 @@ impl Plugin for MorphPlugin {
     }
 }
 
-/// Adds materials, shaders, asset loaders and drawing systems.
+/// Adds the materials, shaders, asset loaders and systems that drawing needs.
 fn add_drawing(app: &mut App) {
     embedded_asset!(app, "stage/ink.wgsl");
     embedded_asset!(app, "stage/played.wgsl");
@@ -193,12 +195,12 @@ fn add_drawing(app: &mut App) {
         Startup,
         (recording_upload::detect_gpu, warm_up::warm_up_pipelines).chain(),
     )
-    // An observer, so that render parts are despawned whenever the morph is removed.
+    // As an observer it runs whenever a morph is removed, and despawns the render parts.
     .add_observer(part_assembly::despawn_parts)
     .add_systems(
         Update,
-        // A chain applies commands between its systems, so parts are written and placed in the
-        // frame that spawns them.
+        // A chain applies commands between its systems, so parts are drawn in the frame in which
+        // they are spawned.
         (
             part_assembly::spawn_parts,
             (
@@ -213,14 +215,14 @@ fn add_drawing(app: &mut App) {
     );
 }
 
-/// Registers an asset type that Bevy's renderer would register, for programs without one.
+/// Registers an asset type if Bevy's renderer, which normally does it, is missing.
 fn init_asset<A: Asset>(app: &mut App) {
     if !app.world().contains_resource::<Assets<A>>() {
         app.init_asset::<A>();
     }
 }
 
-/// Adds the systems that take pictures.
+/// Adds the messages and systems that capture pictures of the stage.
 fn add_capture(app: &mut App) {
     pipelines::watch_pipelines(app);
     app.init_resource::<capture::PendingCaptures>()

@@ -1,4 +1,4 @@
-//! Time: easing functions, and the timing of a film (duration, pauses, stops).
+//! Time: easing functions, and the timing of playback (duration, pauses, stops).
 
 mod easing;
 mod easing_curve;

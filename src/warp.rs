@@ -1,10 +1,10 @@
 //! Warps: mappings that say where each point of the designs lies at blend parameter t.
 //!
 //! There is one warp per method: rigid parts, boundary paths, line pairs, scattered points,
-//! B-spline lattices, and no motion at all. A [`Warp`] is built once, which can fail. It hands
-//! out [`Placer`]s, which own all the memory that a frame needs; evaluating one neither
-//! allocates nor fails. Warps are independent of the content they carry (solids, distance
-//! fields or pictures).
+//! B-spline lattices, and no motion at all. A [`Warp`] is built once, which can fail. It creates
+//! [`Placer`]s, evaluators that own the memory for a frame, reuse it from frame to frame, and
+//! cannot fail. Warps are independent of the content they carry (solids, distance fields or
+//! pictures).
 //!
 //! In this module "the frame" is the visible rectangle of the plane, whereas "a frame" is one
 //! image of the animation.
@@ -58,9 +58,9 @@ pub struct Placement {
     pub faces: Arc<[[u32; 3]]>,
     /// Position of each vertex in the frame at t.
     pub in_frame: Vec<DVec2>,
-    /// Point of the source shown at that vertex.
+    /// For each vertex, the point of the source design that is shown there.
     pub in_source: Vec<DVec2>,
-    /// Point of the target shown at that vertex.
+    /// For each vertex, the point of the target design that is shown there.
     pub in_target: Vec<DVec2>,
 }
 
@@ -79,13 +79,14 @@ impl Placement {
 /// Features that a warp fails to map to their positions in the designs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MissedFeatures {
-    /// Number of missed features; every sample of a line counts.
+    /// Number of missed features; every sample point of a line counts as one.
     pub count: usize,
-    /// Distance by which the worst one misses its position in a design, in plane units.
+    /// Distance between the image of the worst missed feature and its position in a design, in
+    /// plane units.
     pub distance: f64,
-    /// Position of the worst one in the frame.
+    /// Position in the frame of the worst missed feature.
     pub place: DVec2,
-    /// Whether folds were forbidden; if so, allowing them may help.
+    /// Whether the warp forbids folds. If so, allowing folds may reduce the distance.
     pub fold_free: bool,
 }
 
@@ -102,7 +103,8 @@ pub trait Warp: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Returns the features missed at `t`, or `None` if all are met within the warp's tolerance.
+    /// Returns a summary of the features that the warp misses at `t` by more than its tolerance, or
+    /// `None` if it misses none or does not measure them.
     fn missed_features(&self, _t: f64) -> Option<MissedFeatures> {
         None
     }
@@ -111,7 +113,7 @@ pub trait Warp: Debug + Send + Sync {
 /// Evaluator of a warp. Evaluation neither allocates nor fails.
 pub struct Placer {
     placement: Placement,
-    mover: Box<PlacementUpdate>,
+    update: Box<PlacementUpdate>,
 }
 
 /// Function that moves a placement to a given t and owns the memory for it.
@@ -124,25 +126,26 @@ impl Placer {
     ) -> Self {
         Self {
             placement,
-            mover: Box::new(mover),
+            update: Box::new(mover),
         }
     }
 
     /// Moves the placement to `t`; values outside [0, 1] extrapolate.
     pub fn place(&mut self, t: f64) {
-        (self.mover)(t, &mut self.placement);
+        (self.update)(t, &mut self.placement);
     }
 
-    /// Returns a placer that tries `first` and falls back to its own evaluation.
+    /// Returns a placer that calls `first` and, if that returns `false`, evaluates this placer
+    /// instead.
     ///
-    /// `first` returns whether it has moved the placement.
+    /// `first` returns `true` if it has moved the placement.
     pub(crate) fn with_override(
         mut self,
         mut first: impl FnMut(f64, &mut Placement) -> bool + Send + Sync + 'static,
     ) -> Self {
         Self::new(self.placement, move |t, placement| {
             if !first(t, placement) {
-                (self.mover)(t, placement);
+                (self.update)(t, placement);
             }
         })
     }

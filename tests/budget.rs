@@ -19,7 +19,7 @@ use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 use uses::{Crate, Names, Uses, is_test};
 
-/// The contents of `budget.toml`.
+/// Contents of `budget.toml`: upper bounds on the figures, and exemptions from them.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Budget {
@@ -211,8 +211,8 @@ fn type_names_are_used_once() {
     );
 }
 
-/// Lists imports between neighbours in one folder (files, or subfolders with all their files)
-/// that lie on a cycle.
+/// Lists the uses between entries of the same folder that lie on a cycle. An entry is a file or a
+/// subfolder with all its files.
 fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
     let mut graphs: BTreeMap<PathBuf, NeighbourGraph> = BTreeMap::new();
     for (from, used) in uses {
@@ -234,11 +234,13 @@ fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
     cycles
 }
 
-/// Neighbours in a folder, and a path by which one uses the other.
+/// For each entry of a folder: the entries that it uses, each with a path in the code that refers
+/// to it.
 type NeighbourGraph = BTreeMap<String, BTreeMap<String, String>>;
 
-/// The deepest folder that holds both files, and the two entries of it they lie in. A folder
-/// and the file that declares its modules (`a/` and `a.rs`) are one entry.
+/// The deepest folder that contains both files, and the names of its entries that contain them. A
+/// folder and the file that declares its modules (`a/` and `a.rs`) are one entry. `None` if both
+/// files are in one entry.
 fn neighbours(from: &Path, to: &Path) -> Option<(PathBuf, [String; 2])> {
     let [a, b] = [from, to].map(|file| -> Names {
         let file = file.with_extension("");

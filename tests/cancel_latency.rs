@@ -1,9 +1,11 @@
-//! Latency of cancellation and of the first progress report, in every stage of every kind of work;
-//! and refusal of work that would take very long.
+//! Tests that long work reports progress and can be cancelled without delay in each of its stages:
+//! building every kind of transition, the search for a method, and measuring. Also tests that
+//! builds that would take very long are refused.
 //!
-//! The target is half a second. The bound here is five times as large, since the tests run with
-//! little optimisation. Late work is tried again: a busy machine delays one attempt, a stage that
-//! does not check for cancellation delays all of them.
+//! The program's target for both delays is half a second. The bound here is five times as large,
+//! since the tests run with little optimisation. Work that exceeds the bound is repeated: a busy
+//! machine delays one attempt, but a stage that does not check for cancellation delays every
+//! attempt.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,21 +20,23 @@ use morphospace::transition::{BuildError, TransitionSpec};
 use morphospace::work::progress::{Progress, Silent};
 use morphospace::{DVec2, Design, Transition, TransitionMethod};
 
-/// Maximum delay of a cancellation or a first report: five times the target of half a second.
+/// Maximum delay between a request to cancel and the end of the work, and between the start of the
+/// work and its first report: five times the target of half a second.
 const BOUND: Duration = Duration::from_millis(2500);
 
-/// Delay from the first report of a stage to its cancellation, so that it is cancelled midway
-/// (heuristic).
+/// Delay between the first report of a stage and the request to cancel it, so that the stage is
+/// cancelled midway (heuristic).
 const DELAY_IN_STAGE: Duration = Duration::from_millis(40);
 
-/// Progress that cancels the work [`DELAY_IN_STAGE`] after its stage of a given number began.
+/// Progress that logs all reports of the work, and requests cancellation [`DELAY_IN_STAGE`] after
+/// the given stage has begun.
 struct CancelInStage {
-    /// Number of the stage, from 1.
+    /// Number of the stage to cancel; the first stage is 1.
     stage: usize,
     log: Mutex<ProgressLog>,
 }
 
-/// Reports of the work so far.
+/// Log of the work's reports, and the time at which cancellation is requested.
 #[derive(Default)]
 struct ProgressLog {
     stages: Vec<&'static str>,
@@ -69,14 +73,14 @@ impl Progress for CancelInStage {
     }
 }
 
-/// Number of attempts before a delay is a failure.
+/// Number of consecutive attempts that must exceed [`BOUND`] for a test to fail.
 const ATTEMPTS: u32 = 3;
 
-/// Cancels the work in a stage, counted from 1, and returns the name of the stage; `None` if the
-/// work has fewer stages.
+/// Cancels the work in stage number `stage` (the first is 1) and returns the name of the stage;
+/// `None` if the work has fewer stages.
 ///
 /// # Errors
-/// A description of the delay, if one is above [`BOUND`].
+/// If a delay is above [`BOUND`]: a description of the delay.
 fn cancel_in(stage: usize, work: impl Fn(&dyn Progress)) -> Result<Option<&'static str>, String> {
     let progress = CancelInStage::at(stage);
     let start = Instant::now();
@@ -92,7 +96,7 @@ fn cancel_in(stage: usize, work: impl Fn(&dyn Progress)) -> Result<Option<&'stat
             .iter()
             .all(|fraction| (0.0..=1.0).contains(fraction))
     );
-    // Work that is done at once need not report.
+    // Work that ends at once need not report anything.
     let first_report = log.first_report.unwrap_or_else(Instant::now) - start;
     if first_report > BOUND {
         return Err(format!("no report for {first_report:?}"));
@@ -108,10 +112,10 @@ fn cancel_in(stage: usize, work: impl Fn(&dyn Progress)) -> Result<Option<&'stat
     Ok(Some(stage))
 }
 
-/// Locked while work is cancelled: all tests share the worker threads, and would delay each other.
+/// Locked while a test cancels work: the tests share the worker threads and would delay each other.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
-/// Cancels the work once in each of its stages; returns the names of the stages.
+/// Runs the work once for each of its stages and cancels it there; returns the names of the stages.
 fn cancel_everywhere(name: &str, work: impl Fn(&dyn Progress)) -> Vec<&'static str> {
     let _lock = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     let mut stages = Vec::new();
@@ -128,12 +132,13 @@ fn cancel_everywhere(name: &str, work: impl Fn(&dyn Progress)) -> Vec<&'static s
     }
 }
 
-/// Work that builds a transition; it must end with a result, or as cancelled.
+/// Returns work that builds a transition. It asserts that the build succeeds, or, if it was
+/// cancelled, that an error says so.
 fn build(spec: &TransitionSpec) -> impl Fn(&dyn Progress) {
     |progress| {
         let built = Transition::build(spec, progress);
         if progress.is_cancelled() {
-            // The work may have been done just before it was cancelled.
+            // The build may also have succeeded just before the request to cancel.
             let is_cancelled = |error: String| error.contains("cancelled");
             assert!(
                 built
@@ -146,7 +151,8 @@ fn build(spec: &TransitionSpec) -> impl Fn(&dyn Progress) {
     }
 }
 
-/// A gear of radius 1 with teeth of the given depth, and a row of holes through its centre.
+/// A gear of radius 1 with teeth of the given depth, and with a row of small round holes across its
+/// centre.
 fn gear(name: &str, teeth: u32, depth: f64, holes: u32) -> Arc<Design> {
     let tooth = |k: u32| {
         let radius = if k % 4 < 2 { 1.0 } else { 1.0 - depth };
@@ -162,7 +168,7 @@ fn gear(name: &str, teeth: u32, depth: f64, holes: u32) -> Arc<Design> {
     Arc::new(Design::from_rings(name, rings).expect("a gear"))
 }
 
-/// A truss that is a chain of bars.
+/// A truss whose bars form a zigzag chain.
 fn zigzag(bars: u32) -> Arc<Design> {
     let node = |k: u32| DVec2::new(f64::from(k), f64::from(k % 2));
     let pairs = (0..bars).map(|k| [k, k + 1]).collect();
@@ -170,7 +176,7 @@ fn zigzag(bars: u32) -> Arc<Design> {
     Arc::new(Design::new("zigzag", truss))
 }
 
-/// A truss with a bar between every two nodes.
+/// A truss with a bar between each pair of its nodes.
 fn complete_truss(nodes: u32) -> Arc<Design> {
     let node = |k: u32| DVec2::from_angle(TAU * f64::from(k * k) / f64::from(7 * nodes));
     let bars = (0..nodes).flat_map(|a| (a + 1..nodes).map(move |b| [a, b]));
@@ -178,7 +184,8 @@ fn complete_truss(nodes: u32) -> Arc<Design> {
     Arc::new(Design::new("net", truss.expect("a truss")))
 }
 
-/// A square grid of `side` × `side` vertices, triangulated; `bend` curves it.
+/// A triangulated square grid of `side` × `side` vertices, whose rows are parabolas if `bend` is
+/// not 0.
 fn sheet(side: u32, bend: f64) -> Arc<Design> {
     let vertex = |k: u32| {
         let (x, y) = (f64::from(k % side), f64::from(k / side));
@@ -299,7 +306,8 @@ fn very_long_builds_are_refused_in_advance() {
         "the plain method replaces it"
     );
     spec.method = TransitionMethod::RIGID_PARTS;
-    // Triangles are counted before the first subdivision.
+    // The number of triangles is computed before the first subdivision, so the build is refused
+    // at once.
     spec.source = Arc::clone(&net);
     spec.target = net;
     spec.options.arap.subdivisions = u32::MAX;

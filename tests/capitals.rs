@@ -1,7 +1,8 @@
-//! Transitions by rigid parts between the capital letters of the bundled font.
+//! Transitions by rigid parts between the capital letters of the bundled font: their meshes are
+//! valid, they begin and end with the areas of the letters, and counters stay open.
 //!
-//! All 650 ordered pairs: `cargo test --release --no-default-features --test
-//! capitals -- --include-ignored`.
+//! `cargo test --release --no-default-features --test capitals -- --include-ignored` tests all 650
+//! ordered pairs.
 
 use morphospace::design::{Design, ImportOptions, import_file};
 use morphospace::geometry::orient2d;
@@ -19,7 +20,8 @@ fn capitals() -> Vec<Arc<Design>> {
     ('A'..='Z').map(letter).collect()
 }
 
-/// The first defect of a pair: no transition, an invalid mesh, or an end with a wrong area.
+/// The first defect of the transition between two letters: it cannot be built, a face of its mesh
+/// is not positively oriented, or its area at t = 0 or 1 is not that of the letter.
 fn fault(source: &Arc<Design>, target: &Arc<Design>) -> Option<String> {
     let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
     let transition = match Transition::build(&spec, &Silent) {
@@ -47,7 +49,7 @@ fn fault(source: &Arc<Design>, target: &Arc<Design>) -> Option<String> {
     (deviation > 1e-4).then(|| format!("an end whose area is off by {deviation}"))
 }
 
-/// Sum of the signed areas of rings.
+/// Sum of the signed areas of the rings; counterclockwise rings are positive.
 fn area(rings: &[Vec<morphospace::geometry::DVec2>]) -> f64 {
     let ring_area = |ring: &Vec<morphospace::geometry::DVec2>| {
         let next = ring.iter().cycle().skip(1);
@@ -74,7 +76,8 @@ fn faults(pairs: &[(usize, usize)]) -> Vec<String> {
 
 #[test]
 fn each_capital_is_source_and_target_of_a_valid_transition() {
-    // A shift by 7 of 26 letters makes each letter source once and target once.
+    // Pairing each letter with the seventh after it makes every letter source once and target
+    // once.
     let pairs: Vec<_> = (0..26).map(|k| (k, (k + 7) % 26)).collect();
     assert_eq!(faults(&pairs), Vec::<String>::new());
 }
@@ -95,7 +98,7 @@ fn the_counter_of_a_letter_stays_open() {
         let min_end_area = counter_area(0.0).min(counter_area(1.0));
         for k in 1..16 {
             let t = f64::from(k) / 16.0;
-            // Lengths may shrink by a tenth, hence areas by about a fifth.
+            // Lengths may shrink by 10 %, hence areas by about 20 %.
             assert!(
                 counter_area(t) > 0.8 * min_end_area,
                 "{from} to {to} at {t}"

@@ -1,7 +1,8 @@
-//! README and docs: every command line in them runs, every link leads somewhere, every project
-//! file parses, and the generated lists are up to date.
+//! Tests README and docs: every `morphospace` command line in them runs, every internal link has a
+//! target, SUMMARY.md lists every page, the reference of project files names every key and its
+//! examples parse, and the generated lists (command-line help, heuristic constants) are up to date.
 //!
-//! `UPDATE_DOCS=1 cargo test --test docs` writes the generated lists anew.
+//! `UPDATE_DOCS=1 cargo test --test docs` updates the generated lists.
 
 #[path = "source/files.rs"]
 mod files;
@@ -22,7 +23,7 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// README and every page of docs.
+/// Paths of the README and of every Markdown page below `docs`.
 fn pages() -> Vec<PathBuf> {
     let mut pages = vec![root().join("README.md")];
     let mut folders = vec![root().join("docs")];
@@ -40,7 +41,7 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// The fenced blocks of a page: language and text.
+/// Language and text of each fenced code block of a page.
 fn blocks(text: &str) -> Vec<(&str, String)> {
     let mut blocks = Vec::new();
     let mut open: Option<(&str, String)> = None;
@@ -58,7 +59,7 @@ fn blocks(text: &str) -> Vec<(&str, String)> {
     blocks
 }
 
-/// Copies of bundled designs and projects under the names that README and docs use.
+/// Fills a folder with designs, projects and a table under the names that README and docs use.
 fn fill_with_examples(folder: &Path) {
     let gallery = root().join("assets/gallery");
     let copies = [
@@ -111,7 +112,8 @@ fn fill_with_examples(folder: &Path) {
     }
 }
 
-/// The `morphospace` lines of a block that have a subcommand, continued lines joined.
+/// Arguments of each `morphospace` command with a subcommand in a block; lines continued with `\`
+/// are joined.
 fn command_lines(block: &str) -> Vec<Vec<String>> {
     let joined = block.replace("\\\n", " ");
     let lines = joined.lines().filter_map(|line| {
@@ -162,7 +164,7 @@ fn every_command_line_runs() {
     assert!(count > 15, "only {count} command lines were found");
 }
 
-/// The targets of the Markdown links of a page outside code.
+/// Targets of the Markdown links of a page that lie outside code blocks.
 fn links(text: &str) -> Vec<String> {
     let mut in_code = false;
     let mut links = Vec::new();
@@ -176,7 +178,7 @@ fn links(text: &str) -> Vec<String> {
     links
 }
 
-/// The anchors of a page's headings, as forges and mdBook make them.
+/// Anchors of the headings of a page, as GitHub and mdBook derive them.
 fn anchors(text: &str) -> Vec<String> {
     let headings = text.lines().filter(|line| line.starts_with('#'));
     let anchor = |line: &str| -> String {
@@ -247,14 +249,15 @@ fn every_project_file_in_the_docs_parses() {
     assert!(count > 3, "only {count} project files were found");
 }
 
-/// Returns the keys that a document may have in a table, from the message for a wrong one.
+/// Returns the keys that a project file may have in a table, read from the error message for an
+/// unknown key.
 fn known_keys(table: &str) -> Vec<String> {
     let text = format!(
         "version = 2\n\n{table}no-such-key = 1\n\n[[designs]]\npath = \"a\"\n\n[[designs]]\npath = \"b\"\n"
     );
     let error = Project::parse(&text).expect_err("a key that does not exist");
     let message = error.to_string();
-    // "unknown field `no-such-key`, expected one of `a`, `b`"
+    // The message is like "unknown field `no-such-key`, expected one of `a`, `b`".
     let (_, keys) = message.split_once("expected").unwrap_or(("", ""));
     let keys = keys.split('`').skip(1).step_by(2);
     keys.map(str::to_owned).collect()
@@ -286,7 +289,8 @@ fn the_reference_of_project_files_names_every_key() {
     }
 }
 
-/// Replaces the text between `<!-- generated:NAME -->` and `<!-- end -->`, or compares it.
+/// Asserts that the text of a page between `<!-- generated:NAME -->` and `<!-- end -->` is
+/// `expected`; replaces it instead if `UPDATE_DOCS` is set.
 fn check_generated(page: &Path, name: &str, expected: &str) {
     let text = read(page);
     let begin = format!("<!-- generated:{name} -->\n");
@@ -321,7 +325,8 @@ fn the_options_of_the_command_line_are_listed() {
     }
 }
 
-/// A documented constant: file, name, and first line of its documentation.
+/// Constants marked as heuristic in `src`, grouped by top-level module. Each is a pair of file with
+/// name, and of its documentation up to the mark.
 fn heuristics() -> BTreeMap<String, Vec<[String; 2]>> {
     let mut by_folder: BTreeMap<String, Vec<[String; 2]>> = BTreeMap::new();
     for file in files::files_below(&files::folder()) {

@@ -1,4 +1,4 @@
-//! The examples that need no window write the described output.
+//! Tests the examples that need no window: their output, and the copy of one of them in the README.
 
 #[path = "../examples/polygons_to_svg.rs"]
 mod polygons_to_svg;

@@ -1,4 +1,5 @@
-//! The bundled gallery projects open, draw something, and behave as their descriptions say.
+//! The bundled gallery projects open, draw something at every t, behave as their descriptions say,
+//! and are recorded in few solves.
 
 use morphospace::geometry::DVec2;
 use morphospace::project::{LoadedProject, gallery};
@@ -11,7 +12,7 @@ fn build(name: &str) -> Transition {
     loaded.segments()[0].build(&Silent).expect(name)
 }
 
-/// The drawing of a project at t.
+/// Drawing of a gallery project at t.
 fn figure_at(name: &str, t: f64) -> VectorFigure {
     build(name).frame(t).figure()
 }
@@ -24,7 +25,8 @@ fn signed_area(ring: &[DVec2]) -> f64 {
         .sum()
 }
 
-/// Number of pieces and of holes; rings below 10⁻⁴ of the largest area do not count.
+/// Numbers of pieces and of holes of a drawing. Rings smaller than 10⁻⁴ of the largest area do not
+/// count.
 fn pieces_and_holes(figure: &VectorFigure) -> (usize, usize) {
     let areas: Vec<f64> = figure.rings.iter().map(|ring| signed_area(ring)).collect();
     let largest = areas.iter().copied().fold(0.0, f64::max);
@@ -147,7 +149,7 @@ fn films_of_rigid_parts_are_recorded_in_few_solves() {
             let film = transition.record(&RecordingOptions::default(), &Silent);
             let film = film.expect(&entry.name);
             let max_solves = match entry.name.as_str() {
-                // Its spiral turns three times.
+                // The fern's spiral turns three times.
                 "fern" => 32,
                 // The last letter of a word does not move until t = ½.
                 "day-to-night" => 32,

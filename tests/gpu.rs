@@ -1,8 +1,9 @@
-//! Compares images of the stage, rendered on the GPU, with those of the exporters on the CPU.
+//! Compares images of the stage, rendered on the GPU, with images that the exporters render on the
+//! CPU, and recordings played on the GPU with solved frames.
 //!
-//! Needs a graphics adapter (a software one suffices), but no window. Without an adapter each test
-//! counts as ignored and the reason is printed; with `MORPHOSPACE_REQUIRE_GPU=1` that is a failure.
-//! `MORPHOSPACE_PICTURES=DIR` saves all compared images.
+//! The tests need a graphics adapter (a software one suffices), but no window. Without an adapter
+//! each test counts as ignored and the reason is printed; with `MORPHOSPACE_REQUIRE_GPU=1` a
+//! missing adapter is a failure. `MORPHOSPACE_PICTURES=DIR` saves all compared images to `DIR`.
 
 #[path = "gpu/drawings.rs"]
 mod drawings;
@@ -29,17 +30,18 @@ use morphospace::stage::StageVisibility;
 use offscreen::{OffscreenRenderer, RenderedScene};
 use transitions::{field, from_gallery, perforated, solid, truss};
 
-/// Difference of a colour channel, of 255, above which a pixel counts as different (tolerance:
-/// antialiasing differs between GPU and CPU).
+/// Difference of a colour channel, on a scale of 0 to 255, above which a pixel counts as different
+/// (tolerance: antialiasing differs between GPU and CPU).
 const CHANNEL_TOLERANCE: u8 = 64;
 
-/// Maximum fraction of different pixels in an image (tolerance: antialiasing differs).
+/// Maximum fraction of pixels that may differ between the images of GPU and CPU (tolerance:
+/// antialiasing differs).
 const MAX_DIFFERENT_FRACTION: f64 = 0.005;
 
 /// Name and function of a test.
 type GpuTest = (&'static str, fn(&mut OffscreenRenderer));
 
-/// All tests, in the order in which they run.
+/// All tests of this file and its modules, in the order in which they run.
 const TESTS: &[GpuTest] = &[
     ("meshes_match", meshes_match),
     ("vanishing_holes_match", vanishing_holes_match),
@@ -98,7 +100,8 @@ const TESTS: &[GpuTest] = &[
 ];
 
 impl OffscreenRenderer {
-    /// Renders a scene on GPU and CPU, asserts that both images agree, and returns them.
+    /// Renders a scene on the GPU and on the CPU, asserts that the two images agree, and returns
+    /// them in this order.
     pub fn compare(&mut self, scene: &RenderedScene, t: f64) -> (RgbaImage, RgbaImage) {
         let gpu = self.render(scene, t).expect("a picture");
         let size = PixelSize::new(scene.size[0], scene.size[1]).expect("a size");
@@ -151,7 +154,8 @@ fn fields_match(renderer: &mut OffscreenRenderer) {
     }
 }
 
-/// Fields carried by rigid parts, scattered points, lattices and lines.
+/// Compares distance fields that are moved by a warp: by rigid parts, scattered points, a lattice
+/// or lines.
 fn carried_fields_match(renderer: &mut OffscreenRenderer) {
     for name in [
         "letters-carried",
@@ -161,8 +165,8 @@ fn carried_fields_match(renderer: &mut OffscreenRenderer) {
         "cantilevers-lines",
     ] {
         let mut scene = RenderedScene::new(name, from_gallery(name));
-        // The exporter samples the carried fields on a grid, the stage at each pixel: where moving
-        // parts fold, a spike thinner than a cell appears on the stage only.
+        // The exporter samples the moved fields on a grid, the stage samples them at each pixel.
+        // Where the warp folds, spikes thinner than a grid cell appear only on the stage.
         scene.max_misplaced_pixels = 4;
         for t in [0.0, 0.3, 0.5, 1.0] {
             renderer.compare(&scene, t);
@@ -170,8 +174,8 @@ fn carried_fields_match(renderer: &mut OffscreenRenderer) {
     }
 }
 
-/// Compares the stage with the exact field at the centre of each pixel, since the exporter's
-/// straight chords across grid cells are less precise.
+/// Compares the stage with the sign of the exact field at the centre of each pixel, because the
+/// exporter's contours are less precise: straight chords across grid cells.
 fn contours_are_exact_and_antialiased_at_any_zoom(renderer: &mut OffscreenRenderer) {
     for (name, transition) in field() {
         let Content::Field(fields) = transition.content().clone() else {
@@ -219,7 +223,7 @@ fn a_transparent_background_has_straight_alpha(renderer: &mut OffscreenRenderer)
     scene.ground = None;
     let (gpu, cpu) = renderer.compare(&scene, 0.5);
     assert!(gpu.pixels().any(|p| p[3] == 0) && gpu.pixels().any(|p| p[3] == 255));
-    // Half-covered edge pixels keep the colour of the bars: alpha is not premultiplied.
+    // Alpha is not premultiplied, so edge pixels that are half covered have the colour of the bars.
     let fill = scene.style.fill_at(0.5).0;
     for (picture, name) in [(&gpu, "gpu"), (&cpu, "cpu")] {
         let mut edges = 0;
@@ -280,8 +284,8 @@ fn overlays_change_the_image(renderer: &mut OffscreenRenderer) {
     }
 }
 
-/// Fraction of pixels with a channel that differs by more than [`CHANNEL_TOLERANCE`], alpha
-/// premultiplied.
+/// Fraction of the pixels of two images in which a channel differs by more than
+/// [`CHANNEL_TOLERANCE`]; colours are compared with premultiplied alpha.
 fn different_fraction(a: &RgbaImage, b: &RgbaImage) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
     let differs = |(p, q): (&image::Rgba<u8>, &image::Rgba<u8>)| {
@@ -298,7 +302,8 @@ fn different_fraction(a: &RgbaImage, b: &RgbaImage) -> f64 {
     count as f64 / f64::from(a.width() * a.height())
 }
 
-/// Whether each pixel is closer to the fill colour than to the background colour.
+/// For each pixel: whether it is closer to the fill colour than to the background colour or, on a
+/// transparent background, at least half opaque.
 fn mask(picture: &RgbaImage, fill: Rgb, ground: Option<Rgb>) -> Vec<bool> {
     let distance = |p: &image::Rgba<u8>, Rgb(c): Rgb| -> u32 {
         (0..3).map(|k| u32::from(p[k].abs_diff(c[k])).pow(2)).sum()
@@ -310,9 +315,10 @@ fn mask(picture: &RgbaImage, fill: Rgb, ground: Option<Rgb>) -> Vec<bool> {
     picture.pixels().map(is_fill).collect()
 }
 
-/// Number of pixels of `b` whose value does not occur in the 3 × 3 neighbourhood in `a`.
+/// Number of pixels of the mask `b` whose value does not occur in `a` among the 3 × 3 pixels around
+/// the same place.
 ///
-/// 0 means that the boundaries in `b` are at most one pixel off those in `a`.
+/// If it is 0, the boundaries of the two masks are at most one pixel apart.
 fn misplaced_pixels(a: &[bool], b: &[bool], width: u32) -> usize {
     let width = width as usize;
     let height = a.len() / width;
@@ -326,7 +332,8 @@ fn misplaced_pixels(a: &[bool], b: &[bool], width: u32) -> usize {
     pixels.filter(|&(x, y)| !occurs_nearby(x, y)).count()
 }
 
-/// Asserts that two images agree: few different pixels, and contours at most one pixel apart.
+/// Asserts that the images of GPU and CPU agree: few pixels differ, and except for
+/// [`RenderedScene::max_misplaced_pixels`] the contours are at most one pixel apart.
 fn assert_images_match(
     name: &str,
     scene: &RenderedScene,

@@ -1,4 +1,6 @@
-//! Import of bad files of every format: a typed error with file, place and remedy, never a panic.
+//! Import of files of every format. Valid files are read whatever their extension, byte-order mark
+//! or line ends. Truncated, damaged, hostile and random files give a typed error that names the
+//! file and the place in it, never a panic. Also the ranges of the import options.
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use morphospace::design::{
@@ -10,22 +12,22 @@ use proptest::prelude::*;
 use std::io::Cursor;
 use std::path::Path;
 
-/// A square of two triangles.
+/// OBJ text of a square that consists of two triangles.
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
 
-/// A drawing with curves, a style sheet and a transformed copy.
+/// SVG text of a drawing with curves, a style sheet and a transformed copy of a path.
 const SVG: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20"><style>.a{fill:#123}</style><defs><path id="p" d="M1 1 C 5 1 9 5 9 9 Q 4 12 1 1 A 3 2 30 0 1 4 4 Z"/></defs><use class="a" href="#p" transform="rotate(20)"/></svg>"##;
 
-/// A triangle of three bars.
+/// JSON text of a truss with three bars that form a triangle.
 const TRUSS: &str = r#"{"nodes": [[0, 0], [1, 0], [0, 1]], "bars": [[0, 1], [1, 2], [2, 0]]}"#;
 
-/// A square with a hole, as lists of points.
+/// JSON text of a square with a hole, as lists of points.
 const RINGS: &str = "[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[3,1],[3,3],[1,3]]]";
 
-/// Two polygons in a feature collection.
+/// GeoJSON text of a feature collection with two polygons.
 const GEOJSON: &str = r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"a": 1}, "geometry": {"type": "MultiPolygon", "coordinates": [[[[0,0],[4,0],[0,3]]], [[[5,0,9],[6,0],[5,1.5e0]]]]}}, {"type": "Feature", "geometry": null}]}"#;
 
-/// A DXF drawing with every supported kind of curve.
+/// DXF text of a drawing with every supported kind of curve.
 fn dxf() -> String {
     let block = "0 BLOCK 2 B 10 1 20 1 0 CIRCLE 8 0 10 1 20 1 40 2 0 ENDBLK";
     let entities = "0 LINE 8 0 10 0 20 0 11 9 21 0 0 ARC 8 0 10 4.5 20 0 40 4.5 50 0 51 180
@@ -45,7 +47,8 @@ fn read(bytes: &[u8]) -> Result<Design, ImportError> {
     import("given", bytes, &ImportOptions::default())
 }
 
-/// The problem of a file that must be refused, in one line that begins with its name.
+/// Imports bytes that must be refused and returns the problem. Asserts that the error message is
+/// one line that begins with the name of the file.
 fn problem(bytes: &[u8]) -> ImportProblem {
     let error = read(bytes).expect_err("bad input");
     let message = error.to_string();
@@ -54,7 +57,7 @@ fn problem(bytes: &[u8]) -> ImportProblem {
     error.problem
 }
 
-/// A grey image of a disc in the given format.
+/// Bytes of a grey image of a disc, in the given format.
 fn picture(format: ImageFormat) -> Vec<u8> {
     let disc = GrayImage::from_fn(24, 20, |x, y| {
         let distance = (f64::from(x) - 11.0).hypot(f64::from(y) - 9.0);
@@ -67,7 +70,7 @@ fn picture(format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// Supported formats of bitmap images.
+/// Bitmap formats that can be imported.
 const IMAGE_FORMATS: [ImageFormat; 4] = [
     ImageFormat::Png,
     ImageFormat::Jpeg,
@@ -75,7 +78,7 @@ const IMAGE_FORMATS: [ImageFormat; 4] = [
     ImageFormat::WebP,
 ];
 
-/// A valid file of each format.
+/// Bytes of a valid file of each format.
 fn valid_files() -> Vec<Vec<u8>> {
     let dxf = dxf();
     let texts = [OBJ, SVG, TRUSS, RINGS, GEOJSON, &dxf].map(|text| text.as_bytes().to_vec());
@@ -168,7 +171,8 @@ fn truncated_pictures_are_refused() {
 
 #[test]
 fn truncated_texts_are_refused() {
-    // Invalid JSON is reported as polygons with its line, even if it would have been a truss.
+    // Truncated JSON is reported as an invalid polygon file with a line number, even if the
+    // complete file is a truss.
     assert!(matches!(
         problem(&TRUSS.as_bytes()[..40]),
         ImportProblem::Polygons(PolygonsImportError::Json(JsonError { line: 1, .. }))
@@ -186,7 +190,7 @@ fn truncated_texts_are_refused() {
     ));
 }
 
-/// A PNG with a valid header for the given size, and no pixels.
+/// Bytes of a PNG file whose header declares the given size, but which has no pixels.
 fn png_claiming(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -210,7 +214,7 @@ fn an_image_with_a_huge_declared_size_is_refused() {
             ImportProblem::Picture(SilhouetteError::TooManyPixels { .. })
         ));
     }
-    // The largest accepted size fails later, at the missing pixels.
+    // The largest accepted size passes the check of the header; the missing pixels are an error.
     assert!(matches!(
         problem(&png_claiming(8192, 6144)),
         ImportProblem::Picture(SilhouetteError::Damaged(_))
@@ -377,12 +381,12 @@ proptest! {
             bytes.truncate(cut.index(bytes.len()));
         }
         if let Ok(design) = read(&bytes) {
-            // An accepted design has an outline, or an error that it has no area.
+            // An accepted design gives an outline or an error, but must not panic.
             drop(design.outline(0.1));
         }
     }
 
-    /// Rings of random and extreme coordinates, often self-crossing or degenerate.
+    /// The rings have random and extreme coordinates and are often self-crossing or degenerate.
     #[test]
     fn polygons_of_extreme_numbers_never_panic(
         rings in proptest::collection::vec(
@@ -459,7 +463,7 @@ proptest! {
     }
 }
 
-/// DXF entities that the importer knows.
+/// Kinds of DXF entities that the importer knows.
 const DXF_ENTITIES: [&str; 8] = [
     "LINE",
     "ARC",
@@ -470,12 +474,12 @@ const DXF_ENTITIES: [&str; 8] = [
     "VERTEX",
     "POLYLINE",
 ];
-/// DXF group codes of numbers that the importer reads.
+/// DXF group codes whose numbers the importer reads.
 const DXF_CODES: [i32; 20] = [
     10, 20, 30, 11, 21, 31, 38, 40, 41, 42, 50, 51, 70, 71, 72, 73, 74, 210, 220, 230,
 ];
 
-/// Mostly small numbers, sometimes extreme ones.
+/// Strategy for numbers that are mostly small and sometimes extreme.
 fn random_or_extreme_number() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => (-4i32..5).prop_map(f64::from),
@@ -538,7 +542,7 @@ fn an_element_can_be_selected_in_svg_files_only() {
             .to_string()
             .contains("a.obj#u: elements can be selected by id")
     );
-    // A file of that very name is that file.
+    // If a file called `b.svg#u` exists, this path means that file.
     assert!(import_file(&at("b.svg#u"), &options).is_ok());
     let error = import_file(&at("c.svg#u"), &options).expect_err("no file");
     assert!(matches!(

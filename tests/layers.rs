@@ -1,5 +1,6 @@
-//! The layers listed in `src/lib.rs` are those of the code: a module uses only modules above
-//! it in that list, and no files use each other in a cycle (for folders see `budget.rs`).
+//! Tests that the imports of the code agree with the list of layers in `src/lib.rs`: each top-level
+//! module is listed once and uses only modules above it in the list. Also tests that no files use
+//! each other in a cycle (`budget.rs` tests this for folders).
 
 #[path = "source/uses.rs"]
 mod uses;
@@ -14,7 +15,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
 }
 
-/// The modules listed in `lib.rs`, from the top.
+/// Names of the modules in the list of layers in `lib.rs`, from the top.
 fn layers() -> Names {
     let text = fs::read_to_string(folder().join("lib.rs")).expect("lib.rs");
     let (_, text) = text.split_once("//! # Layers").expect("a list of layers");
@@ -22,7 +23,7 @@ fn layers() -> Names {
     let (text, _) = text.split_once("//! ```").expect("its end");
     let modules = text.lines().flat_map(|line| {
         let line = line.trim_start_matches("//! ");
-        // One or more names, then the description from column 30.
+        // A line begins with one or more names; the description begins at column 30.
         let names = line.get(..30).unwrap_or(line);
         let names = names.split('(').next().unwrap_or(names);
         names.split([',', ' ']).map(str::to_owned)
@@ -30,7 +31,7 @@ fn layers() -> Names {
     modules.filter(|name| !name.is_empty()).collect()
 }
 
-/// The top-level module of a file; `None` for `lib.rs`.
+/// Name of the top-level module that contains a file; `None` for `lib.rs`.
 fn top_module(file: &Path) -> Option<String> {
     let inside = file.strip_prefix(folder()).expect("a file of the crate");
     let first = inside.components().next()?.as_os_str();
@@ -70,7 +71,7 @@ fn modules_use_only_modules_above_them() {
     );
 }
 
-/// All files that `from` uses, directly or through others.
+/// All files that `from` uses, directly or through other files.
 fn reachable<'a>(uses: &Uses<'a>, from: &'a Path) -> BTreeSet<&'a Path> {
     let mut reached = BTreeSet::new();
     let mut open = vec![from];
@@ -81,7 +82,7 @@ fn reachable<'a>(uses: &Uses<'a>, from: &'a Path) -> BTreeSet<&'a Path> {
     reached
 }
 
-/// The path below `src`.
+/// Path of a file relative to `src`.
 fn short(file: &Path) -> String {
     let inside = file.strip_prefix(folder()).unwrap_or(file);
     inside.display().to_string()

@@ -1,13 +1,14 @@
-//! Random pairs of polygons with holes: each has a valid transition.
+//! Tests that the transition between two random polygons with holes passes the checks in `random`.
 //!
-//! All 500: `cargo test --release --no-default-features --test random_pairs --
-//! --include-ignored --nocapture`.
+//! `cargo test --release --no-default-features --test random_pairs -- --include-ignored
+//! --nocapture` tests 500 pairs.
 
 mod random;
 
 use rayon::prelude::*;
 
-/// Checks the transitions of the pairs with seeds 0 to `count` − 1, and prints counts of defects.
+/// Checks the transitions of the pairs with the seeds 0 to `count` − 1, and prints how many of them
+/// have folds and how many have crossings.
 #[expect(clippy::print_stdout, reason = "the counts are the result")]
 fn check_pairs(count: u64) {
     let results: Vec<_> = (0..count)
@@ -32,7 +33,7 @@ fn random_polygons_with_holes_have_valid_transitions() {
 
 #[test]
 fn a_failed_candidate_match_does_not_fail_the_transition() {
-    // One candidate match of this pair fails, since its outlines touch.
+    // One of the candidate matches of this pair gives outlines that touch, and therefore fails.
     random::defects_of_seed(385).expect("the first match has a film");
 }
 

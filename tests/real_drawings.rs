@@ -1,7 +1,8 @@
-//! At t = 0 and t = 1 a film shows the drawings as the renderer `resvg` draws their files.
+//! Tests that a film shows its drawings at t = 0 and t = 1 as the renderer `resvg` draws their SVG
+//! files.
 //!
-//! `MORPHOSPACE_TEST_DRAWINGS` names another folder of drawings, and `MORPHOSPACE_TEST_PICTURES` a
-//! folder to which both images of each drawing are written.
+//! The environment variable `MORPHOSPACE_TEST_DRAWINGS` replaces the folder of drawings;
+//! `MORPHOSPACE_TEST_PICTURES` names a folder to which both images of each drawing are written.
 
 use image::RgbaImage;
 use morphospace::colour::Rgb;
@@ -13,22 +14,24 @@ use resvg::{tiny_skia, usvg};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The bundled font.
+/// The bundled font, with which `resvg` draws text.
 const FONT: &[u8] = include_bytes!("../assets/fonts/Roboto-Bold.ttf");
 
-/// Length of the longer side of an image, in pixels.
+/// Length of the longer side of a compared image, in pixels.
 ///
-/// A prime number: with a round one, straight edges of drawings on a grid of hundredths would all
-/// fall exactly between two samples of a pixel, where rounding decides which one is covered.
+/// It is a prime number. With a round number, straight edges of drawings on a grid of hundredths
+/// would all fall exactly between two samples of a pixel, where rounding decides which sample is
+/// covered.
 const SIDE_PX: f32 = 601.0;
 
-/// Factor by which images are drawn larger and then reduced.
+/// Factor by which images are drawn larger before they are reduced.
 ///
-/// The rasteriser takes 16 samples per pixel, so one sample on the other side of an edge would
-/// change a channel by 16 of 255, the difference that the test allows.
+/// The rasteriser takes 16 samples per pixel. Without oversampling, a single sample on the other
+/// side of an edge would change a channel by 16 of 255, which is the difference that the test
+/// allows.
 const OVERSAMPLING: u32 = 4;
 
-/// Mean of each block of [`OVERSAMPLING`]² pixels.
+/// Reduces an image by the factor [`OVERSAMPLING`]: each pixel is the mean of a block.
 fn reduced(image: &RgbaImage) -> RgbaImage {
     let area = OVERSAMPLING * OVERSAMPLING;
     let mean = |x, y| {
@@ -51,7 +54,8 @@ fn reduced(image: &RgbaImage) -> RgbaImage {
     )
 }
 
-/// The drawing as `resvg` renders it on white, before reduction.
+/// Renders the SVG text of a drawing with `resvg` on white, [`OVERSAMPLING`] times as large as the
+/// compared image.
 fn expected(text: &str) -> RgbaImage {
     let mut options = usvg::Options::default();
     options.fontdb_mut().load_font_data(FONT.to_vec());
@@ -60,7 +64,8 @@ fn expected(text: &str) -> RgbaImage {
     let oversampling = OVERSAMPLING as f32;
     let scale = oversampling * SIDE_PX / size.width().max(size.height());
     let sides = [size.width(), size.height()].map(|side| side * scale);
-    // The longer side is a whole number except for rounding errors.
+    // Sides are rounded up to whole pixels of the compared image. The longer side is a whole number
+    // except for rounding errors, which 1e-3 absorbs.
     let [width, height] = sides.map(|side| oversampling * (side / oversampling - 1e-3).ceil());
     let mut pixmap = tiny_skia::Pixmap::new(width as u32, height as u32).expect("a size");
     pixmap.fill(tiny_skia::Color::WHITE);
@@ -70,7 +75,7 @@ fn expected(text: &str) -> RgbaImage {
     RgbaImage::from_raw(width as u32, height as u32, pixmap.take()).expect("as large")
 }
 
-/// Paths of the drawings in the test folder, and of two gallery drawings.
+/// Paths of the drawings in the test folder and of two gallery drawings, sorted.
 fn drawings() -> Vec<PathBuf> {
     let bundled = || Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/drawings");
     let folder = std::env::var_os("MORPHOSPACE_TEST_DRAWINGS").map_or_else(bundled, PathBuf::from);
@@ -82,7 +87,7 @@ fn drawings() -> Vec<PathBuf> {
     paths
 }
 
-/// Fraction of pixels that differ by more than 16 of 255 in a channel.
+/// Fraction of the pixels of two images in which a channel differs by more than 16 of 255.
 fn differing_fraction(a: &RgbaImage, b: &RgbaImage) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
     let differs = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {

@@ -1,5 +1,5 @@
-//! The keys of all choice settings, as stored in files and given on the command line, must not
-//! change.
+//! Tests that the keys of the settings with fixed choices do not change: they are stored in files
+//! and given on the command line.
 
 use std::collections::HashSet;
 use std::fmt::{Debug, Display};
@@ -20,7 +20,8 @@ use morphospace::warp::{FeatureTravel, LineInterpolation, RadialBasis, VertexPat
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// Checks the choices of a setting: sorted keys, unique titles, and reading and writing by key.
+/// Checks the setting type `T`: its sorted keys are `expected`, its titles are unique, and its
+/// choices are written and read by their keys.
 fn check_choices<T>(expected: &str)
 where
     T: Choice + Debug + Display + Serialize + DeserializeOwned,

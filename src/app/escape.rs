@@ -41,7 +41,7 @@ pub struct EscapeBlockers<'w> {
 impl EscapeBlockers<'_> {
     /// Whether something else handles Esc.
     fn any(&self) -> bool {
-        self.questions.any() || self.presentation.is_on()
+        self.questions.any() || self.presentation.is_active()
     }
 }
 
@@ -62,7 +62,7 @@ pub struct CancellableWork<'w> {
 
 /// Handles Esc: each press closes or cancels one thing, in the order of the branches below. The
 /// last resort is cancelling an export.
-pub fn back(
+pub fn handle_escape(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,
     mut window: Query<&mut Window, With<PrimaryWindow>>,
@@ -92,7 +92,7 @@ pub fn back(
             work.measures.stop();
         } else if preferences.panels && !views.editor.is_open && work.suggestions.is_trying() {
             work.suggestions.stop();
-        } else if views.editor.bypass_change_detection().back() {
+        } else if views.editor.bypass_change_detection().handle_escape() {
             views.editor.set_changed();
         } else if preferences.film_options {
             preferences.film_options = false;

@@ -48,7 +48,7 @@ impl KeyContext<'_> {
         match intent {
             Intent::Escape => !self.focus.0,
             _ if self.focus.0 || self.questions.any() => false,
-            other => !self.presentation.is_on() || other.is_allowed_in_talk(),
+            other => !self.presentation.is_active() || other.is_allowed_in_talk(),
         }
     }
 }
@@ -71,7 +71,7 @@ pub fn read_keys(
     }
     for input in inputs.read() {
         // Also while text is entered: modifiers held when the focus leaves the field still count.
-        held.note(input);
+        held.update(input);
         let key_intent = map.intent(input, *held, context.editor.is_open);
         if let Some(intent) = key_intent.filter(|intent| context.allows(intent)) {
             let on_map = context.map_view.map_intent(intent);

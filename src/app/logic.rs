@@ -141,18 +141,23 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
         // press.
         unsaved_question::read_close_requests,
         // Before anything is opened or shown: Esc leaves the state in which it was pressed.
-        (escape::back, presenter::apply).chain(),
+        (escape::handle_escape, presenter::apply).chain(),
         (preference_actions::apply, film_presets::apply).chain(),
         // Questions run before the actions that wait for them, the lowest question first: each
         // checks whether another question lies above it.
         (
-            drop::decide,
-            autosave::rescue,
+            drop::close_drop_question,
+            autosave::answer_recovery,
             unsaved_question::answer,
             unsaved_question::close,
         )
             .chain(),
-        (file_dialog::choose, file_dialog::open, file_preview::follow).chain(),
+        (
+            file_dialog::apply_choice,
+            file_dialog::open,
+            file_preview::follow,
+        )
+            .chain(),
         (
             opening::open,
             // After opening, which does not add a single design to the project shown so far.

@@ -36,7 +36,7 @@ pub enum NoticeKind {
     /// Something went wrong; stays until dismissed or resolved.
     Problem(NoticeTopic),
     /// Something succeeded; disappears.
-    Done,
+    Confirmation,
     /// A file was written; disappears after enough time to click the link to its folder.
     FileWritten,
     /// Information that the user may not expect; disappears.
@@ -48,7 +48,7 @@ impl NoticeKind {
     fn stays_secs(self) -> Option<f32> {
         match self {
             Self::Problem(_) => None,
-            Self::Done => Some(CONFIRMATION_SECS),
+            Self::Confirmation => Some(CONFIRMATION_SECS),
             Self::Note | Self::FileWritten => Some(NOTE_SECS),
         }
     }
@@ -82,8 +82,8 @@ impl Notices {
     }
 
     /// Adds a confirmation.
-    pub fn done(&mut self, text: impl Into<String>) {
-        self.push(NoticeKind::Done, text.into());
+    pub fn confirm(&mut self, text: impl Into<String>) {
+        self.push(NoticeKind::Confirmation, text.into());
     }
 
     /// Adds the confirmation that a file was written.
@@ -186,7 +186,7 @@ mod tests {
         let mut notices = Notices::default();
         notices.problem(NoticeTopic::Saving, "lost");
         notices.problem(NoticeTopic::Film, "dark");
-        notices.done("saved");
+        notices.confirm("saved");
         assert!(notices.age(1e4) && !notices.age(1e4));
         assert_eq!(notices.list().len(), 2);
         notices.resolve(NoticeTopic::Film);

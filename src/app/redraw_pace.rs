@@ -154,7 +154,7 @@ impl RedrawInputs<'_, '_> {
     fn is_stage_moving(&self) -> bool {
         self.playback.is_playing()
             || (self.preferences.panels && self.preferences.times)
-            || self.captures.is_awaited()
+            || self.captures.is_rendering()
             || !self.shots.is_empty()
             || self.pipelines.as_ref().is_some_and(|p| !p.is_ready())
     }

@@ -73,12 +73,12 @@ pub fn fit_to_screen(
     if window.mode != WindowMode::Windowed {
         return;
     }
-    let here = on_monitor.and_then(|on| monitors.get(on.0).ok());
+    let current = on_monitor.and_then(|on| monitors.get(on.0).ok());
     // Until the system says where the window is: where it probably opens, or where it surely fits.
     let primary = monitors.iter().find(|(_, is_primary)| *is_primary);
     let area = |(monitor, _): &(&Monitor, bool)| monitor.physical_size().element_product();
     let smallest = monitors.iter().min_by_key(area);
-    let Some((monitor, _)) = here.or(primary).or(smallest) else {
+    let Some((monitor, _)) = current.or(primary).or(smallest) else {
         return;
     };
     let fit = ScreenFit {

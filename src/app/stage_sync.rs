@@ -126,8 +126,11 @@ pub fn stage_style(
     }
     let show = preferences.show;
     for mut staged in &mut styles {
-        if staged.style != style || staged.show != show {
-            *staged = StageStyle { style, show };
+        if staged.style != style || staged.visibility != show {
+            *staged = StageStyle {
+                style,
+                visibility: show,
+            };
         }
     }
 }

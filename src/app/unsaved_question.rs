@@ -138,7 +138,7 @@ pub fn answer(
                         (UnsavedKind::Changes, UnsavedAnswer::Save) => next.push(Intent::Save),
                         (UnsavedKind::Changes, _) => {
                             // Otherwise the intent, sent again, would raise the same question.
-                            session.forget_changes();
+                            session.mark_saved();
                             next.extend(question.take_if_resolved(UnsavedKind::Changes));
                         }
                         // Waits for the export to end.

@@ -18,7 +18,7 @@ use crate::app::escape;
 use crate::app::files::file_watcher::FileWatcher;
 use crate::app::files::gallery_thumbnails;
 use crate::app::input::intent::Intent;
-use crate::app::jobs::allocator::share_arenas;
+use crate::app::jobs::allocator::limit_arenas;
 use crate::app::jobs::job;
 use crate::app::logic::LogicPlugin;
 use crate::app::no_window::{NoWindowError, catch_no_window};
@@ -66,7 +66,7 @@ fn program(options: AppOptions) -> App {
         film_memory,
         starts_talk,
     } = options;
-    share_arenas();
+    limit_arenas();
     let autosave = autosave();
     let mut app = App::new();
     // Bevy's own Ctrl-C handler does not wake a resting event loop; `handle_termination` does.
@@ -76,12 +76,12 @@ fn program(options: AppOptions) -> App {
     app.add_plugins(plugins)
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
-        .insert_resource(StageRecording::within(film_memory))
-        .insert_resource(autosave.workshop())
+        .insert_resource(StageRecording::with_memory_limit(film_memory))
+        .insert_resource(autosave.scratch_folder())
         .insert_resource(autosave)
-        .insert_resource(StoredPresets::of_file(FilmPresets::usual_path()))
-        .insert_resource(StoredRecentFiles::of_file(RecentFiles::usual_path()))
-        .insert_resource(GalleryStripCache::usual())
+        .insert_resource(StoredPresets::of_file(FilmPresets::default_path()))
+        .insert_resource(StoredRecentFiles::of_file(RecentFiles::default_path()))
+        .insert_resource(GalleryStripCache::in_user_cache())
         .add_systems(Startup, move |mut intents: MessageWriter<Intent>| {
             intents.write(first_intent(&files));
             if starts_talk {
@@ -131,7 +131,7 @@ fn autosave() -> Autosave {
     let Some(folder) = autosave::folder() else {
         return Autosave::default();
     };
-    Autosave::enter(&folder).unwrap_or_else(|error| {
+    Autosave::start_in(&folder).unwrap_or_else(|error| {
         warn!("autosave is off: cannot use {}: {error}", folder.display());
         Autosave::default()
     })
@@ -205,7 +205,11 @@ impl Plugin for WindowPlugins {
             )
             .add_systems(
                 Update,
-                (image::ask, clipboard::copy_shapes, blend_image::take)
+                (
+                    image::request_images,
+                    clipboard::copy_svg,
+                    blend_image::capture_blend,
+                )
                     .after(MorphSystems::Draw)
                     .before(MorphSystems::Capture),
             )

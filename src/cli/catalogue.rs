@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::export::{Catalogue, CatalogueOrder};
-use crate::project::SavedPlace;
-use crate::work::progress::{ProgressSpan, WholeProgress};
+use crate::project::SavedBlend;
+use crate::work::progress::{OverallProgress, ProgressSpan};
 
 use super::error::CliError;
 use super::inputs::InputArgs;
@@ -30,7 +30,7 @@ pub(super) struct CatalogueArgs {
     sort: CatalogueOrder,
 
     /// Include only saved blends with at least this many stars
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=i64::from(SavedPlace::MOST_STARS)))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=i64::from(SavedBlend::MOST_STARS)))]
     stars: u8,
 
     /// Background colour: #rrggbb, or transparent [default: that of the project]
@@ -43,7 +43,7 @@ pub(super) struct CatalogueArgs {
 
 pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
-    let overall = WholeProgress::new(&terminal);
+    let overall = OverallProgress::new(&terminal);
     let building = ProgressSpan::new(&overall, 0.0, 0.7);
     let (loaded, space, _) = args.inputs.open_space(&args.method, &building)?;
     let saved_blends = &loaded.project.map.kept;
@@ -63,11 +63,11 @@ pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
         )));
     }
     let style = &loaded.project.style;
-    let requested = args.ground.map(|BackgroundColour(ground)| ground);
-    let ground = requested.unwrap_or(Some(style.ground));
+    let requested = args.ground.map(|BackgroundColour(colour)| colour);
+    let background = requested.unwrap_or(Some(style.ground));
     let writing = ProgressSpan::new(&overall, 0.7, 1.0);
     let written = catalogue
-        .write(&space, style, ground, &args.out, &writing)
+        .write(&space, style, background, &args.out, &writing)
         .map_err(CliError::failed)?;
     drop(terminal);
     output::message(&format!(

@@ -1,13 +1,13 @@
-//! `morphospace check`: measures a transition, each segment of a sequence, a table of pairs, or a
-//! design space.
+//! `morphospace check`: measures a transition, each segment of a sequence, each pair in a table, or
+//! blends of many designs.
 //!
-//! `--json` prints one object, or a list of objects for a sequence; see the `laboratory` module for
-//! the units.
+//! `--json` prints one object, or a list of objects for a sequence. The `laboratory` module
+//! documents their units.
 
 use clap::Args;
 
 use crate::measure;
-use crate::work::progress::{ProgressSpan, WholeProgress};
+use crate::work::progress::{OverallProgress, ProgressSpan};
 
 use super::error::CliError;
 use super::inputs::InputArgs;
@@ -26,8 +26,8 @@ pub(super) struct CheckArgs {
     #[command(flatten)]
     batch: Option<PairBatchArgs>,
 
-    /// Measure the space of all designs instead of each segment: its common mesh, its edges, its
-    /// centre, and 200 blends spread over it
+    /// Measure blends of all designs instead of each segment: their common mesh, the blends of each
+    /// two designs, the blend of all in equal parts, and 200 blends spread over all weights
     #[arg(long, conflicts_with = "pairs")]
     map: bool,
 
@@ -54,7 +54,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
 fn check_segments(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
     let measured = args.measuring.of(inputs, &terminal)?;
-    // Clears the progress line before the report is printed.
+    // Dropping the terminal clears the progress line before the report is printed.
     drop(terminal);
     let reports: Vec<_> = measured.iter().map(|(_, report)| report).collect();
     output::write_data(&match reports.as_slice() {
@@ -68,13 +68,13 @@ fn check_segments(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> 
     })
 }
 
-/// Number of blends spread over a space that are measured (heuristic).
+/// Number of blends that `--map` measures, spread over all weights (heuristic).
 const BLENDS: usize = 200;
 
-/// Measures and prints the space of all designs.
+/// Measures blends of all designs and prints the report.
 fn check_space(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
-    let overall = WholeProgress::new(&terminal);
+    let overall = OverallProgress::new(&terminal);
     let building = ProgressSpan::new(&overall, 0.0, 0.7);
     let (_, space, build) = inputs.open_space(args.measuring.method(), &building)?;
     let measuring = ProgressSpan::new(&overall, 0.7, 1.0);

@@ -36,7 +36,8 @@ impl CliError {
         }
     }
 
-    /// Creates a failure from a project error, like [`Self::transition_not_built`].
+    /// Creates a failure from a project error. Like [`Self::transition_not_built`], suggests
+    /// `--patient` for jobs that are too large.
     pub fn project_not_built(error: ProjectError) -> Self {
         match error {
             ProjectError::Build(error) | ProjectError::Space(SpaceError::Build(error)) => {

@@ -14,7 +14,7 @@ use crate::work::progress::{Progress, ProgressSpan, checkpoint, run_cancellable}
 use super::error::CliError;
 use super::options::MethodArgs;
 
-/// Fraction of the progress that is reached once the designs are read (heuristic).
+/// Progress reported once the designs are read, in [0, 1] (heuristic).
 const READ_FRACTION: f64 = 0.1;
 
 #[derive(Clone, Debug, Args)]
@@ -23,12 +23,12 @@ pub(super) struct InputArgs {
     inputs: Vec<PathBuf>,
 }
 
-/// Returns the help text of the inputs, with the extensions of all formats.
+/// Returns the help text of the input arguments, with the file extensions of all formats.
 fn help() -> String {
     format!(
         "A project (.morph, or gallery:NAME), or two or more designs in order: files ({}), elements \
          of a drawing (drawing.svg#ID) or text (glyph:D, or glyph:D@FONT.ttf)",
-        Format::listed(&Format::ALL)
+        Format::or_list_of_names(&Format::ALL)
     )
 }
 
@@ -41,7 +41,7 @@ pub(super) struct OpenedProject {
     pub sequence: Sequence,
 }
 
-/// One segment with its built transition and the times that this took.
+/// One segment of a film with its built transition, and the time it took.
 #[derive(Debug)]
 pub(super) struct OpenedPair {
     /// The segment with the flags applied, and its designs.
@@ -55,7 +55,8 @@ pub(super) struct OpenedPair {
 }
 
 impl OpenedPair {
-    /// Returns the title of the project, or the names of the two designs of a segment.
+    /// Returns the title of the project; for a segment of a longer film, the names of its two
+    /// designs.
     pub fn title(&self) -> String {
         match self.loaded.is_segment() {
             true => self.loaded.stop_names().join(" to "),
@@ -92,7 +93,7 @@ impl InputArgs {
     ) -> Result<(), CliError> {
         let start = Instant::now();
         let loaded = self.load(method, progress)?;
-        // Placing the designs in one frame counts as neither import nor build time.
+        // The time for placing the designs in one frame is part of the build time.
         let import_time = start.elapsed();
         let building = ProgressSpan::new(progress, READ_FRACTION, 1.0);
         for mut segment in loaded.segments() {
@@ -110,7 +111,7 @@ impl InputArgs {
 
     /// Reads the project, applies the flags, and builds the space of all designs.
     ///
-    /// Also returns the time for building the space.
+    /// Also returns the time that building the space took.
     pub fn open_space(
         &self,
         method: &MethodArgs,
@@ -144,7 +145,8 @@ impl InputArgs {
         Ok(loaded)
     }
 
-    /// Returns the project and the folder to which its paths are relative; `None` if it is bundled.
+    /// Returns the project and the folder to which its paths are relative; no folder for a bundled
+    /// project.
     fn document(&self) -> Result<(Project, Option<PathBuf>), CliError> {
         let path = match self.inputs.as_slice() {
             [path] => path,

@@ -66,7 +66,7 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
     let designs = designs.map(|path| stored_path(path, folder));
     let mut project = Project::from_paths(designs.collect::<Result<Vec<_>, _>>()?);
     args.method.edit(&mut project)?;
-    // Designs are read and checked first, so that no unusable project is written.
+    // The designs are read and checked first, so that no unusable project is written.
     let loaded = LoadedProject::load(project, Some(folder.to_owned()));
     let mut loaded = loaded.map_err(CliError::failed)?;
     loaded.patient = args.method.patient;
@@ -99,7 +99,7 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Returns the path of a design as it is stored in a project in `folder`.
+/// Returns the path of a design as a project in `folder` stores it.
 fn stored_path(path: &Path, folder: &Path) -> Result<PathBuf, CliError> {
     let source = DesignSource::from_path(path);
     let Some(file) = source.file() else {
@@ -111,11 +111,12 @@ fn stored_path(path: &Path, folder: &Path) -> Result<PathBuf, CliError> {
 
 /// Returns the path of a file relative to a folder; absolute if they have no common root.
 fn relative(path: &Path, folder: &Path) -> Result<PathBuf, CliError> {
-    // Canonical paths, because `..` after a symbolic link would lead to another folder.
+    // Both paths are made canonical, because `..` after a symbolic link would lead to another
+    // folder.
     let [path, folder] = [absolute(path)?, absolute(folder)?];
     let shared = path.components().zip(folder.components());
     let shared = shared.take_while(|(a, b)| a == b).count();
-    // Different drives on Windows.
+    // Files on different drives of Windows have no common root.
     if shared == 0 {
         return Ok(path);
     }

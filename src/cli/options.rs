@@ -51,9 +51,10 @@ pub(super) struct MethodArgs {
 }
 
 impl MethodArgs {
-    /// Builds the transition of a project.
+    /// Builds the transition of a project of two designs, or of one segment.
     ///
-    /// With `--method auto`, builds each method and stores the best one in the project.
+    /// With `--method auto`, builds a transition with each method and stores the best method in the
+    /// project.
     pub fn build(
         &self,
         loaded: &mut LoadedProject,
@@ -70,7 +71,7 @@ impl MethodArgs {
         Ok(transition)
     }
 
-    /// Builds each segment of a project.
+    /// Builds the transitions of all segments of a project.
     ///
     /// With `--method auto`, uses the method that is best for most segments.
     pub fn build_all(
@@ -99,7 +100,7 @@ impl MethodArgs {
         Ok(sequence.closed(loaded.project.ends_where_it_starts()))
     }
 
-    /// Returns whether the method is chosen by rating the films.
+    /// Returns whether `--method auto` is given: the method is chosen by rating the films.
     pub fn is_auto(&self) -> bool {
         self.placing.is_auto()
     }
@@ -107,7 +108,8 @@ impl MethodArgs {
     /// Applies the given flags to a project.
     pub fn edit(&self, project: &mut Project) -> Result<(), CliError> {
         self.placing.edit(project);
-        // The order does not matter, because the parser rejects --method with --warp or --content.
+        // The order of these two does not matter: the parser rejects --method with --warp or
+        // --content.
         self.cell.edit(project)?;
         self.arap.edit(&mut project.options.arap);
         self.paths.edit(&mut project.options.paths);
@@ -126,8 +128,8 @@ impl MethodArgs {
     }
 }
 
-/// Returns the method that is best for most segments, each rated separately; of equal ones the
-/// first that occurs.
+/// Rates each segment separately and returns the method that is best for most of them. Of equally
+/// frequent methods, returns the one that occurs first.
 fn best_for_most(
     loaded: &LoadedProject,
     progress: &dyn Progress,

@@ -27,19 +27,20 @@ pub(super) fn write_data(text: &str) -> Result<(), CliError> {
 
 /// Returns a value as indented JSON without characters that control a terminal.
 pub(super) fn json(value: &impl Serialize) -> Result<String, CliError> {
-    // A `Value` has its keys in alphabetical order.
+    // Converting to a `Value` sorts the keys alphabetically.
     let value = serde_json::to_value(value).map_err(CliError::failed)?;
     Ok(with_hidden_escaped(&format!("{value:#}\n")))
 }
 
 /// Escapes all hidden characters of JSON text.
 ///
-/// JSON requires that only for those below space, but some terminals also interpret others as
-/// commands.
+/// JSON requires escapes only for characters below the space, but some terminals also interpret
+/// other characters as commands.
 fn with_hidden_escaped(json: &str) -> String {
     let mut escaped = String::with_capacity(json.len());
     for c in json.chars() {
-        // Line breaks within strings are already escaped; the others format the text.
+        // Line breaks within strings are already escaped; the remaining ones separate the lines of
+        // the JSON.
         if is_hidden(c) && c != '\n' {
             escaped.extend(
                 c.encode_utf16(&mut [0; 2])
@@ -85,7 +86,7 @@ pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) -> ExitCo
     if arguments.iter().any(has_hidden) {
         error.render().to_string().lines().for_each(message);
     } else {
-        // Coloured if stderr is a terminal and colours are not disabled.
+        // The message is coloured if stderr is a terminal and colours are not disabled.
         error.print().unwrap_or_default();
     }
     ExitCode::from(WRONG_USAGE)

@@ -1,7 +1,7 @@
 //! `morphospace render`: writes images, contact sheets, maps, numbered images and animations.
 //!
-//! The name of the output determines its kind. Numbered images show the film from start to end;
-//! animations of a ping-pong project also play backwards.
+//! The extension of the output file determines the kind of output. Numbered images show the film
+//! once, forwards; an animation of a project that plays back and forth also contains the way back.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use crate::project::Project;
 use crate::settings::{Choice, choice_keys};
 use crate::space::{MapLayout, WeightMap};
 use crate::transition::PlayMode;
-use crate::work::progress::{Progress, ProgressSpan, WholeProgress};
+use crate::work::progress::{OverallProgress, Progress, ProgressSpan};
 
 use super::error::CliError;
 use super::inputs::{InputArgs, OpenedProject};
@@ -28,13 +28,13 @@ use super::output;
 use super::terminal::Terminal;
 use super::value_parsers::{BackgroundColour, background, grid, one_of, range};
 
-/// Default length of the longer side of an image, in pixels (heuristic).
+/// Default length of an image's longer side, in pixels (heuristic).
 const LONGER_SIDE_PX: u32 = 960;
 
-/// Default number of columns of a comparison, as in the strips of `check --sheet` (heuristic).
+/// Default number of columns of a `--compare` sheet, as many as `check --sheet` draws (heuristic).
 const COMPARISON_COLUMNS: usize = 7;
 
-/// Maximum number of cells of a contact sheet (resource limit).
+/// Maximum number of frames of a contact sheet (resource limit: all are held as vector drawings).
 const MAX_CELLS: u64 = 1_000;
 
 #[derive(Debug, Args)]
@@ -62,7 +62,7 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid, conflicts_with_all = ["at", "sheet", "compare", "frames", "frames_range", "fps", "preset", "aspect", "lines", "frame_margin", "captions"])]
     map: Option<[usize; 2]>,
 
-    /// Layout of the designs on that map [default: that of the project, or a polygon]
+    /// Layout of the designs on the map of --map [default: that of the project, or a polygon]
     #[arg(long, requires = "map", value_parser = one_of::<MapLayout>())]
     sites: Option<MapLayout>,
 
@@ -102,7 +102,7 @@ struct LayoutArgs {
     #[arg(long, value_name = "NAME", conflicts_with = "size", value_parser = preset)]
     preset: Option<PresetChoice>,
 
-    /// Aspect ratio
+    /// Aspect ratio of the image
     #[arg(long, conflicts_with = "size", value_parser = one_of::<Aspect>())]
     aspect: Option<Aspect>,
 
@@ -114,13 +114,13 @@ struct LayoutArgs {
     #[arg(long, value_name = "FRACTION", conflicts_with = "size", value_parser = margin)]
     frame_margin: Option<f64>,
 
-    /// Show the names of the stops below, or of the designs if no stop has a name
+    /// Show the names of the stops below the drawing, or of the designs if no stop has a name
     #[arg(long)]
     captions: bool,
 }
 
 impl LayoutArgs {
-    /// Returns the requested layout; `None` if no layout flag is given.
+    /// Returns the layout that the flags request; `None` if no layout flag is given.
     fn layout(&self) -> Option<PictureLayout> {
         let is_requested = self.preset.is_some()
             || self.aspect.is_some()
@@ -159,7 +159,7 @@ fn preset(name: &str) -> Result<PresetChoice, String> {
     if let Ok(built_in) = LayoutPreset::of_key(name) {
         return Ok(PresetChoice::BuiltIn(built_in));
     }
-    let saved = match FilmPresets::usual_path() {
+    let saved = match FilmPresets::default_path() {
         Some(path) => {
             FilmPresets::read(&path).map_err(|error| format!("{}: {error}", path.display()))?
         }
@@ -208,10 +208,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     } else {
         target
     };
-    // Checked before the designs are read, which may take long.
+    // The flags are checked before the designs are read, which may take long.
     check_output_name(args, &target, still_content)?;
     let terminal = Terminal::new();
-    let overall = WholeProgress::new(&terminal);
+    let overall = OverallProgress::new(&terminal);
     if let (Some(StillContent::Map(grid)), ExportTarget::Still(kind, path)) =
         (still_content, &target)
     {
@@ -232,16 +232,16 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
             write_still(&drawing, kind, &path).map_err(CliError::failed)?;
             vec![path]
         }
-        // `check_output_name` has refused single images for a film.
+        // `check_output_name` has refused a single image for any other target.
         (target, _) => write_frames(args, &opened, target, &writing)?,
     };
-    // Clears the progress line before the message is printed.
+    // Dropping the terminal clears the progress line before the message is printed.
     drop(terminal);
     report_written(&written);
     Ok(())
 }
 
-/// Content of a single image.
+/// Single image that the flags request.
 #[derive(Clone, Copy)]
 enum StillContent {
     /// The frame at a t.
@@ -254,12 +254,12 @@ enum StillContent {
     Map([usize; 2]),
 }
 
-/// Returns whether a name has a placeholder (`#`) for numbers.
+/// Returns whether a file name has a placeholder (`#`) for numbers.
 fn is_numbered(path: &Path) -> bool {
     path.to_string_lossy().contains('#')
 }
 
-/// Returns the content of a single image requested by the flags; `None` for a film.
+/// Returns the single image that the flags request; `None` for an animation or numbered images.
 fn still_content(
     args: &RenderArgs,
     target: &ExportTarget,
@@ -274,7 +274,7 @@ fn still_content(
         return Ok(Some(StillContent::Map(grid)));
     }
     match args.at.as_slice() {
-        // Numbered images if several t are given or the name has a placeholder.
+        // With --at, images are numbered if several t are given or the name has a placeholder.
         at if matches!(target, ExportTarget::Numbered(_))
             && !args.out.is_dir()
             && (at.len() > 1 || (at.len() == 1 && is_numbered(&args.out))) =>
@@ -293,7 +293,7 @@ fn still_content(
     }
 }
 
-/// Checks that the name of the output fits the flags.
+/// Checks that the output file suits the flags.
 fn check_output_name(
     args: &RenderArgs,
     target: &ExportTarget,
@@ -332,18 +332,19 @@ fn draw_still(
 ) -> Result<Drawing, CliError> {
     let project = &opened.loaded.project;
     let (sequence, style) = (&opened.sequence, &project.style);
-    let ground = background_of(args, project);
+    let background = background_of(args, project);
     let times = |count| even_times(project.timing.from, project.timing.to, count);
     Ok(match content {
         StillContent::Frame(t) => {
-            // Framed like the whole film, so that images of one project have the same scale.
+            // The image is framed like the whole film, so that all images of a project have the
+            // same scale.
             let framing_times: Vec<f64> = times(17).into_iter().chain([t]).collect();
             camera(args, opened, &framing_times, false)?.draw(t)
         }
         StillContent::Sheet(count) => {
             let times = times(count);
             let bounds = framing(sequence, &times);
-            contact_sheet(sequence, style, &times, bounds, args.size, ground)
+            contact_sheet(sequence, style, &times, bounds, args.size, background)
         }
         StillContent::Methods(_) if project.is_sequence() || project.follows_path() => {
             return Err(CliError::Usage(
@@ -355,12 +356,12 @@ fn draw_still(
         StillContent::Methods(count) => {
             let spec = opened.loaded.spec().map_err(CliError::failed)?;
             let rows = MethodRow::all(&spec, progress).map_err(CliError::failed)?;
-            comparison_sheet(&rows, style, &times(count), ground).map_err(CliError::failed)?
+            comparison_sheet(&rows, style, &times(count), background).map_err(CliError::failed)?
         }
     })
 }
 
-/// Draws the map of all designs; also returns its notes.
+/// Draws the map of all designs. Also returns the notes of the space.
 fn draw_map(
     args: &RenderArgs,
     grid: [usize; 2],
@@ -373,9 +374,9 @@ fn draw_map(
         }
         None => loaded.map_of(&space).map_err(CliError::failed)?,
     };
-    let ground = background_of(args, &loaded.project);
+    let background = background_of(args, &loaded.project);
     let style = &loaded.project.style;
-    let drawing = map_sheet(&space, &map, style, grid, args.size, ground);
+    let drawing = map_sheet(&space, &map, style, grid, args.size, background);
     Ok((
         drawing,
         space.notes().iter().map(ToString::to_string).collect(),
@@ -397,7 +398,7 @@ fn write_frames(
         None => full_film.clone(),
     };
     let is_mp4 = matches!(target, ExportTarget::Film(FilmKind::Mp4, _));
-    // Framed by the whole film, so that parts rendered separately fit together.
+    // The camera frames the whole film, so that parts rendered separately fit together.
     let camera = camera(args, opened, full_film.times(), is_mp4)?;
     if args.size.is_some_and(|size| size != camera.view.size()) {
         output::message(&format!(
@@ -406,13 +407,13 @@ fn write_frames(
         ));
     }
     write_film(&camera, &rendered, &target, progress).map_err(|error| match error {
-        // Flags that do not fit the output type; all other errors are failures of the work.
+        // These flags do not fit the output type. All other errors are failures of the work.
         ExportError::GifRate(_) | ExportError::Mp4Transparent => CliError::usage(error),
         error => CliError::failed(error),
     })
 }
 
-/// Returns the times of all frames of the film, before `--frames-range` selects some of them.
+/// Returns the film with all its frames, before `--frames-range` selects some of them.
 fn full_film(
     args: &RenderArgs,
     project: &Project,
@@ -434,7 +435,7 @@ fn full_film(
 
 /// Returns the camera that frames the sequence at the given times.
 ///
-/// `is_even` rounds the size up to even sides, as MP4 needs.
+/// If `is_even`, rounds the sides of the image up to even numbers of pixels, as MP4 requires.
 fn camera(
     args: &RenderArgs,
     opened: &OpenedProject,
@@ -465,13 +466,13 @@ fn camera(
 fn captions(args: &RenderArgs, opened: &OpenedProject) -> Captions {
     let project = &opened.loaded.project;
     let names = opened.loaded.stop_names();
-    let ground = background_of(args, project).unwrap_or(project.style.ground);
-    Captions::new(&project.stops, names, ground)
+    let background = background_of(args, project).unwrap_or(project.style.ground);
+    Captions::new(&project.stops, names, background)
 }
 
 /// Returns the background colour, from the flag or the project; `None` for transparent.
 fn background_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {
-    let requested = args.ground.map(|BackgroundColour(ground)| ground);
+    let requested = args.ground.map(|BackgroundColour(colour)| colour);
     requested.unwrap_or(Some(project.style.ground))
 }
 

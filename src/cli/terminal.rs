@@ -1,5 +1,5 @@
-//! Progress line on stderr, if that is a terminal, and cancellation by Ctrl-C, SIGTERM or a closed
-//! terminal (SIGHUP).
+//! Progress line on stderr, if stderr is a terminal, and cancellation by Ctrl-C, SIGTERM or a
+//! closed terminal (SIGHUP).
 
 use std::fs;
 use std::io::{self, IsTerminal, Write};
@@ -15,22 +15,23 @@ static CANCELLED: AtomicBool = AtomicBool::new(false);
 /// Exit code after Ctrl-C, by shell convention 128 + SIGINT.
 const INTERRUPTED: i32 = 130;
 
-/// Time within which cancelled work stops, see [`Progress`]. Further signals within it are ignored:
-/// when a terminal closes, both the system and the shell send one.
+/// Time within which cancelled work stops, as [`Progress`] requires. Signals within this time after
+/// the first are ignored: when a terminal closes, both the system and the shell send one.
 const CANCEL_TIME: Duration = Duration::from_millis(500);
 
-/// Progress line that overwrites itself on the terminal.
+/// Progress line on stderr that overwrites itself. Also cancels the work when a signal arrives.
 #[derive(Debug)]
 pub(super) struct Terminal {
+    /// Line that is currently shown; `None` if stderr is not a terminal.
     current_line: Option<Mutex<String>>,
 }
 
 impl Terminal {
-    /// Installs the signal handler. The first signal cancels the work, after which temporary files
-    /// are removed; a later one ends the program at once.
+    /// Installs the signal handler. The first signal cancels the work, which then removes its
+    /// temporary files; a later signal ends the program at once.
     pub fn new() -> Self {
-        // A handler would defeat `nohup`. If such a program is killed, the next run removes its
-        // temporary files.
+        // A handler would defeat `nohup`. If a program started with `nohup` is killed, the next run
+        // removes its temporary files.
         if !ignores_hangup() {
             let mut first_signal: Option<Instant> = None;
             let installed = ctrlc::set_handler(move || {
@@ -56,7 +57,7 @@ impl Terminal {
             return;
         };
         if *current_line != line {
-            // The work goes on even if the terminal no longer exists.
+            // A failed write is ignored: the work goes on even if the terminal no longer exists.
             write!(io::stderr().lock(), "\r\x1b[K{line}").unwrap_or_default();
             *current_line = line;
         }
@@ -65,7 +66,7 @@ impl Terminal {
 
 /// Returns whether the program was started to outlive its terminal, as with `nohup`.
 ///
-/// Only Linux provides this information; elsewhere returns `false`.
+/// Only Linux provides this information; on other systems, returns `false`.
 fn ignores_hangup() -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

@@ -41,7 +41,7 @@ pub(super) fn one_of<T: Choice + Send + Sync>() -> impl TypedValueParser<Value =
     PossibleValuesParser::new(values).try_map(|key| T::of_key(&key))
 }
 
-/// Assigns the value if there is one.
+/// Assigns `value` to `place` if there is one.
 pub(super) fn set_if_given<T>(place: &mut T, value: Option<T>) {
     if let Some(value) = value {
         *place = value;
@@ -95,7 +95,8 @@ pub(super) fn range(text: &str) -> Result<Range<usize>, ValueError> {
 
 /// Parses a number of columns and rows, such as `9x5`.
 pub(super) fn grid(text: &str) -> Result<[usize; 2], String> {
-    /// Maximum number of cells (resource limit: more thumbnails are too small to be useful).
+    /// Maximum number of cells of a map (resource limit: with more, thumbnails are too small to be
+    /// useful).
     const MAX_CELLS: usize = 2_500;
     let sides = text.split_once(['x', '×']);
     let grid = sides.and_then(|(columns, rows)| Some([columns.parse().ok()?, rows.parse().ok()?]));

@@ -1,8 +1,8 @@
-//! Linear and radial gradients, and interpolation between them.
+//! Linear and radial gradients, their mean paint, and interpolation between them.
 //!
 //! Within a gradient, colours between two stops are mixed as in SVG 2, section 14.2: in sRGB with
-//! straight opacity. Between two gradients, paints are interpolated like all other paints, in
-//! OKLab.
+//! straight opacity. Between two gradients, paints are interpolated in OKLab, like all other
+//! paints.
 
 use super::{Paint, Rgb};
 use glam::{DAffine2, DVec2};
@@ -10,14 +10,15 @@ use glam::{DAffine2, DVec2};
 /// A linear or radial gradient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
-    /// Linear or radial.
+    /// Kind of the gradient, with its circles if it is radial.
     pub geometry: GradientGeometry,
-    /// Map from the gradient's own space to the plane. In its own space a linear gradient runs from
-    /// x = 0 to x = 1, a radial one from its focus to the unit circle.
+    /// Map from the gradient's own space to the plane. In its own space, a linear gradient runs
+    /// from x = 0 to x = 1, and a radial gradient from its inner circle to the unit circle.
     pub frame: DAffine2,
-    /// Stops in ascending order of offset. Two stops with the same offset form a hard edge.
+    /// Stops in ascending order of offset. Two stops with the same offset form a hard edge, at
+    /// which the paint jumps.
     pub stops: Vec<GradientStop>,
-    /// How the gradient continues beyond its ends.
+    /// How the gradient continues beyond the offsets 0 and 1.
     pub spread: GradientSpread,
 }
 
@@ -29,9 +30,9 @@ pub enum GradientGeometry {
     Linear,
     /// Runs from an inner circle to the unit circle, which contains it.
     Radial {
-        /// Centre of the inner circle.
+        /// Centre of the inner circle, in the gradient's own space.
         focus: DVec2,
-        /// Radius of the inner circle.
+        /// Radius of the inner circle, in the gradient's own space.
         inner: f64,
     },
 }
@@ -39,21 +40,21 @@ pub enum GradientGeometry {
 /// A paint at an offset along the gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GradientStop {
-    /// Offset from 0 to 1.
+    /// Offset along the gradient, from 0 to 1.
     pub offset: f64,
     /// Paint at that offset.
     pub paint: Paint,
 }
 
-/// How a gradient continues beyond its ends.
+/// How a gradient continues beyond the offsets 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GradientSpread {
-    /// Continues with the paints of its ends.
+    /// Continues with the paint of the nearer end.
     Pad,
-    /// Repeats, mirrored every other time.
+    /// Repeats; every second repetition is mirrored.
     Reflect,
-    /// Repeats from the start.
+    /// Repeats; every repetition runs from offset 0 to offset 1.
     Repeat,
 }
 
@@ -65,7 +66,7 @@ impl Gradient {
         let (Some(first), Some(last)) = (self.stops.first(), self.stops.last()) else {
             return TRANSPARENT;
         };
-        // Before the first and after the last stop their paints continue.
+        // The paint of the first stop continues before it, and that of the last stop after it.
         let ends = [(first.paint, first.offset), (last.paint, 1.0 - last.offset)];
         let between = self.stops.windows(2).map(|pair| {
             let paint = pair[0].paint.mixed(pair[1].paint, 0.5);
@@ -83,7 +84,7 @@ impl Gradient {
         }
     }
 
-    /// Returns the gradient with each paint replaced by a function of it.
+    /// Returns the gradient with the paint of each stop replaced by the result of `paint`.
     #[must_use]
     pub fn map_paints(&self, paint: impl Fn(Paint) -> Paint) -> Self {
         let stop = |stop: &GradientStop| GradientStop {
@@ -96,10 +97,12 @@ impl Gradient {
         }
     }
 
-    /// Interpolates towards another gradient. `t` is clamped to [0, 1]; the ends are exact.
+    /// Interpolates towards another gradient. `t` is clamped to [0, 1]; `t` = 0 returns `self` and
+    /// `t` = 1 returns `other` exactly.
     ///
-    /// Gradients of the same geometry and spread are interpolated offset by offset. Otherwise the
-    /// first one fades to the mean of both until t = 0.5, and the second one emerges from there.
+    /// Gradients of the same kind and spread are interpolated offset by offset. Otherwise all
+    /// paints of `self` change to the mean paint of both gradients until t = 0.5, and from there to
+    /// the paints of `other`.
     #[must_use]
     pub fn mixed(&self, other: &Self, t: f64) -> Self {
         let t = t.clamp(0.0, 1.0);
@@ -126,8 +129,8 @@ impl Gradient {
         }
     }
 
-    /// Interpolated stops at all offsets where either gradient has one, on both sides of hard
-    /// edges.
+    /// Interpolated stops at all offsets where either gradient has a stop; two stops at a hard
+    /// edge, one for each side.
     fn mixed_stops(&self, other: &Self, t: f64) -> Vec<GradientStop> {
         let stops = self.stops.iter().chain(&other.stops);
         let mut offsets: Vec<f64> = stops.map(|stop| stop.offset).collect();
@@ -145,7 +148,7 @@ impl Gradient {
         mixed.collect()
     }
 
-    /// Paints just before and just after an offset.
+    /// Paints just before and just after the offset `at`; they differ at a hard edge only.
     fn paints_around(&self, at: f64) -> [Paint; 2] {
         let stops = &self.stops;
         let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
@@ -170,7 +173,7 @@ impl Gradient {
 }
 
 impl GradientGeometry {
-    /// Interpolates towards the same kind of geometry; `None` for different kinds.
+    /// Interpolates towards `other`; returns `None` if one gradient is linear and the other radial.
     fn mixed(self, other: Self, t: f64) -> Option<Self> {
         match (self, other) {
             (Self::Linear, Self::Linear) => Some(Self::Linear),
@@ -192,7 +195,8 @@ const TRANSPARENT: Paint = Paint {
 };
 
 impl Paint {
-    /// Returns the weighted mean of paints; a transparent paint if there are none.
+    /// Returns the weighted mean of (paint, weight) pairs, in OKLab with premultiplied opacity; a
+    /// transparent paint if there are no pairs.
     pub(crate) fn mean(paints: impl Iterator<Item = (Self, f64)>) -> Self {
         let (mean, _) = paints.fold((TRANSPARENT, 0.0), |(mean, total), (paint, weight)| {
             let sum = total + weight;
@@ -202,7 +206,8 @@ impl Paint {
         mean
     }
 
-    /// Interpolates in sRGB with straight opacity, as within a gradient. `share` is in [0, 1].
+    /// Interpolates towards `other` in sRGB with straight opacity, as between two stops of one
+    /// gradient. `share` is in [0, 1].
     fn mixed_in_srgb(self, other: Self, share: f64) -> Self {
         let mixed = |a: f64, b: f64| a * (1.0 - share) + b * share;
         let channel = |k: usize| {

@@ -1,20 +1,23 @@
-//! Compatible triangulation of one connected piece with corresponding boundary points in two
-//! designs: a simple polygon, which may have holes or be cut open along slits.
+//! Compatible triangulation of one piece (a matched connected part) with corresponding boundary
+//! points in two designs. The piece is a simple polygon, which may have holes or be cut open along
+//! slits. The steps:
 //!
-//! 1. The refined triangulation of either polygon is transferred to the other without folds
-//!    ([`transfer`]): good angles, no guarantee.
-//! 2. If both directions fail, the guaranteed base is built ([`overlay`] of discs, [`bridges`] for
-//!    holes) and thinned out.
-//! 3. Quality is improved in both designs at once ([`quality`]).
+//! 1. A refined triangulation of either polygon is transferred to the other without folds
+//!    ([`transfer`]). This gives good angles but may fail.
+//! 2. If the transfers in both directions fail, the guaranteed base mesh is built ([`overlay`] for
+//!    discs, [`bridges`] for pieces with holes), and unneeded vertices are removed from it.
+//! 3. The angles are improved in both designs at once ([`quality`]).
 //!
-//! Then boundary points may [`slide`] along the outlines to places where the two triangulations are
-//! more alike. [`triangulate_many`] handles many designs at once.
+//! Afterwards, boundary points may [`slide`] along the outlines to places where the two
+//! triangulations are more alike. [`triangulate_many`] triangulates a piece in many designs at
+//! once.
 //!
-//! Guaranteed: every face is positive in both designs by exact predicates; the ring points come
-//! first, in order and unmoved, and ring edges are mesh edges; the same input gives the same mesh,
-//! and exchanging the designs exchanges the embeddings, bit by bit. Not guaranteed: any angle or
-//! distortion, which depend on the match. A polygon thinner than floating-point precision may have
-//! no room for the vertices of a common triangulation; that is an error, never a wrong mesh.
+//! Guaranteed: every face is positive in both designs, by exact predicates; the ring points are the
+//! first vertices, in order and unmoved; ring edges are mesh edges; the same input gives the same
+//! mesh; exchanging the designs exchanges the embeddings, bit by bit. Not guaranteed: any bound on
+//! angles or distortion, which depend on the match. A polygon thinner than floating-point precision
+//! may have no room for the vertices of a common triangulation. Then the result is an error, never
+//! a wrong mesh.
 
 mod advancing_front;
 mod boundary_rings;

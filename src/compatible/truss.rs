@@ -66,7 +66,7 @@ pub(super) fn triangulate_panels(
     if first.is_ok() || conflicts.is_empty() {
         return first;
     }
-    let uncrossed = bar_conflicts::keep_uncrossed(bars.len(), &conflicts);
+    let uncrossed = bar_conflicts::uncrossed_bars(bars.len(), &conflicts);
     // If both attempts fail, the error of the first attempt is reported, because that attempt used
     // more bars.
     triangulate_selected(bars, nodes, &uncrossed, progress).or(first)

@@ -103,7 +103,7 @@ pub(super) fn check_elements(
 /// # Errors
 /// [`CompatibleError`] if a face has no area in a design, or has opposite orientation in the two
 /// designs.
-pub(super) fn oriented(
+pub(super) fn orient_faces(
     mut faces: Vec<[u32; 3]>,
     source: &[DVec2],
     target: &[DVec2],

@@ -23,7 +23,7 @@ use crate::time::NamedEasing;
 use crate::warp::Placement;
 use image::RgbaImage;
 use layer::PictureSampler;
-use linear_light::{LinearLight, SrgbEncoder, mixed};
+use linear_light::{LinearLight, SrgbEncoder, mix};
 use serde::{Deserialize, Serialize};
 
 /// How the mix of two pictures changes over t.
@@ -221,7 +221,7 @@ impl<'a> PicturePaint<'a> {
                 }
                 if self.share > 0.0 && self.share < 1.0 {
                     target.sample_row([x, y], lights, |before, light| {
-                        mixed(before, light, self.share)
+                        mix(before, light, self.share)
                     });
                 }
                 for ((pixel, light), column) in pixels.iter_mut().zip(lights).zip(columns) {

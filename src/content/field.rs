@@ -1,18 +1,17 @@
-//! Blends of two signed distance fields, the content *field* (section 3.1 of the paper).
+//! Blends of two signed distance fields: the content *field* (section 3.1 of the paper).
 //!
-//! A blend is F = (1 − t) L(f₀) + t L(f₁), filled where F ≥ L(τ). Both CPU and GPU interpolate the
-//! fields bilinearly *before* L is applied.
+//! A blend of the fields f₀ and f₁ is F = (1 − t) L(f₀) + t L(f₁), with a scale function L. The
+//! shape is filled where F ≥ L(τ), with the threshold τ. Both CPU and GPU interpolate the fields
+//! bilinearly between samples *before* they apply L.
 //!
-//! A blend is F = (1 − t) L(f₀) + t L(f₁), drawn where F ≥ L(τ). The fields
-//! are read bilinearly *before* L is applied, by the CPU as by the GPU.
 //!
-//! The paper uses L(x) = sgn(x) log(|x| + ε). For ε < 1 it changes sign near the boundary, and for
-//! every ε except 1 it jumps there. This implementation uses L(x) = sgn(x) log(1 + |x| / ε), which
-//! is equal at ε = 1 and continuous, odd and monotone for every ε > 0.
+//! The paper uses L(x) = sgn(x) log(|x| + ε). For ε < 1 its sign is wrong near the boundary, and
+//! for every ε except 1 it jumps there. This implementation uses L(x) = sgn(x) log(1 + |x| / ε). It
+//! is the same for ε = 1, and it is continuous, odd and monotone for every ε > 0.
 //!
-//! Guaranteed: at t = 0 and t = 1 the contour is that of the source and target field; a pair has
-//! two fields on one grid and a valid blend. Not guaranteed: topology. Between the ends a blend may
-//! split or merge parts.
+//! Guaranteed: at t = 0 and t = 1 the contour is that of the source's and of the target's field; a
+//! pair has two fields on the same grid and valid parameters. Not guaranteed: topology. For t
+//! between 0 and 1, parts may split or merge.
 
 mod carried;
 mod many_designs;
@@ -26,7 +25,7 @@ use crate::geometry::DVec2;
 use crate::settings::named;
 use serde::{Deserialize, Serialize};
 
-/// Scale on which distances are blended.
+/// Scale function L through which distances are blended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BlendSpace {
@@ -55,13 +54,13 @@ named! { BlendSpace {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FieldBlend {
-    /// Logarithmic or linear scale.
+    /// Scale function: logarithmic or linear.
     pub space: BlendSpace,
-    /// ε > 0 of the logarithmic scale, in cells; L is nearly linear for distances below it. The
-    /// linear scale ignores it.
+    /// The length ε > 0 of the logarithmic scale, in cells. The scale is nearly linear for
+    /// distances below ε. The linear scale ignores it.
     pub epsilon: f64,
-    /// τ, the blended distance at which the shape is cut, in cells. Positive values thin the shape,
-    /// negative values thicken it.
+    /// The threshold τ: the blended distance at which the contour lies, in cells. Positive values
+    /// make the shape thinner, negative values thicker.
     pub threshold: f64,
 }
 
@@ -69,13 +68,13 @@ pub struct FieldBlend {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FieldBlendError {
-    /// ε is not a positive finite number.
+    /// The parameter ε has this value, which is not a positive finite number.
     #[error("epsilon is {0}; enter a number above 0 (the paper uses 1)")]
     Epsilon(f64),
-    /// The threshold is not finite.
+    /// The threshold has this value, which is not finite.
     #[error("the threshold is {0}; enter a finite number of cells (0 is the boundary)")]
     Threshold(f64),
-    /// The fields are not on the same grid.
+    /// Two fields do not have the same grid.
     #[error(
         "the source field uses the grid {source_grid:?} and the target field {target_grid:?}; compute both on the same grid"
     )]
@@ -88,7 +87,7 @@ pub enum FieldBlendError {
 }
 
 impl Default for FieldBlend {
-    /// The paper's parameters: logarithmic scale, ε = 1, τ = 0.
+    /// Returns the paper's parameters: logarithmic scale, ε = 1, τ = 0.
     fn default() -> Self {
         Self {
             space: BlendSpace::Log,
@@ -99,10 +98,10 @@ impl Default for FieldBlend {
 }
 
 impl FieldBlend {
-    /// Checks that ε is positive and finite, and τ finite.
+    /// Checks that ε is positive and finite, and that τ is finite.
     ///
     /// # Errors
-    /// Returns the offending number.
+    /// [`FieldBlendError`] contains the invalid number.
     pub fn check(&self) -> Result<(), FieldBlendError> {
         if !(self.epsilon > 0.0 && self.epsilon.is_finite()) {
             return Err(FieldBlendError::Epsilon(self.epsilon));
@@ -113,7 +112,8 @@ impl FieldBlend {
         Ok(())
     }
 
-    /// Returns L(x) for a distance `x` in cells. L is odd, continuous and monotone.
+    /// Returns L(x), the scale function at a distance `x` in cells. L is odd, continuous and
+    /// monotone.
     #[must_use]
     pub fn curve(&self, x: f64) -> f64 {
         if self.space == BlendSpace::Real {
@@ -123,13 +123,14 @@ impl FieldBlend {
         let log = if ratio.is_finite() {
             ratio.ln_1p()
         } else {
-            // |x| / ε overflowed, so the 1 in log(1 + |x| / ε) is negligible.
+            // Since |x| / ε has overflowed, the 1 in log(1 + |x| / ε) is negligible.
             x.abs().ln() - self.epsilon.ln()
         };
         log.copysign(x)
     }
 
-    /// Returns the distance, in cells, whose L is `level`: the inverse of [`Self::curve`].
+    /// Returns the distance, in cells, at which the scale function [`Self::curve`] has the value
+    /// `level`. This is the inverse of the scale function.
     pub(crate) fn inverse_curve(&self, level: f64) -> f64 {
         match self.space {
             BlendSpace::Real => level,
@@ -137,20 +138,21 @@ impl FieldBlend {
         }
     }
 
-    /// Returns F for two distances in cells. Values of `t` outside [0, 1] extrapolate.
+    /// Returns the blend F of two distances in cells. Values of `t` outside [0, 1] extrapolate.
     #[must_use]
     pub fn value(&self, source: f64, target: f64, t: f64) -> f64 {
         (1.0 - t) * self.curve(source) + t * self.curve(target)
     }
 
-    /// Returns L(τ). The shape is filled where F is at least this.
+    /// Returns L(τ), the scale function at the threshold. The shape is filled where F is at least
+    /// this.
     #[must_use]
     pub fn level(&self) -> f64 {
         self.curve(self.threshold)
     }
 }
 
-/// Two distance fields on one grid, and their blend.
+/// Two distance fields on the same grid, and the parameters of their blend.
 ///
 /// Cloning is cheap because the fields are shared.
 ///
@@ -180,10 +182,10 @@ pub struct FieldPair {
 }
 
 impl FieldPair {
-    /// Combines two fields on one grid.
+    /// Combines two fields on the same grid.
     ///
     /// # Errors
-    /// Returns an error if the grids differ or the blend is invalid.
+    /// [`FieldBlendError`] if the grids differ or the parameters are invalid.
     pub fn new(
         source: impl Into<Arc<DistanceField>>,
         target: impl Into<Arc<DistanceField>>,
@@ -191,7 +193,7 @@ impl FieldPair {
     ) -> Result<Self, FieldBlendError> {
         let (source, target) = (source.into(), target.into());
         blend.check()?;
-        // Distances are in cells, so fields of different grids have different units.
+        // Distances are in cells, so fields on different grids have different units.
         if source.grid() != target.grid() {
             return Err(FieldBlendError::Grids {
                 source_grid: *source.grid(),
@@ -205,10 +207,10 @@ impl FieldPair {
         })
     }
 
-    /// Returns the same fields with another blend, without computing distances again.
+    /// Returns the same fields with other parameters. Distances are not computed again.
     ///
     /// # Errors
-    /// Returns an error if the blend is invalid.
+    /// [`FieldBlendError`] if the parameters are invalid.
     pub fn with_blend(&self, blend: FieldBlend) -> Result<Self, FieldBlendError> {
         blend.check()?;
         Ok(Self {
@@ -241,30 +243,31 @@ impl FieldPair {
         self.source.grid()
     }
 
-    /// Returns F at a point of the plane. Outside the grid the values at its border continue.
+    /// Returns the blend F at a point of the plane. Outside the grid, the values at its border
+    /// continue.
     #[must_use]
     pub fn value(&self, p: DVec2, t: f64) -> f64 {
         self.blend
             .value(self.source.value(p), self.target.value(p), t)
     }
 
-    /// Whether a point of the plane is filled at `t`: it lies in the grid's rectangle, and F is at
-    /// least the level.
+    /// Returns whether a point of the plane is filled at `t`: it lies in the rectangle of the grid,
+    /// and F is at least L(τ).
     #[must_use]
     pub fn is_inside(&self, p: DVec2, t: f64) -> bool {
-        // Field values continue beyond the grid, but the contour is clipped to it.
+        // The field values continue beyond the grid, but the shape ends there.
         self.grid().bounds().contains(p) && self.value(p, t) >= self.blend.level()
     }
 
-    /// Returns the contour at `t` as closed polygons in the plane: outer ones counter-clockwise,
-    /// holes clockwise, clipped to the grid's rectangle.
+    /// Returns the contour of the filled shape at `t` as closed polygons in the plane, clipped to
+    /// the rectangle of the grid. Outer polygons run counter-clockwise, holes clockwise.
     #[must_use]
     pub fn contour(&self, t: f64) -> Vec<Vec<DVec2>> {
         let (grid, blend) = (self.grid(), &self.blend);
         let (source, target) = (self.source.samples(), self.target.samples());
         let value = |x, y| blend.value(source.bilinear(x, y), target.bilinear(x, y), t);
-        // L is monotone, so for t in [0, 1] a sample that lies on the same side of the threshold in
-        // both fields needs no evaluation.
+        // L is monotone. For t in [0, 1] a sample therefore needs no evaluation if both fields are
+        // on the same side of the threshold there.
         let is_between = (0.0..=1.0).contains(&t);
         let [a, b] = [self.source.values(), self.target.values()];
         let known_side = |column: usize, row: usize| {

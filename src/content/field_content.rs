@@ -1,10 +1,12 @@
 //! Distance fields of a transition: the content *field*.
 //!
-//! Two designs have one pair of fields for the whole shape and, if they are painted, one pair per
-//! paint layer. A path through blends of many designs is a sequence of pairs of equal duration.
+//! Two designs have one pair of fields for the whole shape and, if they are painted, one pair for
+//! each paint layer. A path through blends of many designs is a sequence of pairs; each pair covers
+//! the same share of the time.
 //!
-//! Guaranteed: at t = 0 and t = 1 each paint layer is that of its design. A layer that exists in
-//! only one design is blended with a field that is outside everywhere, so it shrinks away.
+//! Guaranteed: at t = 0 and t = 1 each paint layer has the shape that it has in the source and in
+//! the target. A layer that exists in only one design is blended with a field that is outside the
+//! shape everywhere, so the layer shrinks until nothing is left.
 
 use super::field::{FieldBlend, FieldBlendError, FieldPair};
 use super::{InkedLayer, PaintLayerStack};
@@ -14,73 +16,77 @@ use crate::warp::Placement;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Distance, in cells, of the field that stands in for a missing paint layer: outside, as deep as a
-/// sample next to a boundary. A small depth lets the other design's layer shrink slowly.
+/// Distance, in cells, of the field that stands in for a missing paint layer (derived: outside, as
+/// deep as a sample next to a boundary; with a small depth the layer of the other design shrinks
+/// slowly).
 const MISSING_DISTANCE: f64 = -1.0;
 
 /// Distance fields of a transition. Cloning is cheap because the fields are shared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldContent {
-    /// Pairs for the whole shape, at least one; all have the same share of the time.
+    /// Pairs of fields for the whole shape, at least one, in order of time. Each covers the same
+    /// share of [0, 1].
     pairs: Arc<[FieldPair]>,
-    /// Fields per paint layer; `None` for a content in one colour.
-    painted: Option<PaintedFields>,
-    /// Whether a warp carries the fields. Otherwise they rest.
+    /// Fields for each paint layer; `None` for a content in a single colour.
+    painted_fields: Option<PaintedFields>,
+    /// Whether a warp carries the fields along. Otherwise the fields do not move.
     is_carried: bool,
 }
 
-/// Distance fields of painted designs, one pair per paint layer.
+/// Distance fields of painted designs, one pair for each paint layer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintedFields {
-    /// Paint layers. They refer to no boundary loops and no holes.
+    /// Paint layers. The lists of boundary loops and holes are empty, because the fields give the
+    /// shapes.
     pub paint_layers: PaintLayerStack,
-    /// For each layer the fields of source and target; `None` if the design does not have the
+    /// For each layer, the fields of source and target; `None` if the design does not have the
     /// layer.
     fields: Vec<[Option<Arc<DistanceField>>; 2]>,
-    /// For each layer the pair that is blended, missing fields replaced.
+    /// For each layer, the pair that is blended, with missing fields replaced.
     pairs: Vec<FieldPair>,
 }
 
 impl FieldContent {
-    /// Creates the content from the pair `whole`, which covers the whole shape, and its paint
-    /// layers, if any. With `is_carried` a warp carries the fields; otherwise they rest.
+    /// Creates the content from a pair of fields for the whole shape and, if the designs are
+    /// painted, the fields of their paint layers. `is_carried` tells whether a warp carries the
+    /// fields along.
     #[must_use]
     pub fn new(whole: FieldPair, painted: Option<PaintedFields>, is_carried: bool) -> Self {
         Self {
             pairs: [whole].into(),
-            painted,
+            painted_fields: painted,
             is_carried,
         }
     }
 
-    /// Creates a sequence of resting pairs of equal duration in one colour, where each pair starts
-    /// with the field that the previous one ends with. Returns `None` if there are no pairs, or
-    /// their grids or blends differ.
+    /// Creates a sequence of pairs in a single colour, which no warp carries. Each pair covers the
+    /// same share of [0, 1]; it should start with the field that the previous pair ends with.
+    /// Returns `None` if there are no pairs, or if their grids or parameters differ.
     #[must_use]
     pub fn sequence(pairs: Vec<FieldPair>) -> Option<Self> {
         let first = pairs.first()?;
         let fits = |pair: &FieldPair| (pair.grid(), pair.blend()) == (first.grid(), first.blend());
         pairs.iter().all(fits).then(|| Self {
             pairs: pairs.into(),
-            painted: None,
+            painted_fields: None,
             is_carried: false,
         })
     }
 
-    /// The pair of the whole shape at t = 0.
+    /// The first pair for the whole shape. It is the one shown at t = 0.
     #[must_use]
     pub fn first_pair(&self) -> &FieldPair {
         &self.pairs[0]
     }
 
-    /// Pairs of the whole shape in order of time; two designs have one.
+    /// Pairs for the whole shape in order of time; two designs have a single pair.
     #[must_use]
     pub fn pairs(&self) -> &[FieldPair] {
         &self.pairs
     }
 
-    /// Returns the index of the pair shown at `t` and its blend parameter. Outside [0, 1] the first
-    /// or last pair extrapolates.
+    /// Returns the index of the pair that is shown at `t`, and the t at which this pair is blended.
+    /// Outside [0, 1] the first or the last pair extrapolates.
     #[must_use]
     pub fn pair_at(&self, t: f64) -> (usize, f64) {
         let count = self.pairs.len();
@@ -88,27 +94,27 @@ impl FieldContent {
             return (0, t);
         }
         let pair_time = t * count as f64;
-        // `as` saturates and maps NaN to 0.
+        // The cast saturates and turns NaN into 0.
         let pair = (pair_time.floor().max(0.0) as usize).min(count - 1);
         (pair, pair_time - pair as f64)
     }
 
-    /// Fields per paint layer; `None` for a content in one colour.
+    /// Fields for each paint layer; `None` for a content in a single colour.
     #[must_use]
-    pub fn painted(&self) -> Option<&PaintedFields> {
-        self.painted.as_ref()
+    pub fn painted_fields(&self) -> Option<&PaintedFields> {
+        self.painted_fields.as_ref()
     }
 
-    /// Mutable access to the fields per paint layer.
-    pub(crate) fn painted_mut(&mut self) -> Option<&mut PaintedFields> {
-        self.painted.as_mut()
+    /// Returns the fields for each paint layer, for changing them.
+    pub(crate) fn painted_fields_mut(&mut self) -> Option<&mut PaintedFields> {
+        self.painted_fields.as_mut()
     }
 
-    /// Returns the same fields with another blend, without computing distances again. Returns
-    /// `None` for a sequence of pairs, whose fields are blends already.
+    /// Returns the same fields with other blend parameters. Distances are not computed again.
+    /// Returns `None` for a sequence of several pairs, whose fields are themselves blends.
     ///
     /// # Errors
-    /// Returns an error if the blend is invalid.
+    /// [`FieldBlendError`] if the parameters are invalid.
     pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldBlendError> {
         let [whole] = &*self.pairs else {
             return Ok(None);
@@ -118,27 +124,27 @@ impl FieldContent {
             let (stack, fields) = (painted.paint_layers.clone(), painted.fields.clone());
             PaintedFields::from_layer_fields(stack, fields, whole.grid(), blend)
         };
-        let painted = self.painted.as_ref().map(reblend).transpose()?;
+        let painted = self.painted_fields.as_ref().map(reblend).transpose()?;
         Ok(Some(Self::new(whole, painted, self.is_carried)))
     }
 
-    /// Returns the contour of the whole shape at `t`. `placement` must be the placement at the same
-    /// `t`.
+    /// Returns the contour of the whole shape at `t`. `placement` must be the placement of the warp
+    /// at the same `t`.
     #[must_use]
     pub fn contour(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         let (pair, t) = self.pair_at(t);
         self.contour_of(&self.pairs[pair], placement, t)
     }
 
-    /// Returns the contours at `t` by paint layer, lowest first; a content in one colour has a
-    /// single group.
+    /// Returns the contours at `t` by paint layer, the lowest layer first. A content in a single
+    /// colour has one group.
     #[must_use]
     pub fn layers_at(&self, placement: &Placement, t: f64) -> Vec<InkedLayer> {
         let Some(PaintedFields {
             paint_layers: stack,
             pairs,
             ..
-        }) = &self.painted
+        }) = &self.painted_fields
         else {
             let rings = self.contour(placement, t);
             return vec![InkedLayer {
@@ -157,12 +163,16 @@ impl FieldContent {
             };
             let layer = &stack.layers[k];
             let gradients = layer.shading.gradients_at(&placement.in_frame, |_| true);
-            layer.ink(inked, gradients, layer.only_in.filter(|_| stack.fades))
+            layer.ink(
+                inked,
+                gradients,
+                layer.only_in.filter(|_| stack.fades_unmatched),
+            )
         });
         layers.collect()
     }
 
-    /// Contour of one pair, carried by the warp or at rest.
+    /// Contour of one pair at `t`, carried along by the warp or not.
     fn contour_of(&self, pair: &FieldPair, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         match self.is_carried {
             true => pair.contour_carried(placement, t),
@@ -172,8 +182,8 @@ impl FieldContent {
 }
 
 impl PaintedFields {
-    /// Creates the pairs of all layers from the fields of source and target, which must lie on
-    /// `grid`; `None` stands for a layer that the design does not have.
+    /// Creates the pairs of all layers from the fields of source and target, which must have the
+    /// grid `grid`. `None` stands for a layer that the design does not have.
     ///
     /// # Errors
     /// Same as [`FieldPair::new`].
@@ -189,15 +199,16 @@ impl PaintedFields {
         Self::from_layer_fields(stack, fields.collect(), grid, blend)
     }
 
-    /// Creates the pairs of all layers, with missing fields replaced by a field that is outside
-    /// everywhere.
+    /// Creates the pairs of all layers. A missing field is replaced by one that is outside the
+    /// shape everywhere.
     fn from_layer_fields(
         stack: PaintLayerStack,
         fields: Vec<[Option<Arc<DistanceField>>; 2]>,
         grid: &Grid,
         blend: FieldBlend,
     ) -> Result<Self, FieldBlendError> {
-        // Lowered with a negative threshold, so that the missing layer stays outside.
+        // A negative threshold thickens the shape. The distance is lowered by it, so that the
+        // missing layer stays empty.
         let outside = MISSING_DISTANCE + blend.threshold.min(0.0);
         let missing = Arc::new(DistanceField::uniform(*grid, outside));
         let pair = |ends: &[Option<Arc<DistanceField>>; 2]| {
@@ -222,7 +233,7 @@ mod tests {
     use crate::warp::{IdentityWarp, Warp};
     use crate::work::progress::Silent;
 
-    /// Columns and rows of the test grid.
+    /// Numbers of columns and rows of the test grid.
     const GRID: [u32; 2] = [24, 16];
 
     fn field(columns: std::ops::Range<usize>) -> DistanceField {
@@ -236,7 +247,8 @@ mod tests {
         DistanceField::from_mask(&mask, grid, Metric::Euclidean, &Silent).expect("a field")
     }
 
-    /// A bar that moves from left to right, and a bar on top of it that only the source has.
+    /// Content of two paint layers: a bar that moves from left to right, and above it a bar that
+    /// only the source has.
     fn fields(blend: FieldBlend) -> FieldContent {
         let whole = FieldPair::new(field(2..10), field(12..20), blend).expect("a field");
         let grid = *whole.grid();

@@ -1,80 +1,82 @@
-//! Paint layers of a content: which ring belongs to which layer, each layer's paints, gradients and
-//! strokes, and the order in which layers are drawn.
+//! Paint layers of a content: the layer of each ring, the paints, gradients and strokes of each
+//! layer, and the order in which layers are drawn.
 
 use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::geometry::{DVec2, Side, fit_affine};
 
-/// Paint layers of a content, and the layer of each ring.
+/// Paint layers of a content, and the layer to which each ring belongs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintLayerStack {
-    /// All layers; their `z_indices` give the drawing order.
+    /// All layers, in no particular order; their `z_indices` give the drawing order.
     pub layers: Vec<PlacedPaintLayer>,
     /// For each boundary loop, the index of its layer.
     pub of_loops: Vec<usize>,
     /// For each hole, the index of its layer.
     pub of_holes: Vec<usize>,
-    /// For each boundary loop, the only design that has its part; `None` for parts of both designs.
+    /// For each boundary loop, the only design that has the loop's part; `None` if both have it.
     pub unmatched_loops: Vec<Option<Side>>,
     /// Whether parts that exist in only one design fade in or out.
-    pub fades: bool,
+    pub fades_unmatched: bool,
     /// The t at which the drawing order changes from that of the source to that of the target.
     pub reorder_t: f64,
 }
 
-/// Rings that share paints, gradients and strokes, at one t.
+/// Group of rings that share their paints, gradients and strokes at one t.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InkedLayer {
-    /// Index of their layer; 0 if there is only one colour.
+    /// Index of the paint layer of the rings; 0 if the content has a single colour.
     pub layer: usize,
-    /// Time on the clock of their parts, by which paints are mixed.
+    /// Time that the clock of the rings' parts shows. The paints of source and target are mixed at
+    /// this time.
     pub t: f64,
-    /// Closed rings.
+    /// The rings of the group: closed polygons in the plane, without a repeated end point.
     pub rings: Vec<Vec<DVec2>>,
-    /// Paints in source and target; `None` if there is only one colour.
+    /// Paints in source and target; `None` if the content has a single colour.
     pub paints: [Option<Paint>; 2],
-    /// Gradients in source and target, transformed to their place at `t`. The paints are the means
-    /// of these gradients.
+    /// Gradients in source and target, moved along to their place at `t`; `None` where the paint is
+    /// flat. `paints` then contains the mean colour of each gradient.
     pub gradients: [Option<Gradient>; 2],
-    /// Strokes along the rings in source and target.
+    /// Strokes along the rings in source and target; `None` without a stroke.
     pub strokes: [Option<StrokeStyle>; 2],
 }
 
-/// A paint layer: parts that share their paints, in both designs.
+/// Paint layer: parts that have the same paint in the source and the same paint in the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedPaintLayer {
-    /// Paints in source and target; `None` if the design has no colour of its own.
+    /// Paints in source and target; `None` if the layer has no colour of its own in that design.
     pub paints: [Option<Paint>; 2],
-    /// Gradients, attached to vertices.
+    /// Gradients of the layer, attached to its vertices.
     pub shading: LayerShading,
-    /// Strokes along the outlines in source and target, if any.
+    /// Strokes along the outlines in source and target; `None` without a stroke.
     pub strokes: [Option<StrokeStyle>; 2],
-    /// Number of layers below this one, in source and target.
+    /// Number of layers below this one in the source and in the target.
     pub z_indices: [usize; 2],
     /// The only design that has the layer; `None` if both have it.
     pub only_in: Option<Side>,
 }
 
-/// Gradients of a paint layer, which move with its vertices.
+/// Gradients of a paint layer, which move along with the layer's vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayerShading {
-    /// Indices of the vertices on the layer's boundary loops.
+    /// Indices of the vertices on the boundary loops of the layer.
     pub vertices: Vec<u32>,
     /// Gradients in source and target; `None` where the paint is flat.
     pub ends: [Option<AnchoredGradient>; 2],
 }
 
-/// A gradient with the positions of the layer's vertices in the gradient's design.
+/// Gradient of one design, with the positions that the layer's vertices have in that design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnchoredGradient {
-    /// Gradient in its design.
+    /// The gradient as it is in its design.
     pub gradient: Gradient,
-    /// Vertex positions in that design, parallel to [`LayerShading::vertices`].
+    /// Vertex positions in that design, in the order of [`LayerShading::vertices`].
     pub vertex_positions: Vec<DVec2>,
 }
 
 impl LayerShading {
-    /// Returns both gradients, transformed by the affine map that best fits the motion of the
-    /// vertices for which `is_counted` holds. `places` are the current positions of all vertices.
+    /// Returns the gradients of source and target, each transformed by the affine map that best
+    /// fits the motion of the layer's vertices from its design to `places`. Only vertices for which
+    /// `is_counted` holds are used. `places` contains the current positions of all vertices.
     ///
     /// # Panics
     /// Panics if a vertex has no position.
@@ -101,9 +103,9 @@ impl LayerShading {
 }
 
 impl PlacedPaintLayer {
-    /// Fills in the paints, gradients and strokes of rings in this layer. `gradients` are those at
-    /// the time of the rings. If the rings fade, `fading` is the only design that has them; they
-    /// become transparent in the other.
+    /// Fills in the paints, gradients and strokes of a group of rings in this layer. `gradients`
+    /// are those at the time of the group. If the group fades, `fading` is the only design that has
+    /// its parts; in the other design the group becomes transparent.
     pub(super) fn ink(
         &self,
         inked: InkedLayer,
@@ -132,8 +134,8 @@ impl PlacedPaintLayer {
 }
 
 impl PaintLayerStack {
-    /// Creates a single layer without a colour of its own for the given numbers of boundary loops
-    /// and holes.
+    /// Creates a stack of a single layer without a colour of its own, for the given numbers of
+    /// boundary loops and holes.
     #[must_use]
     pub fn single_layer(loops: usize, holes: usize) -> Self {
         Self {
@@ -147,12 +149,13 @@ impl PaintLayerStack {
             of_loops: vec![0; loops],
             of_holes: vec![0; holes],
             unmatched_loops: vec![None; loops],
-            fades: false,
+            fades_unmatched: false,
             reorder_t: 0.0,
         }
     }
 
-    /// Returns the indices of the layers at `t`, lowest first.
+    /// Returns the indices of the layers in the order in which they are drawn at `t`, the lowest
+    /// first.
     #[must_use]
     pub fn draw_order(&self, t: f64) -> Vec<usize> {
         let end = usize::from(t >= self.reorder_t);

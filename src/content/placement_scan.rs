@@ -1,55 +1,58 @@
-//! Rasterises a placement on a lattice: for each sample, the corresponding points of source and
-//! target.
+//! Rasterises a placement: for each sample of a lattice in the frame, computes the corresponding
+//! points of source and target.
 //!
-//! Guaranteed: a sample takes the last face that covers it; samples on an edge belong to an
-//! adjacent face, so no gap opens between neighbours; the result does not depend on the number of
-//! threads. Samples that no face covers are left unchanged.
+//! Guaranteed: where several faces cover a sample, the last one counts; a sample on an edge belongs
+//! to an adjacent face, so no gap opens between neighbours; the result does not depend on the
+//! number of threads. Samples that no face covers are left unchanged.
 
 use crate::geometry::DVec2;
 use crate::warp::Placement;
 use rayon::prelude::*;
 
-/// Rows per band of work for one thread (resource limit: small enough to occupy all threads, large
-/// enough that a face is set up for few bands).
+/// Number of rows in a band, which one thread fills at a time (resource limit: few enough that all
+/// threads have work, and enough that a face is set up for few bands).
 const BAND: usize = 32;
 
-/// Distance, in samples, by which a face extends beyond its edges, so that rounding opens no gaps
-/// (tolerance: far above the 1e-12 that doubles resolve at 8192 samples, and invisible).
+/// Distance, in samples, by which a face is extended beyond its edges, so that rounding opens no
+/// gaps (tolerance: far above the 1e-12 to which doubles are exact at 8192 samples, and invisible).
 const REACH: f64 = 1e-7;
 
-/// Affine maps from lattice samples to points of source and target, valid within one face.
+/// Affine maps from lattice coordinates to points of source and target, valid within one face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SourceFacet {
-    /// Column and row of the upper left corner of the face's samples in the rows being filled.
+    /// Leftmost column and uppermost row of the face's samples within the band that is being
+    /// filled.
     pub first_sample: [usize; 2],
-    /// Map to points of the source.
+    /// Affine map from lattice coordinates to points of the source.
     pub source: AffinePlane,
-    /// Map to points of the target.
+    /// Affine map from lattice coordinates to points of the target.
     pub target: AffinePlane,
 }
 
-/// An affine map from lattice coordinates to the plane.
+/// Affine map from lattice coordinates to the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AffinePlane {
     /// Image of sample (0, 0).
     pub origin: DVec2,
-    /// Change from one column to the next.
+    /// Difference between the images of a sample and of its neighbour in the next column.
     pub by_x: DVec2,
-    /// Change from one row to the next.
+    /// Difference between the images of a sample and of its neighbour in the next row.
     pub by_y: DVec2,
 }
 
 impl AffinePlane {
-    /// Image of the sample in column `x` and row `y`.
+    /// Returns the image of the sample in column `x` and row `y`.
     #[inline]
     pub fn at(&self, x: usize, y: usize) -> DVec2 {
         self.origin + self.by_x * x as f64 + self.by_y * y as f64
     }
 
-    /// The map that sends `corners` to `values`. `det` is twice the signed area of the corners.
+    /// Returns the affine map that sends `corners` to `values`. `det` is twice the signed area of
+    /// the triangle of the corners.
     fn through(corners: [DVec2; 3], values: [DVec2; 3], det: f64) -> Self {
         let [a, b, c] = corners;
-        // Cramer's rule: components of a column step and a row step along the two edges.
+        // Cramer's rule: expresses a step to the next column and a step to the next row by the two
+        // edges that leave the first corner.
         let (u, v) = ((b - a) / det, (c - a) / det);
         let (du, dv) = (values[1] - values[0], values[2] - values[0]);
         let by_x = du * v.y - dv * u.y;
@@ -62,7 +65,7 @@ impl AffinePlane {
     }
 }
 
-/// A face in lattice coordinates, ready to be rasterised.
+/// Face in lattice coordinates, ready to be rasterised.
 #[derive(Clone, Copy, Debug)]
 struct ScanPatch {
     corners: [DVec2; 3],
@@ -71,14 +74,14 @@ struct ScanPatch {
     target: AffinePlane,
 }
 
-/// An edge of a counter-clockwise face, which lies to its left.
+/// Directed edge of a face. The face lies to its left.
 #[derive(Clone, Copy, Debug)]
 struct PatchEdge {
     begin: DVec2,
     along: DVec2,
-    /// [`REACH`] times the length of the edge.
+    /// The extension [`REACH`], multiplied by the length of the edge.
     reach: f64,
-    /// 1 / `along.y`; `None` for a horizontal edge.
+    /// Inverse of `along.y`; `None` for a horizontal edge.
     per_rise: Option<f64>,
 }
 
@@ -93,10 +96,11 @@ impl PatchEdge {
         }
     }
 
-    /// Columns of row `y` to the left of the edge, as an interval; empty if its start exceeds its
-    /// end.
+    /// Returns the columns of row `y` to the left of the edge, as an interval; empty if its start
+    /// exceeds its end.
     fn columns_left_of(&self, y: f64) -> [f64; 2] {
-        // Left of the edge: along.x (y - begin.y) - along.y (x - begin.x) >= 0.
+        // A sample (x, y) is to the left of the edge if along.x (y - begin.y) - along.y (x -
+        // begin.x) >= 0.
         let slack = self.along.x * (y - self.begin.y) + self.reach;
         match self.per_rise {
             Some(per) if per > 0.0 => [f64::NEG_INFINITY, self.begin.x + slack * per],
@@ -110,9 +114,10 @@ impl PatchEdge {
 
 /// Fills `out` with the samples of all faces, in the order of the faces.
 ///
-/// `to_lattice` maps the plane to lattice coordinates. Sample (x, y) lies at (x, y) and is stored
-/// at `out[y * width + x]`. `filler` is called once for each face and band of rows; the closure
-/// that it returns is called with column, row, and the slice of `out` to fill from that sample on.
+/// `to_lattice` maps the plane to lattice coordinates. The sample in column x and row y is stored
+/// at `out[y * width + x]`. `filler` is called once for each face and each band of rows; it returns
+/// a closure that fills samples. The closure is called for each row with the first column, the row,
+/// and the slice of `out` to fill from there on.
 ///
 /// # Panics
 /// Panics if a face has a vertex without a position.
@@ -127,8 +132,8 @@ pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
         return;
     }
     let places: Vec<DVec2> = placement.in_frame.iter().map(|&p| to_lattice(p)).collect();
-    // Each band is filled by one thread that takes its faces in order, so the last face that covers
-    // a sample is the same for any number of threads.
+    // Each band is filled by a single thread, which takes the faces in order. The last face that
+    // covers a sample is therefore the same for any number of threads.
     let bands = faces_by_band(&placement.faces, &places, out.len() / width);
     let rows = out.par_chunks_mut(width * BAND).zip(bands);
     rows.enumerate().for_each(|(band, (rows, here))| {
@@ -140,17 +145,17 @@ pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
     });
 }
 
-/// Sets up a face for rasterisation; `None` if it has no area.
+/// Prepares a face for rasterisation; `None` if it has no area.
 fn scan_patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Option<ScanPatch> {
     let at_corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
     let corners = at_corners(places);
     let [a, b, c] = corners;
     let det = (b - a).perp_dot(c - a);
-    // The inverse of a subnormal number overflows.
+    // The inverse of a subnormal number would overflow.
     if !det.is_normal() {
         return None;
     }
-    // Edges need the face on their left, so a flipped face is traversed in reverse.
+    // Edges need the face on their left, so a clockwise face is traversed in reverse.
     let [b, c] = if det > 0.0 { [b, c] } else { [c, b] };
     Some(ScanPatch {
         source: AffinePlane::through(corners, at_corners(&placement.in_source), det),
@@ -164,8 +169,8 @@ fn scan_patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Optio
     })
 }
 
-/// Lists, for each band of rows, the faces that may reach it, in their order. Faces with a vertex
-/// that is not finite are skipped.
+/// For each band of rows, returns the indices of the faces that may reach it, in ascending order.
+/// Faces with a vertex that is not finite are skipped.
 fn faces_by_band(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); rows.div_ceil(BAND)];
     for (k, face) in faces.iter().enumerate() {
@@ -175,7 +180,8 @@ fn faces_by_band(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u
         if !is_finite || high + 1.0 < 0.0 || low - 1.0 > rows as f64 {
             continue;
         }
-        // One row more than needed on either side; the exact test follows when rows are filled.
+        // This includes one row more than needed on either side; the exact test follows when rows
+        // are filled.
         let last = ((high + 1.0) as usize / BAND).min(bands.len() - 1);
         for band in &mut bands[(low - 1.0).max(0.0) as usize / BAND..=last] {
             band.push(k as u32);
@@ -184,12 +190,12 @@ fn faces_by_band(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u
     bands
 }
 
-/// Returns the minimum and the maximum.
+/// Returns the minimum and the maximum of three numbers.
 fn extent([a, b, c]: [f64; 3]) -> [f64; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Fills the samples of one face in one band of rows.
+/// Fills the samples of one face in one band of rows, which starts at row `first_row`.
 fn fill_face<T, F: FnMut(usize, usize, &mut [T])>(
     patch: &ScanPatch,
     first_row: usize,
@@ -221,14 +227,14 @@ fn fill_face<T, F: FnMut(usize, usize, &mut [T])>(
     }
 }
 
-/// Smallest non-negative integer that is at least `x`.
+/// Returns the smallest non-negative integer that is at least `x`.
 fn ceil_non_negative(x: f64) -> usize {
-    // `as` saturates, so negative numbers and NaN become 0.
+    // The cast saturates, so negative numbers and NaN become 0.
     let below = x as usize;
     below.saturating_add(usize::from((below as f64) < x))
 }
 
-/// Smallest non-negative integer above `x`.
+/// Returns the smallest non-negative integer greater than `x`.
 fn next_above(x: f64) -> usize {
     if x < 0.0 {
         0
@@ -237,7 +243,8 @@ fn next_above(x: f64) -> usize {
     }
 }
 
-/// Columns of row `y` inside all three edges, as an interval; empty if its start exceeds its end.
+/// Returns the columns of row `y` that lie inside all three edges, as an interval; empty if its
+/// start exceeds its end.
 fn covered_columns(edges: &[PatchEdge; 3], y: f64) -> [f64; 2] {
     let [a, b, c] = edges.map(|edge| edge.columns_left_of(y));
     [a[0].max(b[0]).max(c[0]), a[1].min(b[1]).min(c[1])]
@@ -279,7 +286,7 @@ mod tests {
     }
 
     proptest! {
-        /// For random triangles, exactly the samples inside are covered.
+        /// For random triangles, exactly the samples inside are filled.
         #[test]
         fn exactly_the_samples_inside_are_covered(points in prop::collection::vec((-5.0f64..45.0, -5.0f64..45.0), 3)) {
             let corners: Vec<DVec2> = points.into_iter().map(DVec2::from).collect();

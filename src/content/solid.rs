@@ -1,8 +1,9 @@
-//! Filled regions and bars, carried by the vertices of a placement: the content *solid*.
+//! Filled regions and bars that move with the vertices of a placement: the content *solid*.
 //!
 //! Regions are boundary loops over mesh vertices. Parts and holes that exist in only one design are
-//! drawn separately: parts swell from thin lines or grow from a seed shape, holes shrink. Rings may
-//! overlap; they are meant to be filled together by the non-zero rule.
+//! drawn in other ways: parts swell from thin lines or grow from a seed shape (a tiny copy of
+//! themselves), holes shrink. Rings may overlap; they should be filled together by the non-zero
+//! rule.
 
 use super::{InkedLayer, PaintLayerStack, SwellingShape, TransientHole};
 use crate::colour::Paint;
@@ -18,28 +19,29 @@ pub struct SolidContent {
     pub loops: Vec<Vec<u32>>,
     /// Bars, as pairs of vertex indices; empty for a mesh.
     pub bars: Vec<[u32; 2]>,
-    /// Paints of each bar in source and target; empty if bars have no colours of their own.
+    /// For each bar, its paints in source and target; empty if bars have no paints of their own.
     pub bar_paints: Vec<[Option<Paint>; 2]>,
-    /// Width of the bars, in units of the designs.
+    /// Width of all bars, in units of the designs.
     pub bar_width: f64,
     /// Holes that exist in only one design.
     pub holes: Vec<TransientHole>,
-    /// Parts that exist in only one design and enter by swelling. Each is drawn instead of its
-    /// boundary loops.
+    /// Parts that exist in only one design and swell from thin lines. Until a part has its full
+    /// thickness, it is drawn instead of its boundary loops.
     pub swelling_shapes: Vec<SwellingShape>,
-    /// Parts that exist in only one design and grow from a seed shape. They are hidden while they
-    /// have no size.
+    /// Parts that exist in only one design and grow from a seed shape. A part is not drawn while it
+    /// is absent.
     pub seed_shapes: Vec<SeedShape>,
-    /// Paint layers; `None` if everything has one colour.
+    /// Paint layers; `None` if everything has a single colour.
     pub paint_layers: Option<PaintLayerStack>,
-    /// Clocks of parts with their own timing; `None` if all parts follow the transition.
+    /// Clocks of parts with their own timing; `None` if all parts follow the t of the transition.
     pub part_clocks: Option<SolidClocks>,
 }
 
-/// Assigns a clock to each part of a solid. A clock maps the transition's t to the part's own t.
+/// Assigns a clock to each part of a solid. A clock converts the t of the transition to the part's
+/// own t.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidClocks {
-    /// All clocks. The last one is that of the whole transition.
+    /// All clocks. The last one is for the transition as a whole.
     pub clocks: Vec<PartClock>,
     /// For each boundary loop, the index of its clock.
     pub of_loops: Vec<usize>,
@@ -50,43 +52,45 @@ pub struct SolidClocks {
 }
 
 impl SolidClocks {
-    /// Index of the clock of a vertex.
+    /// Index of the clock that a vertex follows.
     fn of_vertex(&self, vertex: u32) -> usize {
         self.of_vertices[vertex as usize]
     }
 }
 
-/// A ring with its paint layer and the properties that split a layer into groups.
+/// Ring with its paint layer and the key of its group within that layer.
 struct PaintedRing {
     layer: usize,
     key: InkKey,
     points: Vec<DVec2>,
 }
 
-/// Key that splits the rings of one paint layer into groups of equal paint: the clock and, for
-/// fading parts, the only design that has them.
+/// Key of a group: the rings of a paint layer with equal keys have equal paints. The key is the
+/// index of their clock and, for parts that fade, the only design that has them.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct InkKey {
     clock: usize,
     fading: Option<Side>,
 }
 
-/// Bars that share their paints.
+/// Group of bars with the same paints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InkedBars {
-    /// Paints in source and target; `None` if the bars have no colour of their own.
+    /// Paints in source and target; `None` if the bars have no paint of their own.
     pub paints: [Option<Paint>; 2],
-    /// Indices of the bars.
+    /// Indices of the bars in the group.
     pub bars: Vec<usize>,
 }
 
 impl InkedBars {
-    /// Groups `count` bars by paint, in the order in which paints first occur, which is the drawing
-    /// order. Bars without an entry in `paints` have no colour of their own.
+    /// Groups the bars `0..count` by their paints. The groups are in the order in which their
+    /// paints first occur, which is the drawing order. Bars without an entry in `paints` have no
+    /// paint of their own.
     #[must_use]
     pub fn grouped_by_paint(count: usize, paints: &[[Option<Paint>; 2]]) -> Vec<Self> {
         let mut groups: Vec<Self> = Vec::new();
-        // A map keeps this linear: when colours show forces, there may be as many paints as bars.
+        // The map keeps the time linear: when colours show forces, there may be as many paints as
+        // bars.
         let mut group_of_paints = HashMap::new();
         for bar in 0..count {
             let paints = paints.get(bar).copied().unwrap_or_default();
@@ -104,18 +108,19 @@ impl InkedBars {
     }
 }
 
-/// A part that exists in only one design and grows from, or shrinks to, a seed shape.
+/// Part that exists in only one design and grows from, or shrinks to, a seed shape (a tiny copy of
+/// itself).
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeedShape {
-    /// Indices of its boundary loops.
+    /// Indices of the part's boundary loops.
     pub loop_indices: Vec<usize>,
-    /// Time window in which its size changes.
+    /// Time window in which the part's size changes.
     pub window: TimeWindow,
 }
 
 impl SolidContent {
-    /// Returns the visible rings at `t`: first the boundary loops, then the swelling parts, then
-    /// the holes. `places` are the vertex positions at `t`.
+    /// Returns the rings that are drawn at `t`: first the boundary loops, then the rings of
+    /// swelling parts, then the holes. `places` contains the vertex positions at `t`.
     ///
     /// # Panics
     /// Panics if a loop uses a vertex that has no position.
@@ -125,7 +130,8 @@ impl SolidContent {
         inked.map(|ring| ring.points).collect()
     }
 
-    /// Returns the boundary loops of the parts that both designs have.
+    /// Returns the boundary loops of the parts that both designs have, for the vertex positions
+    /// `places`.
     ///
     /// # Panics
     /// Panics if a loop uses a vertex that has no position.
@@ -145,10 +151,10 @@ impl SolidContent {
             .collect()
     }
 
-    /// Returns the rings of [`Self::rings_at`], each with its paint layer and group key.
+    /// Returns the rings of [`Self::rings_at`], each with its paint layer and the key of its group.
     fn painted_rings_at(&self, places: &[DVec2], t: f64) -> Vec<PaintedRing> {
         let stack = self.paint_layers.as_ref();
-        let fading = stack.filter(|all| all.fades);
+        let fading = stack.filter(|all| all.fades_unmatched);
         let loop_ring = |loop_index: usize, points: Vec<DVec2>| PaintedRing {
             layer: stack.map_or(0, |all| all.of_loops[loop_index]),
             key: InkKey {
@@ -168,7 +174,7 @@ impl SolidContent {
             let rings = self.swollen_rings(swell, places, t).into_iter();
             rings.map(move |ring| loop_ring(loop_index, ring))
         });
-        // Parts with holes of only one design exist in both designs, so their holes do not fade.
+        // A transient hole belongs to a part that exists in both designs. Such parts do not fade.
         let hole_ring = |(hole, points): (usize, Vec<DVec2>)| PaintedRing {
             layer: stack.map_or(0, |all| all.of_holes[hole]),
             key: InkKey {
@@ -188,7 +194,7 @@ impl SolidContent {
         loops.chain(swells).chain(holes.map(hole_ring)).collect()
     }
 
-    /// Time that the clock of a boundary loop shows at `t`.
+    /// Time that the clock of a boundary loop shows at the transition's `t`.
     fn loop_time(&self, loop_index: usize, t: f64) -> f64 {
         let clocks = self.part_clocks.as_ref();
         clocks.map_or(t, |clocks| {
@@ -196,7 +202,7 @@ impl SolidContent {
         })
     }
 
-    /// Time that the clock of a hole shows at `t`.
+    /// Time that the clock of a hole shows at the transition's `t`.
     fn hole_time(&self, hole: usize, t: f64) -> f64 {
         let clocks = self.part_clocks.as_ref();
         clocks.map_or(t, |clocks| {
@@ -204,15 +210,16 @@ impl SolidContent {
         })
     }
 
-    /// Time that the clock of a part with these boundary loops shows at `t`.
+    /// Time that the clock of the part with the given boundary loops shows at the transition's `t`.
     fn part_time(&self, loops: &[usize], t: f64) -> f64 {
         loops
             .first()
             .map_or(t, |&loop_index| self.loop_time(loop_index, t))
     }
 
-    /// Returns the rings at `t` by paint layer, lowest layer first; a solid in one colour has one
-    /// group. Rings of a layer whose clocks or fading differ form separate groups.
+    /// Returns the rings that are drawn at `t` by paint layer, the lowest layer first. Rings of the
+    /// same layer are in separate groups if their clocks or their fading differ. A solid in a
+    /// single colour has one group.
     ///
     /// # Panics
     /// Panics if a loop uses a vertex that has no position.
@@ -234,9 +241,9 @@ impl SolidContent {
         }
         let layer_groups = |layer: usize| {
             let mut groups = std::mem::take(&mut groups_by_layer[layer]);
-            if self.part_clocks.is_none() && !stack.fades {
-                // Without clocks and fading, callers expect each layer exactly once, even if it is
-                // empty.
+            if self.part_clocks.is_none() && !stack.fades_unmatched {
+                // Without clocks and fading, callers expect exactly one group for each layer, even
+                // an empty one.
                 groups.entry(InkKey::default()).or_default();
             }
             groups.into_iter().map(move |(key, rings)| {
@@ -262,8 +269,8 @@ impl SolidContent {
             .collect()
     }
 
-    /// Returns the crossings between rings of [`Self::rings_at`] in the same paint layer. Rings of
-    /// different layers may overlap.
+    /// Returns the crossings between rings of the same paint layer; the indices of rings are those
+    /// in [`Self::rings_at`]. Rings of different layers may overlap.
     ///
     /// # Panics
     /// Panics if a loop uses a vertex that has no position.
@@ -290,7 +297,7 @@ impl SolidContent {
         (0..stack.layers.len()).flat_map(layer_crossings).collect()
     }
 
-    /// Counts the crossings between rings of the same paint layer.
+    /// Counts the crossings between rings of the same paint layer at `t`.
     ///
     /// # Panics
     /// Panics if a loop uses a vertex that has no position.
@@ -307,7 +314,7 @@ impl SolidContent {
             .sum()
     }
 
-    /// Points of a boundary loop.
+    /// Positions of a boundary loop's vertices.
     fn loop_at(&self, loop_index: usize, places: &[DVec2]) -> Vec<DVec2> {
         self.loops[loop_index]
             .iter()
@@ -315,7 +322,8 @@ impl SolidContent {
             .collect()
     }
 
-    /// Indices of the boundary loops that are drawn unchanged at `t`.
+    /// Indices of the boundary loops that are drawn at `t` as they are: neither absent nor replaced
+    /// by a swelling part.
     fn unchanged_loops(&self, t: f64) -> impl Iterator<Item = usize> {
         let swelling = self.swelling(t).flat_map(SwellingShape::loop_indices);
         let absent = self
@@ -330,7 +338,7 @@ impl SolidContent {
         (0..self.loops.len()).filter(move |loop_index| !replaced.contains(loop_index))
     }
 
-    /// Parts that have not reached their full thickness at `t`.
+    /// Swelling parts that have not reached their full thickness at `t`.
     fn swelling(&self, t: f64) -> impl Iterator<Item = &SwellingShape> {
         let swells = self.swelling_shapes.iter();
         swells.filter(move |swell| {
@@ -338,14 +346,14 @@ impl SolidContent {
         })
     }
 
-    /// Whether a part grown from a seed shape is absent at `t`.
+    /// Returns whether a part that grows from a seed shape is absent at `t`.
     fn is_absent(&self, shape: &SeedShape, t: f64) -> bool {
         shape
             .window
             .is_absent(self.part_time(&shape.loop_indices, t))
     }
 
-    /// Rings of a swelling part at `t`; empty while it is absent.
+    /// Rings of a swelling part at `t`; empty while the part is absent.
     fn swollen_rings(&self, swell: &SwellingShape, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let first = swell.loop_indices().first();
         let first = first.map(|&loop_index| self.loop_at(loop_index, places));
@@ -355,11 +363,12 @@ impl SolidContent {
         )
     }
 
-    /// Returns the vertices that carry an edge of [`Self::rings_at`]: the two ends for an edge of a
-    /// boundary loop, the corners of the host face for an edge of a hole.
+    /// Returns the vertices with which an edge of [`Self::rings_at`] moves: for an edge of a
+    /// boundary loop its two ends, for an edge of a hole the corners of the face on which the
+    /// edge's first point lies. `None` if the edge has no such vertices.
     ///
-    /// Edges of a swelling part lie in no face; for them the first edge of the part's outline
-    /// stands in.
+    /// An edge of a swelling part lies in no face. The first edge of the part's outer boundary loop
+    /// stands in for it.
     pub(crate) fn face_vertices_at(
         &self,
         edge: RingEdge,
@@ -386,11 +395,12 @@ impl SolidContent {
             }
             ring -= rings;
         }
-        let mut holes = self.holes_at(t).filter(|(_, is_gone)| !is_gone);
+        let mut holes = self.holes_at(t).filter(|(_, is_absent)| !is_absent);
         Some(holes.nth(ring)?.0.host_face(point).to_vec())
     }
 
-    /// Number of rings that are absent at `t`: boundary loops of transient parts, and holes.
+    /// Number of rings that are absent at `t`: boundary loops of parts that exist in only one
+    /// design, and holes.
     pub(crate) fn absent_ring_count(&self, t: f64) -> usize {
         let thickness = |swell: &SwellingShape| {
             swell.thickness_fraction(self.part_time(swell.loop_indices(), t))
@@ -407,16 +417,16 @@ impl SolidContent {
             .map(|swell| swell.loop_indices().len())
             .chain(seed_shapes.map(|shape| shape.loop_indices.len()))
             .sum();
-        self.holes_at(t).filter(|(_, is_gone)| *is_gone).count() + transient_loops
+        self.holes_at(t).filter(|(_, is_absent)| *is_absent).count() + transient_loops
     }
 
-    /// All holes, each with whether it is absent at `t`.
+    /// All holes, each with a flag that tells whether it is absent at `t`.
     fn holes_at(&self, t: f64) -> impl Iterator<Item = (&TransientHole, bool)> {
         let holes = self.holes.iter().enumerate();
         holes.map(move |(k, hole)| (hole, hole.is_absent(self.hole_time(k, t))))
     }
 
-    /// Returns the end points of all bars at the given vertex positions.
+    /// Returns the two end points of every bar, for the vertex positions `places`.
     ///
     /// # Panics
     /// Panics if a bar ends at a vertex that has no position.

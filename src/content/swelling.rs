@@ -1,28 +1,28 @@
-//! Swelling shapes: parts that exist in only one design and enter as thin lines that swell to their
-//! full shape.
+//! Swelling shapes: parts that exist in only one design and enter as thin lines, which swell to the
+//! full shape of the part.
 //!
-//! A swelling shape is an inset of its own outline, so it never leaves that outline and cannot
-//! collide with anything outside it.
+//! A swelling shape is an inset of the part's own outline: its boundary is moved inwards. It
+//! therefore never leaves that outline and cannot collide with anything outside it.
 
 use crate::geometry::{DVec2, inradius, inset};
 use crate::warp::TimeWindow;
 
-/// Part of one design that swells. It is drawn instead of some boundary loops.
+/// Part of one design that swells. It is drawn instead of the part's boundary loops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SwellingShape {
-    /// Indices of the boundary loops that it replaces. The first one encloses the others.
+    /// Indices of the boundary loops that the part replaces. The first one encloses the others.
     loop_indices: Vec<usize>,
     /// Rings of the full shape, relative to the mean of the points of the first ring.
     rings: Vec<Vec<DVec2>>,
-    /// Inset depth at which nothing is left, in units of the design.
+    /// Inset depth at which nothing of the shape is left, in units of the design.
     depth: f64,
-    /// Time window in which it swells.
+    /// Time window in which the part swells.
     window: TimeWindow,
 }
 
 impl SwellingShape {
-    /// Creates a part that replaces the boundary loops with the indices `loop_indices`. `rings` are
-    /// the same loops in the design that has the part, the outer one first.
+    /// Creates a part that replaces the boundary loops with the indices `loop_indices`. `rings`
+    /// contains the same loops as they are in the design that has the part, the outer one first.
     #[must_use]
     pub fn new(loop_indices: Vec<usize>, rings: &[Vec<DVec2>], window: TimeWindow) -> Self {
         let middle = rings.first().map_or(DVec2::ZERO, |ring| mean_point(ring));
@@ -35,18 +35,19 @@ impl SwellingShape {
         }
     }
 
-    /// Indices of the boundary loops that it replaces.
+    /// Indices of the boundary loops that the part replaces.
     pub(crate) fn loop_indices(&self) -> &[usize] {
         &self.loop_indices
     }
 
-    /// Fraction of its full thickness at `t`, from 0 to 1.
+    /// Fraction of the part's full thickness at the part's own time `t`, from 0 to 1.
     pub(crate) fn thickness_fraction(&self, t: f64) -> f64 {
         self.window.size(t)
     }
 
-    /// Returns its rings at `t`; empty while it is absent. `first_loop` are the positions of its
-    /// first boundary loop at `t`, whose mean point places the shape.
+    /// Returns the rings of the part at its own time `t`; none while it is absent. `first_loop`
+    /// contains the positions of the part's first boundary loop at that time; their mean places the
+    /// shape.
     #[must_use]
     pub fn rings_at(&self, first_loop: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let fraction = self.thickness_fraction(t);
@@ -62,7 +63,7 @@ impl SwellingShape {
 
 /// Returns the mean of some points; zero if there are none.
 pub(crate) fn mean_point(points: &[DVec2]) -> DVec2 {
-    // Relative to the first point, so that points far from the origin lose no digits.
+    // The sum is relative to the first point, so that points far from the origin lose no digits.
     let reference = points.first().copied().unwrap_or_default();
     let sum: DVec2 = points.iter().map(|&p| p - reference).sum();
     reference + sum / points.len().max(1) as f64
@@ -87,7 +88,7 @@ mod tests {
         };
         let frame = SwellingShape::new(vec![3, 4], &[ring(4.0), hole], window);
         let away = DVec2::new(10.0, 0.0);
-        // A tiny ring, as where the part is absent: only its mean point matters.
+        // A tiny ring, as the loop is where the part is absent. Only its mean matters.
         let tiny_loop: Vec<DVec2> = ring(0.01).into_iter().map(|p| p + away).collect();
         assert!(frame.rings_at(&tiny_loop, 0.5).is_empty());
         let half = frame.rings_at(&tiny_loop, 2.0 / 3.0);

@@ -1,35 +1,37 @@
-//! Holes that exist in only one design.
+//! Transient holes: holes that exist in only one design.
 //!
-//! The warp ignores such a hole: the mesh covers it, and the hole is drawn on the faces that cover
-//! it and moves with them. In its own design it equals the drawn ring bit for bit; towards the
-//! other design it shrinks about the mean of its points until it disappears.
+//! The mesh covers such a hole with faces, and the warp ignores it. The hole is drawn on the faces
+//! that cover it and moves with them. In the design that has the hole, the ring is that of the
+//! design bit for bit. Towards the other design it shrinks about the mean of its points until it
+//! disappears.
 
 use crate::geometry::{DVec2, Side, signed_area};
 use crate::warp::TimeWindow;
 
-/// A hole of one design, attached to the faces of a placement.
+/// Hole of one design, attached to the faces of a placement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransientHole {
-    /// Ring in the design that has the hole, clockwise.
+    /// Ring of the hole in the design that has it, clockwise.
     ring: Vec<DVec2>,
-    /// Position of each ring point in the faces.
+    /// For each point of the ring, its position on the faces.
     hosts: Vec<HostFaces>,
-    /// Time window in which its size changes.
+    /// Time window in which the hole's size changes.
     pub(crate) window: TimeWindow,
 }
 
-/// A point given by barycentric coordinates in a face.
+/// Point on a face, given by barycentric coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct HostFaces {
-    /// Vertex indices of the face.
+    /// Vertex indices of the face's corners.
     face: [u32; 3],
-    /// Barycentric coordinates, which sum to 1.
+    /// Barycentric coordinates of the point, which sum to 1.
     weights: [f64; 3],
 }
 
 impl HostFaces {
-    /// Attaches `p` to the first face that contains it or else to the face whose smallest
-    /// barycentric coordinate is largest; `None` if no face has area.
+    /// Attaches the point `p` to the first face that contains it. If no face does, it is attached
+    /// to the face whose smallest barycentric coordinate of `p` is largest. `None` if no face has
+    /// area.
     fn of(p: DVec2, faces: &[[u32; 3]], places: &[DVec2]) -> Option<Self> {
         let mut best: Option<(f64, Self)> = None;
         for &face in faces {
@@ -48,7 +50,7 @@ impl HostFaces {
                 break;
             }
         }
-        // Faces without area give NaN or infinite coordinates.
+        // A face without area gives coordinates that are NaN or infinite.
         best.filter(|(min_weight, _)| min_weight.is_finite())
             .map(|(_, host)| host)
     }
@@ -57,21 +59,21 @@ impl HostFaces {
     fn at(&self, places: &[DVec2]) -> DVec2 {
         let Self { face, weights } = self;
         let corners = face.map(|v| places[v as usize]);
-        // Summed relative to the first corner: far from the origin, a sum of absolute positions
-        // loses digits.
+        // The sum is relative to the first corner. Far from the origin, a sum of absolute positions
+        // would lose digits.
         let [_, v, w] = *weights;
         corners[0] + v * (corners[1] - corners[0]) + w * (corners[2] - corners[0])
     }
 }
 
 impl TransientHole {
-    /// Ring in the design that has the hole.
+    /// Ring of the hole in the design that has it.
     pub(crate) fn design_ring(&self) -> &Vec<DVec2> {
         &self.ring
     }
 
-    /// Creates a hole of the design that `window` names, drawn on `faces`. `places` are the vertex
-    /// positions in that design. Returns `None` if the faces have no area.
+    /// Creates a hole of the design `window.side`, drawn on `faces`. `ring` contains its points in
+    /// that design, `places` the vertex positions there. Returns `None` if no face has area.
     ///
     /// # Panics
     /// Panics if a face has a vertex without a position.
@@ -90,35 +92,37 @@ impl TransientHole {
         })
     }
 
-    /// Design that has the hole.
+    /// The design that has the hole.
     #[must_use]
     pub fn side(&self) -> Side {
         self.window.side
     }
 
-    /// Ratio of the area of the unshrunk hole at `places` to its area in its design.
+    /// Area of the hole on its faces, before it shrinks, when the vertices are at `places`; as a
+    /// multiple of its area in its design.
     pub(crate) fn area_ratio(&self, places: &[DVec2]) -> f64 {
         let ring: Vec<DVec2> = self.hosts.iter().map(|host| host.at(places)).collect();
         signed_area(&ring) / signed_area(&self.ring)
     }
 
-    /// Area in its design, positive.
+    /// Area of the hole in its design, positive.
     pub(crate) fn area(&self) -> f64 {
         signed_area(&self.ring).abs()
     }
 
-    /// Face that contains a ring point.
+    /// Vertex indices of the face on which a point of the ring lies, given by its index in the
+    /// ring.
     pub(crate) fn host_face(&self, point: usize) -> [u32; 3] {
         self.hosts[point].face
     }
 
-    /// Whether the hole is absent at `t`.
+    /// Returns whether the hole is absent at its own time `t`.
     pub(crate) fn is_absent(&self, t: f64) -> bool {
         self.window.is_absent(t)
     }
 
-    /// Returns its ring at `t`, clockwise; `None` while it is absent. `places` are the vertex
-    /// positions at `t`.
+    /// Returns the ring of the hole at its own time `t`, clockwise; `None` while the hole is
+    /// absent. `places` contains the vertex positions at that time.
     ///
     /// # Panics
     /// Panics if a face has a vertex without a position.
@@ -135,7 +139,7 @@ impl TransientHole {
     }
 }
 
-/// Scales a ring by `size` about the mean of its points.
+/// Scales a ring by the factor `size` about the mean of its points.
 fn scale_about_mean(mut ring: Vec<DVec2>, size: f64) -> Vec<DVec2> {
     let reference = ring[0];
     let sum: DVec2 = ring.iter().map(|&p| p - reference).sum();
@@ -155,7 +159,7 @@ mod tests {
             .to_vec()
     }
 
-    /// A square of two faces with a hole in its middle.
+    /// A square hole in the middle of a square of two faces, and the vertex positions.
     fn hole(side: Side) -> (TransientHole, Vec<DVec2>) {
         let mut places = square(2.0);
         places.reverse();

@@ -1,18 +1,19 @@
 //! Matches the points of two closed boundaries.
 //!
-//! Both curves are sampled by arc length with their corners included. Samples are compared by
-//! [`super::features`], and the cheapest closed path through all pairs of samples is found over all
-//! starting points (Maes 1990). The first search ignores rotation; the rotations of its best few
-//! paths become the poses for which tangents and positions are compared too. The resulting path is
-//! then made strictly monotone with evenly distributed stretch.
+//! Both curves are sampled by arc length with their corners included. Samples are compared by their
+//! [`super::features`]. A cyclic dynamic program finds the cheapest closed path on the torus of all
+//! sample pairs, over all starting points (Maes 1990). The first search compares only features that
+//! do not depend on rotation. Its best few paths suggest rotations of one design onto the other
+//! (poses); for each pose, a further search compares tangents and positions too. The best path is
+//! then made strictly monotone, with evenly distributed stretch.
 //!
 //! Guarantees: the match is strictly monotone in both directions, goes around once, satisfies each
 //! pin exactly and is deterministic. The match from B to A is the bitwise inverse of the match from
-//! A to B, because each pair is solved in one canonical order. Among equally good matches (a gear's
-//! symmetries) the one with the smallest rotation is chosen.
+//! A to B, because each pair is solved in one canonical order. Among equally good matches, such as
+//! those of a gear with itself, the one with the smallest rotation is chosen.
 //!
-//! Does not guarantee: that the rotation is the best of all, only of the few tried. Detail finer
-//! than the sample spacing is matched by arc length.
+//! Not guaranteed: that the rotation is the best of all; it is the best of the few that were tried.
+//! Details finer than the sample spacing are matched by arc length.
 
 use super::boundary_match::BoundaryMatch;
 use super::curve::BoundaryCurve;
@@ -22,7 +23,8 @@ use super::pins::{self, Pin};
 use crate::geometry::{DVec2, lexicographic};
 use std::cmp::Ordering;
 
-/// Matches two closed boundaries that run in the same direction.
+/// Matches two closed boundaries that run in the same direction. The match satisfies each of `pins`
+/// exactly.
 ///
 /// # Errors
 /// [`MatchError`] for contradictory pins, opposite orientations, or options
@@ -44,10 +46,11 @@ pub fn match_curves(
     options: &MatchOptions,
 ) -> Result<BoundaryMatch, MatchError> {
     check(source, target, options)?;
-    let forward_pins = pins::ordered(pins, source, target)?;
+    let forward_pins = pins::sort_pins(pins, source, target)?;
     let swapped_pins: Vec<Pin> = pins.iter().map(|pin| pin.swapped()).collect();
-    let backward_pins = pins::ordered(&swapped_pins, target, source)?;
-    // Solve in canonical order and invert if needed: otherwise sums and ties would differ.
+    let backward_pins = pins::sort_pins(&swapped_pins, target, source)?;
+    // Solve every pair in one canonical order, and invert the result if needed. Otherwise rounding
+    // and ties would depend on the order of the arguments.
     if canonical_order(source, &forward_pins, target, &backward_pins) == Ordering::Greater {
         return Ok(
             CurveMatchProblem::new(target, source, backward_pins, options)
@@ -58,8 +61,8 @@ pub fn match_curves(
     Ok(CurveMatchProblem::new(source, target, forward_pins, options).solve([source, target]))
 }
 
-/// Compares two curves with their pins in a total order, which fixes the order in which a pair is
-/// solved.
+/// Compares two curves, each with its pins, in a total order. The smaller curve of a pair is always
+/// the source when the pair is solved.
 fn canonical_order(
     a: &BoundaryCurve,
     a_pins: &[[f64; 2]],

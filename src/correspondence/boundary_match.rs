@@ -1,12 +1,14 @@
-//! The match of two closed curves: a strictly monotone, piecewise linear map between their places.
+//! The match of two closed curves: a strictly monotone, piecewise linear map between their places
+//! (fractions of arc length).
 
 /// Map from the places (fractions of arc length) of one closed curve to those of another. It is
 /// linear between knots, strictly monotone in both directions, and goes around once.
 ///
-/// The match in the other direction is exactly [`Self::inverse`], bit by bit.
+/// The match in the other direction is exactly [`Self::inverse`], without rounding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryMatch {
-    /// Pairs of places, ascending in the source, cyclically ascending in the target.
+    /// Pairs of corresponding places `[source, target]`: ascending in the source, cyclically
+    /// ascending in the target.
     pub(super) knots: Vec<[f64; 2]>,
     pub(super) rotation: f64,
     pub(super) cost: f64,
@@ -14,22 +16,23 @@ pub struct BoundaryMatch {
 }
 
 impl BoundaryMatch {
-    /// Returns the knots, pairs of corresponding places `[source, target]`: ascending in the
-    /// source, and in the target up to a cyclic shift. There is at least one.
+    /// Returns the knots: pairs of corresponding places `[source, target]`. They ascend in the
+    /// source and, up to a cyclic shift, in the target. There is at least one.
     #[must_use]
     pub fn knots(&self) -> &[[f64; 2]] {
         &self.knots
     }
 
-    /// Returns the rotation that best aligns the matched source with the target about their centres
-    /// (least squares), in radians in (−π, π].
+    /// Returns the rotation of the source about its centre that best aligns it with the matched
+    /// target (least squares), in radians in (−π, π].
     #[must_use]
     pub fn rotation(&self) -> f64 {
         self.rotation
     }
 
-    /// Returns the dissimilarity of the matched curves, dimensionless: 0 for similar curves, up to
-    /// about 0.3 for two poses of one shape, 0.4 and more for dissimilar shapes.
+    /// Returns the dissimilarity of the matched curves, dimensionless: 0 for curves that are equal
+    /// up to a similarity, up to about 0.3 for two poses of one shape, 0.4 and more for dissimilar
+    /// shapes.
     #[must_use]
     pub fn cost(&self) -> f64 {
         self.cost
@@ -58,11 +61,11 @@ impl BoundaryMatch {
     }
 }
 
-/// Interpolates column `there` of the knots linearly, where column `here` equals `place`. The knots
-/// ascend in all columns.
+/// Returns the value of column `there` at which column `here` equals `place`, by linear
+/// interpolation between the knots. The knots ascend in all columns.
 ///
-/// A place before the first knot or after the last gives that knot's value.
-pub(super) fn interpolated<const N: usize>(
+/// Before the first knot and after the last one, returns that knot's value.
+pub(super) fn interpolate_knots<const N: usize>(
     knots: &[[f64; N]],
     place: f64,
     [here, there]: [usize; 2],
@@ -73,7 +76,7 @@ pub(super) fn interpolated<const N: usize>(
     let (from, to) = (knots[k - 1], knots[k]);
     let along = (place - from[here]) / (to[here] - from[here]);
     let (start, end) = (from[there], to[there]);
-    // Return the knot's value bit by bit where the place is at or beyond it.
+    // At a knot, and beyond the first or the last one, return the knot's value without rounding.
     if along >= 1.0 {
         end
     } else {

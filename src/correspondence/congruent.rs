@@ -1,41 +1,46 @@
-//! Registers curves that are nearly congruent up to a similarity, to within a fraction of a sample.
+//! Refines the match of two curves that a similarity maps almost onto each other, to an accuracy of
+//! a fraction of the sample spacing.
 //!
-//! A path through sample pairs is only as accurate as the sample spacing, and on smooth stretches
-//! only the weight of stretch determines it. For two versions of one design (traced again,
-//! simplified, or with other vertices) a better match exists: the similarity implied by the match
-//! lays one curve on the other, and each point belongs where it lands. This is the iterated closest
-//! point method (Besl, McKay 1992), restricted to the neighbourhood of the given match.
+//! A path through sample pairs is only as accurate as the sample spacing, and on smooth sections
+//! only the stretching cost determines it. For two versions of one design (traced again,
+//! simplified, or with other vertices) a better match exists: the similarity that best fits the
+//! given match maps one curve onto the other, and each point is matched with the point on which it
+//! lands. This is the iterated closest point method (Besl, McKay 1992), restricted to the
+//! neighbourhood of the given match.
 
 use super::curve::BoundaryCurve;
 use super::knot_order::{is_pin, ordered_knots};
 use crate::geometry::{DVec2, SimilarityFit};
 
-/// Maximum root mean square distance of matched points, in lengths of the target, at which curves
-/// count as nearly congruent (heuristic).
+/// Maximum root mean square distance between matched points after the best-fitting similarity at
+/// which two curves count as nearly congruent, as a fraction of the target's length (heuristic).
 const MAX_RESIDUAL: f64 = 0.012;
 
-/// Maximum shift of a knot along the target, in lengths of the target (heuristic).
+/// Maximum distance along the target by which a knot moves from its original place, as a fraction
+/// of the target's length (heuristic).
 const MAX_SHIFT: f64 = 0.025;
-/// Maximum distance of a transformed source point from the target, in lengths of the target
-/// (heuristic).
+/// Maximum distance at which a transformed source point is matched with its nearest target point,
+/// as a fraction of the target's length (heuristic).
 const MAX_DISTANCE: f64 = 0.01;
 
 /// Maximum number of registration rounds (resource limit).
 const MAX_ROUNDS: usize = 8;
 
-/// Half-length of the window over which directions are averaged, in fractions of a curve's length
-/// (heuristic).
+/// Half-length of the window over which a curve's direction is averaged, as a fraction of the
+/// curve's length (heuristic).
 const TANGENT_REACH: f64 = 0.005;
-/// Minimum cosine between directions that count as equal: 60° (heuristic).
+/// Minimum cosine of the angle between the curves' directions at two matched points: the angle is
+/// at most 60° (heuristic).
 const SAME_DIRECTION: f64 = 0.5;
 
-/// Knots that would move by less than this keep their place bit by bit, so that corners stay
-/// exactly on corners (tolerance: in fractions of the length, above rounding).
+/// Minimum shift of a knot, as a fraction of the target's length. A knot with a smaller shift keeps
+/// its exact place, so that corners stay on corners (tolerance: above rounding).
 const MIN_SHIFT: f64 = 1e-9;
 
-/// Moves the target place of each knot to where its source point lands under the best-fitting
-/// similarity. Returns `None` if the curves are not nearly congruent. `knots` ascend in the source;
-/// pins are fixed.
+/// Moves the target place of each knot to the place where its source point lands under the
+/// best-fitting similarity. `knots` ascend in the source; pins do not move. Returns `None` if no
+/// similarity maps the curves almost onto each other, or if half of the moved knots or more break
+/// the order.
 pub(super) fn registered_knots(
     knots: &[[f64; 2]],
     pins: &[[f64; 2]],
@@ -87,7 +92,7 @@ pub(super) fn registered_knots(
     }
     let registered: Vec<[f64; 2]> = knots.iter().zip(places).map(|(k, b)| [k[0], b]).collect();
     let monotone = ordered_knots(knots, &registered, pins);
-    // The registration has failed if half or more of the knots break monotonicity.
+    // The refinement has failed if half of the knots or more break monotonicity.
     (2 * monotone.len() > knots.len()).then_some(monotone)
 }
 

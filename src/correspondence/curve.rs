@@ -11,25 +11,27 @@
 use crate::geometry::{DVec2, Ring, nearest_segment_parameter, perimeter};
 use std::f64::consts::TAU;
 
-/// Bends smaller than this, in radians, count as straight (tolerance: far below one pixel over a
-/// screen's width; coordinates rounded to seven digits still count as straight).
+/// Smallest change of direction at a vertex that counts as a bend, in radians (tolerance: far below
+/// one pixel over a screen's width; straight lines with coordinates rounded to seven digits still
+/// count as straight).
 const MIN_BEND: f64 = 1e-5;
 
 /// A closed polyline parametrised by arc length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryCurve {
     points: Vec<DVec2>,
-    /// Place of each point, followed by 1.
+    /// Place of each point (fraction of the curve's length), followed by 1.
     places: Vec<f64>,
     /// Unwrapped direction of each edge, in radians.
     directions: Vec<f64>,
-    /// Integral of the direction over the place, from 0 to each point.
+    /// Integral of the direction with respect to the place: from place 0 to each point, and to
+    /// place 1.
     integral: Vec<f64>,
-    /// Change of direction in one round: 2π times the turning number.
+    /// Change of the direction over one round, in radians: 2π times the turning number.
     round: f64,
 }
 
-/// The length of a ring overflows or underflows floating point.
+/// Error: the length of a ring overflows or underflows floating point.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the outline is too large or too small to measure; scale it to an ordinary size")]
 pub struct CurveLengthError;
@@ -38,7 +40,7 @@ impl BoundaryCurve {
     /// Creates the curve along a closed boundary, in the ring's direction.
     ///
     /// # Errors
-    /// [`CurveLengthError`] if its length overflows or underflows.
+    /// [`CurveLengthError`] if the ring's length overflows or underflows.
     ///
     /// ```
     /// use morphospace::{correspondence::BoundaryCurve, geometry::{DVec2, Ring}};
@@ -76,13 +78,13 @@ impl BoundaryCurve {
         })
     }
 
-    /// Returns the points in order.
+    /// Returns the curve's vertices in order.
     #[must_use]
     pub fn points(&self) -> &[DVec2] {
         &self.points
     }
 
-    /// Returns the place of each point, in order, non-decreasing.
+    /// Returns the place of each vertex, in order, non-decreasing.
     #[must_use]
     pub fn places(&self) -> &[f64] {
         &self.places[..self.points.len()]
@@ -116,8 +118,8 @@ impl BoundaryCurve {
         }
     }
 
-    /// Returns the derivative of the point with respect to the place: the edge's direction times
-    /// the curve's length. It is zero on edges of zero length.
+    /// Returns the derivative of [`Self::point_at`] with respect to the place: the edge's unit
+    /// direction times the curve's length. It is zero on edges of zero length.
     pub(crate) fn velocity_at(&self, place: f64) -> DVec2 {
         let e = self.edge_at(self.wrapped(place));
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
@@ -129,7 +131,8 @@ impl BoundaryCurve {
         }
     }
 
-    /// Returns the place nearest to `p`, for example where a pin lands. Ties go to the first.
+    /// Returns the place of the curve's point that is nearest to `p`, for example to put a pin on
+    /// the curve. Among several nearest points, the first one counts.
     #[must_use]
     pub fn nearest(&self, p: DVec2) -> f64 {
         let mut best = (f64::INFINITY, 0.0);
@@ -139,8 +142,9 @@ impl BoundaryCurve {
         self.wrapped(best.1)
     }
 
-    /// Returns the place nearest to `p` between the unwrapped places `from` and `to`, and its
-    /// distance. Requires `from <= to`; only the first round is searched.
+    /// Returns the place, between the unwrapped places `from` and `to`, of the curve's point that
+    /// is nearest to `p`, and the distance of that point from `p`. Requires `from <= to`; at most
+    /// one round is searched.
     pub(super) fn nearest_within(&self, p: DVec2, from: f64, to: f64) -> (f64, f64) {
         let to = to.min(from + 1.0);
         let mut best = (f64::INFINITY, self.wrapped(from));
@@ -161,8 +165,9 @@ impl BoundaryCurve {
         (self.wrapped(best.1), best.0.sqrt())
     }
 
-    /// Compares `best` with the point of edge `e` nearest to `p`, restricted to the fractions from
-    /// `low` to `high` of the edge. Returns squared distance and place of the nearer one.
+    /// Returns the candidate nearer to `p`: `best`, or the nearest point of edge `e` between the
+    /// fractions `low` and `high` of the edge. A candidate is a squared distance from `p` and a
+    /// place.
     fn closer_candidate(
         &self,
         best: (f64, f64),
@@ -181,7 +186,8 @@ impl BoundaryCurve {
         }
     }
 
-    /// Returns the length, in the units of the points. It may overflow for huge coordinates.
+    /// Returns the length of the curve, in the units of the points. It may overflow for huge
+    /// coordinates.
     pub(super) fn length(&self) -> f64 {
         perimeter(&self.points)
     }
@@ -198,36 +204,38 @@ impl BoundaryCurve {
         if place < 1.0 { place } else { 0.0 } // rem_euclid rounds -1e-20 up to 1
     }
 
-    /// Returns the mean unwrapped direction over `[from, to]`, in radians.
+    /// Returns the mean unwrapped direction of the tangent between two unwrapped places, in
+    /// radians.
     pub(super) fn direction(&self, from: f64, to: f64) -> f64 {
         (self.direction_integral(to) - self.direction_integral(from)) / (to - from)
     }
 
-    /// Returns the turning at a place, in radians: the mean direction over `reach` after it minus
-    /// that before it.
+    /// Returns the turning at a place, in radians: the mean direction over the length `reach` after
+    /// the place, minus the mean direction over the same length before it.
     pub(super) fn turning(&self, place: f64, reach: f64) -> f64 {
         self.direction(place, place + reach) - self.direction(place - reach, place)
     }
 
-    /// Returns the integral of the unwrapped direction from place 0 to `place`, which may exceed
-    /// one round.
+    /// Returns the integral of the unwrapped direction from place 0 to `place`, which may lie
+    /// outside [0, 1).
     fn direction_integral(&self, place: f64) -> f64 {
         let rounds = place.floor();
         let partial = place - rounds;
         let whole = rounds * self.integral[self.directions.len()];
-        // In round k the direction is larger by k · `round`. Over whole rounds that sums to 0 + 1 +
-        // … + (rounds − 1); the last, partial round contributes `partial` of it.
+        // In round k the direction is larger by k · `round`. Over the whole rounds, these factors k
+        // sum to 0 + 1 + … + (rounds − 1); the partial last round, with k = rounds, adds rounds ·
+        // `partial`.
         let full_rounds = self.round * rounds * (partial + 0.5 * (rounds - 1.0));
         whole + full_rounds + self.integral_within(partial)
     }
 
-    /// Returns the same integral for a place within the first round.
+    /// Returns the integral of the unwrapped direction from place 0 to a place in [0, 1].
     fn integral_within(&self, place: f64) -> f64 {
         let e = self.edge_at(place);
         self.integral[e] + self.directions[e] * (place - self.places[e])
     }
 
-    /// Returns the index of the last edge that starts at or before the place.
+    /// Returns the index of the last edge that starts at or before a place in [0, 1].
     pub(super) fn edge_at(&self, place: f64) -> usize {
         let after = self.places.partition_point(|&start| start <= place);
         after.clamp(1, self.directions.len()) - 1

@@ -1,11 +1,11 @@
-//! The matching problem of two sampled curves: all data that a search needs, and the cheapest
-//! closed paths through the pairs of samples.
+//! The matching problem of two sampled curves: the data that every search needs, and the search for
+//! the cheapest closed paths on the grid of sample pairs.
 //!
-//! [`super::boundary`] lists the guarantees. Node indices are unwrapped over the seam: with n
-//! samples, index n is sample 0 one round later.
+//! [`super::boundary`] lists the guarantees. A node is a pair of sample indices `[source, target]`.
+//! The indices are unwrapped over the seam: with n samples, index n is sample 0 one round later.
 
 use super::curve::BoundaryCurve;
-use super::cyclic::all_starts;
+use super::cyclic::cheapest_path_per_start;
 use super::features::BoundaryFeatures;
 use super::inner_descriptors::InnerDescriptors;
 use super::options::MatchOptions;
@@ -13,8 +13,9 @@ use super::path_grid::{GridPath, PathBuffers, PathGrid};
 use super::samples::CurveSamples;
 use crate::geometry::DVec2;
 
-/// With at least this many samples, poses are pre-selected by a match with half as many, but no
-/// more than this, which takes at most a quarter of the time (heuristic).
+/// Minimum number of samples for which a coarse search pre-selects the poses (heuristic). The
+/// coarse search has half as many samples, and no more than this number; it takes at most a quarter
+/// of the time.
 const COARSE_SEARCH_SAMPLES: u32 = 96;
 
 /// Two sampled curves with their features, pins and weights.
@@ -23,26 +24,27 @@ pub(super) struct CurveMatchProblem {
     pub(super) target: CurveSamples,
     pub(super) source_features: BoundaryFeatures,
     pub(super) target_features: BoundaryFeatures,
-    /// Pairs of places, ascending in the source.
+    /// Pairs of places `[source, target]` that the user pinned, ascending in the source.
     pub(super) pins: Vec<[f64; 2]>,
-    /// Weight of stretch relative to bending.
+    /// Weight of the stretching cost relative to the bending cost (see [`PathGrid`]).
     stretch: f64,
-    /// Weight of differing thickness.
+    /// Weight of differences in the shapes' thickness.
     pub(super) thickness: f64,
-    /// Whether directions are compared as drawn.
+    /// Whether directions are compared as drawn, without a search for a rotation.
     pub(super) keep_up: bool,
-    /// Weight of differing inner distances.
+    /// Weight of differences in inner distances.
     pub(super) inner_weight: f64,
-    /// Inner distances of both curves; `None` if their weight is zero, or if a curve has no inside.
-    pub(super) inner: Option<[InnerDescriptors; 2]>,
+    /// Inner distances of source and target; `None` if their weight is zero, or if a curve has no
+    /// inside.
+    pub(super) inner_descriptors: Option<[InnerDescriptors; 2]>,
     /// The same problem with fewer samples, which selects the poses that are worth a full search.
     /// `None` if the full search is small.
     pub(super) coarse: Option<Box<Self>>,
 }
 
 impl CurveMatchProblem {
-    /// Samples both curves and computes their features. The pins are ordered as returned by
-    /// [`super::pins::ordered`].
+    /// Samples both curves and computes their features. `pins` must be in the order in which
+    /// [`super::pins::sort_pins`] returns them.
     pub fn new(
         source: &BoundaryCurve,
         target: &BoundaryCurve,
@@ -60,7 +62,7 @@ impl CurveMatchProblem {
         };
         Self {
             inner_weight: options.inner,
-            inner: inner(source, &a).zip(inner(target, &b)).map(<[_; 2]>::from),
+            inner_descriptors: inner(source, &a).zip(inner(target, &b)).map(<[_; 2]>::from),
             source_features: BoundaryFeatures::of(source, &a),
             target_features: BoundaryFeatures::of(target, &b),
             source: a,
@@ -80,8 +82,8 @@ impl CurveMatchProblem {
         }
     }
 
-    /// Calls `visit` with the cost and the nodes of the cheapest path from each start. With pins
-    /// there is only one path, through all of them.
+    /// Calls `visit` with the cost and the nodes of the cheapest path from each starting sample.
+    /// With pins there is only one path: the cheapest one through all pinned nodes.
     pub(super) fn visit_paths(
         &self,
         dissimilarities: &[f64],
@@ -94,7 +96,7 @@ impl CurveMatchProblem {
             for pair in fixed.windows(2) {
                 let grid = self.grid(dissimilarities, pair[0], pair[1]);
                 let width = grid.source.len() - 1;
-                let route = (grid.step_costs()).shortest(
+                let route = (grid.step_costs()).cheapest_path(
                     [0, width],
                     |_| [0, width],
                     &mut PathBuffers::default(),
@@ -107,13 +109,13 @@ impl CurveMatchProblem {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         // Two rounds of the source, so that a path may begin at any of its samples.
         let grid = self.grid(dissimilarities, [0, 0], [2 * n, m]);
-        for route in all_starts(&grid.step_costs(), n) {
+        for route in cheapest_path_per_start(&grid.step_costs(), n) {
             visit(route.cost, &|| route.nodes());
         }
     }
 
-    /// Returns the pinned nodes, ascending, from the first to the same node one round later; empty
-    /// without pins.
+    /// Returns the pinned nodes in ascending order, followed by the first of them again, one round
+    /// later. The list is empty without pins.
     pub(super) fn fixed_nodes(&self) -> Vec<[usize; 2]> {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let node =
@@ -121,7 +123,7 @@ impl CurveMatchProblem {
         let mut nodes: Vec<[usize; 2]> = self.pins.iter().filter_map(node).collect();
         if let Some(&first) = nodes.first() {
             for node in &mut nodes {
-                // Unwrapped over the target's seam, so that they ascend.
+                // Unwrap the target's indices over the seam, so that the nodes ascend.
                 if node[1] < first[1] {
                     node[1] += m;
                 }
@@ -131,7 +133,8 @@ impl CurveMatchProblem {
         nodes
     }
 
-    /// Returns the grid of sample pairs between two nodes, both included.
+    /// Returns the part of the grid between two nodes, both included. `dissimilarities` has one row
+    /// for each target sample.
     pub(super) fn grid(
         &self,
         dissimilarities: &[f64],
@@ -145,23 +148,27 @@ impl CurveMatchProblem {
             window.extend((from[0]..=to[0]).map(|i| row[i % n]));
         }
         PathGrid {
-            source: (from[0]..=to[0]).map(|i| self.source.unrolled(i)).collect(),
-            target: (from[1]..=to[1]).map(|j| self.target.unrolled(j)).collect(),
+            source: (from[0]..=to[0])
+                .map(|i| self.source.unwrapped_place(i))
+                .collect(),
+            target: (from[1]..=to[1])
+                .map(|j| self.target.unwrapped_place(j))
+                .collect(),
             dissimilarity: window,
             stretch: self.stretch,
         }
     }
 
-    /// Returns the rotation that best aligns the source's matched points with the target's, in
-    /// radians (least squares, weighted by arc length).
+    /// Returns the rotation of the source about its centre that best aligns its matched points with
+    /// the target's, in radians (least squares, weighted by arc length).
     pub(super) fn rotation(&self, nodes: &[[usize; 2]]) -> f64 {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let mut direction = DVec2::ZERO;
         for step in nodes.windows(2) {
             let [[a, b], [i, j]] = [step[0], step[1]];
-            let length = self.source.unrolled(i) - self.source.unrolled(a)
-                + self.target.unrolled(j)
-                - self.target.unrolled(b);
+            let length = self.source.unwrapped_place(i) - self.source.unwrapped_place(a)
+                + self.target.unwrapped_place(j)
+                - self.target.unwrapped_place(b);
             for [i, j] in [[a, b], [i, j]] {
                 let p = self.source_features.position(i % n);
                 let q = self.target_features.position(j % m);
@@ -177,7 +184,8 @@ impl CurveMatchProblem {
     }
 }
 
-/// Returns the nodes of a route, translated from its grid, which starts at node `from`.
+/// Returns the nodes of a route as nodes of the whole problem. The route's own grid starts at node
+/// `from`.
 fn translated_nodes(route: &GridPath, from: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
     let nodes = route.nodes().into_iter();
     nodes.map(move |[i, j]| [i + from[0], j + from[1]])

@@ -1,23 +1,25 @@
-//! The cheapest closed path through the torus of sample pairs, for every starting point.
+//! Finds the cheapest closed path on the torus of sample pairs for every starting sample.
 //!
-//! Follows Maes 1990, "On a cyclic string-to-string correction problem". The source is unrolled
-//! twice, so a closed path runs from column k of the first row to column k + n of the last.
-//! Cheapest paths of different k need not cross: the path of k lies between those of a smaller and
-//! a larger one. Bisecting the range of k therefore solves all n in O(n m log n). Every closed path
-//! of unit steps visits the first row, so none is missed.
+//! Follows Maes 1990, "On a cyclic string-to-string correction problem". Columns are the n source
+//! samples, rows the m target samples. The source is unrolled twice, so a closed path that starts
+//! at source sample k runs from column k of the first row to column k + n of the last row. The
+//! cheapest paths of different k can be chosen so that they do not cross: the path of k lies
+//! between those of a smaller and a larger k. Bisecting the range of k therefore solves all n
+//! starts in O(n m log n). Every closed path of unit steps visits the first row, so none is missed.
 //!
-//! Guarantees: the cost of each k is the minimum over all paths that start there. Ties between
-//! equally cheap paths are broken deterministically but arbitrarily.
+//! Guarantees: the path of each k has minimum cost among all closed paths that start there. Ties
+//! between equally cheap paths are broken deterministically but arbitrarily.
 
 use super::path_grid::{GridPath, PathBuffers, StepCosts};
 
-/// Ranges of at most this many starts are solved on one thread (heuristic).
+/// Maximum number of starting columns in each half of a range for which one thread solves both
+/// halves (heuristic).
 const MAX_SEQUENTIAL_STARTS: usize = 16;
 
-/// Returns the cheapest path of each starting column 0 ≤ k < n. The grid has at least 2n columns,
-/// and one row for each target sample plus the first again.
-pub(super) fn all_starts(costs: &StepCosts, n: usize) -> Vec<GridPath> {
-    let first = costs.shortest([0, n], |_| [0, n], &mut PathBuffers::default());
+/// Returns the cheapest path of each starting column 0 ≤ k < n. The grid has at least 2n columns.
+/// It has one row for each target sample, and the first row again at the end.
+pub(super) fn cheapest_path_per_start(costs: &StepCosts, n: usize) -> Vec<GridPath> {
+    let first = costs.cheapest_path([0, n], |_| [0, n], &mut PathBuffers::default());
     let mut between = vec![None; n.saturating_sub(1)];
     // Start n is start 0 one round later.
     let last = first.shifted(n);
@@ -33,7 +35,8 @@ pub(super) fn all_starts(costs: &StepCosts, n: usize) -> Vec<GridPath> {
     first.chain(between.into_iter().flatten()).collect()
 }
 
-/// Solves the starts after `left`, which lie strictly between two solved ones.
+/// Solves the starting columns after `left`, one for each entry of `between`. `lower` and `upper`
+/// are the paths from the starts just before and just after them.
 fn bisect(
     costs: &StepCosts,
     n: usize,
@@ -47,9 +50,10 @@ fn bisect(
     }
     let half = between.len() / 2;
     let middle = left + 1 + half;
-    // Cheapest paths need not cross, so the search is limited to the strip between its neighbours.
+    // Cheapest paths need not cross, so the search is limited to the strip between `lower` and
+    // `upper`.
     let window = |j: usize| [lower.rows[j][0], upper.rows[j][1]];
-    let route = costs.shortest([middle, middle + n], window, scratch);
+    let route = costs.cheapest_path([middle, middle + n], window, scratch);
     let (left_starts, right_starts) = between.split_at_mut(half);
     if half > MAX_SEQUENTIAL_STARTS {
         rayon::join(
@@ -111,7 +115,7 @@ mod tests {
         (grid, n)
     }
 
-    /// Returns the first `count` partial sums of the repeated gaps.
+    /// Returns 0 and the first `count` partial sums of the gaps, which are repeated cyclically.
     fn sums(gaps: &[f64], count: usize) -> Vec<f64> {
         let mut sum = 0.0;
         let mut places = vec![0.0];
@@ -125,10 +129,10 @@ mod tests {
     proptest! {
         #[test]
         fn every_start_costs_as_much_as_when_solved_separately((grid, n) in torus()) {
-            let routes = all_starts(&grid.step_costs(), n);
+            let routes = cheapest_path_per_start(&grid.step_costs(), n);
             prop_assert_eq!(routes.len(), n);
             for (k, route) in routes.iter().enumerate() {
-                let plain = grid.step_costs().shortest([k, k + n], |_| [k, k + n], &mut PathBuffers::default());
+                let plain = grid.step_costs().cheapest_path([k, k + n], |_| [k, k + n], &mut PathBuffers::default());
                 prop_assert!((route.cost - plain.cost).abs() <= 1e-12 * (1.0 + plain.cost));
                 prop_assert_eq!(route.rows[0][0], k);
                 prop_assert_eq!(route.rows.last().map(|row| row[1]), Some(k + n));
@@ -146,7 +150,7 @@ mod tests {
             let (there, _) = unrolled(&a, &b, &(0..n * m).map(|k| at(k % n, k / n)).collect::<Vec<_>>(), 0.5);
             let (back, _) = unrolled(&b, &a, &(0..n * m).map(|k| at(k / m, k % m)).collect::<Vec<_>>(), 0.5);
             let min_cost = |routes: Vec<GridPath>| routes.iter().map(|r| r.cost).fold(f64::INFINITY, f64::min);
-            let (c, d) = (min_cost(all_starts(&there.step_costs(), n)), min_cost(all_starts(&back.step_costs(), m)));
+            let (c, d) = (min_cost(cheapest_path_per_start(&there.step_costs(), n)), min_cost(cheapest_path_per_start(&back.step_costs(), m)));
             prop_assert!((c - d).abs() <= 1e-12 * (1.0 + c));
         }
     }

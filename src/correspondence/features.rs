@@ -1,9 +1,9 @@
 //! Local features by which boundary samples are compared.
 //!
-//! Turning over three window lengths, and the thickness of the shape behind a point, do not depend
-//! on rotation. If a *pose* (the rotation of one design onto the other) is given, the tangent's
-//! direction and the position relative to the centre are compared as well. These distinguish places
-//! that bend alike, such as the fingers of a hand.
+//! Two features do not depend on rotation: the turning of the tangent over three window lengths,
+//! and the thickness of the shape at the point. If a *pose* (the rotation of one design onto the
+//! other) is given, the tangent's direction and the position relative to the centre are compared as
+//! well. These two distinguish places that bend alike, such as the fingers of a hand.
 
 use super::curve::BoundaryCurve;
 use super::samples::CurveSamples;
@@ -16,8 +16,8 @@ use std::f64::consts::PI;
 /// tail that curls the other way (heuristic).
 const REACHES: [(f64, f64); 3] = [(0.012, 0.5), (0.035, 0.5), (0.09, 0.2)];
 
-/// Squared logarithm of the thickness ratio at which the saturated difference reaches one half; 0.5
-/// corresponds to about a factor of two (heuristic).
+/// Squared logarithm of the ratio of two thicknesses at which their saturated difference is one
+/// half; 0.5 corresponds to a ratio of about two (heuristic).
 const HALF_THICKNESS: f64 = 0.5;
 
 /// Half-length of the window over which the tangent's direction is averaged, as a fraction of the
@@ -45,20 +45,20 @@ impl PoseWeights {
     };
 }
 
-/// Squared distance between positions, in mean squared radii of the outline, at which the saturated
-/// difference reaches one half: one radius.
+/// Squared distance between two positions at which their saturated difference is one half, in units
+/// of the outline's mean squared radius: a distance of one radius.
 const HALF_DISTANCE: f64 = 1.0;
 
 /// Features of each sample of a curve.
 #[derive(Clone, Debug)]
 pub(super) struct BoundaryFeatures {
-    /// Turning in units of π for each window length.
+    /// For each sample: turning over each window length, in units of π.
     turning: Vec<[f64; REACHES.len()]>,
-    /// Logarithm of the thickness, with its mean along the curve subtracted.
+    /// For each sample: logarithm of the thickness, minus its mean along the curve.
     log_thickness: Vec<f64>,
-    /// Unit vector in the mean direction of the boundary.
+    /// For each sample: unit vector in the mean direction of the boundary.
     tangent: Vec<DVec2>,
-    /// Position relative to the centre, in units of the root mean squared radius.
+    /// For each sample: position relative to the centre, in units of the root mean squared radius.
     position: Vec<DVec2>,
 }
 
@@ -80,8 +80,8 @@ impl BoundaryFeatures {
         }
     }
 
-    /// Returns how strongly the outline bends at a sample, regardless of direction: the sum of
-    /// absolute turnings, in units of π.
+    /// Returns how strongly the outline bends at a sample, to either side: the sum of the absolute
+    /// turnings over all windows, in units of π.
     pub fn salience(&self, sample: usize) -> f64 {
         self.turning[sample].iter().map(|turn| turn.abs()).sum()
     }
@@ -92,8 +92,9 @@ impl BoundaryFeatures {
         self.position[sample]
     }
 
-    /// Returns the rotation-invariant dissimilarity of all pairs of samples, one row for each
-    /// sample of `other`. Values lie between 0 and 1.2 plus the weight `thickness`.
+    /// Returns the rotation-invariant dissimilarity of each pair of samples, one row for each
+    /// sample of `other`. `thickness` is the weight of the thickness feature; each value lies
+    /// between 0 and 1.2 + `thickness`.
     pub fn dissimilarities(&self, other: &Self, thickness: f64) -> Vec<f64> {
         let mut dissimilarities = Vec::with_capacity(self.turning.len() * other.turning.len());
         for (other_turning, other_thickness) in other.turning.iter().zip(&other.log_thickness) {
@@ -110,8 +111,9 @@ impl BoundaryFeatures {
         dissimilarities
     }
 
-    /// Returns the dissimilarities including tangent and position, with this curve rotated by
-    /// `pose`. `invariant` holds the rotation-invariant dissimilarities in the same order.
+    /// Returns the dissimilarities of all pairs of samples, including tangent and position, with
+    /// this curve rotated by `pose` (radians). `invariant` holds the rotation-invariant
+    /// dissimilarities in the same order.
     pub fn posed_dissimilarities(
         &self,
         other: &Self,

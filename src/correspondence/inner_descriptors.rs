@@ -1,7 +1,8 @@
 //! Descriptors of boundary samples by their inner distances to other samples.
 //!
-//! A sample's descriptor is a row of logarithms of inner distances. Bending a limb preserves these
-//! distances, and the two sides of a stroke are close to each other in them (Ling, Jacobs 2007).
+//! An inner distance is the length of a shortest path inside the shape. A sample's descriptor is a
+//! row of logarithms of inner distances. Bending a limb preserves these distances, and by them the
+//! two sides of a stroke are close to each other (Ling, Jacobs 2007).
 //!
 //! Guaranteed: invariant under translation, rotation and scaling; finite.
 
@@ -9,16 +10,16 @@ use super::curve::BoundaryCurve;
 use super::inner_distance::InnerDistances;
 use super::samples::CurveSamples;
 
-/// Squared logarithm of a ratio of inner distances at which the saturated difference reaches one
-/// half: a factor of 1.65 (heuristic).
+/// Squared logarithm of the ratio of two inner distances at which their saturated difference is one
+/// half: a ratio of 1.65 (heuristic).
 const HALF_RATIO: f64 = 0.25;
 
-/// Inner distances below this fraction of their median are clamped to it: between close neighbours
-/// the boundary features suffice (heuristic).
+/// Minimum inner distance, as a fraction of the median. Smaller distances are clamped to it,
+/// because the boundary features suffice to compare close neighbours (heuristic).
 const MIN_DISTANCE: f64 = 0.03;
 
-/// Number of evenly spaced places along the boundary to which a sample's initial descriptor holds
-/// distances (heuristic).
+/// Length of a sample's initial descriptor: number of evenly spaced places along the boundary to
+/// which it holds distances (heuristic).
 pub(super) const AHEAD: u32 = 48;
 
 /// Inner distances between all samples of a curve.
@@ -49,8 +50,8 @@ impl InnerDescriptors {
         &self.logs[sample * self.count..][..self.count]
     }
 
-    /// Returns for each sample the logarithmic distances to the given samples.
-    pub fn to(&self, others: impl Iterator<Item = usize> + Clone) -> Vec<f64> {
+    /// Returns for each sample a row of the logarithmic distances to the samples `others`.
+    pub fn distances_to(&self, others: impl Iterator<Item = usize> + Clone) -> Vec<f64> {
         let row = |sample| {
             let row = self.row(sample);
             others.clone().map(move |other| row[other])
@@ -58,19 +59,19 @@ impl InnerDescriptors {
         (0..self.count).flat_map(row).collect()
     }
 
-    /// Returns for each sample the logarithmic distances to evenly spaced places after it,
-    /// interpolated between samples.
-    pub fn ahead(&self, samples: &CurveSamples) -> Vec<f64> {
+    /// Returns for each sample a row of the logarithmic distances to [`AHEAD`] evenly spaced places
+    /// that follow it along the boundary, interpolated between samples.
+    pub fn distances_ahead(&self, samples: &CurveSamples) -> Vec<f64> {
         let mut rows = Vec::with_capacity(self.count * AHEAD as usize);
         for sample in 0..self.count {
             let row = self.row(sample);
             let mut next = sample;
             for k in 1..=AHEAD {
-                let place = samples.unrolled(sample) + f64::from(k) / f64::from(AHEAD + 1);
-                while samples.unrolled(next + 1) <= place {
+                let place = samples.unwrapped_place(sample) + f64::from(k) / f64::from(AHEAD + 1);
+                while samples.unwrapped_place(next + 1) <= place {
                     next += 1;
                 }
-                let [from, to] = [next, next + 1].map(|k| samples.unrolled(k));
+                let [from, to] = [next, next + 1].map(|k| samples.unwrapped_place(k));
                 let fraction = (place - from) / (to - from);
                 let [near, far] = [next, next + 1].map(|k| row[k % self.count]);
                 rows.push((1.0 - fraction) * near + fraction * far);
@@ -80,8 +81,8 @@ impl InnerDescriptors {
     }
 }
 
-/// Returns the dissimilarities of all pairs of rows, in [0, 1]: one row of results for each row of
-/// the target.
+/// Returns the dissimilarity, in [0, 1], of each source row and each target row; one row of results
+/// for each target row. `weights` holds the weight of each column.
 pub(super) fn inner_dissimilarities(source: &[f64], target: &[f64], weights: &[f64]) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
     let mut pairs = Vec::with_capacity(source.len() / weights.len() * target.len() / weights.len());

@@ -1,15 +1,15 @@
 //! Inner distances: lengths of the shortest paths *inside* a shape between places of its boundary.
 //!
-//! Bending a limb preserves them (Ling, Jacobs 2007, "Shape classification using the
-//! inner-distance"), and the two sides of a stroke are close to each other in them, unlike along
-//! the boundary. In a triangulated simple polygon, a shortest path follows the dual tree of the
-//! triangulation. One traversal of the tree finds all paths from one place: it carries the funnel
-//! of shortest paths to the edge just crossed and splits it at the opposite corner (Lee, Preparata
-//! 1984; Guibas, Hershberger, Leven, Sharir, Tarjan 1987).
+//! Bending a limb preserves inner distances (Ling, Jacobs 2007, "Shape classification using the
+//! inner-distance"). By inner distance the two sides of a stroke are close to each other; along the
+//! boundary they are not. In a triangulated simple polygon, a shortest path follows the dual tree
+//! of the triangulation. One traversal of the tree finds all paths from one place: it carries the
+//! funnel of shortest paths to the edge just crossed and splits it at the opposite corner (Lee,
+//! Preparata 1984; Guibas, Hershberger, Leven, Sharir, Tarjan 1987).
 //!
-//! Guaranteed: deterministic, finite and shortest to rounding. The cost for each place is O(n)
-//! times the number of bends of a path. Holes are ignored; a ring that was cut open is a polygon
-//! along its slits.
+//! Guaranteed: lengths are deterministic, finite, and shortest up to rounding. All paths from one
+//! place take O(n) times the number of bends of a path. Holes are ignored. Where a hole was cut
+//! open, the boundary runs along both sides of the slit, and no path passes the slit.
 
 use super::curve::BoundaryCurve;
 use crate::geometry::{DVec2, twice_signed_area};
@@ -21,7 +21,7 @@ use crate::mesh::triangulation::constrained_delaunay;
 pub(super) struct InnerDistances {
     /// Number of places.
     pub count: usize,
-    /// Symmetric matrix of distances, one row for each place.
+    /// Symmetric matrix of the inner distances between all places, one row for each place.
     pub lengths: Vec<f64>,
 }
 
@@ -35,7 +35,8 @@ impl InnerDistances {
         for (place, row) in lengths.chunks_exact_mut(count).enumerate() {
             polygon.distances_from(place, row);
         }
-        // Both directions add up in different orders; the mean makes the matrix exactly symmetric.
+        // The lengths of a path and of its reverse round differently; their mean makes the matrix
+        // exactly symmetric.
         for i in 0..count {
             for k in 0..i {
                 let mean = 0.5 * (lengths[i * count + k] + lengths[k * count + i]);
@@ -54,29 +55,30 @@ struct TriangulatedPolygon<'a> {
     faces: Vec<[u32; 3]>,
     connectivity: Connectivity,
     places: Vec<DVec2>,
-    /// Face with the boundary edge on which each place lies.
+    /// For each place: index of the face whose boundary edge contains the place.
     face_of: Vec<usize>,
-    /// Places on the boundary edges of each face.
+    /// For each face: indices of the places on its boundary edges.
     places_of: Vec<Vec<usize>>,
 }
 
-/// Vertex of a funnel, with its distance from the start of all paths.
+/// Vertex of a funnel, with the length of the shortest path to it from the common start of all
+/// paths.
 #[derive(Clone, Copy)]
 struct FunnelVertex {
     at: DVec2,
     length: f64,
 }
 
-/// The shortest paths from the start to both ends of a crossed edge. `bends` runs from the edge's
-/// left end, as seen along the path, back to the apex where the two paths separate, and on to the
-/// right end.
+/// Funnel of the shortest paths from the common start to both ends of a crossed edge. `bends` runs
+/// from the edge's left end, as seen along the path, back to the apex where the two paths separate,
+/// and from there to the right end.
 struct Funnel {
     bends: Vec<FunnelVertex>,
     /// Index of the apex in `bends`.
     apex: usize,
-    /// Face beyond the edge.
+    /// Index of the face beyond the edge.
     face: usize,
-    /// Corner of that face at which the edge begins.
+    /// Corner of `face` at which the edge begins: 0, 1 or 2.
     corner: usize,
 }
 
@@ -163,8 +165,8 @@ impl<'a> TriangulatedPolygon<'a> {
 }
 
 impl Funnel {
-    /// Returns where the shortest path to a point beyond the edge leaves the funnel, as an index of
-    /// `bends`, and the path's end.
+    /// Finds the shortest path to a point `to` beyond the edge. Returns the index in `bends` of the
+    /// vertex at which the path leaves the funnel, and the path's end with its length.
     fn reach(&self, to: DVec2) -> (usize, FunnelVertex) {
         let at = |k: usize| self.bends[k].at;
         let mut exit = self.apex;
@@ -172,7 +174,8 @@ impl Funnel {
             exit -= 1;
         }
         let last = self.bends.len() - 1;
-        // Only one side can be active: the last segment does not bend around both.
+        // The path bends around one side of the funnel at most, so the right side matters only if
+        // the left one does not.
         if exit == self.apex {
             while exit < last && twice_signed_area(at(exit), at(exit + 1), to) < 0.0 {
                 exit += 1;
@@ -182,8 +185,9 @@ impl Funnel {
         (exit, FunnelVertex { at: to, length })
     }
 
-    /// Splits the funnel at the corner ahead: returns the bends and the apex of the funnels to the
-    /// left and the right edge. `exit` is where the path to the corner leaves the funnel.
+    /// Splits the funnel at the corner ahead. Returns the bends and the apex of the funnel to the
+    /// left edge, then those of the funnel to the right edge. `exit` is the index in `bends` at
+    /// which the path to the corner leaves the funnel.
     fn split(
         self,
         exit: usize,
@@ -194,7 +198,8 @@ impl Funnel {
         let mut right = vec![ahead];
         right.extend_from_slice(&self.bends[exit..]);
         let apex_right = self.apex.max(exit) - exit + 1;
-        // The common part of both paths ends where they separate, which becomes the apex.
+        // The apex of each new funnel is the vertex at which the paths to both ends of its edge
+        // separate.
         if exit < self.apex {
             ((left, exit), (right, apex_right))
         } else {
@@ -203,7 +208,8 @@ impl Funnel {
     }
 }
 
-/// Returns the face at each edge of the polygon.
+/// Returns the face that contains each of the polygon's `n` edges; `None` for an edge without a
+/// face.
 fn faces_of_edges(faces: &[[u32; 3]], connectivity: &Connectivity, n: usize) -> Vec<Option<usize>> {
     let mut face_of_edge = vec![None; n];
     for (face, corners) in faces.iter().enumerate() {
@@ -263,8 +269,8 @@ mod tests {
     fn slow(points: &[DVec2], ends: [DVec2; 2]) -> f64 {
         let nodes: Vec<DVec2> = ends.into_iter().chain(points.iter().copied()).collect();
         let ring = Ring::new(points.to_vec()).expect("a ring");
-        // Visibility is sampled and not found by crossings, because a place lies on its edge only
-        // to rounding.
+        // Visibility is sampled instead of computed from crossings, because a place lies on its
+        // edge only up to rounding.
         let sees = |a: DVec2, b: DVec2| {
             (0..200).all(|k| {
                 let p = a.lerp(b, (f64::from(k) + 0.5) / 200.0);

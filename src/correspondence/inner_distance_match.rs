@@ -14,17 +14,17 @@ use super::curve_problem::CurveMatchProblem;
 use super::inner_descriptors::{AHEAD, inner_dissimilarities};
 use super::poses::PathSolution;
 
-/// Minimum distance between reference pairs along a path, as the sum of both fractions of length:
-/// about 160 pairs in all (heuristic).
+/// Minimum distance along a path between two reference pairs, as the sum of the fractions of both
+/// curves' lengths: about 160 pairs in all (heuristic).
 const MIN_PAIR_DISTANCE: f64 = 0.012;
 
-/// Maximum number of rounds of alternation (resource limit).
+/// Maximum number of rounds of the alternation between paths and reference pairs (resource limit).
 const MAX_ROUNDS: usize = 6;
 
 impl CurveMatchProblem {
-    /// Returns the best path by inner distances. Returns `None` if they have no weight, or if a
-    /// curve has no inside.
-    pub(super) fn solution_inside(&self) -> Option<PathSolution> {
+    /// Returns the best path found by comparing inner distances. Returns `None` if the weight of
+    /// inner distances is zero, or if a curve has no inside.
+    pub(super) fn inner_distance_solution(&self) -> Option<PathSolution> {
         let Some(coarse) = &self.coarse else {
             return self.alternated_inner_solution();
         };
@@ -34,10 +34,14 @@ impl CurveMatchProblem {
         self.path_by_pairs(&coarse.transfer_path(&found.nodes, self))
     }
 
-    /// Alternates between path and reference pairs until the cost no longer decreases.
+    /// Alternates between finding the best path for given reference pairs and taking new reference
+    /// pairs from that path, until the cost no longer decreases.
     fn alternated_inner_solution(&self) -> Option<PathSolution> {
-        let [a, b] = self.inner.as_ref()?;
-        let rows = [a.ahead(&self.source), b.ahead(&self.target)];
+        let [a, b] = self.inner_descriptors.as_ref()?;
+        let rows = [
+            a.distances_ahead(&self.source),
+            b.distances_ahead(&self.target),
+        ];
         let dissimilarities = inner_dissimilarities(&rows[0], &rows[1], &[1.0; AHEAD as usize]);
         let first = self.path_by_inner_distances(&dissimilarities);
         let mut best = self.path_by_pairs(&first.nodes)?;
@@ -51,21 +55,22 @@ impl CurveMatchProblem {
         Some(best)
     }
 
-    /// Returns the best path by the inner distances to the pairs of another path.
+    /// Returns the best path if samples are compared by their inner distances to reference pairs
+    /// taken from the path `nodes`.
     fn path_by_pairs(&self, nodes: &[[usize; 2]]) -> Option<PathSolution> {
-        let [a, b] = self.inner.as_ref()?;
+        let [a, b] = self.inner_descriptors.as_ref()?;
         let (pairs, weights) = self.reference_pairs(nodes);
         let rows = [
-            a.to(pairs.iter().map(|pair| pair[0])),
-            b.to(pairs.iter().map(|pair| pair[1])),
+            a.distances_to(pairs.iter().map(|pair| pair[0])),
+            b.distances_to(pairs.iter().map(|pair| pair[1])),
         ];
         Some(self.path_by_inner_distances(&inner_dissimilarities(&rows[0], &rows[1], &weights)))
     }
 
-    /// Returns the best path by the given inner-distance dissimilarities combined with the boundary
-    /// features.
+    /// Returns the best path for the sum of the boundary features' dissimilarities and the weighted
+    /// inner-distance dissimilarities `inner`.
     fn path_by_inner_distances(&self, inner: &[f64]) -> PathSolution {
-        let combined = self.unposed().into_iter().zip(inner);
+        let combined = self.pose_free_dissimilarities().into_iter().zip(inner);
         self.best_path(
             combined
                 .map(|(boundary, inner)| boundary + self.inner_weight * inner)
@@ -73,11 +78,12 @@ impl CurveMatchProblem {
         )
     }
 
-    /// Returns the reference pairs of a closed path, spaced apart, with the arc length that each
-    /// represents.
+    /// Returns reference pairs along a closed path, each at least [`MIN_PAIR_DISTANCE`] after the
+    /// previous one, with the length of path that each represents.
     fn reference_pairs(&self, nodes: &[[usize; 2]]) -> (Vec<[usize; 2]>, Vec<f64>) {
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        let position = |[i, j]: [usize; 2]| self.source.unrolled(i) + self.target.unrolled(j);
+        let position =
+            |[i, j]: [usize; 2]| self.source.unwrapped_place(i) + self.target.unwrapped_place(j);
         let (mut pairs, mut weights) = (Vec::new(), Vec::new());
         let mut last_position = position(nodes[0]);
         for &node in &nodes[1..] {
@@ -91,12 +97,13 @@ impl CurveMatchProblem {
         (pairs, weights)
     }
 
-    /// Converts a path to the nearest samples of another problem with the same curves.
+    /// Converts a path to the samples of `to`, another problem with the same curves: each node
+    /// becomes the nearest samples there.
     fn transfer_path(&self, nodes: &[[usize; 2]], to: &Self) -> Vec<[usize; 2]> {
         let resampled = |&[i, j]: &[usize; 2]| {
             [
-                to.source.nearest(self.source.unrolled(i)),
-                to.target.nearest(self.target.unrolled(j)),
+                to.source.nearest(self.source.unwrapped_place(i)),
+                to.target.nearest(self.target.unwrapped_place(j)),
             ]
         };
         nodes.iter().map(resampled).collect()
@@ -106,7 +113,7 @@ impl CurveMatchProblem {
 #[cfg(test)]
 mod tests {
     use super::super::boundary::match_curves;
-    use super::super::boundary_match::interpolated;
+    use super::super::boundary_match::interpolate_knots;
     use super::super::curve::BoundaryCurve;
     use super::super::options::MatchOptions;
     use crate::geometry::{DVec2, Ring};
@@ -114,8 +121,8 @@ mod tests {
     /// Number of points on each side of a limb.
     const SIDE: usize = 61;
 
-    /// Creates a limb that tapers, whose centre line turns by `turn(t)` at each step. Point k is
-    /// the same material point in every limb.
+    /// Creates a tapering limb whose centre line turns by `turn(t)` radians at each step, with t
+    /// from 0 to 1 along the limb. Point k is the same material point in every limb.
     fn limb(turn: impl Fn(f64) -> f64) -> BoundaryCurve {
         let (mut at, mut direction) = (DVec2::ZERO, DVec2::X);
         let (mut right, mut left) = (Vec::new(), Vec::new());
@@ -138,8 +145,8 @@ mod tests {
         }
     }
 
-    /// Returns the largest error of a match between corresponding points, in fractions of the
-    /// length.
+    /// Returns the largest distance between the place matched with a point and the place of its
+    /// true counterpart, as a fraction of the target's length.
     fn max_error(source: &BoundaryCurve, target: &BoundaryCurve, options: &MatchOptions) -> f64 {
         let matched = match_curves(source, target, &[], options).expect("a match");
         let mut knots = matched.knots().to_vec();
@@ -152,7 +159,7 @@ mod tests {
         let mut worst: f64 = 0.0;
         for (a, b) in source.places().iter().zip(target.places()) {
             let round = f64::from(u8::from(*a < knots[0][0]));
-            let error = interpolated(&knots, a + round, [0, 1]) - b;
+            let error = interpolate_knots(&knots, a + round, [0, 1]) - b;
             worst = worst.max((error - error.round()).abs());
         }
         worst

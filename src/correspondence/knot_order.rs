@@ -1,11 +1,11 @@
 //! Restores the monotonicity of a match after its knots, the pairs of corresponding places, have
 //! been moved.
 
-/// Minimum step between knots, in fractions of the length (tolerance: invisible, but far above
-/// rounding).
+/// Minimum distance between consecutive knots along either curve, as a fraction of the curve's
+/// length (tolerance: invisible, but far above rounding).
 const MIN_STEP: f64 = 1e-6;
 
-/// Returns whether a knot is a pin, by its source place.
+/// Returns whether a knot is a pin, that is, whether a pin has the same source place.
 pub(super) fn is_pin(pins: &[[f64; 2]], knot: [f64; 2]) -> bool {
     pins.iter().any(|pin| pin[0] == knot[0])
 }
@@ -40,7 +40,7 @@ pub(super) fn ordered_knots(
             })
         };
         if is_pinned(k) {
-            // A pin removes preceding knots that it would have to step back over.
+            // A pin removes the preceding knots that would otherwise come after it.
             while path.len() > 1
                 && path
                     .last()

@@ -6,10 +6,11 @@ use crate::geometry::Side;
 
 /// Appearance of one part.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct PartLook {
+pub(crate) struct PartAppearance {
     /// Index of the paint layer that contains the part; the bottom layer is 0.
     pub(crate) paint_layer: usize,
-    /// Height of that layer among the design's layers: 0 for the bottom layer, 1 for the top.
+    /// Height of the part's paint layer among the design's layers: 0 for the bottom layer, 1 for
+    /// the top.
     pub(crate) height: f64,
     /// Paint of the part; `None` if the design has no colours of its own.
     pub(crate) paint: Option<Paint>,
@@ -23,24 +24,26 @@ pub(crate) struct PartLook {
 
 /// Appearance of all parts of both designs. The default is empty: all parts look alike.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct PartLooks(pub(crate) [Vec<PartLook>; 2]);
+pub(crate) struct PartAppearances(pub(crate) [Vec<PartAppearance>; 2]);
 
-/// Pairing cost of the largest difference in paint, black and white, relative to a distance of the
-/// design's size (heuristic).
+/// Pairing cost of the largest difference in paint, that between black and white; a distance of one
+/// design size costs 1 (heuristic).
 const PAINT_COST: f64 = 0.5;
-/// Pairing cost of the largest difference in height, bottom and top layer (heuristic).
+/// Pairing cost of the largest difference in height, that between the bottom and the top layer
+/// (heuristic).
 const HEIGHT_COST: f64 = 0.25;
 
-/// Reduction of the pairing cost for parts of the same name (derived: it exceeds any other
-/// difference).
+/// Reduction of the pairing cost for two parts with the same name (heuristic: it exceeds any other
+/// single term of the cost in practice).
 const NAME_BONUS: f64 = 4.0;
 
-/// Pairing cost of a letter with something else, so that letters are paired with letters if
-/// possible (heuristic).
+/// Additional pairing cost of a letter with a part that is not a letter, so that letters are paired
+/// with letters if possible (heuristic).
 const TEXT_COST: f64 = 2.0;
 
-impl PartLook {
-    /// Returns the cost of pairing two parts. `form` is their cost in position and shape.
+impl PartAppearance {
+    /// Returns the cost of pairing two parts. `form` is the cost of their differences in position
+    /// and shape.
     pub(in crate::correspondence) fn cost(&self, other: &Self, form: f64) -> f64 {
         let paint = self.paint.zip(other.paint);
         let paint = paint.map_or(0.0, |(a, b)| a.difference(&b));
@@ -51,8 +54,8 @@ impl PartLook {
     }
 }
 
-impl PartLooks {
-    /// Returns whether a line is drawn along a part.
+impl PartAppearances {
+    /// Returns whether a line is drawn along a part; false if no appearance is given.
     pub(crate) fn is_lined(&self, side: Side, part: usize) -> bool {
         self.0[side].get(part).is_some_and(|look| look.is_lined)
     }

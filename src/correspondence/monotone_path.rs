@@ -1,15 +1,16 @@
 //! Converts a path of unit steps into a strictly monotone path with evenly distributed stretch.
 //!
-//! Unit steps allow one sample to match many, which collapses a stretch of boundary to a point of
-//! the other design. Here, near the given path, each step advances along *both* curves. Stretch
-//! costs (Δa − Δb)² / (Δa + Δb): the same as before if all stretch is in one place, and less the
-//! more evenly it is distributed.
+//! With unit steps, one sample may match many, which collapses a section of one boundary to a point
+//! of the other. The new path stays near the given one, but each of its steps advances along *both*
+//! curves. A step of lengths Δa and Δb along the two curves has the stretching cost (Δa − Δb)² /
+//! (Δa + Δb). This equals the cost of unit steps if all stretch is in one place; the more evenly
+//! stretch is distributed, the smaller it is.
 
 use super::path_grid::PathGrid;
 
-/// Steps `[source samples, target samples]` that are longer in the target, up to 1 : 8 and in
-/// lowest terms; their mirror images are used too. Longer steps cost time and are rarely cheapest
-/// (heuristic).
+/// Allowed steps `[source samples, target samples]` that are longer in the target, up to 1 : 8 and
+/// in lowest terms; the same steps with source and target exchanged are allowed too. Longer steps
+/// cost time and are rarely cheapest (heuristic).
 const LONGER: [[usize; 2]; 10] = [
     [1, 2],
     [1, 3],
@@ -31,8 +32,8 @@ pub(super) fn refine(grid: &PathGrid, nodes: &[[usize; 2]], reach: usize) -> Vec
     cheapest_path(grid, &windows).unwrap_or_else(|| merged_steps(nodes))
 }
 
-/// Merges unit steps into blocks that each advance along both curves. The path as a whole must do
-/// so.
+/// Merges unit steps into longer steps that each advance along both curves. The path as a whole
+/// must advance along both.
 pub(super) fn merged_steps(nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut blocks = vec![nodes[0]];
     for &node in &nodes[1..] {
@@ -41,14 +42,15 @@ pub(super) fn merged_steps(nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
             blocks.push(node);
         }
     }
-    // Steps left over at the end join the last block.
+    // The last step also covers the unit steps left over at the end.
     let end = nodes.len() - 1;
     let last = blocks.len() - 1;
     blocks[last] = nodes[end];
     blocks
 }
 
-/// Returns for each row the range of columns within `reach` of the path, in the maximum norm.
+/// Returns for each row the first and the last column within `reach` of the path, in the maximum
+/// norm.
 fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     let [columns, rows] = nodes[nodes.len() - 1];
     let mut first = vec![columns; rows + 1];
@@ -58,8 +60,9 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
         last[j] = last[j].max(i);
     }
     let window = |j: usize| {
-        // First and last columns never decrease from row to row. The extreme rows within reach
-        // therefore have the extreme columns.
+        // The path's first and last columns never decrease from row to row. Among the rows within
+        // `reach`, the lowest row therefore has the smallest first column, and the highest row the
+        // largest last column.
         let low = first[j.saturating_sub(reach)].saturating_sub(reach);
         let high = (last[(j + reach).min(rows)] + reach).min(columns);
         [low, high]
@@ -96,8 +99,8 @@ fn cheapest_path(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 
     Some(nodes)
 }
 
-/// Returns the cheapest cost of a node and the index of its last step, or `None` if no step comes
-/// from a node that was reached.
+/// Returns the minimum cost of reaching node (i, j) and the index of the last step of that path, or
+/// `None` if no step comes from a node that was reached.
 fn best_step(
     grid: &PathGrid,
     steps: &[MonotoneStep],
@@ -128,10 +131,10 @@ fn best_step(
 struct MonotoneStep {
     source: usize,
     target: usize,
-    /// Offset in the grid from the step's end back to its start.
+    /// Difference between the grid indices of the step's end and its start.
     back: usize,
-    /// One entry for each intermediate sample of the longer side: two node offsets from the step's
-    /// start, and the interpolation weight of the second.
+    /// One entry for each intermediate sample of the longer side: the offsets of two nodes from the
+    /// step's start, and the interpolation weight of the second node.
     between: Vec<(usize, usize, f64)>,
 }
 
@@ -154,8 +157,8 @@ impl MonotoneStep {
         }
     }
 
-    /// Returns the cost of the step that ends at (i, j): bending along the straight step by the
-    /// trapezoidal rule, plus stretch.
+    /// Returns the cost of the step that ends at (i, j): the bending cost along the straight step,
+    /// by the trapezoidal rule, plus the weighted stretching cost.
     fn cost(&self, grid: &PathGrid, [i, j]: [usize; 2]) -> f64 {
         let source_length = grid.source[i] - grid.source[i - self.source];
         let target_length = grid.target[j] - grid.target[j - self.target];

@@ -13,12 +13,14 @@ pub struct MatchOptions {
     pub samples: u32,
     /// Whether "up" stays up: directions are compared as drawn instead of up to a rotation.
     pub keep_up: bool,
-    /// Weight of stretch relative to bending, at least 0; 0.25 by default.
+    /// Weight of stretching (differing arc lengths) relative to bending (differing outlines), at
+    /// least 0; 0.25 by default.
     pub stretch: f64,
-    /// Weight of differing thickness, at least 0; 1 by default.
+    /// Weight of differences in the shapes' thickness, at least 0; 1 by default.
     pub thickness: f64,
-    /// Weight of differing inner distances, at least 0. With 0, the default, only the boundaries
-    /// are compared. With a positive weight no rotation is searched for.
+    /// Weight of differences in inner distances (lengths of shortest paths inside the shape), at
+    /// least 0. With 0, the default, only the boundaries are compared. With a positive weight, no
+    /// rotation is searched for.
     pub inner: f64,
 }
 

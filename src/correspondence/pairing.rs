@@ -1,55 +1,57 @@
 //! Pairs the parts of two designs, and the holes of two parts.
 //!
 //! The pairing is an assignment of minimum cost in position, size, shape and appearance. It has as
-//! many pairs as the smaller side has parts. The remaining parts are unmatched, at a cost that
-//! grows with their area. Pairs fixed by the user are preserved.
+//! many pairs as the design with fewer parts has parts. The other design's remaining parts stay
+//! unmatched, at a cost that grows with their area. Pairs fixed by the user are preserved.
 //!
 //! Guarantees: the assignment is optimal and deterministic, and pairing B with A gives the same
-//! result as pairing A with B. It never splits one part into several.
+//! result as pairing A with B. A part is never split into several.
 
-use super::regions::{PartLook, PartLooks};
+use super::regions::{PartAppearance, PartAppearances};
 use crate::geometry::{DVec2, Region, Regions, Ring, Side, lexicographic};
 use crate::numerics::assignment::assign;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
-/// Pairing of parts or of holes, by their indices in the order given.
+/// Pairing of parts or of holes; all numbers are indices in the lists given.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Pairing {
     /// Pairs `[source, target]`, ascending in the source.
     pub(super) pairs: Vec<[usize; 2]>,
-    /// Unmatched parts of the source, ascending: they disappear.
+    /// Unmatched parts of the source, ascending; they disappear.
     pub(super) source_only: Vec<usize>,
-    /// Unmatched parts of the target, ascending: they appear.
+    /// Unmatched parts of the target, ascending; they appear.
     pub(super) target_only: Vec<usize>,
 }
 
-/// Fixed pairs that contradict each other.
+/// Error in the pairs that the user fixed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PairError {
     /// A pair names a part that does not exist.
     #[error("part {part} does not exist: there are {count}, counted from 0; remove this pair")]
     NoSuchPart {
-        /// Index given for the part.
+        /// Index that the pair gives for the part.
         part: usize,
         /// Number of parts in the design.
         count: usize,
     },
-    /// A part is in two pairs.
+    /// The part with this index is in two different pairs.
     #[error("part {0} is paired twice; remove one of its pairs")]
     Twice(usize),
 }
 
-/// Weight of the distance between centres, in units of the design's size; the reference for the
-/// other weights.
+/// Weight of the distance between the parts' centres, in units of the design's size; the other
+/// weights are relative to it.
 const POSITION: f64 = 1.0;
-/// Weight of the logarithmic ratio of sizes (heuristic).
+/// Weight of the absolute logarithm of the ratio of the parts' sizes (heuristic).
 const SIZE: f64 = 0.15;
-/// Weight of each difference in shape: roundness, slenderness, number of holes (heuristic).
+/// Weight of each difference in shape, which are three: roundness, slenderness and number of holes
+/// (heuristic).
 const SHAPE: f64 = 0.25;
 
-/// Cost of leaving a whole design unmatched; each part costs its fraction of the area (heuristic).
+/// Cost of leaving all parts of a design unmatched; a single part costs its fraction of the area
+/// (heuristic).
 const UNMATCHED: f64 = 0.3;
 
 /// Returns the centre of each region's outer boundary relative to the design's bounding box, in
@@ -71,7 +73,7 @@ pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
 /// [`PairError`] if a fixed pair names no part, or a part twice.
 pub(super) fn pair_parts(
     designs: [&Regions; 2],
-    looks: &PartLooks,
+    looks: &PartAppearances,
     fixed: &[[usize; 2]],
     excluded: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
@@ -79,7 +81,7 @@ pub(super) fn pair_parts(
         let bounds = designs[side].bounds();
         let (origin, size) = (bounds.centre(), bounds.size().max_element());
         let part = |(k, region): (usize, &Region)| PartFeatures {
-            look: looks.0[side].get(k).cloned().unwrap_or_default(),
+            appearance: looks.0[side].get(k).cloned().unwrap_or_default(),
             ..PartFeatures::of(&region.outer, region.holes.len(), origin, size, 0.0)
         };
         designs[side]
@@ -92,8 +94,8 @@ pub(super) fn pair_parts(
 }
 
 /// Pairs the holes of two regions. `fixed` pairs are preserved; `excluded` holes are neither paired
-/// nor listed as unmatched. `rotation`, in radians, is that of the match of their outer boundaries,
-/// from source to target.
+/// nor listed as unmatched. `rotation` is the rotation from source to target in the match of the
+/// outer boundaries, in radians.
 ///
 /// # Errors
 /// As [`pair_parts`].
@@ -111,7 +113,7 @@ pub(super) fn pair_holes(
         let part = |hole: &Ring| PartFeatures::of(hole, 0, origin, size, turn);
         region.holes.iter().map(part).collect::<Vec<_>>()
     };
-    // Each side is rotated by half, so that rounding is the same in both directions.
+    // Rotate each side by half the angle, so that rounding is the same in both directions.
     pair(
         &parts(source, 0.5 * rotation),
         &parts(target, -0.5 * rotation),
@@ -120,30 +122,30 @@ pub(super) fn pair_holes(
     )
 }
 
-/// Properties by which parts are compared.
+/// Properties by which parts (or the holes of a part) are compared.
 #[derive(Clone, Debug)]
 struct PartFeatures {
-    /// Centre relative to the design's centre, in units of its size.
+    /// Centre of the part relative to the design's centre, in units of the design's size.
     position: DVec2,
-    /// Logarithm of the square root of the area, relative to the design's size.
+    /// Logarithm of the square root of the part's area relative to the design's size.
     log_size: f64,
     /// 4π · area / perimeter²: 1 for a circle, smaller for other shapes.
     roundness: f64,
     /// Ratio of the shorter to the longer axis of inertia, in [0, 1].
     slenderness: f64,
-    /// Number of holes.
+    /// Number of holes of the part.
     holes: f64,
-    /// Paint, height, name and other attributes besides the shape.
-    look: PartLook,
+    /// Paint, height, name and other attributes that are independent of the shape.
+    appearance: PartAppearance,
 }
 
 impl PartFeatures {
-    /// Measures a part by its outer ring. `origin` and `size` are those of the design; `turn` is a
-    /// rotation in radians about the origin.
+    /// Measures a part by its outer ring. `origin` and `size` are the centre and size of the
+    /// design, or of the part that contains a hole; `turn` is a rotation about `origin` in radians.
     fn of(ring: &Ring, holes: usize, origin: DVec2, size: f64, turn: f64) -> Self {
         let moments = moments(ring);
         let area = ring.signed_area().abs();
-        // A region without extent has no size to compare with.
+        // Avoid a division by 0 if the region has no extent.
         let size = if size > 0.0 { size } else { 1.0 };
         let roundness = 2.0 * TAU * area / ring.perimeter().powi(2);
         let position = DVec2::from_angle(turn).rotate((moments.centre - origin) / size);
@@ -155,7 +157,7 @@ impl PartFeatures {
             roundness: finite_or_zero(roundness.min(1.0)),
             slenderness: finite_or_zero(moments.slenderness),
             holes: holes as f64,
-            look: PartLook::default(),
+            appearance: PartAppearance::default(),
         }
     }
 
@@ -167,7 +169,7 @@ impl PartFeatures {
             + SHAPE * (self.roundness - other.roundness).abs()
             + SHAPE * (self.slenderness - other.slenderness).abs()
             + SHAPE * holes;
-        self.look.cost(&other.look, form)
+        self.appearance.cost(&other.appearance, form)
     }
 
     /// Returns the values by which lists of parts are put into a canonical order.
@@ -178,7 +180,7 @@ impl PartFeatures {
             roundness,
             slenderness,
             holes,
-            look: PartLook { height, .. },
+            appearance: PartAppearance { height, .. },
         } = *self;
         [p.x, p.y, log_size, roundness, slenderness, holes, height]
     }
@@ -236,15 +238,15 @@ fn pair(
     let keys = |parts: &[PartFeatures], free: &[usize]| -> Vec<f64> {
         free.iter().flat_map(|&k| parts[k].key()).collect()
     };
-    // `assign` requires at most as many rows as columns. The canonical order makes the result the
-    // same in both directions.
+    // `assign` requires at most as many rows as columns, so the shorter list gives the rows. Lists
+    // of equal length are ordered by their values, so that the reverse pairing has the same result.
     let order = a
         .len()
         .cmp(&b.len())
         .then_with(|| lexicographic(keys(source, &a), keys(target, &b)));
     let mut pairs = fixed.to_vec();
-    // All rows are paired. Subtracting a column's unmatched cost therefore accounts for the columns
-    // left over.
+    // Every row is paired, so only columns are left over. To subtract the unmatched cost of each
+    // paired column is the same, up to a constant, as to add that of each column left over.
     if order == Ordering::Greater {
         let unmatched_cost = unmatched_costs(source);
         let cost =
@@ -350,7 +352,8 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let other = four.transformed(&moved);
-        let pairing = pair_parts([&four, &other], &PartLooks::default(), &[], NONE).expect("pairs");
+        let pairing =
+            pair_parts([&four, &other], &PartAppearances::default(), &[], NONE).expect("pairs");
         let (a, b) = (centres(&four), centres(&other));
         assert_eq!(pairing.pairs.len(), 4);
         for [i, j] in pairing.pairs {
@@ -366,7 +369,8 @@ mod tests {
             block(9.0, 0.0, 2.0, 2.0),
         ]);
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
-        let there = pair_parts([&three, &two], &PartLooks::default(), &[], NONE).expect("pairs");
+        let there =
+            pair_parts([&three, &two], &PartAppearances::default(), &[], NONE).expect("pairs");
         assert_eq!(
             (
                 there.pairs.len(),
@@ -378,7 +382,7 @@ mod tests {
         let middle = three.iter().nth(there.source_only[0]).expect("a part");
         assert!((middle.outer.signed_area() - 1.0).abs() < 1e-9);
         assert_eq!(
-            pair_parts([&two, &three], &PartLooks::default(), &[], NONE),
+            pair_parts([&two, &three], &PartAppearances::default(), &[], NONE),
             Ok(swapped(&there))
         );
     }
@@ -391,11 +395,12 @@ mod tests {
             block(3.0, 0.0, 4.0, 4.0),
             block(9.4, 0.0, 0.6, 0.6),
         ]);
-        let there = pair_parts([&two, &three], &PartLooks::default(), &[], NONE).expect("pairs");
+        let there =
+            pair_parts([&two, &three], &PartAppearances::default(), &[], NONE).expect("pairs");
         let area = |part: usize| three.iter().nth(part).map_or(0.0, Region::area);
         assert_eq!(there.target_only.len(), 1);
         assert!(area(there.target_only[0]) < 1.0, "{there:?}");
-        let back = pair_parts([&three, &two], &PartLooks::default(), &[], NONE);
+        let back = pair_parts([&three, &two], &PartAppearances::default(), &[], NONE);
         assert_eq!(back, Ok(swapped(&there)));
     }
 
@@ -428,15 +433,20 @@ mod tests {
     fn fixed_pairs_are_preserved_and_checked() {
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
         let crossed =
-            pair_parts([&two, &two], &PartLooks::default(), &[[0, 1]], NONE).expect("pairs");
+            pair_parts([&two, &two], &PartAppearances::default(), &[[0, 1]], NONE).expect("pairs");
         assert_eq!(crossed.pairs, vec![[0, 1], [1, 0]]);
         assert_eq!(
-            pair_parts([&two, &two], &PartLooks::default(), &[[0, 1], [0, 0]], NONE),
+            pair_parts(
+                [&two, &two],
+                &PartAppearances::default(),
+                &[[0, 1], [0, 0]],
+                NONE
+            ),
             Err(PairError::Twice(0))
         );
         let missing = PairError::NoSuchPart { part: 7, count: 2 };
         assert_eq!(
-            pair_parts([&two, &two], &PartLooks::default(), &[[0, 7]], NONE),
+            pair_parts([&two, &two], &PartAppearances::default(), &[[0, 7]], NONE),
             Err(missing)
         );
     }

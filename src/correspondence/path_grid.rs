@@ -2,12 +2,12 @@
 //!
 //! Node (i, j) pairs sample i of the source with sample j of the target. A path takes unit steps
 //! along the source, along the target, or along both. Its cost has two terms, as in Sebastian,
-//! Klein and Kimia 2003, "On aligning curves": bending (dissimilarity times arc length) and
-//! stretching (absolute difference of the two arc lengths). Both terms are symmetric in the two
-//! curves.
+//! Klein and Kimia 2003, "On aligning curves": the bending cost (dissimilarity times arc length)
+//! and the stretching cost (absolute difference of the two arc lengths). Both terms are symmetric
+//! in the two curves.
 
-/// Places (fractions of arc length) and dissimilarities of a window of samples; places are
-/// unwrapped over the seam.
+/// Places (fractions of arc length) of consecutive samples of two curves, and the dissimilarities
+/// of all their pairs. Places are unwrapped over the seam.
 #[derive(Clone, Debug)]
 pub(super) struct PathGrid {
     /// Places of the source's samples, ascending.
@@ -16,21 +16,21 @@ pub(super) struct PathGrid {
     pub target: Vec<f64>,
     /// Dissimilarities of all pairs: one row for each sample of the target.
     pub dissimilarity: Vec<f64>,
-    /// Weight of stretch relative to bending.
+    /// Weight of the stretching cost relative to the bending cost.
     pub stretch: f64,
 }
 
-/// Cost of each step of a grid, one row for each sample of the target. Steps that would come from
-/// outside the grid have infinite cost.
+/// Cost of each step of a grid, stored at the node where the step ends, one row for each sample of
+/// the target. Steps that would come from outside the grid have infinite cost.
 #[derive(Debug)]
 pub(super) struct StepCosts {
     width: usize,
     rows: usize,
     /// Cost of the step along both curves that ends at each node.
     both: Vec<f64>,
-    /// Cost of the step along the source alone.
+    /// Cost of the step along the source alone that ends at each node.
     source: Vec<f64>,
-    /// Cost of the step along the target alone.
+    /// Cost of the step along the target alone that ends at each node.
     target: Vec<f64>,
 }
 
@@ -44,13 +44,13 @@ pub(super) struct GridPath {
 /// Buffers of the dynamic program, reused between solves.
 #[derive(Debug, Default)]
 pub(super) struct PathBuffers {
-    /// Costs of the previous row; column i is stored at 1 + i.
+    /// Minimum costs of the nodes in the previous row; the cost of column i has index 1 + i.
     previous: Vec<f64>,
-    /// Costs of the current row, stored likewise.
+    /// Minimum costs of the nodes in the current row; the cost of column i has index 1 + i.
     current: Vec<f64>,
-    /// Step by which each node in the windows was reached, row after row.
+    /// Code of the last step of the cheapest path to each node in the windows, row after row.
     steps: Vec<u8>,
-    /// Start of each row in `steps`.
+    /// Index in `steps` at which each row begins.
     starts: Vec<usize>,
 }
 
@@ -77,7 +77,7 @@ impl PathGrid {
             + self.stretch * (source_length - target_length).abs()
     }
 
-    /// Returns the costs of all steps, for searches that visit them many times.
+    /// Returns the costs of all steps, for searches that use each of them many times.
     pub fn step_costs(&self) -> StepCosts {
         let (width, rows) = (self.source.len(), self.target.len());
         let mut costs = StepCosts {
@@ -112,9 +112,10 @@ impl PathGrid {
 
 impl StepCosts {
     /// Returns the cheapest path from column `start` of the first row to column `end` of the last
-    /// row, within a window of columns for each row. Both ends of the windows are inclusive and
-    /// non-decreasing. The cost is O(nodes in the windows).
-    pub fn shortest(
+    /// row, within a window of columns for each row. Windows include both of their ends, which must
+    /// not decrease from row to row. The search takes time proportional to the number of nodes in
+    /// the windows.
+    pub fn cheapest_path(
         &self,
         [start, end]: [usize; 2],
         window: impl Fn(usize) -> [usize; 2],
@@ -122,7 +123,8 @@ impl StepCosts {
     ) -> GridPath {
         let window = |j: usize| [window(j)[0].max(start), window(j)[1].min(end)];
         scratch.reset(self.width);
-        // Emulate a row above the first from which only the start can be reached.
+        // Begin as if a row preceded the first one, and only column `start` could be reached from
+        // it.
         scratch.previous[1 + start] = 0.0;
         for j in 0..self.rows {
             let columns = window(j);
@@ -135,7 +137,8 @@ impl StepCosts {
         GridPath { cost, rows }
     }
 
-    /// Computes the costs of one row from those of the row above.
+    /// Computes the minimum costs of the nodes in row `j`, columns `low` to `high`, from those of
+    /// the previous row.
     fn row(&self, j: usize, [low, high]: [usize; 2], scratch: &mut PathBuffers) {
         let (first, count) = (j * self.width + low, high + 1 - low);
         let PathBuffers {
@@ -144,14 +147,14 @@ impl StepCosts {
             steps,
             ..
         } = scratch;
-        // Nodes left of the window are unreachable; those to its right still hold infinity from the
-        // reset.
+        // The node to the left of the window is unreachable. Nodes to the right of it still hold
+        // infinity from the reset.
         current[low] = f64::INFINITY;
         let current = &mut current[1 + low..][..count];
         let row_start = steps.len();
         steps.resize(row_start + count, ALONG_BOTH);
         let steps = &mut steps[row_start..];
-        // Steps from the row above: all nodes are independent.
+        // Steps from the previous row: the nodes of this row do not depend on each other.
         let (left, straight) = (&previous[low..][..count], &previous[1 + low..][..count]);
         let (both, target) = (&self.both[first..][..count], &self.target[first..][..count]);
         for i in 0..count {
@@ -164,7 +167,7 @@ impl StepCosts {
             current[i] = if is_target { along_target } else { along_both };
             steps[i] = if is_target { ALONG_TARGET } else { ALONG_BOTH };
         }
-        // Steps along the row: each node depends on its predecessor.
+        // Steps along the row: each node depends on the node to its left.
         let source = &self.source[first..][..count];
         let mut left_cost = f64::INFINITY;
         for i in 0..count {
@@ -191,7 +194,8 @@ impl PathBuffers {
     }
 }
 
-/// Traces the path back from its end.
+/// Traces the path back from its end. Returns the first and the last column that it visits in each
+/// row.
 fn trace(
     scratch: &PathBuffers,
     count: usize,
@@ -245,7 +249,7 @@ mod tests {
             stretch: 0.2,
         };
         let costs = grid.step_costs();
-        let route = costs.shortest([0, 3], |_| [0, 3], &mut PathBuffers::default());
+        let route = costs.cheapest_path([0, 3], |_| [0, 3], &mut PathBuffers::default());
         assert!((route.cost - brute_force_cost(&grid, 3, 2)).abs() < 1e-15);
         let nodes = route.nodes();
         let cost = |w: &[[usize; 2]]| {

@@ -1,4 +1,5 @@
-//! Pins on a pair of curves: sorts them and rejects those that no continuous match can satisfy.
+//! Pins (pairs of corresponding places) on two curves: sorts them, and rejects those that no
+//! continuous match can satisfy.
 
 use super::curve::BoundaryCurve;
 use crate::geometry::SourceTarget;
@@ -7,11 +8,12 @@ use crate::geometry::SourceTarget;
 /// first point. [`BoundaryCurve::nearest`] converts a clicked point to a place.
 pub type Pin = SourceTarget<f64>;
 
-/// Pins that no continuous match can satisfy. Indices count from 1 in messages.
+/// Error for pins that no continuous match can satisfy. Pins count from 0 in fields and from 1 in
+/// messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PinError {
-    /// A place is NaN or infinite.
+    /// A place of the pin with this index is NaN or infinite.
     #[error("pin {} does not lie on the outline; place it again", .0 + 1)]
     NotFinite(usize),
     /// Two pins share a point of one outline but not of the other.
@@ -31,7 +33,7 @@ pub enum PinError {
 ///
 /// # Errors
 /// [`PinError`] for pins that contradict each other.
-pub(super) fn ordered(
+pub(super) fn sort_pins(
     pins: &[Pin],
     source: &BoundaryCurve,
     target: &BoundaryCurve,
@@ -93,8 +95,8 @@ fn check_order(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
     Err(PinError::Crossing(a.min(b), a.max(b)))
 }
 
-/// Returns the longest subsequence, beginning at pin `start`, whose target places ascend too
-/// (dynamic program, O(n²)).
+/// Returns the indices of the longest subsequence of the pins, in cyclic order from `start` on,
+/// whose target places ascend too (dynamic program, O(n²)).
 fn longest_ascending(pins: &[([f64; 2], usize)], start: usize) -> Vec<usize> {
     let n = pins.len();
     let base = pins[start].0[1];

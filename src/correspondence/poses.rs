@@ -5,46 +5,46 @@ use super::curve_problem::CurveMatchProblem;
 use super::features::PoseWeights;
 use rayon::prelude::*;
 
-/// Penalty on rotation, times 1 − cos of the rotation, relative to the cost and absolute. The
-/// relative penalty decides near ties of dissimilar symmetric designs, such as two flowers with six
-/// petals. It vanishes if a design is matched with itself, which must succeed at any rotation
-/// (heuristic).
+/// Relative penalty on rotation: a path of cost c and rotation φ has the score c +
+/// (`RELATIVE_ROTATION_PENALTY` · c + `ROTATION_PENALTY`) · (1 − cos φ). The relative part decides
+/// near ties of dissimilar symmetric designs, such as two flowers with six petals. It vanishes if a
+/// design is matched with itself, which must succeed at any rotation (heuristic).
 const RELATIVE_ROTATION_PENALTY: f64 = 0.05;
-/// Absolute part of the penalty on rotation (heuristic).
+/// Absolute penalty on rotation, added to the relative one (heuristic).
 const ROTATION_PENALTY: f64 = 0.0005;
 
-/// Poses closer than this count as one, in radians: 20°. Within this distance a search converges to
-/// the same pose (heuristic).
+/// Poses that differ by less than this angle count as one, because searches from them end in the
+/// same pose; in radians, 20° (heuristic).
 const MIN_POSE_DISTANCE: f64 = 0.35;
 
-/// Maximum number of poses tried, besides rotation 0 (resource limit).
+/// Maximum number of poses tried, not counting rotation 0 (resource limit).
 const MAX_POSES: usize = 5;
 
-/// Maximum number of rounds that search again at the rotation of the match just found (resource
-/// limit).
+/// Maximum number of times that the search is repeated with the rotation of the last match as the
+/// pose (resource limit).
 const POSE_ROUNDS: usize = 3;
 
-/// Poses whose coarse score is within this factor of the best are searched again with all samples
-/// (heuristic).
+/// Maximum score of a pose in the coarse search, as a multiple of the best score there, at which
+/// the pose is searched again with all samples (heuristic).
 const NEAR_TIE: f64 = 1.15;
 
-/// A match whose rotation is within this angle of its pose has converged, in radians (tolerance:
-/// one degree).
+/// Maximum difference between a match's rotation and its pose at which the search has converged, in
+/// radians (tolerance: about one degree).
 const SAME_POSE: f64 = 0.02;
 
-/// A closed path, with the dissimilarities that it was found with.
+/// A closed path through sample pairs, and the dissimilarities for which the search found it.
 pub(super) struct PathSolution {
-    /// Nodes at unit steps, unwrapped over the seams.
+    /// Pairs of sample indices `[source, target]` at unit steps, unwrapped over the seams.
     pub(super) nodes: Vec<[usize; 2]>,
-    /// Dissimilarities of all sample pairs, including those of pose.
+    /// Dissimilarities of all sample pairs that the search used, one row for each target sample.
     pub(super) dissimilarity: Vec<f64>,
-    /// Bending and stretching cost of the path.
+    /// Sum of the path's bending and stretching costs.
     pub(super) cost: f64,
-    /// Cost including the penalty on rotation.
+    /// `cost` plus the penalty on rotation.
     score: f64,
-    /// Rotation that was assumed, in radians.
+    /// Rotation of the source onto the target that the search assumed, in radians.
     pose: f64,
-    /// Rotation of the resulting match, in radians.
+    /// Rotation that best aligns the points matched by the path, in radians.
     rotation: f64,
 }
 
@@ -81,7 +81,7 @@ impl CurveMatchProblem {
         best
     }
 
-    /// Returns the rotation of the best match, and those of other matches almost as good.
+    /// Returns the rotations of the best match and of other matches with almost as good a score.
     fn likely_poses(&self) -> Vec<f64> {
         let invariant = self.invariant_dissimilarities();
         let mut solutions = self.solutions(&invariant, self.candidate_poses(&invariant));
@@ -93,8 +93,9 @@ impl CurveMatchProblem {
         distinct_poses(accepted.map(|solution| solution.rotation))
     }
 
-    /// Returns the dissimilarities for searches without pose estimation.
-    pub(super) fn unposed(&self) -> Vec<f64> {
+    /// Returns the dissimilarities for searches that do not estimate a pose: rotation-invariant, or
+    /// as drawn if "up" stays up.
+    pub(super) fn pose_free_dissimilarities(&self) -> Vec<f64> {
         let invariant = self.invariant_dissimilarities();
         if !self.keep_up {
             return invariant;
@@ -138,12 +139,12 @@ impl CurveMatchProblem {
         poses
     }
 
-    /// Returns the path with the best score over all starts.
+    /// Returns the path with the best score over all starting samples.
     pub(super) fn best_path(&self, dissimilarities: Vec<f64>) -> PathSolution {
         let mut best: Option<PathSolution> = None;
         self.visit_paths(&dissimilarities, |cost, nodes| {
             if best.as_ref().is_some_and(|b| cost >= b.score) {
-                return; // the rotation penalty is not negative
+                return; // the penalty on rotation is not negative
             }
             let nodes = nodes();
             let rotation = self.rotation(&nodes);
@@ -167,7 +168,7 @@ impl CurveMatchProblem {
     }
 }
 
-/// Returns the cost including the penalty on rotation.
+/// Returns the cost plus the penalty on rotation.
 fn score(cost: f64, rotation: f64) -> f64 {
     cost + (RELATIVE_ROTATION_PENALTY * cost + ROTATION_PENALTY) * (1.0 - rotation.cos())
 }
@@ -183,7 +184,7 @@ fn distinct_poses(poses: impl Iterator<Item = f64>) -> Vec<f64> {
     distinct
 }
 
-/// Returns whether two rotations differ by more than the minimum distance.
+/// Returns whether two rotations differ by more than [`MIN_POSE_DISTANCE`].
 fn are_apart(a: f64, b: f64) -> bool {
     (a - b).cos() < MIN_POSE_DISTANCE.cos()
 }

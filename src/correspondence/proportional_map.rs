@@ -1,6 +1,7 @@
-//! Vertices of two polygons in correspondence, and the map between them along straight sides.
+//! Maps between the places of two matched curves so that straight sides stay straight, and holds
+//! the vertices that both polygons will share.
 
-use super::boundary_match::interpolated;
+use super::boundary_match::interpolate_knots;
 use super::curve::BoundaryCurve;
 
 /// A pair of corresponding places (fractions of arc length) and their common parameter:
@@ -10,36 +11,37 @@ pub(super) type ParameterKnot = [f64; 3];
 /// Column of the common parameter in a [`ParameterKnot`].
 pub(super) const BOTH: usize = 2;
 
-/// A future vertex of both polygons: its common parameter, and its place on each curve if it is a
-/// vertex of that curve or a pin.
+/// A vertex that both polygons will have: its common parameter, and its place on each curve of
+/// which it is a vertex or a pin.
 #[derive(Clone, Copy)]
 pub(super) struct SharedVertex {
     /// Common parameter, in [0, 1).
     pub at: f64,
-    /// Place on the source and on the target; `None` if it follows from the parameter.
+    /// Places on the source and on the target; `None` where the place follows from the parameter.
     pub places: [Option<f64>; 2],
     /// Whether one of the outlines bends here, or a pin lies here.
     pub is_bend: bool,
 }
 
 impl SharedVertex {
-    /// Returns whether the match determines both places: at bends, pins and vertices of both
-    /// curves.
+    /// Returns whether the vertex is a knot of the [`ProportionalMap`]: a bend, a pin, or a vertex
+    /// of both curves.
     pub fn is_fixed(&self) -> bool {
         self.is_bend || self.places.iter().all(Option::is_some)
     }
 }
 
-/// Map between corresponding places that keeps straight sides straight. Between fixed vertices,
-/// that is bends, pins and vertices of both curves, it is proportional to arc length.
+/// Map between corresponding places that keeps straight sides straight: it is linear in arc length
+/// between fixed vertices (bends, pins, and vertices of both curves).
 pub(super) struct ProportionalMap {
-    /// Unwrapped places and parameters of the fixed vertices; the first is repeated one round
-    /// later.
+    /// Unwrapped places and parameters of the fixed vertices; the first vertex is repeated one
+    /// round later.
     bends: Vec<ParameterKnot>,
 }
 
 impl ProportionalMap {
-    /// Creates the map through the fixed vertices, whose places `places` returns.
+    /// Creates the map through the fixed ones of `vertices`. `places` returns the places of a
+    /// vertex, `[source, target]`.
     pub fn between(vertices: &[SharedVertex], places: impl Fn(&SharedVertex) -> [f64; 2]) -> Self {
         let mut bends: Vec<ParameterKnot> = Vec::with_capacity(vertices.len() + 1);
         for vertex in vertices.iter().filter(|vertex| vertex.is_fixed()) {
@@ -48,7 +50,7 @@ impl ProportionalMap {
                 a += f64::from(u8::from(a < first[0]));
                 b += f64::from(u8::from(b < first[1]));
             }
-            // Skip knots that rounding would make non-monotone.
+            // Skip knots that rounding has put out of order.
             if bends.last().is_none_or(|last| last[0] < a && last[1] < b) {
                 bends.push([a, b, vertex.at]);
             }
@@ -57,14 +59,14 @@ impl ProportionalMap {
         Self { bends }
     }
 
-    /// Moves each vertex between fixed vertices to the parameter of its own place, and sorts the
-    /// vertices.
+    /// Gives each vertex that is not fixed the parameter at which the map reaches its place, and
+    /// sorts the vertices by parameter.
     pub fn placed_vertices(&self, mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
         for vertex in vertices.iter_mut().filter(|vertex| !vertex.is_fixed()) {
             let own = (0..2).find_map(|side| Some((side, vertex.places[side]?)));
             if let Some((side, place)) = own {
                 let round = f64::from(u8::from(place < self.bends[0][side]));
-                vertex.at = interpolated(&self.bends, place + round, [side, BOTH]);
+                vertex.at = interpolate_knots(&self.bends, place + round, [side, BOTH]);
             }
         }
         vertices.sort_by(|a, b| a.at.total_cmp(&b.at));
@@ -75,6 +77,6 @@ impl ProportionalMap {
     /// target.
     pub fn place(&self, at: f64, side: usize, curve: &BoundaryCurve) -> f64 {
         let at = at + f64::from(u8::from(at < self.bends[0][BOTH]));
-        curve.wrapped(interpolated(&self.bends, at, [BOTH, side]))
+        curve.wrapped(interpolate_knots(&self.bends, at, [BOTH, side]))
     }
 }

@@ -1,16 +1,17 @@
 //! Matches two designs with all their parts and holes.
 //!
 //! Parts are paired, and the outer boundaries and holes of each pair are matched. A hole that
-//! exists in only one design closes to a point, or its ring is cut open, or the rest is matched
-//! without it. A part that exists in only one design is matched with a piece split off a part of
-//! the other design, or it grows from a point. The result is a list of [`PieceMatch`]es. Each is
-//! connected and has the same number of rings in both designs, so that both can share one
+//! exists in only one design closes to a point, or the ring around it is cut open, or its part is
+//! matched without it. A part that exists in only one design is matched with a piece split off a
+//! part of the other design, or it grows from a point. The result is a list of [`PieceMatch`]es.
+//! Each is connected and has the same number of rings in both designs, so that both can share one
 //! triangulation.
 //!
 //! Guaranteed: corresponding rings have the same number of vertices, and contain all vertices of
-//! the given outlines bit by bit. Pins are satisfied exactly or rejected with an error. Matching in
-//! the other direction gives the same pieces. A ring that stands for a point has at most
-//! [`POINT_SIZE`] of the diameter of the part that it lies in or stands for.
+//! the given outlines without rounding. Pins are satisfied exactly or rejected with an error.
+//! Matching in the other direction gives the same pieces. A hole or part without a counterpart is
+//! matched with a tiny ring that represents a point. The diameter of the tiny ring is at most
+//! [`POINT_SIZE`] times that of the part in which it lies or to which it grows.
 //!
 //! Not guaranteed: that a split or a cut is the best possible, only the best of those tried.
 
@@ -34,7 +35,7 @@ mod tests;
 mod unpair;
 
 use super::MatchSettings;
-pub(crate) use crate::correspondence::looks::{PartLook, PartLooks};
+pub(crate) use crate::correspondence::looks::{PartAppearance, PartAppearances};
 use crate::geometry::Regions;
 use crate::work::progress::{Progress, checkpoint};
 pub(crate) use groups::{PartGroup, paired_parts};
@@ -68,7 +69,7 @@ pub fn match_regions(
     progress: &dyn Progress,
 ) -> Result<RegionMatch, RegionMatchError> {
     checkpoint(progress, "matching", 0.0)?;
-    let no_looks = PartLooks::default();
+    let no_looks = PartAppearances::default();
     MatchPlan::new([source, target], &no_looks, settings, progress)?
-        .matched(&settings.options(), progress)
+        .match_all_groups(&settings.options(), progress)
 }

@@ -2,13 +2,13 @@
 //! places between them.
 //!
 //! A corner is a point where the direction jumps: its turning hardly decreases when the window
-//! does. On a smooth bend the turning is proportional to the window, no matter how many points draw
-//! the bend. Corner detection therefore does not depend on the outline's resolution.
+//! does. On a smooth bend the turning is proportional to the window, no matter how many vertices
+//! the bend has. Corner detection therefore does not depend on the outline's resolution.
 
 use super::curve::BoundaryCurve;
 
-/// Half-length of the window for corner detection, as a fraction of the curve's length: the spacing
-/// of an outline with 140 even points (heuristic).
+/// Half-length of the window for corner detection, as a fraction of the curve's length: the edge
+/// length of an outline with about 140 equal edges (heuristic).
 const CORNER_REACH: f64 = 0.007;
 
 /// Minimum turning of a corner, in radians: 40° (heuristic).
@@ -18,8 +18,8 @@ const CORNER_TURN: f64 = 0.7;
 /// circular arc keeps 0.25, a jump 1; the threshold lies about halfway (heuristic).
 const CORNER_SHARPNESS: f64 = 0.6;
 
-/// Minimum gap between a corner and its neighbours, in sample spacings. Of corners that lie closer
-/// together, only the strongest become samples (heuristic).
+/// Minimum gap between a corner and the next corner or pin, in sample spacings. Of corners that lie
+/// closer together, only the strongest becomes a sample (heuristic).
 const MIN_GAP: f64 = 0.5;
 
 /// Sample places of a curve, ascending.
@@ -29,8 +29,8 @@ pub(super) struct CurveSamples {
 }
 
 impl CurveSamples {
-    /// Samples about `count` places. All `fixed` places (pins) are included, however close they
-    /// are.
+    /// Samples the curve at about `count` places. All `fixed` places (pins) are among them, however
+    /// close they are to each other.
     pub fn of(curve: &BoundaryCurve, count: u32, fixed: &[f64]) -> Self {
         let spacing = 1.0 / f64::from(count.max(3));
         let anchors = anchor_places(curve, spacing, fixed);
@@ -55,19 +55,21 @@ impl CurveSamples {
         let round = place.floor();
         let after = self.places.partition_point(|&p| p < place - round);
         let after = after + self.places.len() * round as usize;
-        let is_before = |k: &usize| place - self.unrolled(*k) < self.unrolled(after) - place;
+        let is_before =
+            |k: &usize| place - self.unwrapped_place(*k) < self.unwrapped_place(after) - place;
         after.checked_sub(1).filter(is_before).unwrap_or(after)
     }
 
     /// Returns the unwrapped place of an unwrapped index: sample `index % n`, plus one for each
     /// full round.
-    pub fn unrolled(&self, index: usize) -> f64 {
+    pub fn unwrapped_place(&self, index: usize) -> f64 {
         let n = self.places.len();
         self.places[index % n] + (index / n) as f64
     }
 }
 
-/// Appends `from` and evenly spaced places up to `to`, exclusive.
+/// Appends evenly spaced places from `from`, inclusive, to `to`, exclusive; they are about
+/// `spacing` apart.
 fn fill(places: &mut Vec<f64>, from: f64, to: f64, spacing: f64) {
     let pieces = ((to - from) / spacing).round().max(1.0);
     let step = (to - from) / pieces;
@@ -76,7 +78,7 @@ fn fill(places: &mut Vec<f64>, from: f64, to: f64, spacing: f64) {
 }
 
 /// Returns the places that must be samples exactly: pins and corners. There is at least one, so
-/// that the phase of the samples does not depend on where the outline starts.
+/// that the samples do not depend on the point at which the outline starts.
 fn anchor_places(curve: &BoundaryCurve, spacing: f64, fixed: &[f64]) -> Vec<f64> {
     let mut anchors = fixed.to_vec();
     anchors.sort_by(f64::total_cmp);
@@ -108,8 +110,8 @@ fn insert_unless_close(places: &mut Vec<f64>, place: f64, gap: f64) -> bool {
     is_apart
 }
 
-/// Returns the places of corners with their absolute turning, strongest first. Points next to a
-/// corner, whose windows include it, are suppressed.
+/// Returns the places of corners with their absolute turning in radians, strongest first. Points
+/// next to a corner, whose windows include it, are suppressed.
 pub(super) fn corners(curve: &BoundaryCurve) -> Vec<(f64, f64)> {
     let narrow_reach = 0.25 * CORNER_REACH;
     let is_corner = |&place: &f64| {
@@ -124,7 +126,7 @@ pub(super) fn corners(curve: &BoundaryCurve) -> Vec<(f64, f64)> {
     candidates
 }
 
-/// Returns the vertex with the largest turning over a wide window.
+/// Returns the place of the vertex with the largest turning over a wide window.
 fn sharpest_bend(curve: &BoundaryCurve) -> f64 {
     let turn = |place: f64| curve.turning(place, 4.0 * CORNER_REACH).abs();
     let mut best = (f64::NEG_INFINITY, 0.0);

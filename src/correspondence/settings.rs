@@ -19,11 +19,12 @@ use serde::{Deserialize, Serialize};
 pub struct MatchSettings {
     /// Whether "up" stays up: directions are compared as drawn instead of up to a rotation.
     pub keep_up: bool,
-    /// Weight of stretch relative to bending, at least 0. If `None`, and the shapes are dissimilar,
-    /// several weights are tried and the one with the best transition is used.
+    /// Weight of stretching (differing arc lengths) relative to bending (differing outlines), at
+    /// least 0. If `None`, the weight is 0.25; for dissimilar shapes several weights are tried, and
+    /// the one with the best transition is used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stretch: Option<f64>,
-    /// Weight of differing thickness, at least 0; 1 if `None`.
+    /// Weight of differences in the shapes' thickness, at least 0; 1 if `None`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
     /// Treatment of holes that exist in only one design.
@@ -41,10 +42,10 @@ pub struct MatchSettings {
     /// Pairs of corresponding parts, each identified by a point in or near it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links: Vec<PointPair>,
-    /// Parts that must stay unmatched, even if a similar part exists in the other design.
+    /// Parts that must stay unmatched, even if the other design has a similar part.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lone: Vec<UnmatchedPart>,
-    /// Cuts that open rings.
+    /// Cuts that open parts with a hole.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cuts: Vec<RingCut>,
 }
@@ -67,25 +68,27 @@ pub struct UnmatchedPart {
     pub at: DVec2,
 }
 
-/// A straight cut from a hole to the boundary around it, which opens the ring.
+/// A straight cut from a hole to another boundary of its part, which opens the ring around the
+/// hole.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RingCut {
     /// Design that is cut.
     pub side: Side,
-    /// Point near the cut's end on the outer boundary, or on another hole.
+    /// Point near the cut's other end, which lies on the outer boundary or on another hole.
     pub outer: DVec2,
     /// Point near the cut's end on the hole.
     pub hole: DVec2,
 }
 
-/// A coordinate that is not finite or out of range. Indices count from 1 in messages.
+/// Error: a coordinate of a setting is not finite, or is out of range. Indices count from 1 in
+/// messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what} {} {RANGE_MESSAGE}", index + 1)]
-pub struct MatchPlaceError {
+pub struct MatchSettingsError {
     /// Kind of the setting: "pin", "line", "link", "unmatched part" or "cut".
     pub what: &'static str,
-    /// Index in the list of that kind, from 0.
+    /// Index of the setting in the list of that kind, from 0.
     pub index: usize,
 }
 
@@ -93,16 +96,16 @@ pub struct MatchPlaceError {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum HoleRule {
-    /// The rule that gives the best transition. If no transition is built, closing or cutting,
-    /// whichever matches better; designs with more than 32 rings always close.
+    /// The rule that gives the best transition is used. If no transition is built, the hole closes
+    /// or is cut open, whichever matches better; in designs with more than 32 rings, holes close.
     #[default]
     Auto,
     /// The hole closes to a point, or opens from one. The part deforms around it.
     Close,
     /// The ring around the hole is cut open.
     Cut,
-    /// The part moves as if it had no such hole. The hole shrinks away inside it, or grows, without
-    /// deforming the part.
+    /// The part moves as if it had no such hole. The hole shrinks to nothing or grows from nothing
+    /// inside the part, without deforming it.
     Transient,
 }
 
@@ -119,11 +122,13 @@ named! { HoleRule {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PartRule {
-    /// A single part is split into several. A part with less than a thousandth of its design's area
-    /// causes no split. If both designs have several parts, unmatched parts appear and disappear.
+    /// If one design is a single part, that part is split into several. A part with less than a
+    /// thousandth of its design's area causes no split. If both designs have several parts,
+    /// unmatched parts appear and disappear.
     #[default]
     Auto,
-    /// The part of the other design that fits best is split.
+    /// The nearest part of the other design is split, and one piece of it is matched with the
+    /// unmatched part.
     Split,
     /// The part grows from a point, or shrinks to one.
     Transient,
@@ -182,8 +187,8 @@ impl RingCut {
 }
 
 impl MatchSettings {
-    /// Returns the settings without anything that refers to coordinates, for use with other
-    /// designs.
+    /// Returns the settings without those that contain coordinates (pins, lines, links, unmatched
+    /// parts and cuts), for use with other designs.
     #[must_use]
     pub fn without_places(&self) -> Self {
         Self {
@@ -199,9 +204,9 @@ impl MatchSettings {
     /// Checks that all coordinates are finite and in range.
     ///
     /// # Errors
-    /// [`MatchPlaceError`] names the first pin, line, link, unmatched part or cut with an invalid
-    /// coordinate.
-    pub fn check(&self) -> Result<(), MatchPlaceError> {
+    /// [`MatchSettingsError`] names the first pin, line, link, unmatched part or cut that has an
+    /// invalid coordinate.
+    pub fn check(&self) -> Result<(), MatchSettingsError> {
         let is_pair_valid =
             |pair: &PointPair| [pair.source, pair.target].map(is_in_range) == [true; 2];
         let is_line_valid = |line: &LinePair| {
@@ -228,7 +233,7 @@ impl MatchSettings {
         }
     }
 
-    /// Returns the settings for designs that were transformed by one similarity each.
+    /// Returns the settings with all coordinates transformed by the similarity of their design.
     #[must_use]
     pub fn placed(&self, maps: &[Similarity; 2]) -> Self {
         let pairs = |pairs: &[PointPair]| pairs.iter().map(|p| p.placed(maps)).collect();
@@ -273,9 +278,9 @@ fn check_all<T>(
     what: &'static str,
     items: &[T],
     is_valid: impl Fn(&T) -> bool,
-) -> Result<(), MatchPlaceError> {
+) -> Result<(), MatchSettingsError> {
     match items.iter().position(|item| !is_valid(item)) {
-        Some(index) => Err(MatchPlaceError { what, index }),
+        Some(index) => Err(MatchSettingsError { what, index }),
         None => Ok(()),
     }
 }

@@ -1,54 +1,57 @@
 //! Converts a boundary match to two polygons with the same number of corresponding vertices.
 //!
 //! Every vertex of either curve becomes a vertex of both polygons. A vertex of one curve and a
-//! vertex of the other are merged if they are close to the same place, corners first. Otherwise
-//! each pair of corners, which are matched only to a fraction of a sample, would leave a tiny edge.
+//! vertex of the other are merged if the match puts them almost at the same place; corners are
+//! merged first. Corners are matched only up to a fraction of the sample spacing, so a pair of
+//! corners that is not merged would leave a tiny edge.
 //!
-//! Both polygons follow their curves exactly: all vertices of a curve are preserved bit by bit, and
-//! added vertices lie on its edges to rounding. To get fewer vertices, simplify the curves first.
+//! Both polygons follow their curves exactly: all vertices of a curve are preserved without
+//! rounding, and added vertices lie on its edges up to rounding. To get fewer vertices, simplify
+//! the curves first.
 
-use super::boundary_match::{BoundaryMatch, interpolated};
+use super::boundary_match::{BoundaryMatch, interpolate_knots};
 use super::curve::BoundaryCurve;
 use super::proportional_map::{BOTH, ParameterKnot, ProportionalMap, SharedVertex};
 use super::samples::corners;
 use crate::geometry::DVec2;
 
-/// Corners of the two curves closer than this are merged, in fractions of the curves' length
-/// (heuristic).
+/// Maximum difference between the common parameters of a corner of one curve and a corner of the
+/// other at which the two are merged, as a fraction of the curves' mean length (heuristic).
 const SNAP_CORNERS: f64 = 0.008;
 
-/// Other vertices closer than this are merged, in fractions of the curves' length (heuristic).
+/// Maximum difference between the common parameters of two other vertices, one of each curve, at
+/// which they are merged, as a fraction of the curves' mean length (heuristic).
 const SNAP: f64 = 0.0025;
 
-/// Two polygons with corresponding vertices. No two neighbouring vertices coincide in either
-/// polygon.
+/// Two polygons with corresponding vertices: vertex k of the source corresponds to vertex k of the
+/// target. No two neighbouring vertices coincide in either polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SharedPolygons {
     /// Vertices on the source curve.
     pub source: Vec<DVec2>,
     /// Vertices on the target curve.
     pub target: Vec<DVec2>,
-    /// Places of the vertices on their curves, as fractions of arc length, `[source, target]`.
+    /// Places `[source, target]` of each vertex on the two curves, as fractions of arc length.
     pub places: Vec<[f64; 2]>,
 }
 
-/// Vertices whose common parameters differ by at most this are one vertex (tolerance: above
-/// rounding, far below any edge).
+/// Maximum difference between the common parameters of vertices that count as one vertex
+/// (tolerance: above rounding, far below any edge).
 const SAME_PARAMETER: f64 = 1e-12;
 
-/// Direction by whose projection candidate seams are ordered (heuristic: an irrational slope, so
-/// that points of a drawing rarely tie).
+/// Direction along which candidate seams are ordered; the first one becomes the seam (heuristic: an
+/// irrational slope, so that points of a drawing rarely tie).
 const SEAM_DIRECTION: DVec2 = DVec2::new(0.754_877_666, 0.569_840_291);
 
-/// Maximum number of vertices that `spacing` adds per round (resource limit).
+/// Maximum number of vertices added to a polygon to satisfy `spacing` (resource limit).
 const MAX_ADDED: f64 = 1e5;
 
 impl BoundaryMatch {
     /// Converts both curves to polygons with corresponding vertices, in order. The curves must be
     /// those that were matched.
     ///
-    /// Neighbouring vertices are at most `spacing` apart, in fractions of the mean length of the
-    /// two curves; infinity adds no vertices.
+    /// Neighbouring vertices are at most `spacing` apart, as a fraction of the two curves' mean
+    /// length; infinity adds no vertices.
     #[must_use]
     pub fn polygons(
         &self,
@@ -76,7 +79,7 @@ impl BoundaryMatch {
             let own = (curve.places().iter().enumerate()).map(|(k, &at)| (at, curve.bends_at(k)));
             let pins = self.pins.iter().map(|pin| (pin[side], true));
             for (place, is_bend) in own.chain(pins) {
-                let at = interpolated(&knots, common.parameter(place, side), [side, BOTH]);
+                let at = interpolate_knots(&knots, common.parameter(place, side), [side, BOTH]);
                 let mut places = [None; 2];
                 places[side] = Some(place);
                 vertices.push(SharedVertex {
@@ -88,13 +91,13 @@ impl BoundaryMatch {
         }
         let mut vertices = merge_equal(vertices);
         if !vertices.iter().any(SharedVertex::is_fixed) {
-            // With very many points no single one bends by more than the tolerance; then keep them
-            // all.
+            // On an outline with very many points, it may be that none bends by more than the
+            // tolerance. Then treat all as bends.
             vertices.iter_mut().for_each(|vertex| vertex.is_bend = true);
         }
         let straight = ProportionalMap::between(&vertices, |vertex| {
             [0, 1].map(|side| {
-                let own = interpolated(&knots, vertex.at, [BOTH, side]);
+                let own = interpolate_knots(&knots, vertex.at, [BOTH, side]);
                 vertex.places[side].unwrap_or_else(|| common.place(own, side, curves[side]))
             })
         });
@@ -103,15 +106,16 @@ impl BoundaryMatch {
     }
 }
 
-/// Common parameter of both matched curves: the mean of the arc lengths from the first knot, in
-/// [0, 1].
+/// Common parameter of both matched curves: the mean of the two arc lengths from the first knot,
+/// each a fraction of its curve's length; in [0, 1].
 struct CommonParameter {
     /// Knots with unwrapped places, ascending; the first is repeated one round later.
     knots: Vec<ParameterKnot>,
 }
 
 impl CommonParameter {
-    /// Places the seam at a knot that is a vertex of both curves, if there is one.
+    /// Creates the parameter of a match. Its seam is a knot that is a vertex of both curves, if
+    /// there is one.
     fn new(matched: &BoundaryMatch, curves: [&BoundaryCurve; 2]) -> Self {
         let mut knots = matched.knots.clone();
         let is_vertex = |place: f64, c: &BoundaryCurve| {
@@ -123,7 +127,7 @@ impl CommonParameter {
             (p + q).dot(SEAM_DIRECTION)
         };
         // Prefer shared vertices, so that the seam adds no vertex of its own. The order is
-        // symmetric, so exchanging the designs gives the same seam bit by bit.
+        // symmetric in the designs, so exchanging them gives exactly the same seam.
         let order = |a: &[f64; 2], b: &[f64; 2]| {
             let by_sharing = is_shared(b).cmp(&is_shared(a));
             by_sharing.then(projection(a).total_cmp(&projection(b)))
@@ -150,12 +154,12 @@ impl CommonParameter {
     /// Returns the common parameter of a curve's place.
     fn parameter(&self, place: f64, side: usize) -> f64 {
         let round = f64::from(u8::from(place < self.knots[0][side]));
-        interpolated(&self.knots, place + round, [side, BOTH])
+        interpolate_knots(&self.knots, place + round, [side, BOTH])
     }
 
     /// Returns a curve's place at a common parameter.
     fn place(&self, parameter: f64, side: usize, curve: &BoundaryCurve) -> f64 {
-        curve.wrapped(interpolated(&self.knots, parameter, [BOTH, side]))
+        curve.wrapped(interpolate_knots(&self.knots, parameter, [BOTH, side]))
     }
 
     /// Returns the common parameters of a curve's places, ascending.
@@ -166,7 +170,8 @@ impl CommonParameter {
     }
 }
 
-/// Inserts a knot in order, unless it would cross or touch another.
+/// Inserts a pair of parameters, `[source, target]`, as a knot in order, unless it would cross or
+/// touch another knot.
 fn insert(knots: &mut Vec<ParameterKnot>, [a, b]: [f64; 2]) {
     let knot = [a, b, a.midpoint(b)];
     let index = knots.partition_point(|j| j[0] < a);
@@ -176,11 +181,12 @@ fn insert(knots: &mut Vec<ParameterKnot>, [a, b]: [f64; 2]) {
     }
 }
 
-/// Adds knots that merge pairs of vertices, one of each curve. A pair is merged if both are each
-/// other's nearest under the current knots, closer than `limit`, and between the same knots.
+/// Adds knots that merge pairs of vertices, one of each curve. A pair is merged if, under the
+/// current knots, each is the nearest to the other, their parameters differ by at most `limit`, and
+/// both lie between the same knots.
 fn merge_nearest(knots: &mut Vec<ParameterKnot>, parameters: &[Vec<f64>; 2], limit: f64) {
     let warped = [0, 1].map(|side| -> Vec<f64> {
-        let warped = |&t: &f64| interpolated(knots, t, [side, BOTH]);
+        let warped = |&t: &f64| interpolate_knots(knots, t, [side, BOTH]);
         parameters[side].iter().map(warped).collect()
     });
     let mut pairs = Vec::new();
@@ -188,7 +194,8 @@ fn merge_nearest(knots: &mut Vec<ParameterKnot>, parameters: &[Vec<f64>; 2], lim
         let Some(other) = nearest_index(&warped[1], parameter) else {
             continue;
         };
-        // Require mutual neighbours: otherwise two vertices could merge with the same one.
+        // Require that each is the other's nearest: otherwise two vertices could merge with the
+        // same one.
         let is_mutual = nearest_index(&warped[0], warped[1][other]) == Some(k);
         if is_mutual && (parameter - warped[1][other]).abs() <= limit {
             pairs.push([parameters[0][k], parameters[1][other]]);
@@ -231,7 +238,7 @@ fn merge_equal(mut vertices: Vec<SharedVertex>) -> Vec<SharedVertex> {
     merged
 }
 
-/// Adds evenly spaced vertices between neighbours that are farther apart than `spacing`.
+/// Adds evenly spaced vertices between neighbours whose parameters differ by more than `spacing`.
 fn subdivide_gaps(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex> {
     let mut spaced = Vec::with_capacity(vertices.len());
     for (k, &vertex) in vertices.iter().enumerate() {
@@ -252,7 +259,8 @@ fn subdivide_gaps(vertices: Vec<SharedVertex>, spacing: f64) -> Vec<SharedVertex
     spaced
 }
 
-/// Evaluates the vertices on both curves, omitting consecutive duplicates.
+/// Evaluates the vertices on both curves. A vertex that coincides with the previous one on either
+/// curve is omitted.
 fn evaluate_polygons(
     vertices: &[SharedVertex],
     straight: &ProportionalMap,
@@ -275,7 +283,7 @@ fn evaluate_polygons(
             shared.places.push(places);
         }
     }
-    // The polygons are closed: the last vertex must differ from the first too.
+    // The polygons are closed, so the last vertex must differ from the first one too.
     while shared.source.len() > 3 && closes_twice(&shared) {
         shared.source.pop();
         shared.target.pop();
@@ -284,7 +292,7 @@ fn evaluate_polygons(
     shared
 }
 
-/// Returns whether the last vertex repeats the first in either polygon.
+/// Returns whether the last vertex coincides with the first one in either polygon.
 fn closes_twice(shared: &SharedPolygons) -> bool {
     shared.source.first() == shared.source.last() || shared.target.first() == shared.target.last()
 }

@@ -1,5 +1,5 @@
-//! Solves the matching of two curves: finds the best path, makes it strictly monotone, and
-//! registers nearly congruent curves onto each other.
+//! Solves the matching of two curves: finds the best path through sample pairs, makes it strictly
+//! monotone, and refines it for curves that are nearly congruent up to a similarity.
 
 use super::boundary_match::BoundaryMatch;
 use super::congruent::registered_knots;
@@ -8,14 +8,14 @@ use super::curve_problem::CurveMatchProblem;
 use super::monotone_path::refine;
 use super::poses::PathSolution;
 
-/// Maximum distance of the refined path from the unit-step path, in samples (derived: one
-/// more than the longest refined step).
+/// Maximum distance of the strictly monotone path from the unit-step path, in samples (derived: one
+/// more than the longest step of the strictly monotone path).
 const REACH: usize = 9;
 
 impl CurveMatchProblem {
     /// Returns the match of the two curves, which must be those that the problem was created from.
     pub fn solve(self, curves: [&BoundaryCurve; 2]) -> BoundaryMatch {
-        let inside = self.solution_inside();
+        let inside = self.inner_distance_solution();
         let solution = inside.unwrap_or_else(|| self.posed_solution());
         let nodes = self.strictly_monotone(&solution);
         let place = |&[i, j]: &[usize; 2]| {
@@ -33,16 +33,16 @@ impl CurveMatchProblem {
         }
     }
 
-    /// Converts the solution to a strictly monotone path. A path without pins is first cut at its
-    /// most distinctive node, then again on the far side, so that no trace of the first cut
-    /// remains.
+    /// Converts the solution to a strictly monotone path. A path without pins is refined twice:
+    /// once cut open at its most distinctive node, and again cut open at the opposite node, so that
+    /// the first cut leaves no trace.
     fn strictly_monotone(&self, solution: &PathSolution) -> Vec<[usize; 2]> {
         let fixed = self.fixed_nodes();
         if fixed.is_empty() {
             let start = self.most_distinctive_node(solution);
             let first =
                 self.refine_section(solution, &self.rotated_to_start(&solution.nodes, start));
-            // The refined path has longer steps, so it is expanded before the second cut.
+            // The refined path has longer steps, so expand it to unit steps before the second cut.
             let expanded = unit_steps(&first);
             let far = first[first.len() / 2];
             return self.refine_section(solution, &self.rotated_to_start(&expanded, far));
@@ -61,7 +61,7 @@ impl CurveMatchProblem {
         strict
     }
 
-    /// Refines a section of a path; its ends are fixed.
+    /// Makes a section of a path strictly monotone; its first and last nodes stay fixed.
     fn refine_section(&self, solution: &PathSolution, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
         let [from, to] = [nodes[0], nodes[nodes.len() - 1]];
         let grid = self.grid(&solution.dissimilarity, from, to);
@@ -76,13 +76,13 @@ impl CurveMatchProblem {
             .collect()
     }
 
-    /// Returns the node at which both curves bend strongly and resemble each other most.
+    /// Returns the node at which both curves bend most strongly and are most similar.
     fn most_distinctive_node(&self, solution: &PathSolution) -> [usize; 2] {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let distinctiveness = |&[i, j]: &[usize; 2]| {
             let (i, j) = (i % n, j % m);
             let bend = (self.source_features.salience(i)).min(self.target_features.salience(j));
-            // The factor makes similarity dominate over bending (heuristic).
+            // The factor 4 makes similarity dominate over bending (heuristic).
             bend - 4.0 * solution.dissimilarity[j * n + i]
         };
         let mut best = solution.nodes[0];

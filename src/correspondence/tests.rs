@@ -1,11 +1,12 @@
-//! Tests of boundary matching: exact identities, pins, and curves without features.
+//! Tests of boundary matching: exact identities, pins, symmetric, featureless and degenerate
+//! curves, invalid input, and polygons with shared vertices.
 
 use super::*;
 use crate::geometry::{DVec2, Ring, Similarity};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Spacing of the samples with default options, in fractions of the length.
+/// Spacing of the samples with default options, as a fraction of the curve's length.
 const SAMPLE: f64 = 1.0 / 160.0;
 
 fn ring(points: Vec<DVec2>) -> Ring {
@@ -29,7 +30,7 @@ fn match_rings(
     match_curves(&source, &target, pins, options)
 }
 
-/// Returns the target place that corresponds to the source's `place`.
+/// Returns the target place that the match assigns to the source's `place`.
 fn across(found: &BoundaryMatch, place: f64) -> f64 {
     let knots = found.knots();
     let n = knots.len();
@@ -121,8 +122,8 @@ fn resampled(ring: &Ring, count: u32) -> Ring {
     self::ring((0..count).map(place).collect())
 }
 
-/// Returns the largest distance, in perimeters of the target, between matched points and the points
-/// that `expected` maps the source to.
+/// Returns the largest distance between the target point matched with a source point and the point
+/// to which `expected` maps that source point, as a fraction of the target's perimeter.
 fn error(source: &Ring, target: &Ring, expected: impl Fn(DVec2) -> DVec2) -> f64 {
     let found = matched(source, target);
     let (a, b) = (
@@ -166,7 +167,8 @@ fn a_shape_matches_itself_under_any_similarity() {
                 rotation,
                 mirror,
             };
-            // Mirror both shapes, so that their orientations agree; the target is also moved.
+            // Mirror both shapes, so that their orientations agree. The target is also rotated,
+            // scaled and moved.
             let flip = Similarity {
                 mirror,
                 ..Similarity::IDENTITY

@@ -1,23 +1,24 @@
-//! Thickness of a shape behind each point of its boundary.
+//! Measures the thickness of a shape at each point of its boundary.
 //!
 //! The thickness is the median length of a few rays into the shape, as in Shapira, Shamir and
-//! Cohen-Or 2008 (the shape diameter function). A limb keeps its thickness however it bends.
-//! Thickness therefore shows where along a tail or an arm a point lies, which turning and position
-//! cannot.
+//! Cohen-Or 2008 (the shape diameter function). Bending a limb does not change its thickness.
+//! Thickness therefore shows how far along a tail or an arm a point lies, which turning and
+//! position cannot show.
 //!
-//! Guarantees: values are finite and, to rounding, invariant under translation, rotation and
+//! Guarantees: values are finite and, up to rounding, invariant under translation, rotation and
 //! scaling. A curve with turning number 0 has no inside; its thickness is constant.
 
 use super::curve::BoundaryCurve;
 use crate::geometry::{DVec2, EdgeBvh, signed_area};
 use std::f64::consts::FRAC_PI_6;
 
-/// Directions of the rays, in multiples of 30° from the inward normal. At a tip the oblique rays
-/// hit its sides, so the median is the tip's own thickness (heuristic).
+/// Directions of the rays, in multiples of 30° from the inward normal. At a tip, the oblique rays
+/// hit the sides of the tip, so the median is the thickness of the tip (heuristic).
 const RAYS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
-/// Ray hits closer than this fraction of the shape's size belong to the point's own edge
-/// (tolerance: far above the rounding of a point on an edge, far below any thickness).
+/// Distance within which a ray's hit is ignored, because it is on the edge where the ray starts, as
+/// a fraction of the shape's size; also the minimum thickness (tolerance: far above the rounding of
+/// a point on an edge, far below any thickness).
 const OWN_EDGE: f64 = 1e-7;
 
 /// Returns the logarithm of the thickness at each place, minus its mean along the curve. `places`
@@ -47,8 +48,9 @@ pub(super) fn log_thickness(curve: &BoundaryCurve, places: &[(f64, f64)]) -> Vec
     subtract_mean(places.iter().map(log_at).collect(), places)
 }
 
-/// Subtracts the mean along the curve from the values. Otherwise a design with long limbs, which
-/// has a larger area for the same limb thickness, would compare as thinner.
+/// Subtracts the mean along the curve from the values, which are relative to the square root of the
+/// area. Otherwise a design with longer limbs of the same thickness, which has a larger area, would
+/// count as thinner.
 fn subtract_mean(mut values: Vec<f64>, places: &[(f64, f64)]) -> Vec<f64> {
     let n = values.len();
     let gap = |from: usize, to: usize| (places[to].0 - places[from].0).rem_euclid(1.0);

@@ -1,20 +1,18 @@
 //! Importer of DXF drawings, text and binary, of any release.
 //!
-//! Supports LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE, SPLINE and
-//! INSERT. Curves are joined end to end into rings; end points closer than
-//! [`JOIN_TOLERANCE`] count as one. The even-odd rule decides what is inside. If layers or
-//! entities have colours, each combination of layer and colour becomes a paint layer. One
-//! drawing unit is one design unit; the declared units, hidden layers and paper space are
-//! ignored.
+//! Supports LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE, SPLINE and INSERT.
+//! Curves are joined end to end into rings; end points closer than [`JOIN_TOLERANCE`] count as one.
+//! The even-odd rule decides what is inside. If layers or entities have colours, each combination
+//! of DXF layer and colour becomes one or more paint layers. One drawing unit is one design unit;
+//! the declared units, hidden layers and paper space are ignored.
 //!
 //! Does not use the `dxf` crate, which stores every entity with all attributes (hundreds of
 //! bytes per byte of a hostile file) and does not report the line of an error.
 //!
-//! Guarantees that no bytes cause a panic or an endless run, and that memory stays within a
-//! few hundred bytes per entity, of which there are at most [`MAX_OBJECTS`]. Open curves,
-//! splines with fit points only, hatches, text and solids are ignored and reported as
-//! notes. If an odd number of curves, three or more, meets at a point, it is arbitrary which
-//! of them form a ring.
+//! Guarantees that no input causes a panic or an infinite loop, and that memory use stays within a
+//! few hundred bytes per entity; there are at most [`MAX_OBJECTS`] entities. Open curves, splines
+//! with fit points only, hatches, text and solids are ignored and reported as notes. Where three or
+//! a larger odd number of curves meet at a point, it is arbitrary which of them form a ring.
 //!
 //! [`MAX_OBJECTS`]: error::MAX_OBJECTS
 
@@ -39,24 +37,25 @@ use curve::DxfCurve;
 use drawing::DxfPath;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Maximum distance of end points that are joined, as a fraction of the drawing's longer side
-/// (tolerance: coordinates rounded to four digits).
+/// Maximum distance between end points that are joined, as a fraction of the drawing's longer side
+/// (tolerance: covers coordinates that were rounded to four significant digits).
 pub(super) const JOIN_TOLERANCE: f64 = 1e-4;
 
-/// Maximum distance of equal points within one path, as a fraction of the longer side
-/// (tolerance: the end points of an arc with bulge 1e-7 are accurate to 3e-10).
+/// Distance up to which two points of one path count as equal, as a fraction of the drawing's
+/// longer side (tolerance: the end points of an arc with bulge 1e-7 are accurate to 3e-10).
 const ROUNDING: f64 = 1e-9;
 
-/// Imports a DXF file. `tolerance` is a fraction of the drawing's longer side.
+/// Imports a DXF file. `tolerance` is the maximum deviation of flattened curves, as a fraction of
+/// the drawing's longer side.
 ///
 /// # Errors
-/// [`DxfError`] names the position in the file or the open end that prevents the import.
+/// Returns a [`DxfError`] if the file is damaged, exceeds a limit, or has no closed outline.
 pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, DxfError> {
     let drawing = drawing::read(bytes)?;
     let curves = || drawing.paths.iter().flat_map(|path| &path.curves);
     let hull = Bounds::of(curves().flat_map(DxfCurve::hull));
     let side = hull.map_or(0.0, |hull| hull.size().max_element());
-    // No curves, or only points.
+    // The drawing has no curves, or all of them lie in one point.
     if side <= 0.0 {
         return Err(DxfError::Nothing(OtherKinds(drawing.skipped)));
     }
@@ -70,7 +69,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, Dxf
         return Err(DxfError::Open { count, at });
     }
     let (regions, mut repairs) = Regions::from_rings_reporting(&rings, FillRule::EvenOdd)?;
-    // `from_rings_reporting` counts duplicate rings, joining counts duplicate curves.
+    // `repairs` counts duplicate rings, `joined` duplicate curves.
     repairs.duplicates += joined.duplicates;
     let mut notes = ImportNote::from_repairs(&repairs, FillRule::EvenOdd);
     notes.extend(joined.loose_ends.first().map(|&at| ImportNote::OpenCurves {
@@ -86,10 +85,12 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, Dxf
     })
 }
 
-/// Returns one or more paint layers for each combination of DXF layer and colour; none if no
-/// colour is given.
+/// Returns one or more paint layers for each style, a combination of DXF layer and colour; none if
+/// the drawing has no colours. `tolerance` and `side`, the longer side of the drawing, are in
+/// drawing units.
 ///
-/// A ring whose curves have different styles gets the style with the largest total length.
+/// A ring of curves with different styles gets the style whose curves have the largest total
+/// length.
 fn layers_by_style(
     paths: &[DxfPath],
     tolerance: f64,
@@ -105,7 +106,7 @@ fn layers_by_style(
         paths_by_style.entry(key).or_default().push(path);
     }
     let mut rings_by_style = Vec::with_capacity(paths_by_style.len());
-    // Curves that do not close within their own style, and the index of that style.
+    // Curves that form no ring with curves of their own style, and the index of each one's style.
     let (mut remaining, mut remaining_styles) = (Vec::new(), Vec::new());
     for (style, paths) in paths_by_style.values().enumerate() {
         let (mut rings, open) = flatten_paths(paths, tolerance, ROUNDING * side)?;
@@ -127,7 +128,7 @@ fn layers_by_style(
                 .map(|step| step[0].distance(step[1]));
             lengths[remaining_styles[curve]] += steps.sum::<f64>();
         }
-        // `max_by` returns the last maximum; reversed, the first style wins a tie.
+        // `max_by` returns the last maximum, so the order is reversed: the first style wins a tie.
         let longest = (0..lengths.len())
             .rev()
             .max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]));
@@ -135,7 +136,8 @@ fn layers_by_style(
     }
     let mut sheets = Vec::with_capacity(rings_by_style.len());
     for ((layer, rgb), rings) in paths_by_style.keys().zip(rings_by_style) {
-        // Skips styles without a ring; the notes already report their open curves.
+        // A style without a ring has no regions and is skipped; the notes already report its open
+        // curves.
         let regions = Regions::from_rings(&rings, FillRule::EvenOdd);
         sheets.extend(regions.ok().map(|regions| PaintGroup {
             regions,
@@ -149,8 +151,8 @@ fn layers_by_style(
 /// Lists of points, closed or open depending on the context.
 type Polylines = Vec<Vec<DVec2>>;
 
-/// Flattens paths; returns closed polygons and open polylines. Both lengths are in drawing
-/// units.
+/// Flattens paths; returns closed polygons and open polylines. `tolerance` (the maximum deviation)
+/// and `rounding` (the distance up to which points count as equal) are in drawing units.
 fn flatten_paths(
     paths: &[&DxfPath],
     tolerance: f64,
@@ -166,7 +168,8 @@ fn flatten_paths(
         for curve in curves {
             let start = points.len();
             curve.flatten(tolerance, &mut points);
-            // The computed end of an arc may differ from the next start by rounding.
+            // The computed end of an arc may differ from the start of the next curve by rounding
+            // errors.
             if start > 0 && points[start].distance(points[start - 1]) <= rounding {
                 points.remove(start);
             }

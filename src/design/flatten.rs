@@ -1,10 +1,10 @@
-//! Flattening of Bézier paths into closed polygons.
+//! Flattens Bézier paths into closed polygons.
 //!
-//! A Bézier curve of degree d cut into n pieces at equal parameters stays within
-//! d (d − 1) / (8 n²) times the largest second difference of its control points from
-//! its chords (Wang 1984). The number of pieces is therefore known in advance, and the
-//! error is bounded, not estimated. The bound does not hold for curves that would need
-//! more than [`MAX_PIECES`] pieces, such as curves thousands of pages long.
+//! Let a Bézier curve of degree d be cut into n pieces at equally spaced parameters. The distance
+//! of each piece from its chord is at most d (d − 1) / (8 n²) times the largest second difference
+//! of the control points (Wang 1984). The number of pieces is therefore known in advance, and the
+//! error is bounded, not estimated. The bound does not hold for curves that would need more than
+//! [`MAX_PIECES`] pieces, such as curves thousands of pages long.
 
 use crate::geometry::DVec2;
 use usvg::tiny_skia_path::{Path, PathSegment, Point};
@@ -12,12 +12,12 @@ use usvg::tiny_skia_path::{Path, PathSegment, Point};
 /// Maximum number of points of a flattened design (resource limit: 32 MB).
 pub(super) const MAX_POINTS: usize = 2_000_000;
 
-/// Minimum flattening tolerance, as a fraction of the page (tolerance: precision of the
-/// `f32` coordinates of drawings).
+/// Minimum flattening tolerance, as a fraction of the longer side of the page (tolerance: precision
+/// of the `f32` coordinates in SVG drawings).
 pub(super) const MIN_TOLERANCE: f64 = 1e-7;
 
-/// Maximum number of pieces per curve (resource limit: a curve ten pages long reaches it
-/// at a tolerance of 1e-7 of the page).
+/// Maximum number of pieces per curve (resource limit: at the minimum tolerance, 1e-7 of the page,
+/// a curve ten pages long reaches it).
 const MAX_PIECES: f64 = 4096.0;
 
 /// Error for outlines that flatten into too many points.
@@ -35,7 +35,8 @@ pub(super) struct Flattener {
 }
 
 impl Flattener {
-    /// Creates a flattener; `tolerance` is in units of the page.
+    /// Creates a flattener. `tolerance` is the maximum distance between curves and polygons, in
+    /// units of the page.
     pub(super) fn new(tolerance: f64) -> Self {
         Self {
             tolerance,
@@ -85,7 +86,7 @@ impl Flattener {
         }
         self.points += ring.len();
         rings.push(ring);
-        // Points and single lines enclose no area.
+        // A ring with fewer than three points encloses no area.
         rings.retain(|ring| ring.len() >= 3);
         Ok(rings)
     }
@@ -102,7 +103,8 @@ impl Flattener {
             let s = 1.0 - t;
             s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d
         }));
-        // The exact end point: the next curve starts at the same bits.
+        // The last point is the exact end point, so that the next curve starts at identical
+        // coordinates.
         ring.push(d);
     }
 }
@@ -116,7 +118,7 @@ mod tests {
         DVec2::new(p.x.into(), p.y.into())
     }
 
-    /// Returns the largest distance of sampled curve points from the polygon.
+    /// Returns the largest distance from sampled points of a quadratic curve to the polygon `ring`.
     fn error(ring: &[DVec2], [a, b, c]: [DVec2; 3]) -> f64 {
         let near = |p: DVec2| {
             ring.windows(2)

@@ -1,5 +1,5 @@
-//! The [`Design`] type: its form (outline, mesh or truss), paint layers and import
-//! notes, with constructors from rings and pictures and the outline of the filled area.
+//! The [`Design`] type: its form (outline, mesh or truss), paint layers and import notes. Creates
+//! designs from rings and pictures, transforms them, and computes the outline of the filled area.
 
 use super::note::ImportNote;
 use super::options::ImportOptions;
@@ -13,8 +13,8 @@ use crate::mesh::TriangleMesh;
 use image::RgbaImage;
 use std::f64::consts::PI;
 
-/// Number of chords for the half circle at either end of a bar (tolerance: each chord
-/// stays within 0.5 % of the radius).
+/// Number of chords for the half circle at either end of a truss bar (tolerance: the distance
+/// between a chord and the half circle is at most 0.5 % of the radius).
 const CAP_SIDES: u32 = 16;
 
 /// One of the shapes to blend.
@@ -25,12 +25,12 @@ pub struct Design {
     pub name: String,
     /// Geometry, y up.
     pub form: DesignForm,
-    /// Rectangle of the picture or page with its lower left corner at the origin, or
-    /// the bounding box of a mesh, a truss or a single element of a drawing.
+    /// Rectangle of the picture, of the SVG page or of the line of text; for all other sources, the
+    /// bounding box of the geometry. Pictures and pages have their lower left corner at the origin.
     pub extent: Bounds,
     /// Original pixels, if the design was imported from a picture.
     pub picture: Option<Picture>,
-    /// Regions with their own colours, lowest first; empty if the file names no colours.
+    /// Regions with their own colours, lowest layer first; empty if the file specifies no colours.
     pub paint_layers: Vec<PaintLayer>,
     /// Repairs and omissions made during the import.
     pub notes: Vec<ImportNote>,
@@ -41,14 +41,14 @@ pub struct Design {
 pub enum DesignForm {
     /// Filled regions with holes.
     Outline(Regions),
-    /// Triangle mesh whose vertex numbers give the correspondence to other meshes.
+    /// Triangle mesh. Vertices with the same number in two meshes correspond to each other.
     Mesh(TriangleMesh),
     /// Nodes joined by bars.
     Truss(Truss),
 }
 
 impl Design {
-    /// Creates a design from its geometry; the extent is the bounding box.
+    /// Creates a design from its geometry. The extent is the bounding box of the geometry.
     ///
     /// ```
     /// use morphospace::{design::Design, geometry::DVec2, mesh::TriangleMesh};
@@ -167,9 +167,9 @@ impl Design {
         }
     }
 
-    /// Returns all pieces of the paint layers, lowest first, or `None` without layers.
+    /// Returns the regions of all paint layers, lowest layer first; `None` if there are no layers.
     ///
-    /// These pieces are matched when designs are shown in their own colours.
+    /// These regions are matched when designs are shown in their own colours.
     #[must_use]
     pub fn painted_pieces(&self) -> Option<Regions> {
         Regions::stacked(self.paint_layers.iter().map(|layer| layer.regions.clone()))
@@ -178,7 +178,7 @@ impl Design {
     /// Returns the filled area: an outline itself, the union of a mesh's triangles, or a
     /// truss with its bars drawn `bar_width` wide and rounded at the nodes.
     ///
-    /// `bar_width` is in the design's units and is ignored except for trusses.
+    /// `bar_width` is in the design's units; only trusses use it.
     ///
     /// # Errors
     /// [`RegionsError`] if the area is empty, for example with bars of zero width.
@@ -192,7 +192,7 @@ impl Design {
 }
 
 impl DesignForm {
-    /// Returns the bounding box.
+    /// Returns the bounding box of the geometry.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         match self {
@@ -232,7 +232,7 @@ fn mesh_outline(mesh: &TriangleMesh) -> Result<Regions, RegionsError> {
     Regions::from_rings(&rings, FillRule::NonZero)
 }
 
-/// Returns the union of the bars, drawn as strokes with round ends.
+/// Returns the union of the bars of a truss, drawn `bar_width` wide with round ends.
 fn truss_outline(truss: &Truss, bar_width: f64) -> Result<Regions, RegionsError> {
     if !(bar_width.is_finite() && bar_width > 0.0) {
         return Err(RegionsError::Empty);
@@ -281,17 +281,17 @@ fn capsule(a: DVec2, b: DVec2, radius: f64) -> Vec<DVec2> {
 pub(super) struct ImportedOutlines {
     /// Union of all shapes.
     pub(super) regions: Regions,
-    /// Page, or the bounding box.
+    /// Rectangle of the page, or bounding box of the regions if the file has no page.
     pub(super) extent: Bounds,
-    /// Coloured regions, lowest first.
+    /// Coloured regions, lowest layer first; empty if the file specifies no colours.
     pub(super) paint_layers: Vec<PaintLayer>,
-    /// Repairs and omissions.
+    /// Repairs and omissions made during the import.
     pub(super) notes: Vec<ImportNote>,
 }
 
 impl ImportedOutlines {
-    /// Turns the import result into a design.
-    pub(super) fn named(self, name: String) -> Design {
+    /// Turns the import result into a design with the given name.
+    pub(super) fn into_design(self, name: String) -> Design {
         Design {
             extent: self.extent,
             paint_layers: self.paint_layers,
@@ -301,7 +301,7 @@ impl ImportedOutlines {
     }
 }
 
-/// Returns the union of all paint layers, or `None` without layers.
+/// Returns the union of all paint layers, or `None` if there are none.
 fn covered_area(layers: &[PaintLayer]) -> Option<Regions> {
     let rings = layers.iter().flat_map(|layer| layer.regions.rings());
     let rings: Vec<Vec<DVec2>> = rings.map(|ring| ring.points().to_vec()).collect();
@@ -319,8 +319,8 @@ mod tests {
         let regions = truss_outline(&truss, 0.2).expect("area");
         assert_eq!(regions.len(), 1);
         assert_eq!(regions.rings().count(), 2);
-        // Outer offset: area + perimeter · r + π r². Inner offset: a similar triangle whose
-        // inradius is 1 − r.
+        // With r = 0.1, half the bar width: the outer outline encloses area + perimeter · r + π r²;
+        // the hole is a similar triangle whose inradius is 1 − r.
         let expected = 6.0 + 12.0 * 0.1 + PI * 0.01 - 6.0 * 0.9 * 0.9;
         assert!(
             (regions.area() - expected).abs() < 1e-3,
@@ -363,7 +363,8 @@ mod tests {
         let truss = Truss::new(places.collect(), bars).expect("valid");
         let regions = truss_outline(&truss, 0.2).expect("area");
         assert_eq!((regions.len(), regions.rings().count()), (1, 1 + 11 * 11));
-        // Rounded outer square minus the 121 square holes.
+        // Area of the outer square with rounded corners; the 121 holes of side 0.8 are subtracted
+        // below.
         let whole = 11.0 * 11.0 + 4.0 * 11.0 * 0.1 + PI * 0.01;
         let area = regions.area();
         assert!((area - (whole - 121.0 * 0.64)).abs() < 1e-3, "{area}");

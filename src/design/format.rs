@@ -85,7 +85,7 @@ impl Format {
 
     /// Joins the display names of formats for a sentence: `PNG, JPEG, BMP or WebP`.
     #[must_use]
-    pub fn listed(formats: &[Self]) -> String {
+    pub fn or_list_of_names(formats: &[Self]) -> String {
         or_list(formats.iter().map(|format| format.name()))
     }
 }
@@ -123,9 +123,12 @@ mod tests {
 
     #[test]
     fn format_names_are_joined_for_a_sentence() {
-        assert_eq!(Format::listed(Format::PICTURES), "PNG, JPEG, BMP or WebP");
-        assert_eq!(Format::listed(&[Format::Svg]), "SVG");
-        assert_eq!(Format::listed(&[]), "");
+        assert_eq!(
+            Format::or_list_of_names(Format::PICTURES),
+            "PNG, JPEG, BMP or WebP"
+        );
+        assert_eq!(Format::or_list_of_names(&[Format::Svg]), "SVG");
+        assert_eq!(Format::or_list_of_names(&[]), "");
     }
 
     #[test]

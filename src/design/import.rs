@@ -1,5 +1,5 @@
-//! The import entry points: turn the bytes of a file, or text in a font, into a design
-//! by recognising the format and calling its importer.
+//! Entry points of the import: turn the bytes of a file, or text in a font, into a design. They
+//! recognise the format of the file and call its importer.
 
 use super::error::{ImportError, ImportProblem};
 use super::form::Design;
@@ -42,7 +42,7 @@ pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Design, Impor
 }
 
 impl DesignSource {
-    /// Reads the file, if the source needs one, and imports the design.
+    /// Reads the file of the source, if it has one, and imports the design.
     ///
     /// # Errors
     /// [`ImportError`] names the source, the position in it and a remedy.
@@ -73,7 +73,7 @@ impl DesignSource {
                     return Err(ImportProblem::Empty);
                 }
                 let font = font.is_some().then_some(bytes);
-                Ok(lettering::read(text, font, options.tolerance)?.named(name))
+                Ok(lettering::read(text, font, options.tolerance)?.into_design(name))
             }
         };
         read().map_err(|problem| self.error(problem))
@@ -85,7 +85,7 @@ impl DesignSource {
     }
 }
 
-/// Imports a file, or only the element with the given id.
+/// Imports the bytes of a file, or only the element of an SVG drawing with the given id.
 fn read(
     name: String,
     bytes: &[u8],
@@ -106,10 +106,10 @@ fn read(
         Format::Picture(format) => {
             Design::from_picture(name, silhouette::decode(bytes, format)?, options)?
         }
-        Format::Svg => svg::read(text(bytes)?, element, options)?.named(name),
-        Format::Dxf => dxf::read(bytes, options.tolerance)?.named(name),
+        Format::Svg => svg::read(text(bytes)?, element, options)?.into_design(name),
+        Format::Dxf => dxf::read(bytes, options.tolerance)?.into_design(name),
         Format::Obj => Design::new(name, obj::read(text(bytes)?)?),
-        Format::Polygons => polygons::read(text(bytes)?)?.named(name),
+        Format::Polygons => polygons::read(text(bytes)?)?.into_design(name),
         Format::Truss => Design::new(name, Truss::from_json(text(bytes)?)?),
     })
 }

@@ -1,4 +1,5 @@
-//! The JSON syntax or schema error shared by the polygon and truss importers.
+//! Error that the polygon and truss importers share: text with invalid JSON syntax or an unexpected
+//! structure.
 
 /// Error for text that is not JSON or does not have the expected structure.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,7 +17,8 @@ impl From<serde_json::Error> for JsonError {
     fn from(error: serde_json::Error) -> Self {
         let (line, column) = (error.line(), error.column());
         let words = error.to_string();
-        // The parser appends the position, which the message above shows already.
+        // The parser appends the position, but the error message of `JsonError` already begins with
+        // it.
         let position = format!(" at line {line} column {column}");
         Self {
             line,

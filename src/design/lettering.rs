@@ -1,12 +1,11 @@
-//! Converts text to outlines: one line in a font file or the bundled font.
+//! Converts one line of text to outlines, in a given font file or the bundled font.
 //!
-//! `harfrust` shapes the text with HarfBuzz's algorithm (advances, GPOS and `kern`
-//! kerning, ligatures, right-to-left scripts); `skrifa` supplies the glyph outlines. One
-//! em is 1000 units. The page is as wide as the sum of the advances and as high as the
-//! font's ascent plus descent, extended to glyphs that reach beyond. The origin is the
-//! lower left corner of the page before that extension, so words in one font share a
-//! baseline. Overlapping contours are united by the non-zero winding rule. Variable fonts
-//! use their default instance.
+//! `harfrust` shapes the text with HarfBuzz's algorithm (advances, GPOS and `kern` kerning,
+//! ligatures, right-to-left scripts); `skrifa` supplies the glyph outlines. One em is 1000 units.
+//! The page is as wide as the sum of the advances and as high as the font's ascent plus descent; it
+//! is extended where glyphs reach beyond it. The origin is the lower left corner of the page before
+//! that extension, so words in one font share a baseline. Overlapping contours are united by the
+//! non-zero winding rule. Variable fonts use their default instance.
 //!
 //! Guarantees that damaged fonts cause neither panics nor long run times, and that a
 //! missing character is an error instead of a box. Does not support bitmap or colour
@@ -29,16 +28,16 @@ pub enum TextError {
     /// The text is empty.
     #[error("the text is empty; enter at least one letter, as in glyph:D")]
     Empty,
-    /// The text consists of white space.
+    /// The text consists of white space only.
     #[error("the text has only spaces, which have no outline; enter at least one letter")]
     OnlySpace,
-    /// The text is too long; gives its number of characters.
+    /// The text is too long; holds its number of characters.
     #[error("the text has {0} characters, but at most {MAX_CHARS} are supported; shorten it")]
     TooLong(usize),
     /// One letter carries too many combining marks.
     #[error("one letter has more than {MAX_MARKS} combining marks; remove some")]
     TooManyMarks,
-    /// The bytes are not a usable font; gives the reason.
+    /// The bytes are not a usable font; holds the reason.
     #[error("the font cannot be read: {0}; choose a TrueType or OpenType font (.ttf, .otf)")]
     Font(&'static str),
     /// The font has no glyph for a character.
@@ -66,7 +65,7 @@ pub enum TextError {
     Regions(#[from] RegionsError),
 }
 
-/// Font for text that names no font.
+/// Bytes of the bundled font, which is used for text that names no font.
 pub(super) const BUNDLED_FONT: &[u8] = include_bytes!("../../assets/fonts/Roboto-Bold.ttf");
 
 /// Maximum number of characters of a text (resource limit: about a page).
@@ -82,8 +81,8 @@ const EM: f64 = 1000.0;
 
 /// Converts `text` to outlines.
 ///
-/// `font` holds the bytes of a font file; `None` selects the bundled font. `tolerance` is
-/// a fraction of the page's longer side.
+/// `font` holds the bytes of a font file; `None` selects the bundled font. `tolerance` is the
+/// maximum deviation of flattened curves, as a fraction of the page's longer side.
 pub(super) fn read(
     text: &str,
     font: Option<&[u8]>,
@@ -104,7 +103,7 @@ pub(super) fn read(
     TextLine::shape(&font, text)?.to_outlines(&font, tolerance)
 }
 
-/// Parses a font file; of a collection, returns the first font.
+/// Parses a font file; returns the first font of a font collection.
 fn parsed_font(bytes: &[u8]) -> Result<FontRef<'_>, TextError> {
     // A specific message, because users regard WOFF files as valid fonts.
     if bytes.starts_with(b"wOF") {
@@ -128,9 +127,9 @@ fn check_characters(font: &FontRef, text: &str) -> Result<(), TextError> {
     }
 }
 
-/// Shaped line of text in design units.
+/// Line of text after shaping, in design units.
 struct TextLine {
-    /// Glyphs with their origins.
+    /// Glyphs with the positions of their origins.
     glyphs: Vec<(GlyphId, DVec2)>,
     /// Design units per font unit.
     scale: f64,
@@ -157,7 +156,8 @@ impl TextLine {
         if letters.any(|letter| letter.len() > 1 + MAX_MARKS) {
             return Err(TextError::TooManyMarks);
         }
-        // Bottom of the page. Some fonts claim a descent above the baseline.
+        // Height of the page's lower edge relative to the baseline, in font units. Limited to 0,
+        // because some fonts claim a descent above the baseline.
         let below = f64::from(metrics.descent).min(0.0);
         let mut pen = DVec2::new(0.0, -below);
         let positions = shaped.glyph_positions().iter();
@@ -185,9 +185,10 @@ impl TextLine {
         })
     }
 
-    /// Converts the glyphs to united outlines.
+    /// Converts the glyphs to outlines and unites them.
     fn to_outlines(&self, font: &FontRef, tolerance: f64) -> Result<ImportedOutlines, TextError> {
-        // At least one em, so that a single narrow letter is not flattened more finely.
+        // The tolerance refers to at least one em, so that a single narrow letter is not flattened
+        // more finely than others.
         let longer = self.page.size().max_element().max(EM);
         let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
         let glyphs = font.outline_glyphs();
@@ -216,14 +217,14 @@ fn glyph_path(glyphs: &OutlineGlyphCollection, glyph: GlyphId) -> Result<PathBui
         glyph: glyph.to_u32(),
     };
     let mut pen = GlyphPen(PathBuilder::new());
-    // Hinting adjusts outlines to a pixel grid, and there is none here.
+    // Without hinting, which adjusts outlines to a pixel grid; there is none here.
     let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
     let outline = glyphs.get(glyph).ok_or_else(missing)?;
     outline.draw(settings, &mut pen).map_err(|_| missing())?;
     Ok(pen.0)
 }
 
-/// Path builder that receives one glyph outline in font units.
+/// Receives the outline of one glyph, in font units, and builds a path from it.
 struct GlyphPen(PathBuilder);
 
 impl OutlinePen for GlyphPen {

@@ -20,7 +20,7 @@ use std::fmt;
 pub enum ImportNote {
     /// Edges crossed each other.
     Crossings {
-        /// Number of pairs of edges.
+        /// Number of pairs of edges that crossed.
         count: usize,
         /// Whether `count` is only a lower bound.
         at_least: bool,
@@ -29,12 +29,12 @@ pub enum ImportNote {
     },
     /// Corners lay on another edge.
     Touches {
-        /// Number of corners.
+        /// Number of corners that lay on another edge.
         count: usize,
         /// Whether `count` is only a lower bound.
         at_least: bool,
     },
-    /// Number of ignored duplicates of outlines.
+    /// Number of ignored outlines that duplicate another outline.
     Duplicates(usize),
     /// Number of ignored outlines that enclose no area.
     EmptyOutlines(usize),
@@ -47,7 +47,7 @@ pub enum ImportNote {
     Strokes(usize),
     /// Number of ignored text elements of a drawing.
     Texts(usize),
-    /// Name of a font that is not installed; another font was used.
+    /// Name of a font that is not installed; another font was used in its place.
     Font(String),
     /// Number of ignored characters that have no outline in any font.
     Characters(usize),
@@ -72,7 +72,7 @@ pub enum ImportNote {
     NoFlatColours,
     /// Curves that do not close were ignored.
     OpenCurves {
-        /// Number of curves.
+        /// Number of ignored curves.
         count: usize,
         /// Free end of one of the curves.
         at: DVec2,
@@ -81,7 +81,7 @@ pub enum ImportNote {
     SkippedObjects {
         /// Type name as written in the file.
         kind: String,
-        /// Number of objects.
+        /// Number of ignored objects of that type.
         count: usize,
     },
 }
@@ -112,17 +112,18 @@ impl ImportNote {
         nonzero.map(|(_, note)| note).collect()
     }
 
-    /// Returns one note for each type of ignored objects, given the counts.
+    /// Returns one note for each type of ignored objects. `kinds` maps the type name to the number
+    /// of objects.
     pub(super) fn from_skipped(kinds: BTreeMap<String, usize>) -> impl Iterator<Item = Self> {
         let kinds = kinds.into_iter();
         kinds.map(|(kind, count)| Self::SkippedObjects { kind, count })
     }
 }
 
-/// Counts of the unusable objects in a file, displayed as the end of a clause:
-/// `, only 2 TEXT`.
+/// Numbers of the unusable objects in a file, by type. Displayed as the end of a clause: `, only 2
+/// TEXT`.
 ///
-/// Maps each type name to its number of objects.
+/// The map leads from each type name to the number of objects.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OtherKinds(pub BTreeMap<String, usize>);
 
@@ -266,7 +267,7 @@ fn rule_name(rule: FillRule) -> &'static str {
     }
 }
 
-/// Writes that `n` things of a kind, named in singular and plural, were ignored.
+/// Writes that `n` things were ignored. `what` names them in the singular and in the plural.
 fn write_ignored<W: fmt::Display>(
     f: &mut fmt::Formatter<'_>,
     n: usize,
@@ -276,7 +277,7 @@ fn write_ignored<W: fmt::Display>(
     write!(f, "{n} {what} {were} ignored")
 }
 
-/// Returns the singular or the plural word.
+/// Returns the singular word if `n` is 1, otherwise the plural word.
 fn number<W>([one, many]: [W; 2], n: usize) -> W {
     if n == 1 { one } else { many }
 }

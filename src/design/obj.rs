@@ -1,8 +1,8 @@
 //! Importer of Wavefront OBJ files as plane triangle meshes.
 //!
-//! Reads `v` and `f`; ignores names, groups, materials, normals and texture coordinates.
-//! Vertices keep their number and order, so two files with the same `f` lines give the
-//! same connectivity. OBJ crates that renumber vertices by first use or per texture
+//! Reads `v` lines (vertices) and `f` lines (faces); ignores names, groups, materials, normals and
+//! texture coordinates. Vertices keep their number and order, so two files with the same `f` lines
+//! give the same connectivity. OBJ crates that renumber vertices by first use or per texture
 //! coordinate do not guarantee this, and lose the numbers that error messages need.
 //!
 //! Faces with more than three vertices are cut into a fan about their first vertex: unlike
@@ -14,14 +14,14 @@ use crate::geometry::{DVec2, RANGE_MESSAGE, is_in_range};
 use crate::mesh::{MeshError, TriangleMesh};
 use std::borrow::Cow;
 
-/// Error of importing an OBJ file. Lines, vertices and faces count from 1.
+/// Error of importing an OBJ file. Lines, vertices and faces are counted from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjError {
     /// A line cannot be used.
     #[error("line {line}: {fault}")]
     Line {
-        /// Number of the line.
+        /// Number of the line, counted from 1.
         line: usize,
         /// Fault of the line.
         fault: ObjFault,
@@ -64,12 +64,13 @@ pub enum ObjFault {
     NotFlat {
         /// Number of the vertex.
         vertex: usize,
-        /// Its z.
+        /// The z coordinate of that vertex.
         z: f64,
-        /// z of the first vertex.
+        /// The z coordinate of the first vertex.
         first: f64,
     },
-    /// A face has a word (given shortened) that is not a vertex number.
+    /// A face has a word that is not a vertex number. Holds the number of the face and the word,
+    /// shortened.
     #[error("face {0} has \"{1}\" in place of a vertex number; correct the line")]
     Face(usize, String),
     /// A face has fewer than three vertices.
@@ -97,14 +98,14 @@ pub enum ObjFault {
     },
 }
 
-/// State of the parser between lines.
+/// Vertices and faces read so far.
 #[derive(Default)]
 struct ObjParser {
     /// Vertex positions in file order.
     positions: Vec<DVec2>,
-    /// z of the first vertex, which all others must have.
+    /// The z coordinate of the first vertex; all other vertices must have the same.
     first_z: f64,
-    /// Line number and index of the first corner in `corners` for each face.
+    /// For each face: its line number, and the index in `corners` of its first vertex.
     polygons: Vec<(usize, usize)>,
     /// Vertex indices (from 0) of all faces in one list, because allocating a list per face
     /// would dominate the import time of large meshes.
@@ -114,7 +115,7 @@ struct ObjParser {
 /// Imports the text of an OBJ file.
 ///
 /// # Errors
-/// [`ObjError`] names the line, vertex or face that cannot be used.
+/// Returns an [`ObjError`] that names the line, vertex or face that cannot be used.
 pub(super) fn read(text: &str) -> Result<TriangleMesh, ObjError> {
     let mut parser = ObjParser::default();
     for (line, words) in logical_lines(text) {
@@ -169,7 +170,8 @@ impl ObjParser {
             self.first_z = z;
         }
         let first = self.first_z;
-        // Exact comparison: there is no length scale yet for a tolerance.
+        // The comparison is exact, because the size of the mesh, and so a tolerance, is not known
+        // yet.
         if z != first {
             return Err(ObjFault::NotFlat { vertex, z, first });
         }
@@ -177,7 +179,8 @@ impl ObjParser {
         Ok(())
     }
 
-    /// Reads the vertex numbers of an `f` line; only lower bounds can be checked yet.
+    /// Reads the vertex numbers of an `f` line. Numbers that are too large are found later, because
+    /// more vertices may follow.
     fn face<'a>(
         &mut self,
         line: usize,
@@ -191,7 +194,7 @@ impl ObjParser {
             let named: i64 = number
                 .parse()
                 .map_err(|_| ObjFault::Face(face, word.chars().take(24).collect()))?;
-            // Negative numbers count back from the latest vertex.
+            // Negative numbers count back from the last vertex read: −1 is that vertex.
             let corner = match named < 0 {
                 true => vertex_count.saturating_add(named),
                 false => named - 1,
@@ -246,8 +249,8 @@ impl ObjParser {
         Ok(TriangleMesh::new(self.positions, faces)?)
     }
 
-    /// Checks that the corners exist and differ, and marks them as used. Runs after the
-    /// last line because faces may precede their vertices.
+    /// Checks that the vertices of a face exist and differ, and marks them as used. Runs after the
+    /// last line has been read, because faces may precede their vertices.
     fn check_corners(
         &self,
         face: usize,

@@ -7,17 +7,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ImportOptions {
-    /// Grey level at which the boundary runs, or opacity if the picture has
-    /// transparent pixels: 1 to 255. If `None`, opacity is thresholded at 128 and
-    /// grey levels by Otsu's method.
+    /// Grey level, from 1 to 255, that separates figure and background; if the picture has
+    /// transparent pixels, opacity from 1 to 255. If `None`, the threshold is 128 for opacity and
+    /// chosen by Otsu's method for grey levels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threshold: Option<u8>,
-    /// Whether figure and background are swapped.
+    /// Whether figure and background of a picture are swapped.
     pub invert: bool,
     /// Islands and holes with fewer pixels than this are removed; 0 keeps all.
     pub specks_px: u32,
-    /// Maximum distance of the outline from the exact boundary, as a fraction of
-    /// the longer side of the picture or page: 0 to 0.1.
+    /// Allowed deviation of the outline from the exact boundary, as a fraction of the longer side
+    /// of the picture or page: 0 to 0.1. Limits the maximum deviation in drawings and text, and
+    /// approximately the mean deviation in pictures.
     pub tolerance: f64,
     /// Whether each flat colour of a picture becomes a separate part.
     #[serde(skip_serializing_if = "is_unset")]
@@ -62,9 +63,9 @@ impl Default for ImportOptions {
 }
 
 impl ImportOptions {
-    /// Default outline tolerance, as a fraction of the longer side: a tenth of a pixel
-    /// in a picture 500 pixels wide (tolerance: half a pixel on a 2,500-pixel screen is
-    /// invisible, and a circle needs only about 70 points).
+    /// Default outline tolerance, as a fraction of the longer side: a tenth of a pixel in a picture
+    /// 500 pixels wide (tolerance: half a pixel on a screen 2,500 pixels wide is invisible, and a
+    /// circle in a drawing needs only about 130 points).
     pub const DEFAULT_TOLERANCE: f64 = 0.0002;
 
     /// Maximum outline tolerance, as a fraction of the longer side (tolerance: beyond it

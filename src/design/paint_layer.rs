@@ -1,5 +1,5 @@
-//! Paint layers: the coloured regions of a drawing, stacked from bottom to top, and the
-//! stacking of regions whose file gives no order.
+//! Paint layers: the coloured regions of a design, stacked from bottom to top. If a file gives no
+//! order, regions are stacked by containment.
 
 use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::geometry::{Bounds, Region, Regions, Similarity};
@@ -12,11 +12,11 @@ use std::collections::BTreeMap;
 pub struct PaintLayer {
     /// Filled area.
     pub regions: Regions,
-    /// Colour and opacity, or `None` if the file gives these regions no colour.
+    /// Colour and opacity of the fill, or `None` if the file gives these regions no colour.
     pub paint: Option<Paint>,
-    /// Gradient fill, if any; `paint` is then its mean.
+    /// Gradient of the fill, if any; `paint` is then the mean of the gradient.
     pub gradient: Option<Gradient>,
-    /// Stroke along all outlines, if any; drawn over the fill.
+    /// Stroke along the outlines of all regions, if any; drawn over the fill.
     pub line: Option<StrokeStyle>,
     /// Name of the shape in the file; empty if unnamed or merged from several shapes.
     pub name: String,
@@ -48,16 +48,17 @@ impl PaintLayer {
 pub(super) struct PaintGroup {
     /// Filled area.
     pub regions: Regions,
-    /// Colour, or `None` if the file gives none.
+    /// Colour and opacity, or `None` if the file gives no colour.
     pub paint: Option<Paint>,
-    /// Name of the layers that result.
+    /// Name of the paint layers that are made from the group.
     pub name: String,
 }
 
-/// Stacks regions without an order into paint layers so that no region hides one inside it.
+/// Stacks regions without an order into paint layers, so that no region hides a region inside it.
 ///
-/// A piece's height is its nesting depth in pieces of other groups. At equal height, the
-/// layer with the smaller area is on top. Returns no layers if no group has a colour.
+/// A piece is one region of a group. Its height in the stack is its nesting depth: 0 if no piece of
+/// another group contains it, otherwise one more than the highest piece that does. At equal height,
+/// the layer with the smaller area is on top. Returns no layers if no group has a colour.
 pub(super) fn stack_by_containment(groups: &[PaintGroup]) -> Vec<PaintLayer> {
     if groups.iter().all(|group| group.paint.is_none()) {
         return Vec::new();
@@ -95,19 +96,19 @@ pub(super) fn stack_by_containment(groups: &[PaintGroup]) -> Vec<PaintLayer> {
 
 /// Piece of a group with its height in the stack.
 struct StackedPiece {
-    /// Index of the group.
+    /// Index of the piece's group in the list of groups.
     group: usize,
     /// Index of the piece within the group.
     number: usize,
-    /// Nesting depth in pieces of other groups.
+    /// Nesting depth of the piece in pieces of other groups; 0 at the bottom.
     height: usize,
 }
 
-/// Maximum number of pieces that are tested for nesting in pairs; with more, all have
+/// Maximum number of pieces that are tested for nesting, pair by pair; if there are more, all get
 /// height 0 (resource limit).
 const MAX_COMPARED: usize = 20_000;
 
-/// Returns all pieces with their heights, largest area first.
+/// Returns all pieces of all groups with their heights, largest area first.
 fn pieces_with_heights(groups: &[PaintGroup]) -> Vec<StackedPiece> {
     let pieces_of = |(group, of): (usize, &'_ PaintGroup)| -> Vec<(usize, usize)> {
         (0..of.regions.len())

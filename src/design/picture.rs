@@ -6,7 +6,8 @@ use image::imageops::thumbnail;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Picture placed in the plane of its design. Cloning is cheap.
+/// Picture that is placed in the plane of its design. Cloning is cheap, because the pixels are
+/// shared.
 ///
 /// In the picture's own coordinates one pixel is one unit, the origin is the lower left
 /// corner and y points up.
@@ -16,7 +17,7 @@ pub struct Picture {
     place: Similarity,
 }
 
-/// Maximum number of pixels stored for a picture (resource limit: blending needs 26 bytes
+/// Maximum number of pixels that are stored for a picture (resource limit: blending needs 26 bytes
 /// per pixel, so two pictures need 0.8 GiB).
 const MAX_STORED_PIXELS: u64 = 1 << 24;
 
@@ -40,7 +41,8 @@ impl Picture {
     }
 
     /// Creates a picture as [`Self::new`] does, but halves the resolution until at most
-    /// [`MAX_STORED_PIXELS`] remain. The placement compensates for the smaller size.
+    /// [`MAX_STORED_PIXELS`] remain. The placement scales the picture up, so that it covers the
+    /// same area as before.
     pub(super) fn downscaled(mut pixels: RgbaImage) -> Self {
         let mut scale = 1.0;
         while u64::from(pixels.width()) * u64::from(pixels.height()) > MAX_STORED_PIXELS {
@@ -70,7 +72,7 @@ impl Picture {
         &self.place
     }
 
-    /// Returns the bounding box in the plane.
+    /// Returns the bounding box of the picture in the plane.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let (width, height) = self.pixels.dimensions();
@@ -126,7 +128,7 @@ mod tests {
         assert_eq!(large.bounds().max, DVec2::new(6000.0, 4000.0));
         let small = Picture::downscaled(RgbaImage::new(4096, 4096));
         assert_eq!(small, Picture::new(RgbaImage::new(4096, 4096)));
-        // The side of one pixel is not halved.
+        // A side of one pixel is not halved further.
         let thin = Picture::downscaled(RgbaImage::new(1 << 25, 1));
         assert_eq!(thin.pixels().dimensions(), (1 << 24, 1));
     }

@@ -10,17 +10,18 @@
 //! {"polygons": [[[[0, 0], [4, 0], [0, 3]]]]}
 //! ```
 //!
-//! They are a ring of points, a list of rings, a list of polygons (each a list of rings),
-//! and the last two under a name. A ring may repeat its first point at the end.
+//! In this order, they are a ring of points; a list of rings; a list of polygons, each a list of
+//! rings; and a list of rings and a list of polygons as named members of an object. A ring may
+//! repeat its first point at the end.
 //!
-//! GeoJSON polygons are imported at any depth of features and collections, with the fill
-//! colour in a feature's properties. Points and lines are ignored and reported as notes.
-//! Coordinates are used unchanged, x to the right and y up, even longitude and latitude;
+//! GeoJSON polygons are imported at any nesting depth of features and collections. The properties
+//! of a feature give its fill colour. Points and lines are ignored and reported as notes.
+//! Coordinates, even longitude and latitude, are used unchanged with x to the right and y up;
 //! numbers after the first two of a point are ignored.
 //!
-//! Within a polygon or list of rings the even-odd rule decides what is inside, so nested
-//! rings are holes regardless of orientation, and duplicate outlines count once. Polygons
-//! are united. Errors name the position as a path into the document.
+//! Within a polygon or list of rings the even-odd rule decides what is inside, so nested rings are
+//! holes regardless of orientation, and duplicate outlines count once. Polygons are united. Errors
+//! give the position as a path in the document, such as `$.features[2].geometry`.
 
 mod value;
 
@@ -42,7 +43,7 @@ use value::{
 /// Imports plain polygons or GeoJSON.
 ///
 /// # Errors
-/// [`PolygonsImportError`] names the value that cannot be used.
+/// Returns a [`PolygonsImportError`] that names the value that cannot be used.
 pub(super) fn read(text: &str) -> Result<ImportedOutlines, PolygonsImportError> {
     if text.matches('{').count() > MAX_OBJECTS {
         return Err(PolygonsImportError::TooManyObjects);
@@ -54,13 +55,13 @@ pub(super) fn read(text: &str) -> Result<ImportedOutlines, PolygonsImportError> 
         Value::Object(_) => collector.read_named_members(&value)?,
         _ => collector.list(&value)?,
     }
-    // The collector holds copies; free the document before the union needs memory.
+    // Frees the document before the union needs memory; the collector holds copies.
     drop(value);
     collector.into_outlines()
 }
 
-/// Style of a feature: the properties `fill` and `fill-opacity` of the simplestyle
-/// specification (Mapbox, version 1.1), and `layer` or `name`.
+/// Style of a feature, from its properties: the paint from `fill` and `fill-opacity` of the
+/// simplestyle specification (Mapbox, version 1.1), the name from `layer` or `name`.
 #[derive(Clone, Default, PartialEq)]
 struct FeatureStyle {
     paint: Option<Paint>,
@@ -74,7 +75,7 @@ impl FeatureStyle {
         let fill = text("fill").and_then(colour);
         let opacity = properties["fill-opacity"].as_f64().unwrap_or(1.0);
         let name = text("layer").or_else(|| text("name"));
-        // A fully transparent fill marks an outline-only feature.
+        // A fully transparent fill marks a feature that has an outline only.
         let fill = fill.filter(|_| opacity > 0.0);
         Self {
             paint: fill.map(|colour| Paint {
@@ -102,14 +103,14 @@ fn colour(text: &str) -> Option<Rgb> {
 struct PolygonCollector {
     /// Polygons, each a list of rings.
     polygons: Vec<Vec<JsonRing>>,
-    /// Style of each polygon. May be shorter than `polygons`; missing entries have no style.
+    /// Style of each polygon. May be shorter than `polygons`; the remaining polygons have no style.
     inks: Vec<FeatureStyle>,
-    /// Number of ignored objects by type.
+    /// For each type of object that was ignored: the number of its objects.
     skipped: BTreeMap<String, usize>,
 }
 
 impl PolygonCollector {
-    /// Reads plain JSON with the lists in named members.
+    /// Reads plain JSON whose lists are the members `rings` and `polygons` of an object.
     fn read_named_members(&mut self, object: &Value) -> Result<(), PolygonsImportError> {
         self.polygons.extend(read_member(object, "rings", rings)?);
         let all = read_member(object, "polygons", polygons)?;
@@ -176,7 +177,7 @@ impl PolygonCollector {
         read.map_err(|error| error.within(".geometry"))
     }
 
-    /// Reads the objects in a member that must be a list.
+    /// Reads the GeoJSON objects in the member `key`, which must be a list.
     fn members(&mut self, object: &Value, key: &'static str) -> Result<(), PolygonsImportError> {
         let read = |list: &Value| read_list(list, "a list", |value| self.geojson(value));
         let expected = "a list, even if it is empty";
@@ -185,12 +186,12 @@ impl PolygonCollector {
         Ok(())
     }
 
-    /// Counts an ignored object.
+    /// Counts one ignored object of the type `kind`.
     fn skip(&mut self, kind: &str) {
         *self.skipped.entry(kind.to_owned()).or_default() += 1;
     }
 
-    /// Cleans each polygon, unites all and groups them by style into paint layers.
+    /// Repairs each polygon, unites all polygons and groups them by style into paint layers.
     fn into_outlines(self) -> Result<ImportedOutlines, PolygonsImportError> {
         if self.polygons.is_empty() {
             return Err(PolygonsImportError::NoPolygon(OtherKinds(self.skipped)));
@@ -200,7 +201,8 @@ impl PolygonCollector {
         let mut empty_error = RegionsError::Empty;
         let mut styled: Vec<(FeatureStyle, Vec<JsonRing>)> = Vec::new();
         for (k, rings) in self.polygons.iter().enumerate() {
-            // One at a time: under the even-odd rule, overlapping polygons would leave a hole.
+            // Each polygon is repaired separately: under the even-odd rule, polygons that overlap
+            // would leave a hole.
             match Regions::from_rings_reporting(rings, FillRule::EvenOdd) {
                 Ok((regions, own_repairs)) => {
                     repairs = repairs.merged_with(own_repairs);

@@ -1,15 +1,15 @@
 //! Importer of pictures: decodes them and traces the outline of the silhouette.
 //!
 //! In a picture with transparent pixels, opacity separates the figure from the background.
-//! Otherwise grey levels are separated by Otsu's threshold (Otsu 1979, "A threshold
-//! selection method from gray-level histograms"), and the class of most border pixels is
-//! the background. The boundary runs where the interpolated level crosses the threshold
-//! between pixel centres, so anti-aliased edges give sub-pixel accuracy.
+//! Otherwise grey levels are separated by Otsu's threshold (Otsu 1979, "A threshold selection
+//! method from gray-level histograms"), and the class (lighter or darker) of most border pixels is
+//! the background. The boundary runs where the opacity or grey level, interpolated between pixel
+//! centres, crosses the threshold, so anti-aliased edges give sub-pixel accuracy.
 //!
-//! A pixel is one unit, the origin is the picture's lower left corner and y points up. A
-//! figure that reaches the border is closed along it. One threshold applies to the whole
-//! picture, and colours of equal luminance are not distinguished; the submodule for flat
-//! colours can separate those.
+//! A pixel is one unit, the origin is the picture's lower left corner and y points up. A figure
+//! that reaches the border is closed along it. One threshold applies to the whole picture, and
+//! colours of equal luminance are not distinguished; the submodule `flat_colours` can separate
+//! them.
 
 pub(super) mod flat_colours;
 mod polygon_fit;
@@ -47,7 +47,7 @@ pub enum SilhouetteError {
     /// The decoder reports an error.
     #[error("the picture is damaged ({0}); export it again")]
     Damaged(#[source] ImageError),
-    /// All pixels have the same grey level.
+    /// All pixels have the same grey level, so no threshold separates them.
     #[error("the picture has a single grey level; use one with a figure in front of a background")]
     OneTone,
     /// No pixel belongs to the figure, or all specks were removed.
@@ -55,10 +55,10 @@ pub enum SilhouetteError {
         "the silhouette is empty at threshold {threshold}; change the threshold, lower the speck size or invert the picture"
     )]
     Empty {
-        /// Opacity or grey level that separated figure and background.
+        /// Opacity or grey level that separates figure and background.
         threshold: u8,
     },
-    /// The boundary has too many points.
+    /// The boundary has too many points before simplification.
     #[error(
         "the silhouette has more than {MAX_POINTS} boundary points; raise the speck size, change the threshold or use a smaller picture"
     )]
@@ -74,16 +74,16 @@ pub enum SilhouetteError {
     Regions(#[from] RegionsError),
 }
 
-/// Maximum number of pixels of a picture (resource limit: removing specks needs up to 20
-/// bytes per pixel, 1 GB in total, and flat colours half as much again).
+/// Maximum number of pixels of a picture (resource limit: removing specks needs up to 20 bytes per
+/// pixel, 1 GB in total; separating flat colours needs half as much again).
 const MAX_PIXELS: u64 = 8192 * 6144;
 
 /// Maximum number of boundary points before simplification (resource limit: a 2048 × 2048
 /// photograph of gravel has about this many).
 const MAX_POINTS: usize = 2_000_000;
 
-/// Fraction of the extreme sample value from which a pixel counts as entirely figure or
-/// background (tolerance: JPEG noise).
+/// Fraction of the extreme sample value of its side from which a pixel counts as saturated, that
+/// is, as entirely figure or entirely background (tolerance: JPEG noise).
 const SATURATED: f32 = 0.9;
 
 /// Uncertainty of a boundary point between two saturated pixels, in pixels (derived: it may lie
@@ -94,23 +94,24 @@ const SATURATED_SLACK: f64 = 0.5;
 /// its stair steps (heuristic).
 const PIXEL_ART_SIDE: u32 = 64;
 
-/// Uncertainty of a boundary point next to an anti-aliased pixel, in pixels (tolerance:
-/// accuracy of a straight edge from exact pixel coverage).
+/// Uncertainty of a boundary point next to an anti-aliased pixel, in pixels (tolerance: accuracy of
+/// a straight edge that is traced from exact pixel coverage).
 const ANTIALIASED_SLACK: f64 = 0.05;
 
-/// Opacity or grey level of each pixel, one byte each, with the threshold that separates
-/// figure and background. The colours can be freed before tracing.
+/// Opacity or grey level of each pixel, one byte per pixel, with the threshold that separates
+/// figure and background. With this type, the colours of the picture can be freed before tracing.
 pub(super) struct PictureTones {
     width: u32,
     height: u32,
-    /// Lowest row first.
+    /// Opacity or grey level of each pixel, lowest row first.
     bytes: Vec<u8>,
     threshold: u8,
     above_is_figure: bool,
 }
 
 impl PictureTones {
-    /// Extracts opacity or grey levels and chooses threshold and background.
+    /// Extracts the opacities or grey levels of a picture and chooses the threshold and the
+    /// background.
     pub(super) fn of(
         picture: &RgbaImage,
         options: &ImportOptions,
@@ -147,10 +148,10 @@ impl PictureTones {
         figure.trace(tolerance)
     }
 
-    /// Converts the bytes to signed samples.
+    /// Converts the opacities or grey levels to signed samples.
     fn figure(self) -> FigureSamples {
         let sign = if self.above_is_figure { 1.0 } else { -1.0 };
-        // Half a step below the threshold, so that no sample is zero.
+        // Half a level below the threshold, so that no sample is zero.
         let level = f32::from(self.threshold) - 0.5;
         let sample = |&tone: &u8| sign * (f32::from(tone) - level);
         FigureSamples {
@@ -162,8 +163,8 @@ impl PictureTones {
     }
 }
 
-/// Returns whether an end marker follows the last scan of a JPEG. Scan data contains
-/// neither marker because 0xff is escaped there.
+/// Returns whether an end-of-image marker (0xd9) follows the last start-of-scan marker (0xda) of a
+/// JPEG. Scan data contains neither marker, because 0xff is escaped there.
 fn is_jpeg_complete(bytes: &[u8]) -> bool {
     let last_marker = |marker: u8| bytes.windows(2).rposition(|pair| pair == [0xff, marker]);
     last_marker(0xd9) > last_marker(0xda)
@@ -195,7 +196,8 @@ pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, Sil
     Ok(picture.into_rgba8())
 }
 
-/// Returns width and height from the header of a PNG, which is at a fixed position.
+/// Returns width and height from the header of a PNG, which is at a fixed position; `None` for
+/// other formats.
 fn png_header_size(bytes: &[u8], format: ImageFormat) -> Option<(u32, u32)> {
     let number = |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
     (format == ImageFormat::Png && bytes.get(12..16) == Some(b"IHDR"))
@@ -212,7 +214,7 @@ fn check_size(width: u32, height: u32) -> Result<(), SilhouetteError> {
     }
 }
 
-/// Classifies a decoder error as an incomplete or a damaged file.
+/// Converts a decoder error to the error for an incomplete or a damaged file.
 fn classify_decode_error(error: ImageError) -> SilhouetteError {
     match &error {
         ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
@@ -222,8 +224,8 @@ fn classify_decode_error(error: ImageError) -> SilhouetteError {
     }
 }
 
-/// Signed samples at the pixel centres, lowest row first: positive in the figure, negative
-/// in the background, never zero.
+/// Signed samples at the pixel centres, lowest row first: positive in the figure, negative in the
+/// background, never zero. Their magnitude is the distance from the threshold.
 struct FigureSamples {
     width: u32,
     height: u32,
@@ -232,8 +234,8 @@ struct FigureSamples {
 }
 
 impl FigureSamples {
-    /// Removes islands with fewer than `min_pixels` pixels, then fills holes that small.
-    /// Background that reaches the border is not a hole.
+    /// Removes islands with fewer than `min_pixels` pixels, then fills holes with fewer than
+    /// `min_pixels` pixels. Background that reaches the border of the picture is not a hole.
     fn remove_specks(&mut self, min_pixels: u32) {
         if min_pixels > 1 {
             self.remove_specks_of(1.0, min_pixels);
@@ -241,8 +243,8 @@ impl FigureSamples {
         }
     }
 
-    /// Flips the samples of all 4-connected components of the given sign that have fewer
-    /// than `min_pixels` pixels. Magnitudes stay.
+    /// Flips the sign of the samples in all 4-connected components that have the given sign and
+    /// fewer than `min_pixels` pixels. Magnitudes stay the same.
     fn remove_specks_of(&mut self, sign: f32, min_pixels: u32) {
         let (count, width) = (self.samples.len(), self.width as usize);
         let across = (1..count).filter(|i| !i.is_multiple_of(width));
@@ -266,16 +268,16 @@ impl FigureSamples {
         }
     }
 
-    /// Traces the zero contour. It deviates from the exact boundary by about `tolerance`
-    /// pixels on average, or by the uncertainty that the pixels leave if that is larger.
+    /// Traces and simplifies the zero contour. The result deviates from the exact boundary by about
+    /// `tolerance` pixels on average; by more where the pixels leave a larger uncertainty.
     fn trace(&self, tolerance: f64) -> Result<Regions, SilhouetteError> {
         let threshold = self.threshold;
-        // `tolerance` bounds the mean deviation, the flatness the maximum.
+        // `tolerance` is a mean deviation, `flatness` a maximum deviation, in pixels.
         let flatness = (2.0 * tolerance).max(ANTIALIASED_SLACK);
-        // Checked before tracing, which allocates the rings.
+        // The number of points is checked before tracing, which allocates the rings.
         self.check_raggedness()?;
         let samples = SampledField::new(self.width, self.height, &self.samples)?;
-        // Samples lie at pixel centres; the origin is a pixel corner.
+        // The contour has the centre of the first pixel as its origin, the outline its corner.
         let corner_from_centre = DVec2::splat(0.5);
         let uncertainty = BoundarySlack::of(self);
         let outline = |ring: &Vec<DVec2>| {
@@ -284,7 +286,7 @@ impl FigureSamples {
                 slack: uncertainty.slack(p).max(flatness),
             };
             let boundary: Vec<TracedPoint> = ring.iter().map(traced).collect();
-            polygon_fit::fit_outline(&polygon_fit::resampled(&boundary), flatness)
+            polygon_fit::fit_outline(&polygon_fit::densify(&boundary), flatness)
         };
         let traced = contour::trace_samples(&samples, 0.0);
         let rings: Vec<Vec<DVec2>> = traced.par_iter().map(outline).collect();
@@ -298,8 +300,8 @@ impl FigureSamples {
         })
     }
 
-    /// Limits the number of boundary points, which equals the number of sign changes along
-    /// rows and columns.
+    /// Returns an error if the boundary has too many points. Their number equals the number of sign
+    /// changes along rows and columns.
     fn check_raggedness(&self) -> Result<(), SilhouetteError> {
         let width = self.width as usize;
         let changes = |pair: (&f32, &f32)| (pair.0 * pair.1) < 0.0;
@@ -319,7 +321,7 @@ impl FigureSamples {
 /// Estimates the uncertainty of boundary points from the pixels around them.
 struct BoundarySlack<'a> {
     figure: &'a FigureSamples,
-    /// Minimum magnitude of a saturated figure sample and of a background sample.
+    /// Minimum magnitudes of a saturated sample, in the figure and in the background.
     saturated: [f32; 2],
 }
 
@@ -337,8 +339,9 @@ impl<'a> BoundarySlack<'a> {
         }
     }
 
-    /// Returns the maximum distance, in pixels, of the true boundary from a traced point.
-    /// The point lies between two neighbouring samples; the origin is the first sample.
+    /// Returns the maximum distance, in pixels, between the true boundary and the traced point `p`.
+    /// The point lies between two neighbouring samples; its coordinates have the first sample as
+    /// origin.
     fn slack(&self, p: DVec2) -> f64 {
         let sample = |p: DVec2| {
             let (width, height) = (f64::from(self.figure.width), f64::from(self.figure.height));
@@ -359,17 +362,18 @@ impl<'a> BoundarySlack<'a> {
     }
 }
 
-/// Returns the Rec. 709 luma. It uses the gamma-coded values, whose steps look about equal.
+/// Returns the Rec. 709 luma, 0 to 255. It uses the gamma-coded channels, in which equal steps look
+/// about equal.
 fn luminance([r, g, b, _]: [u8; 4]) -> u8 {
     let luma = 0.2126 * f32::from(r) + 0.7152 * f32::from(g) + 0.0722 * f32::from(b);
     luma.round() as u8
 }
 
-/// Returns Otsu's threshold, which maximises the variance between the levels below it and
-/// the others; `None` if all levels are equal.
+/// Returns Otsu's threshold, which maximises the variance between two classes: the levels below the
+/// threshold and the others. Returns `None` if all levels are equal.
 ///
-/// Of a run of equally good thresholds it returns the middle, so a black and white picture
-/// gets 128.
+/// If several consecutive thresholds are equally good, returns the middle one, so a picture of
+/// black and white gets 128.
 fn otsu(tones: &[u8]) -> Option<u8> {
     let mut histogram = [0u64; 256];
     for &tone in tones {
@@ -379,7 +383,7 @@ fn otsu(tones: &[u8]) -> Option<u8> {
     let weighted = |(tone, &n): (usize, &u64)| tone as f64 * n as f64;
     let sum: f64 = histogram.iter().enumerate().map(weighted).sum();
     let (mut below, mut sum_below) = (0.0, 0.0);
-    let mut best = (0.0, 0, 0); // variance, first and last threshold of the best run
+    let mut best = (0.0, 0, 0); // variance, first and last threshold of the best run so far
     for threshold in 1..256 {
         below += histogram[threshold - 1] as f64;
         sum_below += weighted((threshold - 1, &histogram[threshold - 1]));
@@ -393,7 +397,7 @@ fn otsu(tones: &[u8]) -> Option<u8> {
         };
         if variance > best.0 {
             best = (variance, threshold, threshold);
-        // A run must have no gap.
+        // Only the threshold that directly follows the run extends it.
         } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {
             best.2 = threshold;
         }
@@ -401,8 +405,8 @@ fn otsu(tones: &[u8]) -> Option<u8> {
     (best.0 > 0.0).then(|| (best.1 + best.2).div_ceil(2) as u8)
 }
 
-/// Returns whether at least half of the border pixels are at or above the threshold. A tie
-/// counts, because paper is lighter than ink.
+/// Returns whether at least half of the border pixels are at or above the threshold, so that the
+/// lighter class is the background. It wins a tie, because paper is lighter than ink.
 fn border_is_above(tones: &[u8], width: usize, threshold: u8) -> bool {
     let border = (tones.iter().enumerate()).filter(|(i, _)| is_on_border(*i, width, tones.len()));
     let (mut above, mut all) = (0usize, 0usize);
@@ -413,7 +417,8 @@ fn border_is_above(tones: &[u8], width: usize, threshold: u8) -> bool {
     2 * above >= all
 }
 
-/// Returns whether a pixel index lies on the border of a picture with `count` pixels.
+/// Returns whether a pixel, given by its index, lies on the border of a picture with `count`
+/// pixels.
 fn is_on_border(pixel: usize, width: usize, count: usize) -> bool {
     let column = pixel % width;
     pixel < width || pixel >= count - width || column == 0 || column + 1 == width

@@ -1,5 +1,5 @@
-//! Recognises the format of a file by its content. The file name is ignored, so a file
-//! with the wrong extension is still imported.
+//! Recognises the format of a file by its content. It ignores the file name, so a file with the
+//! wrong extension is still imported.
 
 use super::format::Format;
 use image::ImageFormat;
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum UnknownFormat {
-    /// A well-known format that is not supported.
+    /// The format is well known but not supported.
     #[error("this is {found}; {way_out}")]
     Other {
         /// Name of the format.
@@ -18,16 +18,16 @@ pub enum UnknownFormat {
         /// Advice for the user.
         way_out: &'static str,
     },
-    /// XML without an `<svg>` element.
+    /// The content is XML without an `<svg>` element.
     #[error("this is XML without an <svg> element; save the drawing as SVG")]
     XmlWithoutSvg,
-    /// A JSON object that is neither polygons nor a truss.
+    /// The content is a JSON object that is neither polygons nor a truss.
     #[error(
         "this JSON is not a design; it needs \"nodes\" and \"bars\" for a truss, \"rings\" or \"polygons\" for outlines, or a GeoJSON \"type\""
     )]
     Json,
-    /// Content that was not recognised.
-    #[error("the file format is not supported; use {}", Format::listed(&Format::ALL))]
+    /// The content was not recognised.
+    #[error("the file format is not supported; use {}", Format::or_list_of_names(&Format::ALL))]
     Unknown,
 }
 
@@ -53,8 +53,7 @@ const UTF8: &str = "save it as UTF-8";
 /// Recognises the format of a file from its bytes.
 ///
 /// # Errors
-/// [`UnknownFormat`] names the format, if it is well known, and the formats to use
-/// instead.
+/// Returns an [`UnknownFormat`] that names the format, if it is well known, and advises the user.
 ///
 /// ```
 /// use morphospace::design::{Format, sniff};
@@ -82,8 +81,8 @@ fn picture(bytes: &[u8]) -> Option<ImageFormat> {
     is_picture.then_some(guessed)
 }
 
-/// Returns whether bytes that begin with `BM` are a BMP file and not text: the size of the
-/// second header must be one of the sizes that exist.
+/// Returns whether bytes that begin with `BM` are a BMP file and not text: the size of its second
+/// header must be one of those that BMP defines.
 fn is_bmp(bytes: &[u8]) -> bool {
     let header_size = bytes.get(14..18).and_then(|b| b.try_into().ok());
     header_size
@@ -91,7 +90,7 @@ fn is_bmp(bytes: &[u8]) -> bool {
         .is_some_and(|size| matches!(size, 12 | 16 | 40 | 52 | 56 | 64 | 108 | 124))
 }
 
-/// Recognises the formats that are text.
+/// Recognises the formats that are text: SVG, JSON, DXF and OBJ.
 fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match bytes.trim_ascii_start().first() {
@@ -100,7 +99,7 @@ fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
         Some(b'[') => Ok(Format::Polygons),
         Some(b'{') => json_format(bytes),
         Some(_) if is_dxf(bytes) => Ok(Format::Dxf),
-        // Last, because many other texts have a line that begins with "v".
+        // OBJ is tested last, because many other texts have a line that begins with "v".
         Some(_) if is_obj(bytes) => Ok(Format::Obj),
         _ => Err(UnknownFormat::Unknown),
     }
@@ -110,7 +109,7 @@ fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
 fn json_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
     // Skipping values does not recurse, so deep nesting cannot overflow the stack.
     let Ok(members) = serde_json::from_slice::<HashMap<String, IgnoredAny>>(bytes) else {
-        // Invalid JSON goes to the polygon importer, which reports the position.
+        // Invalid JSON is left to the polygon importer, which reports the position of the error.
         return Ok(Format::Polygons);
     };
     let has = |names: &[&str]| names.iter().any(|name| members.contains_key(*name));

@@ -1,5 +1,5 @@
-//! Parses and formats the notation for the source of a design: a file, an element of a
-//! drawing, or text in a font.
+//! Parses and writes the notation for the source of a design: a file, an element of a drawing, or
+//! text in a font.
 //!
 //! | notation | meaning |
 //! |---|---|
@@ -47,25 +47,26 @@ pub enum DesignSource {
 /// Prefix of a text source.
 const GLYPH: &str = "glyph:";
 
-/// File extensions that mark the part after the last `@` as a font file. Web fonts are
-/// included so that they produce an error instead of being drawn as text.
+/// File extensions by which the part after the last `@` is recognised as a font file. Web fonts are
+/// included so that they cause an error; otherwise their file name would be drawn as text.
 const FONTS: [&str; 6] = ["ttf", "otf", "ttc", "otc", "woff", "woff2"];
 
 impl DesignSource {
-    /// Parses a path. Looks up whether a file exists to distinguish a file name with `#`
-    /// from an element id; reads no file.
+    /// Parses a path in this notation. Looks up whether a file exists to distinguish a file name
+    /// with `#` from an element id; reads no file.
     #[must_use]
     pub fn from_path(path: &Path) -> Self {
         Self::parse(path, Path::is_file)
     }
 
-    /// Parses a path relative to a folder; file paths in the result include the folder.
+    /// Parses a path in this notation whose file is relative to `folder`; file paths in the result
+    /// include the folder.
     #[must_use]
     pub fn in_folder(folder: &Path, path: &Path) -> Self {
         Self::parse(path, |file| folder.join(file).is_file()).map_file(|file| folder.join(file))
     }
 
-    /// Parses a path. `is_file` reports which files exist.
+    /// Parses a path in this notation. `is_file` says whether a path is an existing file.
     #[must_use]
     pub fn parse(path: &Path, is_file: impl Fn(&Path) -> bool) -> Self {
         let Some(notation) = path.to_str() else {
@@ -74,7 +75,7 @@ impl DesignSource {
         if let Some(glyphs) = notation.strip_prefix(GLYPH) {
             return parse_text(glyphs);
         }
-        // The last `#`, because folder names may contain one.
+        // Splits at the last `#`, because folder names may contain one.
         match notation.rsplit_once('#') {
             Some((file, id)) if !file.is_empty() && !id.is_empty() && !is_file(path) => {
                 Self::File {
@@ -158,7 +159,7 @@ impl DesignSource {
     }
 }
 
-/// Parses the text and font after `glyph:`.
+/// Parses the part after `glyph:`: the text and, if given, the font.
 fn parse_text(written: &str) -> DesignSource {
     let is_font = |path: &str| {
         let extension = Path::new(path).extension().and_then(|e| e.to_str());
@@ -180,7 +181,7 @@ fn percent_decode(text: &str) -> String {
     let mut parts = text.split('%');
     let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
     for part in parts {
-        // `from_str_radix` alone would also accept a sign.
+        // The test for digits is needed because `from_str_radix` also accepts a sign.
         let code = part
             .get(..2)
             .filter(|c| c.bytes().all(|b| b.is_ascii_hexdigit()));

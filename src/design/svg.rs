@@ -1,20 +1,19 @@
 //! Importer of SVG drawings, based on `usvg`.
 //!
-//! Produces two views of a drawing. The silhouette is the union of all visible shapes, with
-//! strokes if requested; pure white shapes count as paper and erase the shapes below, unless
-//! the whole drawing is white. The paint layers keep colours, order and all strokes; a
-//! drawing that names no colour has none. Transforms, fill rules, clip paths, dashes, joins
-//! and caps are applied. A single element can be selected by its id; clip paths around it
-//! still apply.
+//! Produces two results for a drawing. The silhouette is the union of all visible shapes, with
+//! strokes if requested; pure white shapes count as paper and erase the shapes below, unless the
+//! whole drawing is white. The paint layers keep colours, order and all strokes; a drawing that
+//! specifies no colour has no paint layers. Transforms, fill rules, clip paths, dashes, joins and
+//! caps are applied. A single element can be selected by its id; clip paths around it still apply.
 //!
 //! One user unit (after the view box) is one unit, the origin is the lower left corner of the
 //! page and y points up. Shapes outside the page are kept. Coordinates pass through `f32`, so
 //! outlines are accurate to about 1e-7 of the page.
 //!
-//! Guarantees that nothing outside the file is loaded, and that a file that would expand into
-//! too much text or too many elements is refused before the expansion. Markers, embedded
-//! pictures, filters, masks and bitmap glyphs are ignored; patterns and stroke gradients are
-//! replaced by their mean colour. Missing fonts are substituted. All of this except markers is
+//! Guarantees that nothing outside the file is loaded except installed fonts, and that a file that
+//! would expand into too much text or too many elements is refused before the expansion. Markers,
+//! embedded pictures, filters, masks and bitmap glyphs are ignored; patterns and stroke gradients
+//! are replaced by their mean colour. Missing fonts are substituted. All of this except markers is
 //! reported as notes.
 
 mod error;
@@ -49,10 +48,11 @@ const NAMED_IDS: usize = 8;
 
 /// Imports the text of an SVG file, or only the element with the given id.
 ///
-/// `options.tolerance` is a fraction of the page's longer side.
+/// `options.tolerance` is the maximum deviation of flattened curves, as a fraction of the page's
+/// longer side.
 ///
 /// # Errors
-/// [`SvgError`] describes a malformed, excessive or empty drawing.
+/// Returns an [`SvgError`] if the drawing is malformed, exceeds a limit or is empty.
 pub(super) fn read(
     text: &str,
     element: Option<&str>,
@@ -75,10 +75,10 @@ pub(super) fn read(
     let size = painter::page_of(&tree);
     let read_options = SvgReadOptions {
         tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
-        // Selecting the root by its id means the whole drawing.
+        // The id of the root element selects the whole drawing.
         element: element.filter(|_| top != document.root_element()),
     };
-    let painted = painter::painted(&tree, &read_options)?;
+    let painted = painter::paint_tree(&tree, &read_options)?;
     let regions = silhouette::silhouette(&painted, size, options.strokes)?;
     let report = SvgReport {
         painted: &painted,
@@ -105,7 +105,7 @@ pub(super) fn read(
     })
 }
 
-/// Finds the element with an id.
+/// Finds the first element with the given id.
 fn element_of<'d, 'a>(document: &'d Document<'a>, id: &str) -> Result<Xml<'d, 'a>, SvgError> {
     let ids = || {
         document

@@ -16,9 +16,9 @@
 //! ```
 //!
 //! `nodes` (x and y, y up) and `bars` are required. `colours`, `areas` (cross sections) and
-//! `bar_materials` (indices into `materials`) have one entry per bar or are absent.
-//! Supports (whether x and y are fixed), loads, areas and materials are validated and
-//! stored, but nothing computes with them yet.
+//! `bar_materials` (indices into `materials`) have one entry per bar or are absent. Supports
+//! (whether the displacements along x and y are fixed), loads, areas and materials are validated
+//! and stored, but no computation uses them yet.
 //!
 //! A [`Truss`] guarantees that coordinates are in range, that every bar joins two nodes at
 //! different positions, that no bar occurs twice and that every node belongs to a bar.
@@ -38,7 +38,7 @@ impl Truss {
     /// Creates a truss from nodes and bars only.
     ///
     /// # Errors
-    /// [`TrussInputError`] names the first invalid node or bar.
+    /// Returns a [`TrussInputError`] that names the first invalid node or bar.
     ///
     /// ```
     /// use morphospace::{design::Truss, geometry::DVec2};
@@ -54,10 +54,10 @@ impl Truss {
         })
     }
 
-    /// Creates a truss with supports, loads, areas and materials.
+    /// Creates a truss from all its data, including supports, loads, areas and materials.
     ///
     /// # Errors
-    /// [`TrussInputError`] names the first invalid entry.
+    /// Returns a [`TrussInputError`] that names the first invalid entry.
     pub fn from_parts(parts: TrussParts) -> Result<Self, TrussInputError> {
         parts.check()?;
         Ok(Self(parts))
@@ -66,7 +66,8 @@ impl Truss {
     /// Parses a truss from the text of its file.
     ///
     /// # Errors
-    /// [`TrussInputError`] names the line of a syntax error or the first invalid entry.
+    /// Returns a [`TrussInputError`] that names the line of a syntax error or the first invalid
+    /// entry.
     pub fn from_json(text: &str) -> Result<Self, TrussInputError> {
         Self::from_parts(serde_json::from_str(text).map_err(JsonError::from)?)
     }
@@ -105,11 +106,11 @@ impl Truss {
             .unwrap_or_else(|| unreachable!("a truss has a bar and so nodes"))
     }
 
-    /// Returns the truss transformed by a similarity. Forces are rotated but keep their
-    /// magnitude; supports still fix x and y of the plane.
+    /// Returns the truss transformed by a similarity. Forces are rotated but keep their magnitude;
+    /// supports still refer to the x and y axes of the plane.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
-        // Forces are vectors, not positions: no translation, and no scaling.
+        // Forces are vectors that keep their magnitude: they are neither translated nor scaled.
         let rotation = Similarity {
             scale: 1.0,
             offset: DVec2::ZERO,

@@ -18,7 +18,7 @@ use super::film_spec::{FilmSpec, FrameRun};
 use super::raster::{rasterise, samples};
 use super::readback::{DRAWN_FRACTION, check_apng};
 
-/// Writes the film and verifies it.
+/// Writes the film to `path`, and verifies the file before it replaces an earlier one.
 ///
 /// # Errors
 /// [`ExportError`] if the file cannot be written or the export is cancelled.
@@ -28,7 +28,8 @@ pub fn write_apng(
     path: &Path,
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
-    // Created before anything is drawn, so that an unwritable folder is reported at once.
+    // The file is created before anything is drawn, so that an unwritable folder is reported at
+    // once.
     let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let runs = film.runs();
     let mut output = BufWriter::new(file.file_mut());
@@ -48,7 +49,7 @@ pub fn write_apng(
         },
     )?;
     writer.finish().map_err(ExportError::encode(path))?;
-    // Flushed explicitly, because dropping the buffer would ignore write errors.
+    // The buffer is flushed explicitly, because dropping it would ignore write errors.
     output.flush().map_err(ExportError::write(path))?;
     drop(output);
     let written = file.reread().map_err(ExportError::write(path))?;
@@ -79,7 +80,8 @@ fn writer<W: Write>(
     encoder.write_header()
 }
 
-/// Delay of a run in seconds, as a fraction of 16-bit numbers.
+/// Returns how long a run of equal frames is shown, in seconds, as a numerator and a denominator of
+/// 16 bits.
 fn delay(film: &FilmSpec, run: FrameRun) -> (u16, u16) {
     let fps = film.fps();
     if fps.fract() == 0.0

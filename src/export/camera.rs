@@ -21,12 +21,12 @@ use super::size::PixelSize;
 use super::svg::to_svg;
 use super::view::PlaneView;
 
-/// Memory limit for frames drawn ahead of being written, in bytes (resource limit: holds 32 frames
-/// of 1920 × 1080).
+/// Maximum memory for raster frames that are drawn but not yet written, in bytes (resource limit:
+/// holds 32 frames of 1920 × 1080).
 pub const BATCH_BYTES: u64 = 256 << 20;
 
-/// Maximum number of frames that [`framing`] evaluates (resource limit: both ends and five
-/// bisections between them).
+/// Maximum number of frames from which [`framing`] determines the visible part of the plane
+/// (heuristic: both ends and five bisections between them).
 const FRAMING_SAMPLES: usize = 33;
 
 /// Name of the progress stage in which frames are drawn.
@@ -43,7 +43,7 @@ pub struct Camera {
     pub view: PlaneView,
     /// Background colour; `None` is transparent.
     pub ground: Option<Rgb>,
-    /// Captions below the frames.
+    /// Captions below the frames; `None` for no captions.
     pub captions: Option<Captions>,
 }
 
@@ -89,9 +89,9 @@ impl Camera {
         drawing
     }
 
-    /// Draws the frame of each run once. `make` processes the drawings on any thread; `take`
-    /// receives the results in order on the calling thread. `stage` is the progress stage to
-    /// report.
+    /// Draws each run (consecutive frames that show the same t) once. `make` processes the drawings
+    /// on any thread; `take` receives the results in order on the calling thread. `stage` is the
+    /// progress stage to report.
     ///
     /// # Errors
     /// [`ExportError::Cancelled`], or the first error of `make` or `take`.
@@ -152,8 +152,8 @@ pub fn framing(shown: impl Into<Sequence>, times: &[f64]) -> Bounds {
         let axis_bounds = Bounds::of(figure.bars.iter().flatten().copied());
         let bar_bounds = axis_bounds.map(|bounds| bounds.padded(half_width));
         for bounds in [ring_bounds, bar_bounds].into_iter().flatten() {
-            // Far outside [0, 1] coordinates overflow. Such a frame must not affect the framing of
-            // the others.
+            // At t far outside [0, 1], coordinates overflow. Such a frame must not affect the
+            // framing of the others.
             if bounds.min.is_finite() && bounds.max.is_finite() {
                 framed = framed.union(&bounds);
             }
@@ -162,7 +162,7 @@ pub fn framing(shown: impl Into<Sequence>, times: &[f64]) -> Bounds {
     framed.padded(MARGIN * framed.size().max_element())
 }
 
-/// Number of frames to draw in parallel before delivering them.
+/// Returns the number of frames to draw in parallel before delivering them.
 fn batch_len(size: PixelSize) -> usize {
     let in_memory = (BATCH_BYTES / (size.pixels() * 4)).max(1);
     // A few frames per thread balance out slow ones. More would delay cancellation and progress.

@@ -5,31 +5,32 @@ use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
 use crate::transition::TransitionStop;
 
-/// Fraction of the way to the midpoint between two names up to which a caption is fully opaque
-/// (heuristic).
+/// Distance from a name's t up to which its caption is fully opaque, as a fraction of the distance
+/// to the midpoint between this name and the next (heuristic).
 const OPAQUE_UNTIL: f64 = 0.5;
 
-/// Fraction of the way to the midpoint from which a caption is hidden (heuristic).
+/// Distance from a name's t beyond which its caption is hidden, as a fraction of the distance to
+/// the midpoint between this name and the next (heuristic).
 const HIDDEN_FROM: f64 = 0.9;
 
 /// Captions with the times at which they appear, and their colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Captions {
-    /// Captions by ascending t.
+    /// The t and the text of each caption, by ascending t.
     names: Vec<(f64, String)>,
     colour: Rgb,
 }
 
 impl Captions {
     /// Maximum width of a caption, as a fraction of the image width (heuristic).
-    pub const WIDEST: f64 = 0.92;
+    pub const MAX_WIDTH: f64 = 0.92;
 
     /// Text height of a caption, as a fraction of the image's shorter side (heuristic).
-    pub const LETTERS: f64 = 0.055;
+    pub const TEXT_HEIGHT: f64 = 0.055;
 
     /// Height of the band reserved for captions, as a fraction of the image's shorter side
     /// (heuristic).
-    pub const BAND: f64 = 0.12;
+    pub const BAND_HEIGHT: f64 = 0.12;
 
     /// Creates captions from the names of the stops, or, if no stop has a name, from the names of
     /// the designs, one at each whole t. The text is dark or light, whichever is readable on the
@@ -73,14 +74,14 @@ impl Captions {
         let beyond = |name: &&(f64, String)| (name.0 - nearest.0) * (t - nearest.0) > 0.0;
         let next = self.names.iter().filter(beyond);
         let gap = next.map(|name| (name.0 - nearest.0).abs()).reduce(f64::min);
-        // Before the first and after the last caption there is no neighbour to fade towards.
+        // Before the first and after the last caption, nothing fades: there is no neighbour.
         let to_midpoint = gap.map_or(0.0, |gap| 2.0 * (t - nearest.0).abs() / gap);
         let opacity =
             1.0 - ((to_midpoint - OPAQUE_UNTIL) / (HIDDEN_FROM - OPAQUE_UNTIL)).clamp(0.0, 1.0);
         (opacity > 0.0).then_some((nearest.1.as_str(), opacity))
     }
 
-    /// Text colour.
+    /// Returns the text colour of the captions.
     #[must_use]
     pub fn colour(&self) -> Rgb {
         self.colour
@@ -93,8 +94,8 @@ impl Captions {
         };
         let size = drawing.size.as_dvec2();
         let shorter = size.min_element();
-        let room = [Self::WIDEST * size.x, Self::LETTERS * shorter];
-        let base = DVec2::new(0.5 * size.x, size.y - 0.45 * Self::BAND * shorter);
+        let room = [Self::MAX_WIDTH * size.x, Self::TEXT_HEIGHT * shorter];
+        let base = DVec2::new(0.5 * size.x, size.y - 0.45 * Self::BAND_HEIGHT * shorter);
         let paint = Paint {
             opacity,
             ..self.colour.into()
@@ -108,7 +109,7 @@ mod tests {
     use super::*;
 
     fn stop(t: f64, name: &str) -> TransitionStop {
-        TransitionStop::at(t).named(name)
+        TransitionStop::at(t).with_name(name)
     }
 
     #[test]

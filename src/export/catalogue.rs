@@ -1,5 +1,5 @@
-//! Exports the saved places of a map: one SVG and (if it has outlines) one DXF per place, an
-//! overview sheet (`catalogue.png`), and a table of measures (`catalogue.csv`).
+//! Exports the blends that were saved on a map of designs: one SVG and (if it has outlines) one DXF
+//! per blend, an overview sheet (`catalogue.png`), and a table of measures (`catalogue.csv`).
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use super::drawing::Drawing;
 use super::error::ExportError;
 use super::labels::text_colour_on;
 use super::size::PixelSize;
-use super::still::{encoded, write_atomically};
+use super::still::{encode_still, write_atomically};
 use super::target::StillKind;
 use super::view::PlaneView;
 use crate::colour::Rgb;
@@ -16,16 +16,16 @@ use crate::geometry::{Bounds, DVec2};
 use crate::io::file_name::safe_file_name;
 use crate::io::sanitize::SanitizedLine;
 use crate::measure::{BlendMeasures, BlendSampler};
-use crate::project::SavedPlace;
+use crate::project::SavedBlend;
 use crate::settings::named;
 use crate::space::{DesignSpace, WeightMap};
 use crate::transition::TransitionStyle;
 use crate::work::progress::{Progress, checkpoint};
 
-/// Longer side of the image of one place, in pixels (heuristic).
+/// Longer side of the image of one blend, in pixels (heuristic).
 const LONGER_SIDE_PX: u32 = 960;
 
-/// Order in which saved places are listed.
+/// Order in which saved blends are listed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CatalogueOrder {
@@ -53,23 +53,24 @@ named! { CatalogueOrder {
     Distortion: "distortion", "Distortion", "Least distorted first";
 } }
 
-/// Saved places with their measures, filtered and sorted.
+/// Saved blends with their measures, filtered and sorted.
 #[derive(Clone, Debug)]
 pub struct Catalogue {
     entries: Vec<CatalogueEntry>,
 }
 
-/// One saved place with its blend weights and measures.
+/// One saved blend with its weights and measures.
 #[derive(Clone, Debug)]
 struct CatalogueEntry {
-    saved: SavedPlace,
+    saved: SavedBlend,
     weights: Vec<f64>,
     measures: BlendMeasures,
 }
 
 impl Catalogue {
-    /// Selects the places with at least `min_stars` stars and sorts them; ties keep the order in
-    /// which they were saved. Places without a name are named after their blend.
+    /// Selects the blends with at least `min_stars` stars and sorts them; ties keep the order in
+    /// which they were saved. A blend without a name is named after its designs with the largest
+    /// weights.
     ///
     /// # Panics
     /// If the map does not have one site per design of the space.
@@ -77,12 +78,12 @@ impl Catalogue {
     pub fn new(
         space: &DesignSpace,
         map: &WeightMap,
-        saved: &[SavedPlace],
+        saved: &[SavedBlend],
         min_stars: u8,
         order: CatalogueOrder,
     ) -> Self {
         let mut sampler = BlendSampler::of(space);
-        let entry = |saved: &SavedPlace| {
+        let entry = |saved: &SavedBlend| {
             let mut weights = vec![0.0; space.designs().len()];
             map.weights(saved.at, &mut weights);
             let mut saved = saved.clone();
@@ -110,20 +111,20 @@ impl Catalogue {
         Self { entries }
     }
 
-    /// Number of selected places.
+    /// Returns the number of selected blends.
     #[must_use]
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// Returns whether no place was selected.
+    /// Returns whether no blend was selected.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
 
-    /// Writes all files into a folder, which is created if missing, and returns their paths. Files
-    /// with the same names are overwritten.
+    /// Writes all files into a folder and returns their paths. The folder is created if missing;
+    /// existing files with the same names are overwritten.
     ///
     /// # Errors
     /// [`ExportError`] naming the file that cannot be written. Files written before it are
@@ -148,7 +149,7 @@ impl Catalogue {
             let stem = stem(k, &entry.saved);
             for kind in [StillKind::Svg, StillKind::Dxf] {
                 let path = folder.join(format!("{stem}.{kind}"));
-                match encoded(&drawing, kind, &path) {
+                match encode_still(&drawing, kind, &path) {
                     Ok(bytes) => {
                         write_atomically(&path, &bytes)?;
                         written.push(path);
@@ -162,7 +163,7 @@ impl Catalogue {
         }
         let sheet = folder.join("catalogue.png");
         let drawing = self.sheet(space, style, ground);
-        write_atomically(&sheet, &encoded(&drawing, StillKind::Png, &sheet)?)?;
+        write_atomically(&sheet, &encode_still(&drawing, StillKind::Png, &sheet)?)?;
         let table = folder.join("catalogue.csv");
         write_atomically(
             &table,
@@ -175,7 +176,7 @@ impl Catalogue {
         Ok(written)
     }
 
-    /// Draws all places side by side, with their names and stars.
+    /// Draws all selected blends side by side, with their names and stars.
     #[must_use]
     pub fn sheet(
         &self,
@@ -207,7 +208,7 @@ impl Catalogue {
         drawing
     }
 
-    /// Draws the blend of place `k` into a drawing.
+    /// Draws the blend with index `k` into a drawing.
     fn draw(
         &self,
         space: &DesignSpace,
@@ -222,7 +223,7 @@ impl Catalogue {
         drawing.push_blend(&frame, style, view);
     }
 
-    /// Returns the CSV table: one row per place, with a column of weights for each design.
+    /// Returns the CSV table: one row per blend, with a column of weights for each design.
     fn table(&self, space: &DesignSpace) -> Result<Vec<u8>, String> {
         let mut table = csv::Writer::from_writer(Vec::new());
         let place_header = ["file", "name", "stars", "note", "x", "y"].map(str::to_owned);
@@ -273,9 +274,9 @@ impl Catalogue {
     }
 }
 
-/// File name without extension: the number of the place and the words of its name. The number makes
-/// it unique; the words have no spaces or punctuation.
-fn stem(k: usize, saved: &SavedPlace) -> String {
+/// Returns the file name of a blend, without extension: its number, which makes the name unique,
+/// and the words of its name without spaces and punctuation.
+fn stem(k: usize, saved: &SavedBlend) -> String {
     let name = safe_file_name(&saved.name);
     let words: Vec<&str> = name
         .split(|c: char| !c.is_alphanumeric())
@@ -305,11 +306,11 @@ mod tests {
         (space, map)
     }
 
-    fn saved(map: &WeightMap) -> Vec<SavedPlace> {
-        let place = |site: DVec2, name: &str, stars: u8| SavedPlace {
+    fn saved(map: &WeightMap) -> Vec<SavedBlend> {
+        let place = |site: DVec2, name: &str, stars: u8| SavedBlend {
             name: name.to_owned(),
             stars,
-            ..SavedPlace::new(site)
+            ..SavedBlend::new(site)
         };
         vec![
             place(map.sites()[2], "a/b", 2),
@@ -348,11 +349,11 @@ mod tests {
     #[test]
     fn long_names_stay_within_their_cells() {
         let (space, map) = space();
-        let long = |site: DVec2| SavedPlace {
+        let long = |site: DVec2| SavedBlend {
             name: "a name that says of which designs it is how much".to_owned(),
-            ..SavedPlace::new(site)
+            ..SavedBlend::new(site)
         };
-        let saved: Vec<SavedPlace> = map.sites().iter().map(|site| long(*site)).collect();
+        let saved: Vec<SavedBlend> = map.sites().iter().map(|site| long(*site)).collect();
         let catalogue = Catalogue::new(&space, &map, &saved, 0, CatalogueOrder::Saved);
         let sheet = catalogue.sheet(&space, &TransitionStyle::default(), None);
         let spans = sheet.items.iter().filter_map(|item| match item {

@@ -34,7 +34,7 @@ const LABEL_STYLE: LabelStyle = LabelStyle {
     line_px: 20.0,
 };
 
-/// Line height of names and labels, in pixels.
+/// Line height of method names and of t labels, in pixels.
 const LINE_PX: f64 = LABEL_STYLE.line_px;
 
 /// Style of the rating below a method's name.
@@ -58,12 +58,13 @@ pub struct MethodRow {
 }
 
 impl MethodRow {
-    /// Builds a pair of designs with every applicable method. Methods for raster images are
-    /// compared only with each other, and likewise methods for shapes: silhouettes of photographs
-    /// are not meaningful.
+    /// Builds and rates the transition between two designs with every applicable method. If the
+    /// requested method is for raster images, only methods for raster images are compared;
+    /// otherwise only methods for shapes: silhouettes of photographs are not meaningful.
     ///
     /// # Errors
-    /// [`Cancelled`]. A method that fails keeps its error message in its row.
+    /// [`Cancelled`] if the work was cancelled. If a method fails, its row contains the error
+    /// message.
     pub fn all(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Vec<Self>, Cancelled> {
         let is_colours = |cell: TransitionMethod| cell.content() == ContentKind::Colours;
         let suits = |cell: &TransitionMethod| {
@@ -94,8 +95,7 @@ impl MethodRow {
     }
 }
 
-/// Draws one row per method with frames at the given t and its rating, and highlights the best
-/// rating.
+/// Draws one row per method: its rating, and frames at the given t. The best rating is highlighted.
 ///
 /// # Errors
 /// [`PixelSizeError`] if there are more frames than fit on a sheet.
@@ -152,7 +152,7 @@ pub fn comparison_sheet(
     Ok(drawing)
 }
 
-/// Draws the name of a method, and its rating below.
+/// Draws the name of a method, and below it the rating.
 fn push_name(drawing: &mut Drawing, row: &MethodRow, is_best: bool, corner: DVec2) {
     let ink = text_colour_on(drawing.ground);
     let name_area = LabelBox {
@@ -176,7 +176,7 @@ fn push_name(drawing: &mut Drawing, row: &MethodRow, is_best: bool, corner: DVec
     REMARK_STYLE.push(drawing, &words, rating_area, colour);
 }
 
-/// Width and height of a frame in pixels.
+/// Returns the width and height of a frame, in pixels.
 fn cell(bounds: Option<Bounds>, rows: usize, columns: usize) -> DVec2 {
     let size = bounds.map_or(DVec2::ONE, |bounds| bounds.size());
     // Elongated designs get cells of at most 5:1.

@@ -24,12 +24,12 @@ const MAX_COLUMNS: usize = 6;
 /// ones.
 const LABEL_SHARE: f64 = 0.07;
 
-/// Maximum fraction of a cell's height for its label, and of its shorter side for the gap
-/// (heuristic).
+/// Maximum label height as a fraction of its cell's height, and maximum gap as a fraction of the
+/// cell's shorter side (heuristic).
 const MAX_LABEL_SHARE: f64 = 0.3;
 
-/// Height of a label line in a grid of many rows, as a fraction of the longer side of a cell, per
-/// row (heuristic).
+/// Height of a label line per row of a grid, as a fraction of the longer side of a cell: labels of
+/// grids with many rows are larger (heuristic).
 const GRID_LABEL_SHARE: f64 = 0.013;
 
 /// Gap between cells, as a fraction of the longer side of a cell (heuristic).
@@ -78,7 +78,7 @@ impl SheetLayout {
         }
     }
 
-    /// Font size of a label, in pixels.
+    /// Returns the font size of a label, in pixels.
     pub(super) fn letters_px(&self) -> f64 {
         0.8 * self.label_px
     }
@@ -97,14 +97,14 @@ impl SheetLayout {
         }
     }
 
-    /// Maximum width and the font size of a label below an image of the given size. The label may
-    /// extend almost to its neighbour.
+    /// Returns the maximum width and the font size of a label below an image of the given size, in
+    /// pixels. The label may extend almost to the label of the neighbouring cell.
     pub(super) fn label_room(&self, picture: DVec2) -> [f64; 2] {
         [picture.x + 0.8 * self.gap_px, self.letters_px()]
     }
 
-    /// Upper left corner and size of the image in a cell, and the centre of the baseline of its
-    /// label, all in pixels.
+    /// Returns the upper left corner and the size of the image in the cell with the given index,
+    /// and the centre of the baseline of its label, all in pixels.
     pub(super) fn cell(&self, index: usize) -> (DVec2, DVec2, DVec2) {
         let counts = DVec2::new(self.columns as f64, self.rows as f64);
         let whole = self.size.as_dvec2() / counts;
@@ -117,13 +117,15 @@ impl SheetLayout {
     }
 }
 
-/// Rows of balanced length with cells of their natural size, on a sheet within the size limit.
+/// Returns an arrangement with rows of balanced length and cells of their natural size, on a sheet
+/// within the size limit.
 fn balanced_layout(count: usize, cell: DVec2) -> SheetLayout {
     let rows = count.div_ceil(MAX_COLUMNS);
     natural_layout([count.div_ceil(rows), rows], cell, LABEL_SHARE)
 }
 
-/// `columns` × `rows` cells of their natural size, on a sheet within the size limit.
+/// Returns an arrangement of `columns` × `rows` cells of their natural size, on a sheet within the
+/// size limit.
 fn natural_layout([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout {
     let unit = f64::from(CELL_PX);
     let (label_px, gap_px) = (label * unit, GAP_SHARE * unit);
@@ -143,7 +145,7 @@ fn natural_layout([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> Sheet
     }
 }
 
-/// Arrangement with the number of columns that gives the largest images.
+/// Returns the arrangement with the number of columns that gives the largest images.
 fn filling_layout(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
     let layout = |columns: usize| {
         SheetLayout::filling(size, [columns, count.div_ceil(columns)], LABEL_SHARE)
@@ -152,7 +154,7 @@ fn filling_layout(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
         let (_, inner, _) = layout.cell(0);
         (inner / cell).min_element()
     };
-    // Ties go to fewer columns.
+    // Of several arrangements with equally large images, the one with the fewest columns is used.
     let better = |a: SheetLayout, b: SheetLayout| if scale(&b) > scale(&a) { b } else { a };
     (2..=count).map(layout).fold(layout(1), better)
 }

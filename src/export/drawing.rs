@@ -221,7 +221,7 @@ impl Drawing {
         paint: impl Into<Paint>,
     ) {
         self.items.push(DrawingItem::Fill {
-            outline: glyph_outlines::centred(words, base_px, height_px),
+            outline: glyph_outlines::centred_text(words, base_px, height_px),
             paint: paint.into(),
             gradient: None,
             label: Some(words.to_owned()),

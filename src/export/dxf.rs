@@ -16,7 +16,7 @@ use super::drawing::{Drawing, DrawingItem};
 use super::outline::{OutlinePath, PathCommand};
 use super::view::PlaneView;
 
-/// Number of line segments that replace a Bézier curve (heuristic).
+/// Number of line segments that replace each Bézier curve (heuristic).
 const CURVE_SEGMENTS: usize = 12;
 
 /// Returns a drawing as a DXF document, or `None` if it contains a raster image, which has no
@@ -93,7 +93,8 @@ impl DxfCoordinates {
         px / self.view.map_or(1.0, |view| view.px_per_unit())
     }
 
-    /// Formats a point with the group code of its x coordinate; that of y is ten higher.
+    /// Formats a point. `code` is the DXF group code of its x coordinate; that of its y coordinate
+    /// is ten higher.
     fn at(&self, px: DVec2, code: usize) -> String {
         let DVec2 { x, y } = self.place(px);
         let (x, y, next) = (number(x), number(y), code + 10);
@@ -118,7 +119,7 @@ impl DxfCoordinates {
     }
 }
 
-/// Flattens the contours to polygons.
+/// Returns the contours of an outline as polygons, with flattened curves.
 fn rings(outline: &OutlinePath) -> Vec<Vec<DVec2>> {
     let mut rings: Vec<Vec<DVec2>> = Vec::new();
     for step in &outline.commands {
@@ -146,23 +147,23 @@ fn rings(outline: &OutlinePath) -> Vec<Vec<DVec2>> {
     rings
 }
 
-/// Curve parameters of the end points of the segments of a flattened curve.
+/// Returns the curve parameters in (0, 1] at which the segments of a flattened curve end.
 fn shares() -> impl Iterator<Item = f64> {
     (1..=CURVE_SEGMENTS).map(|k| k as f64 / CURVE_SEGMENTS as f64)
 }
 
-/// Layer name of a colour.
+/// Returns the name of the DXF layer for a colour.
 fn layer(Rgb([r, g, b]): Rgb) -> String {
     format!("PAINT_{r:02X}{g:02X}{b:02X}")
 }
 
-/// Layer table entry of a colour.
+/// Returns the entry of the DXF layer table for a colour.
 fn layer_entry(colour: Rgb) -> String {
     let (name, nearest) = (layer(colour), nearest_index(colour));
     format!("0\nLAYER\n2\n{name}\n70\n0\n62\n{nearest}\n6\nCONTINUOUS\n")
 }
 
-/// AutoCAD colour index (1 to 9) closest to a colour.
+/// Returns the AutoCAD colour index (1 to 9) closest to a colour.
 fn nearest_index(Rgb(rgb): Rgb) -> usize {
     /// Colours of the AutoCAD indices 1 to 9 (AutoCAD Color Index).
     const INDEX_COLOURS: [[u8; 3]; 9] = [

@@ -65,7 +65,7 @@ pub enum ExportError {
     Ffmpeg {
         /// Path of the output file.
         path: PathBuf,
-        /// Last line of its error output.
+        /// Last line of the error output of ffmpeg.
         last_line: String,
     },
     /// The export was cancelled.
@@ -92,7 +92,7 @@ impl ExportError {
         }
     }
 
-    /// Error for a file at `path` that failed verification, for the given reason.
+    /// Creates the error for a file at `path` that failed verification for the given reason.
     pub(super) fn corrupt(path: &Path, reason: impl Display) -> Self {
         Self::Corrupt {
             path: path.to_owned(),
@@ -101,7 +101,8 @@ impl ExportError {
     }
 }
 
-/// Error of an encoder library, split by cause: these libraries report I/O errors among their own.
+/// Error of an encoder library, split by cause: these libraries report I/O errors among their own
+/// errors.
 pub(super) enum EncodeFailure {
     Io(io::Error),
     Encoder(String),

@@ -1,8 +1,8 @@
 //! Schedule of a film: the value of t for each frame, the frame rate, and whether it loops.
 //!
-//! Guarantees: the first frame shows exactly the first t, and the last frame of a pass (one run
-//! from source to target) exactly the last. A range of frames has the same times, numbers and
-//! delays as in the whole film. Nothing is rendered here.
+//! Guarantees: the first frame shows exactly the first t, and the last frame of a pass (once from
+//! start to end) exactly the last. A range of frames has the same times, numbers and delays as in
+//! the whole film. Nothing is rendered here.
 
 use std::ops::Range;
 
@@ -49,11 +49,11 @@ pub enum FilmSpecError {
 /// Consecutive frames that show the same t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameRun {
-    /// The t that they show.
+    /// The t that all these frames show.
     pub t: f64,
-    /// Number of the first frame, counted within the whole film.
+    /// Number of the first of these frames, counted from 0 within the whole film.
     pub first: usize,
-    /// Number of frames, at least 1.
+    /// Number of these frames, at least 1.
     pub count: usize,
 }
 
@@ -89,7 +89,7 @@ impl FilmSpec {
         fps: f64,
     ) -> Result<Self, FilmSpecError> {
         check(fps, timing.from, timing.to)?;
-        let pass_secs = timing.pass_secs(stops);
+        let pass_secs = timing.film_secs(stops);
         let steps = (pass_secs * fps).round().max(1.0) as usize;
         // `as` saturates, so even an absurdly long pass is refused here.
         if steps >= MAX_FRAMES {
@@ -181,27 +181,28 @@ impl FilmSpec {
         }
     }
 
-    /// Title of the film.
+    /// Returns the title of the film.
     pub fn title(&self) -> Option<&str> {
         self.title.as_deref()
     }
 
-    /// Named stops of the timing, each with its t.
+    /// Returns the named stops of the film, each with its t.
     pub fn stops(&self) -> &[(f64, String)] {
         &self.stops
     }
 
-    /// Value of t of each frame.
+    /// Returns the t of each frame.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// Number of the first frame: 0 for a whole film, more for a range of one.
+    /// Returns the number of the first frame: 0 for a whole film, possibly more for a range of
+    /// frames.
     pub fn first_number(&self) -> usize {
         self.first_number
     }
 
-    /// Frames per second.
+    /// Returns the number of frames per second.
     pub fn fps(&self) -> f64 {
         self.fps
     }
@@ -211,8 +212,8 @@ impl FilmSpec {
         self.repeats
     }
 
-    /// Groups consecutive frames with equal t (during pauses, for example), so that each group is
-    /// drawn once.
+    /// Returns the runs of the film: groups of consecutive frames with equal t, for example during
+    /// a pause, so that each group is drawn once.
     pub fn runs(&self) -> Vec<FrameRun> {
         let mut first = self.first_number;
         let run_of = |ts: &[f64]| {
@@ -227,10 +228,11 @@ impl FilmSpec {
         self.times.chunk_by(|a, b| a == b).map(run_of).collect()
     }
 
-    /// Duration of a run in whole ticks of 1 / `ticks_per_sec` seconds. Start and end times are
-    /// rounded rather than durations, so no drift accumulates.
+    /// Returns the duration of a run in whole ticks of 1 / `ticks_per_sec` seconds. Start and end
+    /// times are rounded instead of durations, so no drift accumulates.
     pub fn ticks(&self, run: FrameRun, ticks_per_sec: f64) -> u64 {
-        // Counted from the start of the whole film, so that ranges of it join without gaps.
+        // Ticks are counted from the start of the whole film, so that ranges of it join without
+        // gaps.
         let tick_at = |number: usize| (number as f64 * ticks_per_sec / self.fps).round() as u64;
         tick_at(run.first + run.count) - tick_at(run.first)
     }
@@ -259,7 +261,7 @@ pub fn even_times(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count).map(t_of).collect()
 }
 
-/// Checks the frame rate and the ends of t.
+/// Checks the frame rate, and that the first and the last t are finite.
 fn check(fps: f64, from: f64, to: f64) -> Result<(), FilmSpecError> {
     // Written this way round, the comparison also refuses NaN.
     if !(fps > 0.0 && fps <= MAX_FPS) {

@@ -25,8 +25,8 @@ use super::raster::rasterise;
 use super::readback::{DRAWN_FRACTION, check_gif};
 use changes::{FramePatch, GifCanvas, IndexedFrame, TRANSPARENT};
 
-/// Maximum frame rate that players play as written, in frames per second (derived: players take
-/// delays below 0.02 s for errors and use 0.1 s instead).
+/// Maximum frame rate that players respect, in frames per second (derived: players take delays
+/// below 0.02 s for errors and use 0.1 s instead).
 pub const MAX_GIF_FPS: f64 = 50.0;
 
 /// GIF delay units per second.
@@ -36,11 +36,11 @@ const TICKS_PER_SEC: f64 = 100.0;
 /// Colours that occur only in other frames are replaced by the nearest.
 const PALETTE_SAMPLES: usize = 24;
 
-/// Progress fraction reported once the palette is chosen (heuristic: 24 of about 90 frames of a
+/// Progress reported once the palette is chosen, in [0, 1] (heuristic: 24 of about 90 frames of a
 /// typical film are drawn for it).
 const PALETTE_FRACTION: f64 = 0.2;
 
-/// Writes the film and verifies it.
+/// Writes the film to `path`, and verifies the file before it replaces an earlier one.
 ///
 /// # Errors
 /// [`ExportError`] if the frame rate is above [`MAX_GIF_FPS`], the file cannot be written, or the
@@ -54,7 +54,8 @@ pub fn write_gif(
     if film.fps() > MAX_GIF_FPS {
         return Err(ExportError::GifRate(film.fps()));
     }
-    // Created before anything is drawn, so that an unwritable folder is reported at once.
+    // The file is created before anything is drawn, so that an unwritable folder is reported at
+    // once.
     let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let choosing = ProgressSpan::new(progress, 0.0, PALETTE_FRACTION);
     let palette = film_palette(camera, &film.runs(), &choosing)?;
@@ -78,8 +79,8 @@ pub fn write_gif(
             written.map_err(ExportError::encode(path))
         },
     )?;
-    // Taken back explicitly, because dropping the encoder would ignore errors of writing the
-    // trailer.
+    // The writer is taken back explicitly, because dropping the encoder would ignore errors when it
+    // writes the end of the file.
     let mut writer = encoder.into_inner().map_err(ExportError::encode(path))?;
     writer.flush().map_err(ExportError::write(path))?;
     drop(writer);
@@ -143,12 +144,12 @@ fn histogram(image: &RgbaImage) -> ColourHistogram {
     histogram
 }
 
-/// Colour of a pixel that is at least half covered.
+/// Returns the colour of a pixel that is at least half covered; `None` for other pixels.
 fn opaque_colour([r, g, b, a]: [u8; 4]) -> Option<[u8; 3]> {
     (a >= 128).then_some([r, g, b])
 }
 
-/// Maps an image to palette indices.
+/// Replaces each pixel of an image by the index of the nearest palette colour.
 fn index_image(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
     // Frames have few distinct colours, so caching avoids comparing each pixel with up to 255
     // palette entries.
@@ -163,9 +164,9 @@ fn index_image(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
     IndexedFrame { image, indices }
 }
 
-/// Encodes the next frame. Over a background only the changes are stored. On a transparent
-/// background the opaque part of each frame is stored and erased afterwards, or the previous frame
-/// would show through.
+/// Encodes the next frame. Over a background, only the changes are stored. On a transparent
+/// background, the opaque part of each frame is stored, and erased before the next one, which it
+/// would otherwise show through.
 fn encode_next_frame(
     drawn: &IndexedFrame,
     canvas: Option<&mut GifCanvas>,
@@ -181,7 +182,7 @@ fn encode_next_frame(
     }
 }
 
-/// Compresses a patch.
+/// Compresses the part of a frame that is stored, and returns it as a GIF frame.
 fn encode_patch(patch: FramePatch, dispose: DisposalMethod) -> Frame<'static> {
     // Sides fit in 16 bits: `MAX_SIDE_PX` is 16,384.
     let mut frame = Frame {

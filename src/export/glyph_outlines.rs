@@ -16,7 +16,7 @@ use super::outline::{OutlinePath, PathCommand};
 
 /// Returns the outlines of `words` centred on `base_px` (on the baseline, y down), with a font size
 /// of `height_px`.
-pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath {
+pub fn centred_text(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath {
     let mut origin = base_px - DVec2::new(0.5 * width(words, height_px), 0.0);
     let font = font();
     let glyphs = font.outline_glyphs();
@@ -36,20 +36,20 @@ pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath {
     outline
 }
 
-/// Returns the width of the text in pixels.
+/// Returns the width of a text with a font size of `height_px`, in pixels.
 pub fn width(words: &str, height_px: f64) -> f64 {
     advances(&font(), words, height_px)
         .map(|(_, advance)| advance)
         .sum()
 }
 
-/// Font of all labels: Ubuntu Light, under the Ubuntu Font Licence.
+/// Returns the font of all labels: Ubuntu Light, under the Ubuntu Font Licence.
 fn font() -> FontRef<'static> {
     FontRef::new(epaint_default_fonts::UBUNTU_LIGHT)
         .unwrap_or_else(|error| unreachable!("the bundled font is valid: {error}"))
 }
 
-/// Glyph of each character and its advance width in pixels.
+/// Returns the glyph of each character and its advance width in pixels.
 fn advances<'a>(
     font: &FontRef<'a>,
     words: &'a str,
@@ -64,7 +64,8 @@ fn advances<'a>(
     })
 }
 
-/// Converts a path element of a glyph at `origin`; font coordinates have y up.
+/// Converts a path element of a glyph whose origin is at `origin`, in pixels. Font coordinates have
+/// y up.
 fn step(element: PathElement, origin: DVec2) -> PathCommand {
     let at = |x: f32, y: f32| origin + DVec2::new(f64::from(x), -f64::from(y));
     match element {
@@ -101,7 +102,7 @@ mod tests {
     #[test]
     fn text_is_centred_and_sits_on_the_baseline() {
         let base = DVec2::new(100.0, 50.0);
-        let points = ends(&centred("t = 0.25", base, 20.0));
+        let points = ends(&centred_text("t = 0.25", base, 20.0));
         assert!(!points.is_empty());
         let xs = points.iter().map(|p| p.x);
         let (left, right) = (
@@ -124,7 +125,11 @@ mod tests {
 
     #[test]
     fn unknown_characters_are_boxes_and_empty_text_is_empty() {
-        assert!(!centred("\u{10ffff}", DVec2::ZERO, 20.0).commands.is_empty());
-        assert!(centred("", DVec2::ZERO, 20.0).commands.is_empty());
+        assert!(
+            !centred_text("\u{10ffff}", DVec2::ZERO, 20.0)
+                .commands
+                .is_empty()
+        );
+        assert!(centred_text("", DVec2::ZERO, 20.0).commands.is_empty());
     }
 }

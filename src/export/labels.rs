@@ -60,7 +60,8 @@ impl LabelStyle {
             }
             for c in word.chars() {
                 line.push(c);
-                // Character by character: a file path without spaces may be longer than a line.
+                // Checked after each character: a file path without spaces may be longer than a
+                // line.
                 if !fits(&line) {
                     line.pop();
                     lines.push(std::mem::replace(&mut line, c.to_string()));
@@ -97,7 +98,7 @@ pub fn text_colour_on(ground: Option<Rgb>) -> Rgb {
     }
 }
 
-/// Label below a frame, such as `t = 0.25`, with a typographic minus sign.
+/// Returns the label below a frame, such as `t = 0.25`, with a typographic minus sign.
 pub(super) fn time_label(t: f64) -> String {
     format!(
         "t = {}",

@@ -35,7 +35,7 @@ named! { Aspect {
 } }
 
 impl Aspect {
-    /// Width divided by height; `None` for the aspect ratio of the drawing.
+    /// Returns width divided by height; `None` for the aspect ratio of the drawing.
     fn ratio(self) -> Option<f64> {
         match self {
             Self::Original => None,
@@ -47,17 +47,17 @@ impl Aspect {
     }
 }
 
-/// Maximum longer side when the drawing's own shape is used, in multiples of
-/// [`PictureLayout::lines`] (heuristic: that of a 16:9 image). More elongated drawings get a
-/// shorter side below `lines` instead.
+/// Maximum length of the longer side for [`Aspect::Original`], in multiples of
+/// [`PictureLayout::lines`] (heuristic: that of a 16:9 image). For more elongated drawings, the
+/// shorter side is reduced below `lines` instead.
 const MAX_LONGER_SIDE: f64 = 16.0 / 9.0;
 
 /// Aspect ratio and size of images, and the space left free in them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureLayout {
-    /// Aspect ratio.
+    /// Aspect ratio of the images.
     pub aspect: Aspect,
-    /// Length of the shorter side in pixels.
+    /// Length of the shorter side of the images, in pixels.
     pub lines: u32,
     /// Free margin on all sides, as a fraction of the shorter side, in [0, 0.4].
     pub margin: f64,
@@ -102,7 +102,7 @@ impl PictureLayout {
         let shorter = size.as_dvec2().min_element();
         let margin = self.margin.clamp(0.0, 0.4) * shorter;
         let below = if self.has_captions {
-            Captions::BAND * shorter
+            Captions::BAND_HEIGHT * shorter
         } else {
             0.0
         };
@@ -111,7 +111,7 @@ impl PictureLayout {
         PlaneView::fit_cell(bounds, size, corner, cell.max(DVec2::ONE))
     }
 
-    /// Size of the image for a drawing with these bounds.
+    /// Returns the size of the image for a drawing with these bounds.
     fn size(&self, bounds: Bounds) -> Result<PixelSize, PixelSizeError> {
         let shorter = f64::from(self.lines);
         let Some(ratio) = self.aspect.ratio() else {
@@ -215,7 +215,7 @@ mod tests {
         let view = layout.view(wide()).expect("a view");
         let [low, high] = [wide().min, wide().max].map(|p| view.to_px(p));
         assert!((low.x - 108.0).abs() < 1e-9 && (high.x - 972.0).abs() < 1e-9);
-        assert!(low.y < 0.9 * 1080.0 - Captions::BAND * 1080.0);
+        assert!(low.y < 0.9 * 1080.0 - Captions::BAND_HEIGHT * 1080.0);
     }
 
     #[test]

@@ -1,8 +1,8 @@
-//! Contact sheet of the map of a space: a grid of blends, with the designs among them labelled by
-//! name.
+//! Contact sheet of a map of designs: a grid of blends, in which the designs themselves are
+//! labelled with their names.
 //!
-//! Guarantees: all cells have the same scale; each design fills the cell nearest to its site,
-//! undistorted; cells outside the convex hull of the sites are empty.
+//! Guarantees: all cells have the same scale; each design is shown exactly, in the cell nearest to
+//! its site (its position on the map); cells well outside the convex hull of the sites are empty.
 
 use super::contact_sheet::SheetLayout;
 use super::drawing::Drawing;
@@ -15,7 +15,7 @@ use crate::io::sanitize::SanitizedLine;
 use crate::space::{DesignSpace, WeightMap};
 use crate::transition::TransitionStyle;
 
-/// Draws a map sampled at `columns` × `rows` places into one sheet.
+/// Draws the blends at `columns` × `rows` places of a map into one sheet.
 ///
 /// # Panics
 /// If the map does not have one site per design of the space.
@@ -53,7 +53,7 @@ pub fn map_sheet(
     drawing
 }
 
-/// Name of the design whose site is exactly at `place`, if any.
+/// Returns the name of the design whose site is exactly at `place`, if any.
 fn name_at(space: &DesignSpace, map: &WeightMap, place: DVec2) -> Option<String> {
     let design = map.sites().iter().position(|site| *site == place)?;
     Some(SanitizedLine(&space.designs()[design].name).to_string())

@@ -31,8 +31,9 @@ use super::raster::rasterise;
 use super::readback::{CHECKING_STAGE, DRAWN_FRACTION};
 use ffmpeg::FfmpegMessages;
 
-/// Writes the film and verifies it. Both sides of the camera's image must be even
-/// ([`PixelSize::to_even`](super::PixelSize::to_even)), or ffmpeg refuses it.
+/// Writes the film to `path`, and verifies the file before it replaces an earlier one. Both sides
+/// of the camera's image must be even ([`PixelSize::to_even`](super::PixelSize::to_even)), or
+/// ffmpeg refuses it.
 ///
 /// # Errors
 /// [`ExportError`] if the background is transparent, ffmpeg is missing, fails or writes fewer
@@ -46,7 +47,7 @@ pub fn write_mp4(
     if camera.ground.is_none() {
         return Err(ExportError::Mp4Transparent);
     }
-    // Created before ffmpeg is started, so that an unwritable folder is reported first.
+    // The file is created before ffmpeg is started, so that an unwritable folder is reported first.
     let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let job = FfmpegJob {
         path,
@@ -84,7 +85,7 @@ fn planes(image: &RgbaImage) -> Vec<u8> {
     let (range, matrix) = (YuvRange::Limited, YuvStandardMatrix::Bt709);
     let mode = YuvConversionMode::Balanced;
     let stride = 4 * width;
-    // Fails only if the buffer sizes do not match, and they come from one image.
+    // The conversion fails only if the buffer sizes do not match, and they come from one image.
     let conversion = rgba_to_yuv420(&mut planes, image.as_raw(), stride, range, matrix, mode);
     debug_assert!(conversion.is_ok());
     let planes = [planes.y_plane, planes.u_plane, planes.v_plane];
@@ -98,7 +99,7 @@ pub fn has_ffmpeg() -> bool {
     *IS_AVAILABLE.get_or_init(ffmpeg::is_available)
 }
 
-/// The ffmpeg runs for one output file, and their error messages.
+/// Runs ffmpeg for one output file, and turns its messages into errors.
 struct FfmpegJob<'a> {
     /// Final path of the file.
     path: &'a Path,
@@ -121,7 +122,7 @@ impl FfmpegJob<'_> {
             Err(error) => return Err(self.ffmpeg_error(&error.to_string())),
             Ok(ended) => ended,
         };
-        match ended.words {
+        match ended.messages {
             _ if self.progress.is_cancelled() => Err(Cancelled.into()),
             words if ended.status.success() => Ok(words),
             words if words.report_full_disk => Err(self.disk_full_error()),
@@ -154,12 +155,12 @@ impl FfmpegJob<'_> {
         })
     }
 
-    /// Error for a full disk.
+    /// Creates the error for a full disk.
     fn disk_full_error(&self) -> ExportError {
         ExportError::write(self.path)(io::ErrorKind::StorageFull.into())
     }
 
-    /// Error that quotes a message of ffmpeg.
+    /// Creates the error that quotes a message of ffmpeg.
     fn ffmpeg_error(&self, words: &str) -> ExportError {
         ExportError::Ffmpeg {
             path: self.path.to_owned(),

@@ -1,10 +1,11 @@
-//! Closed contours in pixels (lines and Bézier curves), the geometry of everything that is filled
+//! Closed contours of lines and Bézier curves, in pixels: the geometry of everything that is filled
 //! or stroked.
 
 use crate::geometry::DVec2;
 
-/// Largest coordinate that is drawn, in pixels (tolerance: 32-bit rasterisers lose all sub-pixel
-/// precision beyond it). Extrapolated films can leave the image by many orders of magnitude.
+/// Maximum absolute value of a coordinate that is drawn, in pixels (derived: beyond it, the 32-bit
+/// coordinates of rasterisers have no sub-pixel precision). At t far outside [0, 1], films can
+/// leave the image by many orders of magnitude.
 pub const MAX_COORDINATE_PX: f64 = 1.0e7;
 
 /// One path command of an [`OutlinePath`], in pixels, y down.

@@ -15,7 +15,8 @@ use super::labels::{ERROR_COLOUR, LabelBox, LabelStyle, text_colour_on};
 use super::size::{MAX_SHEET_SIDE_PX, PixelSize, PixelSizeError};
 use super::view::PlaneView;
 
-/// Side of a frame in pixels (heuristic). The largest with which all strips fit is used.
+/// Sides of a frame that are tried, in pixels, the largest first. The first with which all strips
+/// fit is used (heuristic).
 const CELLS_PX: [f64; 4] = [104.0, 84.0, 64.0, 48.0];
 
 /// Gap between frames and around a strip, in pixels (heuristic).
@@ -33,7 +34,8 @@ const LABEL_STYLE: LabelStyle = LabelStyle {
 /// Line height of names and remarks, in pixels.
 const LINE_PX: f64 = LABEL_STYLE.line_px;
 
-/// Minimum number of frame columns, so that error messages of failed pairs have room (heuristic).
+/// Minimum number of frames for which a strip has room. Error messages of failed pairs need that
+/// much (heuristic).
 const MIN_COLUMNS: usize = 5;
 
 /// Preferred ratio of width to height of a sheet (heuristic).
@@ -51,10 +53,10 @@ const TARGET_RATIO: f64 = 1.4;
 #[derive(Clone, Debug, Default)]
 pub struct PairStrip {
     name: String,
-    /// Remark or error message.
-    words: String,
+    /// Remark below the name, or the error message of a failed pair.
+    remark: String,
     is_bad: bool,
-    /// Figures with their t.
+    /// Figure of each frame, with its t.
     frames: Vec<(VectorFigure, f64)>,
     style: TransitionStyle,
     bounds: Option<Bounds>,
@@ -91,7 +93,7 @@ impl PairStrip {
     #[must_use]
     pub fn with_remark(self, words: &str, is_bad: bool) -> Self {
         Self {
-            words: words.to_owned(),
+            remark: words.to_owned(),
             is_bad,
             ..self
         }
@@ -101,18 +103,19 @@ impl PairStrip {
 /// Arrangement of strips in blocks.
 #[derive(Clone, Copy, Debug)]
 struct PairSheetLayout {
-    /// Side of a frame.
+    /// Side of a frame, in pixels.
     cell_px: f64,
-    /// Frames per strip.
+    /// Number of frames for which each strip has room.
     columns: usize,
-    /// Strips per block.
+    /// Number of strips per block, one below the other.
     rows: usize,
-    /// Blocks next to each other.
+    /// Number of blocks next to each other.
     blocks: usize,
 }
 
 impl PairSheetLayout {
-    /// Uses the largest frames with which all `strips` fit, or else as many of the smallest as fit.
+    /// Returns the layout with the largest frames with which all `strips` fit. If they do not fit,
+    /// returns the layout with the smallest frames and as many strips as fit.
     fn new(strips: usize, columns: usize) -> Self {
         let layouts = CELLS_PX.map(|cell_px| Self::balanced(strips.max(1), columns, cell_px));
         // Sorted by size, so the first fit is the largest.
@@ -121,7 +124,8 @@ impl PairSheetLayout {
         fitting.unwrap_or_else(|| Self::fullest(columns))
     }
 
-    /// Number of blocks that brings the sheet closest to the preferred ratio.
+    /// Returns the layout whose number of blocks brings the sheet closest to the preferred ratio of
+    /// width to height.
     fn balanced(strips: usize, columns: usize, cell_px: f64) -> Self {
         let layout = |blocks: usize| Self {
             cell_px,
@@ -131,7 +135,7 @@ impl PairSheetLayout {
         };
         let ratio_error = |layout: &Self| {
             let size = layout.size();
-            // The logarithm treats twice too wide like twice too high.
+            // With the logarithm, twice too wide is as bad as twice too high.
             (size.x / size.y / TARGET_RATIO).ln().abs()
         };
         let better = |a: Self, b: Self| {
@@ -146,7 +150,7 @@ impl PairSheetLayout {
         (2..=max_blocks).map(layout).fold(layout(1), better)
     }
 
-    /// As many strips with the smallest frames as fit on a sheet.
+    /// Returns the layout with the smallest frames and as many strips as fit on a sheet.
     fn fullest(columns: usize) -> Self {
         let one = Self {
             cell_px: CELLS_PX[CELLS_PX.len() - 1],
@@ -163,7 +167,7 @@ impl PairSheetLayout {
         }
     }
 
-    /// Width and height of a strip including its gap, in pixels.
+    /// Returns the width and height of a strip including its gap, in pixels.
     fn strip(&self) -> DVec2 {
         let frames = self.columns as f64 * (self.cell_px + GAP_PX);
         let lines = 4.0 * LINE_PX;
@@ -183,15 +187,15 @@ impl PairSheetLayout {
         self.rows * self.blocks
     }
 
-    /// Upper left corner of a strip, in pixels.
+    /// Returns the upper left corner of a strip, in pixels.
     fn corner(&self, index: usize) -> DVec2 {
         let place = DVec2::new((index / self.rows) as f64, (index % self.rows) as f64);
         place * self.strip() + DVec2::splat(GAP_PX)
     }
 }
 
-/// Draws strips one below the other, in as many blocks as suit. Returns the drawing and the number
-/// of strips on it, which is all of them unless there are thousands.
+/// Draws strips one below the other, in one or more blocks next to each other. Returns the drawing
+/// and the number of strips on it, which is all of them unless there are thousands.
 ///
 /// # Errors
 /// [`PixelSizeError`] if a single strip has more frames than fit on a sheet.
@@ -229,7 +233,7 @@ fn push_strip(drawing: &mut Drawing, strip: &PairStrip, layout: &PairSheetLayout
             width_px: layout.columns as f64 * step,
             max_lines: lines,
         };
-        LABEL_STYLE.push(drawing, &strip.words, words_area, words_colour);
+        LABEL_STYLE.push(drawing, &strip.remark, words_area, words_colour);
         return;
     };
     let words_area = LabelBox {
@@ -237,7 +241,7 @@ fn push_strip(drawing: &mut Drawing, strip: &PairStrip, layout: &PairSheetLayout
         width_px: WORDS_PX,
         max_lines: lines - name_lines,
     };
-    LABEL_STYLE.push(drawing, &strip.words, words_area, words_colour);
+    LABEL_STYLE.push(drawing, &strip.remark, words_area, words_colour);
     for (i, (figure, t)) in strip.frames.iter().enumerate() {
         let at = frames + DVec2::new(i as f64 * step, 0.0);
         let view = PlaneView::fit_cell(bounds, drawing.size, at, DVec2::splat(layout.cell_px));

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-/// Number of pixels of each colour.
+/// Number of pixels of each colour, in sRGB.
 pub(super) type ColourHistogram = HashMap<[u8; 3], u64>;
 
 /// Palette of at most 256 colours with nearest-colour lookup.
@@ -42,7 +42,7 @@ impl GifPalette {
         Self(boxes.iter().map(ColourBox::mean).collect())
     }
 
-    /// The colours of the palette.
+    /// Returns the colours of the palette.
     pub fn colours(&self) -> &[[u8; 3]] {
         &self.0
     }

@@ -14,7 +14,7 @@ use crate::work::progress::Progress;
 use super::camera::{Camera, DRAWING_STAGE};
 use super::error::ExportError;
 use super::film_spec::FilmSpec;
-use super::still::encoded;
+use super::still::encode_still;
 use super::target::NumberedFiles;
 
 /// Writes the frames and returns their paths in order.
@@ -31,13 +31,14 @@ pub fn write_numbered(
     fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
     atomic_file::remove_leftovers(&names.folder);
     let mut written = Vec::with_capacity(film.times().len());
-    // Only for error messages: if one frame cannot be encoded, no frame of this size can.
+    // This path is only used in error messages: if one frame cannot be encoded, no frame of this
+    // size can.
     let first = names.path(film.first_number());
     camera.draw_runs(
         &film.runs(),
         DRAWING_STAGE,
         progress,
-        |drawing| encoded(&drawing, names.kind, &first),
+        |drawing| encode_still(&drawing, names.kind, &first),
         |run, bytes| {
             for number in run.first..run.first + run.count {
                 let path = names.path(number);

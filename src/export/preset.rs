@@ -14,9 +14,9 @@ use crate::io::atomic_file::AtomicFile;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FilmPreset {
-    /// Aspect ratio.
+    /// Aspect ratio of the images.
     pub aspect: Aspect,
-    /// Length of the shorter side in pixels.
+    /// Length of the shorter side of the images, in pixels.
     pub lines: u32,
     /// Free margin on all sides, as a fraction of the shorter side.
     #[serde(default)]
@@ -57,18 +57,18 @@ impl FilmPreset {
 pub struct FilmPresets(pub BTreeMap<String, FilmPreset>);
 
 impl FilmPresets {
-    /// Path at which the window stores presets; `None` if the system has no configuration
-    /// directory.
+    /// Returns the path of the file in which the window stores presets; `None` if the system has no
+    /// configuration directory.
     #[cfg(feature = "cli")]
     #[must_use]
-    pub fn usual_path() -> Option<std::path::PathBuf> {
+    pub fn default_path() -> Option<std::path::PathBuf> {
         Some(dirs::config_dir()?.join("morphospace").join("films.toml"))
     }
 
     /// Parses TOML text.
     ///
     /// # Errors
-    /// The text is not valid TOML of this form. The message names the line.
+    /// If the text is not valid TOML of this form. The message names the line.
     pub fn parse(text: &str) -> Result<Self, toml::de::Error> {
         toml::from_str(text)
     }
@@ -76,7 +76,7 @@ impl FilmPresets {
     /// Reads a file. A missing file gives no presets.
     ///
     /// # Errors
-    /// The file cannot be read or parsed.
+    /// If the file cannot be read or parsed.
     pub fn read(path: &Path) -> io::Result<Self> {
         match std::fs::read_to_string(path) {
             Ok(text) => Self::parse(&text).map_err(io::Error::other),
@@ -88,7 +88,7 @@ impl FilmPresets {
     /// Writes a file atomically; missing folders are created.
     ///
     /// # Errors
-    /// The folder cannot be created or the file cannot be written.
+    /// If the folder cannot be created or the file cannot be written.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder)?;

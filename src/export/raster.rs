@@ -69,11 +69,12 @@ fn paint(item: &DrawingItem, canvas: &mut PixmapMut<'_>) {
     }
 }
 
-/// Circle made of four cubic Bézier curves, with a radial error of at most 0.03 %. The circle of
-/// tiny-skia consists of quadratic curves and is visibly too small, by an eighth of a pixel.
+/// Returns a circle made of four cubic Bézier curves, with a radial error of at most 0.03 %. The
+/// circle of tiny-skia consists of quadratic curves and is visibly too small, by an eighth of a
+/// pixel.
 fn disc(centre: DVec2, radius: f64) -> OutlinePath {
-    /// Handle length for the unit circle, 4/3 (√2 − 1) (derived: the curve then also touches the
-    /// circle at the middle of the quadrant).
+    /// Distance of the control points from the end points of a quarter of the unit circle, 4/3 (√2
+    /// − 1) (derived: the curve then also touches the circle at the middle of the quadrant).
     const HANDLE: f64 = 0.552_284_749_830_793_4;
     let quarter = |i: u8| {
         let from = DVec2::from_angle(f64::from(i) * std::f64::consts::FRAC_PI_2);
@@ -141,7 +142,7 @@ fn draw_line(path: Option<Path>, line: &StrokeStyle, canvas: &mut PixmapMut<'_>)
     }
 }
 
-/// Converts an outline; `None` if it is empty.
+/// Converts an outline to a path of tiny-skia; `None` if it is empty.
 fn path_of(outline: &OutlinePath) -> Option<Path> {
     let mut builder = PathBuilder::new();
     let xy = |p: DVec2| (p.x as f32, p.y as f32);
@@ -159,11 +160,11 @@ fn path_of(outline: &OutlinePath) -> Option<Path> {
     builder.finish()
 }
 
-/// Copies a raster image to its place.
+/// Paints a raster image with its upper left corner at the given pixel.
 fn picture(image: &RgbaImage, corner: UVec2, canvas: &mut PixmapMut<'_>) {
     let (width, height) = image.dimensions();
     let premultiplied = premultiplied(image);
-    // Rejected only if it has no pixels, and then there is nothing to show.
+    // tiny-skia rejects only an image without pixels, and then there is nothing to show.
     if let Some(pixmap) = PixmapRef::from_bytes(&premultiplied, width, height) {
         let ([x, y], paint) = (corner.as_ivec2().to_array(), PixmapPaint::default());
         canvas.draw_pixmap(x, y, pixmap, &paint, Transform::identity(), None);
@@ -237,12 +238,13 @@ fn color(Rgb([r, g, b]): Rgb) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
-/// Pixel values row by row, without alpha if all pixels are opaque.
+/// Returns the pixel values row by row. Without alpha if `is_opaque`, which says that all pixels
+/// are opaque.
 pub(super) fn samples(image: &RgbaImage, is_opaque: bool) -> Vec<u8> {
     if !is_opaque {
         return image.as_raw().clone();
     }
-    // Copied in chunks of three: byte by byte was as slow as rasterising.
+    // Pixels are copied in chunks of three bytes: byte by byte was as slow as rasterising.
     let mut samples = Vec::with_capacity(image.as_raw().len() / 4 * 3);
     for pixel in image.pixels() {
         samples.extend_from_slice(&pixel.0[..3]);

@@ -13,11 +13,11 @@ use super::error::ExportError;
 /// Name of the progress stage in which a film is verified.
 pub(super) const CHECKING_STAGE: &str = "checking the film";
 
-/// Progress fraction reported once all frames are drawn and written (heuristic: verifying takes
+/// Progress reported once all frames are drawn and written, in [0, 1] (heuristic: verifying takes
 /// about a tenth of the time).
 pub(super) const DRAWN_FRACTION: f64 = 0.9;
 
-/// Decodes a whole GIF. `path` is its final name, for error messages.
+/// Decodes a whole GIF and counts its frames. `path` is its final name, for error messages.
 ///
 /// # Errors
 /// [`ExportError::Corrupt`] if it cannot be decoded or does not have `count` frames, or
@@ -33,7 +33,8 @@ pub(super) fn check_gif(
     options.set_memory_limit(gif::MemoryLimit::Unlimited);
     let mut decoder = (options.read_info(BufReader::new(written)))
         .map_err(|error| ExportError::corrupt(path, error))?;
-    // One read more than there are frames must report the end of the file.
+    // The loop reads once more than there are frames; this last read must report the end of the
+    // file.
     for number in 0..=count {
         checkpoint(progress, CHECKING_STAGE, number as f64 / count as f64)?;
         let frame = decoder.read_next_frame();
@@ -46,7 +47,7 @@ pub(super) fn check_gif(
     Ok(())
 }
 
-/// Decodes a whole animated PNG.
+/// Decodes a whole animated PNG and counts its frames.
 ///
 /// # Errors
 /// Same as for [`check_gif`].
@@ -124,7 +125,7 @@ mod tests {
             assert!(message.contains("was not written completely"), "{message}");
         }
         let mut zeroed = whole.clone();
-        // Within the frame data; a decoder cannot know whether a colour is right.
+        // The zeros lie within the frame data. A decoder cannot know whether a colour is right.
         zeroed[whole.len() * 2 / 3..whole.len() * 3 / 4].fill(0);
         assert!(check(&zeroed, 5).is_err(), "zeros in the middle");
     }

@@ -47,7 +47,7 @@ pub enum PixelSizeError {
         /// Requested height.
         height: u32,
     },
-    /// Beyond [`MAX_SIDE_PX`] or [`MAX_PIXELS`].
+    /// A side exceeds [`MAX_SIDE_PX`], or the image exceeds [`MAX_PIXELS`].
     #[error(
         "an image of {width}x{height} pixels is too large: at most {MAX_SIDE_PX} pixels per side and {MAX_PIXELS} in total are possible; write a smaller SVG, which can be scaled up later"
     )]
@@ -75,13 +75,13 @@ impl PixelSize {
         Ok(Self { width, height })
     }
 
-    /// Returns a size with the shape of `bounds` and the given longer side (clamped to the limits).
-    /// The shorter side is at least a tenth of it; both are even.
+    /// Returns a size with the shape of `bounds` and the given longer side, which is clamped to the
+    /// limits. The shorter side is at least a tenth of the longer one. Both sides are even.
     pub fn of_shape(bounds: Bounds, longer_side_px: u32) -> Self {
         // 8192² is half of `MAX_PIXELS`, so no shape exceeds the limits.
         let longer = round_up_to_even(longer_side_px.clamp(2, 8_192));
         let size = bounds.size();
-        // NaN if the bounds are a single point, which is shown in a square image.
+        // The ratio is NaN if the bounds are a single point, which is shown in a square image.
         let ratio = size.min_element() / size.max_element();
         let ratio = if ratio.is_finite() {
             ratio.max(0.1)
@@ -115,22 +115,22 @@ impl PixelSize {
         }
     }
 
-    /// Width in pixels.
+    /// Returns the width in pixels.
     pub fn width(self) -> u32 {
         self.width
     }
 
-    /// Height in pixels.
+    /// Returns the height in pixels.
     pub fn height(self) -> u32 {
         self.height
     }
 
-    /// Number of pixels.
+    /// Returns the number of pixels.
     pub fn pixels(self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
     }
 
-    /// Width and height in pixels, as a vector.
+    /// Returns width and height in pixels, as a vector.
     pub fn as_dvec2(self) -> DVec2 {
         DVec2::new(f64::from(self.width), f64::from(self.height))
     }

@@ -18,7 +18,7 @@ use super::target::StillKind;
 /// # Errors
 /// [`ExportError`] if the drawing cannot be encoded in this format or the file cannot be written.
 pub fn write_still(drawing: &Drawing, kind: StillKind, path: &Path) -> Result<(), ExportError> {
-    write_atomically(path, &encoded(drawing, kind, path)?)
+    write_atomically(path, &encode_still(drawing, kind, path)?)
 }
 
 /// Writes a file atomically and reports errors with its path.
@@ -27,7 +27,7 @@ pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ExportEr
 }
 
 /// Encodes a drawing as the bytes of a file. `path` is only used in error messages.
-pub(super) fn encoded(
+pub(super) fn encode_still(
     drawing: &Drawing,
     kind: StillKind,
     path: &Path,

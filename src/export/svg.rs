@@ -33,7 +33,7 @@ pub fn to_svg(drawing: &Drawing) -> String {
     svg + "</svg>\n"
 }
 
-/// Element of the `k`-th shape; gradients get the id `g{k}`.
+/// Returns the element of the `k`-th shape. If the shape has a gradient, its id is `g{k}`.
 fn element(k: usize, item: &DrawingItem) -> String {
     match item {
         DrawingItem::Fill {
@@ -74,7 +74,7 @@ fn element(k: usize, item: &DrawingItem) -> String {
     }
 }
 
-/// Filled path with the given fill attributes and an optional label for screen readers.
+/// Returns a filled path with the given fill attributes and an optional label for screen readers.
 fn fill(outline: &OutlinePath, ink: &str, label: Option<&str>) -> String {
     let label = label.map_or_else(String::new, |words| {
         format!(" role=\"img\" aria-label=\"{}\"", XmlEscaped(words))
@@ -83,7 +83,7 @@ fn fill(outline: &OutlinePath, ink: &str, label: Option<&str>) -> String {
     format!("<path{label} {ink} d=\"{steps}\"/>")
 }
 
-/// Fill attributes of a plain paint.
+/// Returns the fill attributes of a plain paint.
 fn fill_attributes(paint: &Paint) -> String {
     match paint.is_opaque() {
         true => format!("fill=\"{}\"", paint.colour),
@@ -95,7 +95,7 @@ fn fill_attributes(paint: &Paint) -> String {
     }
 }
 
-/// Definition of a gradient with the id `g{k}`.
+/// Returns the definition of a gradient with the id `g{k}`.
 fn gradient_definition(k: usize, gradient: &Gradient) -> String {
     let stop = |stop: &GradientStop| {
         let Paint { colour, opacity } = stop.paint;
@@ -134,7 +134,7 @@ fn gradient_definition(k: usize, gradient: &Gradient) -> String {
     )
 }
 
-/// Path with a stroke and no fill.
+/// Returns a path with a stroke and no fill.
 fn drawn_line(outline: &OutlinePath, line: &StrokeStyle) -> String {
     let StrokeStyle { paint, width, join } = line;
     let join = match join {
@@ -154,7 +154,7 @@ fn drawn_line(outline: &OutlinePath, line: &StrokeStyle) -> String {
     )
 }
 
-/// Path data of one command.
+/// Returns the SVG path data of one path command.
 fn step(step: &PathCommand) -> String {
     match *step {
         PathCommand::Move(p) => format!("M{}", SvgPoint(p)),
@@ -165,7 +165,7 @@ fn step(step: &PathCommand) -> String {
     }
 }
 
-/// Group of circles.
+/// Returns a group of filled circles.
 fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
     let circle = |c: &DVec2| {
         format!(
@@ -179,10 +179,10 @@ fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
     format!("<g fill=\"{}\">{circles}</g>", colour)
 }
 
-/// Image element with embedded pixels.
+/// Returns an image element with embedded pixels.
 fn picture(image: &image::RgbaImage, UVec2 { x, y }: UVec2) -> String {
     let mut png = Vec::new();
-    // Embedded as a data URL, so that the document needs no other files.
+    // The pixels are embedded as a data URL, so that the document needs no other files.
     let encoded = image.write_with_encoder(PngEncoder::new(&mut png));
     if encoded.is_err() {
         return String::new(); // encoding fails only for an image without pixels
@@ -194,7 +194,7 @@ fn picture(image: &image::RgbaImage, UVec2 { x, y }: UVec2) -> String {
     )
 }
 
-/// Base64 encoding with padding (RFC 4648).
+/// Encodes bytes in Base64 with padding (RFC 4648).
 fn base64(bytes: &[u8]) -> String {
     /// Digits of the standard alphabet (RFC 4648, table 1).
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -321,7 +321,7 @@ mod tests {
         }
     }
 
-    /// A drawing with a square with a square hole, two bars with joints, and text.
+    /// Returns a drawing with a square that has a square hole, two bars with joints, and text.
     fn everything(ground: Option<Rgb>) -> Drawing {
         let ring = |a: f64, b: f64| vec![[a, a], [b, a], [b, b], [a, b]];
         let hole: Vec<_> = ring(2.0, 4.0).into_iter().rev().collect();
@@ -352,8 +352,8 @@ mod tests {
         drawing
     }
 
-    /// Premultiplied pixel: the colour of barely covered pixels is arbitrary and must not be
-    /// compared.
+    /// Premultiplies a pixel, because the colour of barely covered pixels is arbitrary and must not
+    /// be compared.
     fn seen(pixel: &image::Rgba<u8>) -> [u8; 4] {
         let [r, g, b, a] = pixel.0;
         let times_alpha = |c: u8| (u16::from(c) * u16::from(a) / 255) as u8;

@@ -110,9 +110,9 @@ pub enum ExportTargetError {
 }
 
 impl ExportTarget {
-    /// Determines the kind from the name: the extension of a [`StillKind`] or of a [`FilmKind`];
-    /// `name-####.png` (or `.svg`) for numbered images; a folder (one that exists, a name that ends
-    /// in `/`, or a name without extension) for numbered PNGs in it.
+    /// Determines the kind of output from the path: the extension of a [`StillKind`] or of a
+    /// [`FilmKind`]; `name-####.png` (or `.svg`) for numbered images; a folder (one that exists, a
+    /// name that ends in `/`, or a name without extension) for numbered PNGs in it.
     ///
     /// # Errors
     /// [`ExportTargetError`] if the name does not determine a supported kind.

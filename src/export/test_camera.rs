@@ -9,7 +9,7 @@ use crate::work::progress::Silent;
 
 use super::{Camera, PixelSize, PlaneView, framing};
 
-/// Returns a camera on the transition with images of the given size.
+/// Returns a camera on a small transition, with images of the given size.
 pub(super) fn camera(width: u32, height: u32, ground: Option<Rgb>) -> Camera {
     let transition = turning_triangle();
     let size = PixelSize::new(width, height).expect("a legal size");

@@ -70,7 +70,7 @@ impl VectorAnimation {
     }
 }
 
-/// Writes the film to an animated SVG, HTML or Lottie file. The title is that of the film, or else
+/// Writes the film to an animated SVG, HTML or Lottie file. Its title is that of the film, or else
 /// the file name without extension.
 ///
 /// # Errors

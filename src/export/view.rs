@@ -13,7 +13,7 @@ pub struct PlaneView {
     size: PixelSize,
     /// Point of the plane that is shown at `middle_px`.
     centre: DVec2,
-    /// Centre of the image or cell.
+    /// Centre of the image or cell, in pixels.
     middle_px: DVec2,
     px_per_unit: f64,
 }
@@ -24,7 +24,8 @@ impl PlaneView {
         Self::fit_cell(bounds, size, DVec2::ZERO, size.as_dvec2())
     }
 
-    /// Fits `bounds` into the cell of an image whose upper left corner is at `corner_px`.
+    /// Fits `bounds` into a cell of an image. The cell has its upper left corner at `corner_px` and
+    /// the size `cell_px`.
     pub fn fit_cell(bounds: Bounds, size: PixelSize, corner_px: DVec2, cell_px: DVec2) -> Self {
         let ratio = cell_px / bounds.size();
         let px_per_unit = [ratio.x, ratio.y]
@@ -40,7 +41,8 @@ impl PlaneView {
         }
     }
 
-    /// Returns the same view for an image of another size, scaled as far as its shape allows.
+    /// Returns the view for an image of another size. Everything that this view shows stays
+    /// visible.
     #[must_use]
     pub fn scaled_to(&self, size: PixelSize) -> Self {
         let ratio = size.as_dvec2() / self.size.as_dvec2();
@@ -54,12 +56,12 @@ impl PlaneView {
         }
     }
 
-    /// Size of the image.
+    /// Returns the size of the whole image.
     pub fn size(&self) -> PixelSize {
         self.size
     }
 
-    /// Pixels per unit of the plane.
+    /// Returns the number of pixels per unit of the plane.
     pub fn px_per_unit(&self) -> f64 {
         self.px_per_unit
     }
@@ -70,7 +72,7 @@ impl PlaneView {
         self.centre + DVec2::new(d.x, -d.y)
     }
 
-    /// Affine map from the plane to pixels, y down.
+    /// Returns the affine map from the plane to pixels, y down.
     pub fn affine(&self) -> DAffine2 {
         let scale = DVec2::new(self.px_per_unit, -self.px_per_unit);
         DAffine2::from_scale_angle_translation(scale, 0.0, self.to_px(DVec2::ZERO))

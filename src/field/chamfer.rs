@@ -1,19 +1,20 @@
 //! Signed chamfer distance transforms: city-block, chessboard and quasi-Euclidean metrics.
 //!
-//! Two passes over the picture, each visiting four neighbours (Rosenfeld and Pfaltz 1966, Montanari
-//! 1968, Borgefors 1986). The steps of a shortest path can be reordered so that the two passes
-//! follow it, so results are exact in these metrics up to the rounding of √2. One sweep gives both
-//! signs, because a neighbour on the other side has distance 0.
+//! Makes two passes over the cells. Each pass looks at four of the eight neighbours of a cell
+//! (Rosenfeld and Pfaltz 1966, Montanari 1968, Borgefors 1986). The steps of a shortest path can be
+//! reordered so that the two passes follow it, so results are exact in these metrics up to the
+//! rounding of √2. The same two passes compute the distances of inside and of outside cells,
+//! because a neighbour on the other side counts as distance 0.
 
 use super::Mask;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 use std::ops::Range;
 
-/// Rows between two checks for cancellation (resource limit).
+/// Number of rows between two progress reports, which also check for cancellation (resource limit).
 const REPORT_ROWS: usize = 64;
 
-/// Computes the signed distances of all cells of `mask`. A step along an axis has length 1, a
-/// diagonal step length `diagonal`.
+/// Computes the signed distances of all cells of `mask` in row-major order. A step along an axis
+/// has length 1, a diagonal step has length `diagonal`.
 pub(super) fn distances(
     mask: &Mask,
     diagonal: f64,
@@ -30,7 +31,7 @@ pub(super) fn distances(
             report(y)?;
         }
         let row = lengths.row(y);
-        // This pass has visited the cell to the left and the three below.
+        // Before cell `i`, this pass has visited its left neighbour and the three neighbours below.
         row.for_each(|i| lengths.visit(i, diagonal, |i, step| i - step));
     }
     for y in (0..height).rev() {
@@ -44,22 +45,23 @@ pub(super) fn distances(
     Ok(cells.map(|i| lengths.signed_distance(i)).collect())
 }
 
-/// Sides and unsigned distances of all cells, including the ring of outside cells around the
-/// picture.
+/// Sides and unsigned distances of the cells of a mask and of a ring of outside cells around it, in
+/// row-major order.
 struct ChamferDistances {
     /// Whether each cell is inside.
     sides: Vec<bool>,
-    /// Distance of each cell to the nearest cell of the other side.
+    /// Distance from the centre of each cell to the centre of the nearest cell of the other side,
+    /// an upper bound until both passes are done.
     lengths: Vec<f64>,
-    /// Number of cells in a row, ring included.
+    /// Number of cells in a row, including the two cells of the ring.
     stride: usize,
 }
 
 impl ChamferDistances {
-    /// Copies the sides; all distances are still infinite.
+    /// Copies the sides from `mask` and sets all distances to infinity.
     fn of(mask: &Mask) -> Self {
         let (width, height) = (mask.width() as usize, mask.height() as usize);
-        // The ring of outside cells saves border checks.
+        // The ring of outside cells makes border checks unnecessary.
         let stride = width + 2;
         let cells = stride * (height + 2);
         let mut distances = Self {
@@ -74,14 +76,15 @@ impl ChamferDistances {
         distances
     }
 
-    /// Indices of the cells in row `y` of the picture.
+    /// Indices of the cells in row `y` of the mask, without the ring.
     fn row(&self, y: usize) -> Range<usize> {
         let first = (y + 1) * self.stride + 1;
         first..first + self.stride - 2
     }
 
-    /// Lowers the distance of cell `i` by paths through the four neighbours already visited by this
-    /// pass.
+    /// Lowers the distance of cell `i` if a path through one of the four neighbours that this pass
+    /// has visited is shorter. `visited(i, step)` returns the index of the visited neighbour `step`
+    /// indices away from `i`.
     fn visit(&mut self, i: usize, diagonal: f64, visited: impl Fn(usize, usize) -> usize) {
         let distance_via = |step: usize| {
             let neighbour = visited(i, step);
@@ -96,9 +99,9 @@ impl ChamferDistances {
         self.lengths[i] = self.lengths[i].min(straight).min(diagonal);
     }
 
-    /// Signed distance of a cell.
+    /// Signed distance of cell `i` from the boundary: positive inside, negative outside.
     fn signed_distance(&self, i: usize) -> f32 {
-        // The boundary lies half a cell before the nearest cell of the other side.
+        // The boundary lies half a cell before the centre of the nearest cell of the other side.
         let distance = (self.lengths[i] - 0.5) as f32;
         if self.sides[i] { distance } else { -distance }
     }

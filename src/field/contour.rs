@@ -1,15 +1,16 @@
-//! Contours of a function over a picture, as closed polygons.
+//! Traces the contours of a function over a picture as closed polygons.
 //!
 //! Marching squares on the lattice of samples (after Lorensen and Cline 1987, in the plane), with
 //! two improvements: crossings are roots of the function itself, not of a line between two samples;
-//! and a saddle is resolved by the function's value at its centre.
+//! and a saddle (a square whose diagonal corners are on the same side) is resolved by the
+//! function's value at the centre of the square.
 //!
 //! Guaranteed: polygons are closed, outer ones counter-clockwise and holes clockwise (with y up); a
 //! shape that reaches the border of the picture is closed along it; the result does not depend on
 //! the number of threads.
 //!
 //! Not guaranteed: features thinner than a cell may be missed, and within a cell the contour is a
-//! straight line. Polygons may touch in a point where the function equals the level at a sample;
+//! straight line. Polygons may touch in a sample at which the function equals the level;
 //! `Regions::from_rings` separates them.
 
 use rayon::prelude::*;
@@ -17,28 +18,29 @@ use rayon::prelude::*;
 use super::sampled_field::SampledField;
 use crate::geometry::DVec2;
 
-/// Length of the bracket, in cells, at which the search for a crossing stops (tolerance: near the
-/// resolution of `f64` on a lattice of 8192 samples).
+/// Length of the bracket at which the search for a crossing stops, as a fraction of the lattice
+/// edge (tolerance: near the resolution of `f64` on a lattice of 8192 samples).
 const BRACKET: f64 = 1e-11;
 
 /// Residual at which the search for a crossing stops, as a fraction of the function's change along
-/// the edge (tolerance: about two roundings, so that linear edges stop after one step).
+/// the lattice edge (tolerance: about twice the rounding error of `f64`, so that the search takes
+/// one step where the function is linear).
 const RESIDUAL: f64 = 4e-16;
 
 /// Maximum number of steps for one crossing. Derived: every third step is a bisection, so 3 ·
-/// log2(1 / [`BRACKET`]) suffice for any function.
+/// ⌈log2(1 / [`BRACKET`])⌉ steps suffice for any function.
 const MAX_STEPS: u32 = 111;
 
 /// Traces the boundary of `{ value ≥ level }` over a picture of `width` × `height` samples.
 ///
 /// Sample (x, y) lies at (x, y), so pixel centres have integer coordinates. The picture extends
-/// half a sample beyond the outermost ones, from (−½, −½) to (`width` − ½, `height` − ½). `value`
-/// is evaluated in that rectangle, border included, and should be continuous there; NaN counts as
-/// outside. The returned points have the same units.
+/// half a sample spacing beyond the outermost samples, from (−½, −½) to (`width` − ½, `height` −
+/// ½). `value` is evaluated in that rectangle, border included, and should be continuous there; NaN
+/// counts as outside. The returned points use the same coordinates.
 ///
 /// Polygons are closed (the first point is not repeated) and have at least three points. With y up,
 /// the inside is on their left: outer polygons are counter-clockwise, holes clockwise. Points
-/// within a straight run along an axis are omitted.
+/// inside a straight horizontal or vertical run are omitted.
 ///
 /// Costs one evaluation per sample and a few per crossing, on the threads of the current rayon
 /// pool.
@@ -58,8 +60,8 @@ where
     trace_with_known(width, height, |_, _| None, value, level)
 }
 
-/// Same as [`trace`], but `known(column, row)` may return whether a sample is inside; `value` is
-/// not evaluated at those samples.
+/// Same as [`trace`], except that `known(column, row)` may return whether a sample is inside, so
+/// that `value` need not be evaluated to find out. It must agree with `value`.
 pub(crate) fn trace_with_known<F>(
     width: u32,
     height: u32,
@@ -88,21 +90,23 @@ where
         .collect()
 }
 
-/// Same as [`trace`] for samples that are interpolated bilinearly.
+/// Same as [`trace`], for the function that interpolates `samples` bilinearly.
 pub fn trace_samples(samples: &SampledField, level: f64) -> Vec<Vec<DVec2>> {
     let (width, height) = (samples.width(), samples.height());
     trace(width, height, |x, y| samples.bilinear(x, y), level)
 }
 
-/// Index of a lattice edge: twice the index of its lower left node, plus 1 if it points up.
+/// Index of a lattice edge: twice the index of its left or lower end node, plus 1 if the edge is
+/// vertical.
 type LatticeEdge = usize;
 
-/// Segment of a contour in one square, from the edge where it enters to the edge where it leaves,
-/// the inside on its left.
+/// Segment of a contour in one square of the lattice: the edge where the contour enters the square
+/// and the edge where it leaves. The inside is on the left of the segment.
 type ContourSegment = (LatticeEdge, LatticeEdge);
 
-/// Marching squares on the lattice, extended by two nodes on each side: the picture's border, and a
-/// ring at the same positions that is always outside and so closes every contour.
+/// Function to trace on the lattice of samples, which is extended by two nodes on each side: one on
+/// the border of the picture, and one at the same position that always counts as outside, so that
+/// every contour closes.
 struct MarchingSquares<K, F> {
     columns: usize,
     rows: usize,
@@ -115,14 +119,14 @@ where
     K: Fn(usize, usize) -> Option<bool> + Sync,
     F: Fn(f64, f64) -> f64 + Sync,
 {
-    /// Position of a node.
+    /// Position of a node in sample coordinates.
     fn position(&self, column: usize, row: usize) -> DVec2 {
         // The last sample lies at count − 5, and the border half a sample beyond it.
         let along = |i: usize, count: usize| (i as f64 - 2.0).clamp(-0.5, count as f64 - 4.5);
         DVec2::new(along(column, self.columns), along(row, self.rows))
     }
 
-    /// Whether each node is inside.
+    /// Returns for each node whether it is inside, row by row.
     fn inside(&self) -> Vec<bool> {
         let mut inside = vec![false; self.columns * self.rows];
         let rows = inside.par_chunks_mut(self.columns).enumerate();
@@ -146,7 +150,7 @@ where
         })
     }
 
-    /// All segments, sorted by the edge where they enter.
+    /// All contour segments, sorted by the edge at which they enter their square.
     fn segments(&self, inside: &[bool]) -> Vec<ContourSegment> {
         let mut segments: Vec<ContourSegment> = (0..self.rows - 1)
             .into_par_iter()
@@ -156,7 +160,7 @@ where
         segments
     }
 
-    /// Segments of one row of squares.
+    /// Contour segments in the row of squares between node rows `row` and `row + 1`.
     fn row_segments(&self, row: usize, inside: &[bool]) -> Vec<ContourSegment> {
         let lower = &inside[row * self.columns..][..self.columns];
         let upper = &inside[(row + 1) * self.columns..][..self.columns];
@@ -172,8 +176,8 @@ where
         out
     }
 
-    /// Appends the one or two segments of a square. Corners and edges are ordered counter-clockwise
-    /// from the lower left.
+    /// Appends the one or two contour segments of the square whose lower left node is (`column`,
+    /// `row`). Corners are ordered counter-clockwise from the lower left, edges from the bottom.
     fn push_square_segments(
         &self,
         column: usize,
@@ -191,8 +195,9 @@ where
         let leaves = |k: usize| corners[k % 4] && !corners[(k + 1) % 4];
         let enters = |k: usize| !corners[k % 4] && corners[(k + 1) % 4];
         let is_saddle = leaves(0) == leaves(2) && leaves(1) == leaves(3);
-        // Traverses the edges around the corner that the segment cuts off: counter-clockwise around
-        // an outside corner, clockwise around an inside one.
+        // In a saddle, each segment cuts off one corner: an outside corner if the centre is inside,
+        // otherwise an inside corner. The search for the segment's end goes counter-clockwise
+        // around an outside corner and clockwise around an inside one.
         let counter_clockwise = !is_saddle || self.centre_is_inside(column, row);
         for from in (0..4).filter(|&k| leaves(k)) {
             let turn = |step: usize| from + if counter_clockwise { step } else { 4 - step };
@@ -207,13 +212,13 @@ where
         (self.above)(p.x, p.y) >= 0.0
     }
 
-    /// Point where the contour crosses an edge.
+    /// Point where the contour crosses a lattice edge.
     fn crossing(&self, edge: LatticeEdge) -> DVec2 {
         let (column, row) = (edge / 2 % self.columns, edge / 2 / self.columns);
         let upright = edge % 2;
         let a = self.position(column, row);
         let b = self.position(column + 1 - upright, row + upright);
-        // The outer ring coincides with the border, so the crossing lies there.
+        // Edges between the border and the outermost nodes have no length.
         if a == b {
             return a;
         }
@@ -225,11 +230,11 @@ where
     }
 }
 
-/// Finds the root in [0, 1] of a continuous function that is non-negative at exactly one end: the
-/// Illinois method, with bisections for functions that stall it.
+/// Finds the root in [0, 1] of a continuous function that is non-negative at exactly one end. Uses
+/// the Illinois method; every third step is a bisection, for functions that stall that method.
 fn root(f: impl Fn(f64) -> f64) -> f64 {
     let (mut lo, mut hi) = ((0.0, f(0.0)), (1.0, f(1.0)));
-    // Relative to the change along the edge, so that the scale of the function does not matter.
+    // The residual is relative to the change of the function, so that its scale does not matter.
     let max_residual = RESIDUAL * (lo.1 - hi.1).abs();
     let is_rising = hi.1 >= 0.0;
     let mut last_was_low = None;
@@ -249,8 +254,8 @@ fn root(f: impl Fn(f64) -> f64) -> f64 {
             (&mut hi, &mut lo)
         };
         *replaced_end = (s, value);
-        // Illinois step: an end that stays twice has its value halved; otherwise the chord would
-        // approach the root from one side only.
+        // Illinois step: if the same end has been replaced twice in a row, the value at the other
+        // end is halved; otherwise the chord would approach the root from one side only.
         if last_was_low == Some(is_low) {
             other_end.1 *= 0.5;
         }
@@ -259,7 +264,8 @@ fn root(f: impl Fn(f64) -> f64) -> f64 {
     next_estimate(lo, hi, false)
 }
 
-/// Zero of the chord of a bracket, or the bracket's midpoint.
+/// Returns the zero of the chord between the ends of a bracket, given as (position, value); the
+/// midpoint of the bracket if `bisect` is set or the zero is not in the bracket.
 fn next_estimate(lo: (f64, f64), hi: (f64, f64), bisect: bool) -> f64 {
     let s = lo.0 + (hi.0 - lo.0) * (lo.1 / (lo.1 - hi.1));
     if bisect || !(lo.0..=hi.0).contains(&s) {
@@ -269,8 +275,8 @@ fn next_estimate(lo: (f64, f64), hi: (f64, f64), bisect: bool) -> f64 {
     }
 }
 
-/// Links segments, sorted by start, into closed chains of edges. Every edge that ends a segment
-/// starts another one, so each chain returns to its start.
+/// Links contour segments, sorted by their first edge, into closed chains of edges. At every edge
+/// where a segment ends, another one starts, so each chain returns to its start.
 fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
     let mut used = vec![false; segments.len()];
     let mut chains = Vec::new();
@@ -281,8 +287,8 @@ fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
             && !std::mem::replace(&mut used[i], true)
         {
             chain.push(segments[i].0);
-            // Exactly one segment starts at each edge that ends one: the contour leaves one square
-            // and enters the next.
+            // Exactly one segment starts at each edge where a segment ends: the contour leaves one
+            // square and enters the next.
             next = segments.binary_search_by_key(&segments[i].1, |s| s.0);
         }
         if !chain.is_empty() {
@@ -292,8 +298,8 @@ fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
     chains
 }
 
-/// Removes repeated points, and points within a straight run along an axis, of which the picture's
-/// border has many.
+/// Removes repeated points and points inside straight horizontal or vertical runs. A contour along
+/// the border of the picture has many of the latter.
 fn remove_redundant_points(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.dedup();
     if points.len() > 1 && points.first() == points.last() {
@@ -307,10 +313,10 @@ fn remove_redundant_points(mut points: Vec<DVec2>) -> Vec<DVec2> {
         .collect()
 }
 
-/// Whether `p` lies within a straight run along an axis.
+/// Returns whether `p` lies inside a straight horizontal or vertical run.
 fn is_straight(before: DVec2, p: DVec2, after: DVec2) -> bool {
     let along_axis = (before.x == p.x && p.x == after.x) || (before.y == p.y && p.y == after.y);
-    // The point of a spike, where the run turns back, stays.
+    // The tip of a spike, where the run turns back, is kept.
     along_axis && (p - before).dot(after - p) > 0.0
 }
 

@@ -1,9 +1,10 @@
 //! Signed distance fields of designs: one distance per cell of a grid.
 //!
-//! Guaranteed: values are positive inside, negative outside, and in cells of the grid. From
-//! polygons they are exact up to rounding; from masks they equal brute force. Values are
-//! interpolated bilinearly between samples, as in the stage's shader. Not guaranteed: interpolated
-//! values are not exact distances; near the medial axis they are off by up to half a cell.
+//! Guaranteed: values are positive inside, negative outside, and in cells of the grid. Computed
+//! from polygons, they are exact up to rounding; computed from masks, they equal the brute-force
+//! minimum over all cells. Values are interpolated bilinearly between samples, as in the shader
+//! that draws the stage. Not guaranteed: interpolated values are not exact distances; near the
+//! medial axis they are off by up to half the diagonal of a cell.
 
 use super::{
     Grid, GridError, Mask, MaskError, Metric, SampledField, SampledFieldError, distance_transform,
@@ -12,7 +13,7 @@ use super::{inside, polygon_distance};
 use crate::geometry::{DVec2, Regions};
 use crate::work::progress::{Cancelled, Progress};
 
-/// Signed distances at the samples of a grid.
+/// Signed distances at the cell centres (samples) of a grid.
 ///
 /// ```
 /// use morphospace::field::{DistanceField, Grid};
@@ -21,7 +22,7 @@ use crate::work::progress::{Cancelled, Progress};
 ///
 /// let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(DVec2::from);
 /// let square = Regions::from_rings(&[square.to_vec()], FillRule::NonZero)?;
-/// let grid = Grid::covering(&square.bounds(), 64, 0.5)?; // 8 cells a unit
+/// let grid = Grid::covering(&square.bounds(), 64, 0.5)?; // 8 cells per unit length
 /// let field = DistanceField::from_regions(&square, grid, &Silent)?;
 /// assert!((field.value(DVec2::new(2.0, 1.0)) - 8.0).abs() < 1e-5);
 /// assert!((field.value(DVec2::new(-1.0, 2.0)) + 8.0).abs() < 1e-5);
@@ -43,15 +44,16 @@ pub enum FieldError {
     /// The mask is invalid.
     #[error(transparent)]
     Mask(#[from] MaskError),
-    /// The number of values differs from the number of cells.
+    /// The number of values differs from the number of cells, or the mask has another size than the
+    /// grid.
     #[error(transparent)]
     Length(#[from] SampledFieldError),
     /// A value is NaN or infinite.
     #[error("the distance at cell ({x}, {y}) is not a finite number; compute the field again")]
     NotFinite {
-        /// Column.
+        /// Column of the cell, counted from 0.
         x: u32,
-        /// Row.
+        /// Row of the cell, counted from 0 at the lowest row.
         y: u32,
     },
     /// The computation was cancelled.
@@ -60,7 +62,7 @@ pub enum FieldError {
 }
 
 impl DistanceField {
-    /// Creates a field from values in row-major order, lowest row first.
+    /// Creates a field from distances in cells, in row-major order, lowest row first.
     ///
     /// # Errors
     /// Returns an error if the grid is invalid, the number of values differs from the number of
@@ -76,7 +78,8 @@ impl DistanceField {
         Ok(Self { grid, values })
     }
 
-    /// Creates a field with the same value everywhere. The grid must be valid.
+    /// Creates a field with the same value, clamped to the range of `f32`, at every sample. The
+    /// grid must be valid.
     pub(crate) fn uniform(grid: Grid, value: f64) -> Self {
         let value = value.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
         Self {
@@ -111,8 +114,8 @@ impl DistanceField {
         Ok(Self { grid, values })
     }
 
-    /// Computes the exact Euclidean distance to the edges of `regions`. Parts outside the grid
-    /// count: the grid's border is no boundary.
+    /// Computes the exact Euclidean distances to the edges of `regions`. Edges outside the grid
+    /// count, too; the border of the grid is not a boundary.
     ///
     /// The running time is proportional to the number of cells and depends little on the number of
     /// edges.
@@ -137,7 +140,8 @@ impl DistanceField {
     }
 
     /// Computes the distance transform of the cells whose centre is inside `regions`. This is the
-    /// paper's method; it approximates the boundary by a staircase.
+    /// method of the paper *Design-Space Representation through Blended Transitions*; it
+    /// approximates the boundary by a staircase.
     ///
     /// # Errors
     /// Returns an error if the grid is invalid, no cell centre is inside, or `progress` is
@@ -152,7 +156,7 @@ impl DistanceField {
         Self::from_mask(&mask, grid, metric, progress)
     }
 
-    /// Grid, whose cells are the unit of the distances.
+    /// Grid of the field. The side length of its cells is the unit of the distances.
     #[must_use]
     pub fn grid(&self) -> &Grid {
         &self.grid
@@ -164,14 +168,14 @@ impl DistanceField {
         &self.values
     }
 
-    /// Values as a lattice that can be interpolated.
+    /// Values as a lattice for bilinear interpolation, in lattice coordinates of the grid.
     #[must_use]
     pub fn samples(&self) -> SampledField<'_> {
         SampledField::of_grid(&self.grid, &self.values)
     }
 
-    /// Returns the bilinearly interpolated value, in cells, at a point of the plane. Beyond the
-    /// outermost samples their values continue.
+    /// Returns the bilinearly interpolated value, in cells, at a point of the plane. A point beyond
+    /// the outermost samples is first clamped to their rectangle.
     #[must_use]
     pub fn value(&self, p: DVec2) -> f64 {
         let p = self.grid.lattice_from_plane(p);

@@ -1,11 +1,13 @@
 //! Exact signed Euclidean distance transform in linear time.
 //!
-//! Two passes, as in Meijster, Roerdink and Hesselink 2000 and in Felzenszwalb and Huttenlocher
-//! 2012: distances along each column, then the lower envelope of parabolas along each row.
+//! Makes two passes, as in Meijster, Roerdink and Hesselink 2000 and in Felzenszwalb and
+//! Huttenlocher 2012: the first computes distances along each column, the second the lower envelope
+//! of parabolas along each row.
 //!
-//! One sweep gives both signs, because a cell only needs the nearest cell of the other side. Within
-//! a run of cells of one side, no cell beyond the two that end the run can be nearer than these
-//! two, so each run has its own envelope.
+//! The same two passes compute the distances of inside and of outside cells, because a cell only
+//! needs the nearest cell of the other side. A row is divided into runs, maximal sequences of cells
+//! on one side. The two cells that adjoin a run at its ends are on the other side, and no cell in a
+//! column beyond them can be nearer to a cell of the run. Each run therefore has its own envelope.
 //!
 //! Guaranteed: all squared distances are exact integers; only the final square root is rounded.
 
@@ -15,19 +17,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::Mask;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Columns per strip of work for one thread. Strips are stored one after the other (resource limit:
-/// a strip of a 2048² mask fits into the second-level cache, and one of its rows takes two cache
-/// lines).
+/// Number of columns in a strip, the unit of work of one thread in the first pass. Strips are
+/// stored one after the other (resource limit: a strip of a 2048² mask fits into the second-level
+/// cache, and one of its rows takes two cache lines).
 const STRIP: usize = 64;
 
-/// Rows between two checks for cancellation (resource limit).
+/// Number of rows in a band, the unit of work of one thread in the second pass. Cancellation is
+/// checked once per band (resource limit).
 const BAND_ROWS: usize = 16;
 
-/// Marks a column without cells of the other side. Its square exceeds every valid square, and a
-/// second square added to it still fits in an `i32`.
+/// Column distance of a cell in whose column no cell is on the other side. Its square exceeds every
+/// valid squared distance, and the sum of both fits in an `i32`.
 const NONE: i16 = i16::MAX;
 
-/// Computes the signed distances of all cells of `mask`.
+/// Computes the signed Euclidean distances of all cells of `mask` in row-major order.
 pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>, Cancelled> {
     let strips = columns(mask);
     let (width, height) = (mask.width() as usize, mask.height() as usize);
@@ -38,7 +41,8 @@ pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>
         .try_for_each_init(
             || RowPass::new(width),
             |pass, (band, out)| {
-                // Bands finish in any order; counting them lets the progress only grow.
+                // Bands start in any order, so the reported fraction is computed from the number of
+                // rows started.
                 let rows_done = done.fetch_add(BAND_ROWS, Ordering::Relaxed);
                 let fraction = rows_done as f64 / height as f64;
                 checkpoint(progress, "measuring distances", fraction)?;
@@ -53,8 +57,9 @@ pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>
     Ok(out)
 }
 
-/// First pass: the distance of each cell along its column to the nearest cell of the other side,
-/// strip by strip. The ring of outside cells around the mask counts.
+/// First pass: returns the distance of each cell to the nearest cell of the other side in its
+/// column, strip by strip; [`NONE`] if there is no such cell. A ring of outside cells around the
+/// mask counts.
 fn columns(mask: &Mask) -> Vec<i16> {
     let (width, height) = (mask.width() as usize, mask.height() as usize);
     let strip_len = STRIP * height;
@@ -70,8 +75,9 @@ fn columns(mask: &Mask) -> Vec<i16> {
     strips
 }
 
-/// Counts, row by row, the cells since the last change of side in each column of a strip, starting
-/// at the ring of outside cells.
+/// Visits `rows` in the given order and counts, in each column of a strip, the cells since the last
+/// change of side. Each column starts outside, in the ring around the mask. `merge` combines the
+/// stored distance with the new count.
 fn sweep<'a>(
     strip: &mut [i16],
     rows: impl Iterator<Item = (usize, &'a [bool])>,
@@ -88,7 +94,7 @@ fn sweep<'a>(
             .zip(&mut previous_side);
         for (((out, &inside), count), previous_side) in columns {
             // Branch-free, so that the compiler vectorises over columns.
-            let side = -i16::from(inside); // all bits set or none
+            let side = -i16::from(inside); // all bits set if inside, none if outside
             *count = (*count & !(side ^ *previous_side)).saturating_add(1);
             *previous_side = side;
             *out = merge(*out, *count);
@@ -96,8 +102,8 @@ fn sweep<'a>(
     }
 }
 
-/// A piece of a lower envelope: the parabola (x − vertex)² + height, which is lowest from `start`
-/// to the start of the next piece.
+/// Piece of a lower envelope: the parabola (x − `vertex`)² + `height`, which is the lowest one from
+/// cell `start` to the start of the next piece.
 #[derive(Clone, Copy, Debug)]
 struct ParabolaPiece {
     vertex: i32,
@@ -111,7 +117,7 @@ impl ParabolaPiece {
     }
 }
 
-/// Second pass: the buffers to transform one row.
+/// Buffers of the second pass, which transforms one row at a time.
 struct RowPass {
     squares: Vec<i32>,
     envelope: Vec<ParabolaPiece>,
@@ -135,12 +141,14 @@ impl RowPass {
         }
     }
 
-    /// Computes the signed distances of one row. `row` holds the sides of its cells.
+    /// Computes the signed distances of one row into `out`. `row` says for each of its cells
+    /// whether it is inside.
     fn transform(&mut self, row: &[bool], out: &mut [f32]) {
         let mut from = 0;
         for run in row.chunk_by(|a, b| a == b) {
             let to = from + run.len();
-            // The ring around the mask is outside, so it ends runs of inside cells only.
+            // The ring around the mask is outside: at the border it adjoins runs of inside cells as
+            // the other side, but not runs of outside cells.
             let ends_left = from > 0 || run[0];
             let ends_right = to < row.len() || run[0];
             self.run(from, to, ends_left, ends_right);
@@ -153,8 +161,9 @@ impl RowPass {
         }
     }
 
-    /// Replaces the squares of the run `from..to` by squared distances. `ends_left` and
-    /// `ends_right` say whether a cell of the other side adjoins the run there.
+    /// Replaces the squared column distances of the run `from..to` by squared Euclidean distances.
+    /// `ends_left` and `ends_right` say whether a cell of the other side adjoins the run at that
+    /// end.
     fn run(&mut self, from: usize, to: usize, ends_left: bool, ends_right: bool) {
         let (first, end) = (from as i32, to as i32);
         self.envelope.clear();
@@ -177,7 +186,8 @@ impl RowPass {
         }
     }
 
-    /// Adds a parabola to the right of the envelope of the cells `first..end`.
+    /// Adds a parabola to the envelope over the cells `first..end`. Its vertex must be to the right
+    /// of all earlier vertices.
     fn push(&mut self, vertex: i32, height: i32, first: i32, end: i32) {
         let mut piece = ParabolaPiece {
             vertex,
@@ -186,8 +196,8 @@ impl RowPass {
         };
         while let Some(top) = self.envelope.last() {
             // All parabolas have the same curvature, and the new vertex is farther right. If the
-            // new parabola is not above the top one where the top one starts, it is not above it
-            // anywhere further right.
+            // new parabola is not above `top` where `top` starts, it is not above `top` anywhere
+            // farther right, so it replaces `top`.
             if piece.at(top.start) > top.at(top.start) {
                 piece.start = first_cell_below(top, &piece);
                 break;
@@ -200,8 +210,8 @@ impl RowPass {
     }
 }
 
-/// Returns the first cell where `right` is below `left`. `left` is lower where it starts, so no
-/// number here is negative.
+/// Returns the first cell where `right` is below `left`. `left` is the lower one in the cell where
+/// it starts, so the two parabolas cross at a non-negative position.
 fn first_cell_below(left: &ParabolaPiece, right: &ParabolaPiece) -> i32 {
     let rise = right.vertex * right.vertex + right.height - left.vertex * left.vertex - left.height;
     let run = 2 * (right.vertex - left.vertex);

@@ -1,8 +1,9 @@
 //! Grid of a distance field: square cells over a rectangle of the plane.
 //!
-//! Distances are in cells, so the grid affects the meaning of a blend; a project stores it. Row 0
-//! is the lowest row, and samples lie at cell centres. Guaranteed: a grid that passed
-//! [`Grid::check`] is finite, and small enough for a texture and for squared distances to be exact.
+//! Distances are in cells, so the result of a blend depends on the grid; a project therefore stores
+//! its grid. Row 0 is the lowest row, and samples lie at cell centres. Guaranteed: a grid that
+//! passed [`Grid::check`] is finite, small enough for a GPU texture, and small enough for squared
+//! distances to be exact 32-bit integers.
 
 use crate::geometry::{Bounds, DVec2};
 
@@ -55,7 +56,7 @@ pub enum GridError {
         origin.y
     )]
     Place {
-        /// Lower left corner.
+        /// Lower left corner of the grid, in the plane.
         origin: DVec2,
         /// Side length of a cell.
         cell: f64,
@@ -63,7 +64,7 @@ pub enum GridError {
     /// The rectangle to cover has no extent or is not finite.
     #[error("a grid cannot cover a rectangle of {} × {}; check the size of the design", size.x, size.y)]
     Bounds {
-        /// Size of the rectangle.
+        /// Width and height of the rectangle.
         size: DVec2,
     },
     /// The margin is negative or exceeds [`Grid::MAX_MARGIN`].
@@ -76,12 +77,12 @@ impl Grid {
     /// size, and squared distances stay exact in 32 bits).
     pub const MAX_SIDE: u32 = 8192;
 
-    /// Maximum margin, as a fraction of the longer side (resource limit: the design then covers a
-    /// ninth of the grid's side).
+    /// Maximum margin on each side of a design, as a multiple of its longer side (resource limit:
+    /// the design then covers only a ninth of the grid's longer side).
     pub const MAX_MARGIN: f64 = 4.0;
 
-    /// Fraction of a cell by which a count may exceed an integer before it is rounded up
-    /// (tolerance: rounding must not turn 10 rows into 11).
+    /// Amount by which a computed number of rows or columns may exceed an integer without being
+    /// rounded up, in cells (tolerance: rounding errors must not turn 10 rows into 11).
     const COUNT_SLACK: f64 = 1e-9;
 
     /// Creates a grid of `width` × `height` cells with side length `cell` and its lower left corner
@@ -123,7 +124,7 @@ impl Grid {
         let padded = size + DVec2::splat(2.0 * margin * longer);
         let cell = padded.max_element() / f64::from(cells);
         let count = |side: f64| (side / cell - Self::COUNT_SLACK).ceil().max(1.0) as u32;
-        // Rounding could give the longer side one cell more.
+        // Rounding errors could give the longer side one cell more than `cells`.
         let (width, height) = (count(padded.x).min(cells), count(padded.y).min(cells));
         let half = 0.5 * cell * DVec2::new(f64::from(width), f64::from(height));
         let centre = bounds.min + 0.5 * size;
@@ -151,7 +152,7 @@ impl Grid {
         Ok(())
     }
 
-    /// Number of cells.
+    /// Number of cells: `width` · `height`.
     #[must_use]
     pub fn cells(&self) -> usize {
         self.width as usize * self.height as usize
@@ -163,7 +164,7 @@ impl Grid {
         self.plane_from_lattice(DVec2::new(f64::from(x), f64::from(y)))
     }
 
-    /// Rectangle that the cells cover.
+    /// Rectangle that the cells cover, in the plane.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let size = self.cell * DVec2::new(f64::from(self.width), f64::from(self.height));

@@ -1,14 +1,15 @@
 //! Determines which grid samples are inside a set of polygons, by scanline winding numbers.
 //!
-//! Guaranteed: the same half-open rule as `Ring::winding`, so that edges that meet in a row are
-//! counted once. A sample within rounding of an edge may be classified either way.
+//! Guaranteed: a row of samples crosses an edge by the same half-open rule as in `Ring::winding`,
+//! so where two edges meet on a row, only one of them is counted. A sample that is closer to an
+//! edge than rounding errors may be classified either way.
 
 use rayon::prelude::*;
 
 use super::Grid;
 use crate::geometry::{DVec2, Regions};
 
-/// An edge in lattice coordinates: start and end.
+/// Start and end of an edge in lattice coordinates.
 pub(super) type ScanlineEdge = (DVec2, DVec2);
 
 /// Returns all edges of `regions` in the lattice coordinates of `grid`.
@@ -25,7 +26,8 @@ pub(super) fn lattice_edges(regions: &Regions, grid: &Grid) -> Vec<ScanlineEdge>
 pub(super) fn inside_samples(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
     let mut steps = vec![0_i32; grid.cells()];
     for &(a, b) in edges {
-        // An edge changes the winding number to its right by +1 if it rises and by −1 if it falls.
+        // An edge changes the winding number of the samples to its right by +1 if it rises and by
+        // −1 if it falls.
         if a.y <= b.y {
             add_crossings(a, b, 1, grid, &mut steps);
         } else {
@@ -37,7 +39,7 @@ pub(super) fn inside_samples(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
     bits.par_chunks_mut(width)
         .zip(steps.par_chunks(width))
         .for_each(|(bits, steps)| {
-            // Prefix sums along the row, so that each edge is written once per row and not once per
+            // Prefix sums along the row: each edge was added once per row instead of once per
             // sample.
             let mut winding = 0;
             for (bit, step) in bits.iter_mut().zip(steps) {
@@ -48,10 +50,10 @@ pub(super) fn inside_samples(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
     bits
 }
 
-/// Adds `step` to the first sample to the right of an upward edge, in each row that the edge
-/// crosses.
+/// In each row that the upward edge from `low` to `high` crosses, adds `step` to the entry of the
+/// first sample on or to the right of the edge.
 fn add_crossings(low: DVec2, high: DVec2, step: i32, grid: &Grid, steps: &mut [i32]) {
-    // `as` saturates, as edges outside the grid require.
+    // `as` turns negative numbers into 0, as edges outside the grid require.
     let row = |y: f64| (y.ceil() as usize).min(grid.height as usize);
     // A horizontal edge has an infinite slope, but crosses no row.
     let slope = (high.x - low.x) / (high.y - low.y);

@@ -1,14 +1,14 @@
 //! Binary images: the cells of a grid that are inside a design.
 //!
-//! A cell is inside if its centre is, by non-zero winding. Guaranteed: a mask has at least one
-//! inside cell, and no side above [`Grid::MAX_SIDE`]. Not guaranteed: parts thinner than a cell may
-//! fall between the centres.
+//! A cell is inside if the winding number of the design around the cell's centre is not zero.
+//! Guaranteed: a mask has at least one inside cell, and no side above [`Grid::MAX_SIDE`]. Not
+//! guaranteed: parts thinner than a cell may fall between the cell centres and be lost.
 
 use super::inside;
 use super::{Grid, GridError, SampledFieldError};
 use crate::geometry::{DVec2, Regions};
 
-/// Whether each cell is inside, row-major, row 0 the lowest.
+/// Binary image: says for each cell whether it is inside. Row 0 is the lowest row.
 ///
 /// Cells beyond the border count as outside: a mask whose cells are all inside is valid and has its
 /// boundary at the border.
@@ -44,13 +44,14 @@ pub enum MaskError {
 }
 
 impl Mask {
-    /// Reads `bits` as `height` rows of `width` cells, lowest row first.
+    /// Creates a mask from `bits`: `height` rows of `width` cells, lowest row first; `true` is
+    /// inside.
     ///
     /// # Errors
     /// Returns an error if a side is 0 or exceeds [`Grid::MAX_SIDE`], the number of bits differs
     /// from the number of cells, or no bit is set.
     pub fn new(width: u32, height: u32, bits: Vec<bool>) -> Result<Self, MaskError> {
-        // Size limits are those of a grid at any position.
+        // The size limits are those of a grid; its position does not matter.
         Grid::new(width, height, DVec2::ZERO, 1.0)?;
         SampledFieldError::check(width, height, bits.len())?;
         if !bits.contains(&true) {
@@ -63,8 +64,8 @@ impl Mask {
         })
     }
 
-    /// Rasterises `regions`: a cell is inside if its centre is. Costs one step per row that an edge
-    /// crosses, and one per cell.
+    /// Rasterises `regions`: a cell is inside if its centre is inside `regions`. For each edge,
+    /// takes one step per row that the edge crosses; in addition, one step per cell.
     ///
     /// # Errors
     /// Returns an error if the grid is invalid, or no cell centre is inside.
@@ -86,7 +87,7 @@ impl Mask {
         self.height
     }
 
-    /// Sides of the cells, cell (x, y) at index `y · width + x`; `true` is inside.
+    /// Whether each cell is inside; cell (x, y) has index `y · width + x`.
     #[must_use]
     pub fn bits(&self) -> &[bool] {
         &self.bits

@@ -1,13 +1,14 @@
-//! Exact distances from grid samples to polygon edges.
+//! Computes exact distances from grid samples to polygon edges.
 //!
-//! Blocks of samples are halved recursively; each block keeps only the edges that can be nearest to
-//! one of its samples.
+//! Blocks of samples are halved recursively; each block keeps as candidates only the edges that may
+//! be nearest to one of its samples.
 //!
-//! The pruning bound: let d be the distance from an edge to the centre of a block of radius r, u
-//! the direction from the nearest point of the edge to that centre, and d₀, u₀ the same for the
-//! edge nearest to the centre. From the centre to another point of the block, the difference of the
-//! two distances changes by at most r times the difference of their directions. That difference is
-//! at most 2, and at most |u − u₀| + 2 r / (d₀ − r), because the vector from a convex set to a
+//! The pruning bound: let r be the radius of a block. For an edge, let d be its distance from the
+//! centre of the block and u the unit vector from its nearest point to that centre. Let d₀ and u₀
+//! be the same for the edge that is nearest to the centre. When a point moves from the centre to
+//! another place in the block, the difference between its distances from the two edges changes by
+//! at most r times the maximum length of the difference of the two unit vectors. That length is at
+//! most 2. It is also at most |u − u₀| + 2 r / (d₀ − r), because the vector from a convex set to a
 //! point changes by no more than the point moves. An edge is therefore dropped if d > d₀ + r min(2,
 //! |u − u₀| + 2 r / (d₀ − r)).
 //!
@@ -23,20 +24,21 @@ use super::inside::ScanlineEdge;
 use crate::geometry::DVec2;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Rows per band of work for one thread (resource limit: smaller bands balance the threads better,
-/// larger ones repeat less pruning).
+/// Number of rows in a band, the unit of work of one thread (resource limit: smaller bands balance
+/// the threads better, larger ones repeat less pruning).
 const BAND_ROWS: usize = 32;
 
-/// Maximum number of samples of a block that is not halved further (resource limit: below it,
-/// pruning edges costs more than it saves).
+/// Maximum number of samples in a block that is not halved further (resource limit: in smaller
+/// blocks, pruning edges takes longer than it saves).
 const LEAF_SAMPLES: usize = 16;
 
-/// Margin of the pruning bound, in cells (tolerance: far above the 1e-12 that doubles resolve at
-/// 8192 cells; an edge too many only costs time).
+/// Margin that is added to the pruning bound, in cells and also as a fraction of the distance
+/// (tolerance: far above 1e-12, the resolution of `f64` at 8192 cells; keeping an edge too many
+/// only costs time).
 const SLACK: f64 = 1e-6;
 
-/// Computes the distance to the nearest of `edges`, in cells, for all samples of `grid`. There must
-/// be at least one edge.
+/// Computes the unsigned distance from each sample of `grid` to the nearest of `edges`, in cells,
+/// in row-major order. There must be at least one edge.
 pub(super) fn distances(
     edges: &[ScanlineEdge],
     grid: &Grid,
@@ -74,7 +76,7 @@ pub(super) fn distances(
     Ok(out)
 }
 
-/// A line segment, prepared for distance queries.
+/// Polygon edge, prepared for distance queries.
 #[derive(Clone, Copy, Debug)]
 struct PolygonSegment {
     start: DVec2,
@@ -103,17 +105,20 @@ impl PolygonSegment {
     }
 }
 
-/// Pruning bound of a block: the edge nearest to its centre, with which all others are compared.
+/// Pruning bound of a block, computed from the edge nearest to its centre. All other edges are
+/// compared with that edge.
 struct PruningBound {
-    /// Unit vector from the nearest edge to the centre.
+    /// Unit vector from the nearest edge to the centre of the block.
     direction: DVec2,
-    /// Distance of the nearest edge to the centre, plus the margin for rounding.
+    /// Distance from the nearest edge to the centre, plus the margin for rounding.
     distance: f64,
-    /// Distance of the outermost samples from the centre.
+    /// Distance from the centre to the outermost samples of the block.
     radius: f64,
-    /// Bound on how much two directions can diverge within the block.
+    /// Maximum increase of the difference between two edges' unit vectors from the centre to
+    /// another point of the block: 2 r / (d₀ − r) in the module documentation.
     max_divergence: f64,
-    /// Squared distance beyond which no edge can be nearest, whatever its direction.
+    /// Squared distance from the centre beyond which an edge cannot be nearest to any sample,
+    /// whatever its direction.
     limit: f64,
 }
 
@@ -121,7 +126,7 @@ impl PruningBound {
     fn new(away: DVec2, radius: f64) -> Self {
         let distance = away.length();
         let clearance = distance - radius;
-        // If the edge reaches into the block, directions are arbitrary.
+        // If the nearest edge may reach into the block, directions are arbitrary.
         let max_divergence = if clearance > 0.0 {
             2.0 * radius / clearance
         } else {
@@ -136,8 +141,8 @@ impl PruningBound {
         }
     }
 
-    /// Whether an edge may be nearest to a point of the block. `away` is the vector from the edge
-    /// to the centre.
+    /// Whether an edge may be nearest to a point of the block. `away` is the vector from the
+    /// nearest point of the edge to the centre.
     fn can_be_nearest(&self, away: DVec2) -> bool {
         let square = away.length_squared();
         // Rejects most edges without a square root.
@@ -151,14 +156,15 @@ impl PruningBound {
     }
 }
 
-/// Rows of samples that one thread fills.
+/// Band: consecutive rows of samples that one thread fills.
 struct RowBand<'a> {
     first_row: usize,
     width: usize,
     out: &'a mut [f32],
 }
 
-/// A block of samples: half-open ranges of columns and of rows within a band.
+/// Block of samples: half-open ranges of columns and rows. Rows count from the first row of the
+/// band.
 #[derive(Clone, Copy, Debug)]
 struct SampleBlock {
     x: (usize, usize),
@@ -183,8 +189,8 @@ impl SampleBlock {
         }
     }
 
-    /// Centre of its samples in lattice coordinates, and the distance of the outermost samples from
-    /// it.
+    /// Smallest disc around the samples: its centre in lattice coordinates and its radius in cells.
+    /// `first_row` is the first row of the band.
     fn disc(&self, first_row: usize) -> (DVec2, f64) {
         let (width, height) = self.size();
         let half = 0.5 * DVec2::new((width - 1) as f64, (height - 1) as f64);
@@ -193,12 +199,12 @@ impl SampleBlock {
     }
 }
 
-/// Recursive search with a stack of candidate edges. The candidates of a block lie above those of
-/// its parent block.
+/// Recursive search with a stack of candidate edges, given as indices into `segments`. On the
+/// stack, the candidates of a block lie above those of its parent block.
 struct SegmentSearch<'a> {
     segments: &'a [PolygonSegment],
     stack: Vec<u32>,
-    /// Vectors from each candidate to the centre of the block; a buffer that is reused.
+    /// Buffer for the vectors from each candidate to the centre of the block.
     away: Vec<DVec2>,
 }
 
@@ -211,14 +217,14 @@ impl<'a> SegmentSearch<'a> {
         }
     }
 
-    /// Fills a block of a band. Its candidates lie on the stack from `bottom` up.
+    /// Computes the distances of a block of `band`. The candidates of the block lie on the stack
+    /// from `bottom` up.
     fn fill(&mut self, block: SampleBlock, bottom: usize, band: &mut RowBand<'_>) {
         let (columns, rows) = block.size();
         if columns * rows <= LEAF_SAMPLES {
             return self.measure(block, bottom, band);
         }
-        // Depth first: each half starts from the candidates of its block and restores the stack
-        // afterwards.
+        // Each half prunes the candidates of the whole block, and the stack is restored after it.
         for half in block.halves() {
             let top = self.stack.len();
             let (centre, radius) = half.disc(band.first_row);
@@ -228,8 +234,8 @@ impl<'a> SegmentSearch<'a> {
         }
     }
 
-    /// Pushes the candidates from `bottom` up that can be nearest to a point within `radius` of
-    /// `centre`.
+    /// Of the candidates from `bottom` up, pushes those that can be nearest to a point within
+    /// `radius` of `centre` onto the stack again.
     fn push_near(&mut self, bottom: usize, centre: DVec2, radius: f64) {
         let segments = self.segments;
         let away = self.stack[bottom..]

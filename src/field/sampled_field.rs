@@ -1,12 +1,13 @@
-//! A lattice of `f32` samples with bilinear interpolation.
+//! Interpolates a lattice of `f32` samples bilinearly.
 //!
 //! Guaranteed: interpolation is exact at the samples; positions outside are clamped to the
-//! outermost samples. Not guaranteed: smoothness. The gradient jumps between cells.
+//! outermost samples. Not guaranteed: smoothness. The gradient jumps where the interpolation passes
+//! from one square of samples to the next.
 
 use super::Grid;
 
-/// A regular lattice of borrowed samples in row-major order, sample (x, y) at index `y · width +
-/// x`. The caller decides whether row 0 is the lowest or the uppermost.
+/// Regular lattice of borrowed samples in row-major order: sample (x, y) has index `y · width + x`.
+/// The caller decides whether row 0 is the lowest or the uppermost.
 ///
 /// ```
 /// use morphospace::field::SampledField;
@@ -40,7 +41,7 @@ pub struct SampledFieldError {
 impl SampledFieldError {
     /// Checks that there is one value per sample, and at least one sample.
     pub(super) fn check(width: u32, height: u32, values: usize) -> Result<(), Self> {
-        // In u64, which holds every product of two u32.
+        // Computed as `u64`, which holds every product of two `u32`.
         let samples = u64::from(width) * u64::from(height);
         if samples == 0 || samples != values as u64 {
             return Err(Self {
@@ -67,7 +68,8 @@ impl<'a> SampledField<'a> {
         })
     }
 
-    /// Reads the values of a valid grid, one per cell.
+    /// Reads `values` as one sample per cell of `grid`. The grid and the number of values must be
+    /// valid.
     pub(super) fn of_grid(grid: &Grid, values: &'a [f32]) -> Self {
         Self {
             width: grid.width as usize,
@@ -102,7 +104,8 @@ impl<'a> SampledField<'a> {
     }
 }
 
-/// Returns the two samples around `x` and the fraction of the way from the first to the second.
+/// Returns the indices of the two samples around `x`, and the position of `x` between them as a
+/// fraction of the way from the first to the second. `count` is the number of samples.
 fn bracket(x: f64, count: usize) -> (usize, usize, f64) {
     // In this order NaN becomes 0, because `max` returns the number.
     let clamped = x.max(0.0).min((count - 1) as f64);

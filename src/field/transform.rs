@@ -1,9 +1,9 @@
 //! Signed distance transforms of masks in four metrics.
 //!
 //! Values are positive inside, negative outside, and in cells. The boundary runs midway between
-//! inside and outside cells, so half a cell is subtracted on each side and no value is 0. A mask is
-//! surrounded by one ring of outside cells: a design that reaches its border ends there, as it does
-//! in the drawing.
+//! inside and outside cells, so half a cell is subtracted on each side and no value is 0. The cells
+//! around a mask count as outside: a design that reaches the border of the mask ends there, as its
+//! traced contour does.
 //!
 //! Guaranteed: values equal the brute-force minimum over all cells in each metric. Cost: linear in
 //! the number of cells. The Euclidean transform uses the threads of the current rayon pool, the
@@ -14,8 +14,9 @@ use crate::settings::named;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 use std::f64::consts::SQRT_2;
 
-/// Distance between cells that are `dx` columns and `dy` rows apart (Rosenfeld and Pfaltz 1968; the
-/// names are those of the paper's tool).
+/// Metric: distance between cells that are dx columns and dy rows apart (Rosenfeld and Pfaltz
+/// 1968). The names are those of the tool used in the paper *Design-Space Representation through
+/// Blended Transitions*.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Metric {
@@ -38,7 +39,8 @@ named! { Metric {
     Chessboard: "chessboard", "Chessboard", "Larger of the two axis distances: offset outlines are square.";
 } }
 
-/// Computes the signed distances of all cells of `mask`, in the order of its bits.
+/// Computes the signed distances of all cells of `mask`, in cells and in the order of
+/// [`Mask::bits`].
 ///
 /// ```
 /// use morphospace::field::{Mask, Metric, distance_transform};
@@ -46,7 +48,7 @@ named! { Metric {
 ///
 /// let mask = Mask::new(5, 1, vec![false, true, true, true, false])?;
 /// let found = distance_transform(&mask, Metric::Euclidean, &Silent)?;
-/// assert_eq!(found, [-0.5, 0.5, 0.5, 0.5, -0.5]); // outside cells surround the mask
+/// assert_eq!(found, [-0.5, 0.5, 0.5, 0.5, -0.5]); // the cells around a mask count as outside
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

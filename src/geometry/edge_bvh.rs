@@ -71,7 +71,7 @@ impl EdgeBvh {
 
     /// Returns whether `is` holds for an edge near `place`. All edges whose boxes meet `place` are
     /// tested, and some others, until one satisfies `is`.
-    pub(crate) fn any_near(&self, place: &Bounds, is: &dyn Fn([DVec2; 2]) -> bool) -> bool {
+    pub(crate) fn any_edge_near(&self, place: &Bounds, is: &dyn Fn([DVec2; 2]) -> bool) -> bool {
         !self.boxes.is_empty() && self.any_within(place, is, 0, 0, self.edges.len())
     }
 
@@ -180,7 +180,7 @@ mod tests {
             let crosses = |edge: [DVec2; 2]| segments_cross(segment, edge);
             let slow = ring_edges(&points).any(|(a, b)| crosses([a, b]));
             let place = Bounds::of(segment).expect("two points");
-            prop_assert_eq!(slow, EdgeBvh::of(&points).any_near(&place, &crosses));
+            prop_assert_eq!(slow, EdgeBvh::of(&points).any_edge_near(&place, &crosses));
         }
 
         #[test]

@@ -270,7 +270,7 @@ struct SliverLimits {
 impl SliverLimits {
     /// Returns whether a contour is too small or too thin to keep.
     fn is_sliver(&self, contour: &Ring) -> bool {
-        contour.signed_area().abs() <= self.area || self.leftover_test.is_leftover(contour)
+        contour.signed_area().abs() <= self.area || self.leftover_test.is_sliver(contour)
     }
 }
 

@@ -33,7 +33,7 @@ impl SliverTest {
     }
 
     /// Returns whether a contour is too thin to be seen and is a leftover, not a drawn shape.
-    pub(super) fn is_leftover(&self, contour: &Ring) -> bool {
+    pub(super) fn is_sliver(&self, contour: &Ring) -> bool {
         let area = contour.signed_area().abs();
         // Twice the area over the perimeter is the mean thickness of a long shape.
         if 2.0 * area >= self.max_thickness * contour.perimeter() {

@@ -1,10 +1,10 @@
 //! Atomic writing: a file appears complete under its name, or not at all.
 //!
-//! The bytes go into a temporary file in the same folder, which is renamed at the end. Until
-//! [`AtomicFile::commit`] the old file is untouched; after it the new one is flushed to the disk.
-//! Dropping without a commit removes the temporary file. A killed process may leave its temporary
-//! file behind; the next write into that folder removes it. A replaced file keeps its
-//! permissions. Devices, pipes and folders are never replaced.
+//! The bytes go into a temporary file in the same folder. [`AtomicFile::commit`] flushes it to the
+//! disk and renames it to the final name; until then, an existing file of that name is untouched.
+//! Dropping an uncommitted [`AtomicFile`] removes the temporary file. A killed process may leave
+//! its temporary file behind; the next write into that folder removes it. The new file gets the
+//! permissions of the file that it replaces. Devices, pipes and folders are never replaced.
 
 mod leftovers;
 mod refusal;
@@ -28,15 +28,17 @@ pub(crate) struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// Creates a temporary file next to `path` and removes leftovers of killed processes there.
+    /// Creates a temporary file next to `path`, and removes the temporary files that killed
+    /// processes left in that folder.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         remove_leftovers(folder_of(path));
         Self::create_without_cleanup(path)
     }
 
-    /// Like [`Self::create`], but keeps leftovers.
+    /// Like [`Self::create`], but does not remove the temporary files of killed processes.
     ///
-    /// For writing many files into one folder, where [`remove_leftovers`] is called once.
+    /// For writing many files into one folder: the caller removes them once with
+    /// [`remove_leftovers`].
     pub(crate) fn create_without_cleanup(path: &Path) -> io::Result<Self> {
         let old = fs::metadata(path).ok();
         if let Some(old) = old.as_ref().filter(|old| !old.is_file()) {
@@ -65,7 +67,7 @@ impl AtomicFile {
         &mut self.file
     }
 
-    /// Rewinds the temporary file, for reading back its contents.
+    /// Rewinds the temporary file and returns it, for reading back its contents.
     pub(crate) fn reread(&mut self) -> io::Result<&mut File> {
         self.file.rewind()?;
         Ok(&mut self.file)
@@ -77,7 +79,7 @@ impl AtomicFile {
         &self.temporary
     }
 
-    /// Flushes the file to the disk and gives it its final name.
+    /// Flushes the temporary file to the disk and gives it its final name.
     ///
     /// A full network disk reports its error only on flushing. After a power cut, either the old
     /// or the new file exists, complete.
@@ -91,24 +93,25 @@ impl AtomicFile {
 
 impl Drop for AtomicFile {
     fn drop(&mut self) {
-        // After a commit the temporary name is free, and another process may be using it.
+        // After a commit, another process may have created a file with the temporary name.
         if !self.is_committed {
             fs::remove_file(&self.temporary).unwrap_or_default();
         }
     }
 }
 
-/// Writes a whole file atomically.
+/// Writes `bytes` atomically as the file `path`.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_to(AtomicFile::create(path)?, bytes)
 }
 
-/// Like [`write`], but keeps leftovers; see [`AtomicFile::create_without_cleanup`].
+/// Like [`write`], but does not remove the temporary files of killed processes; see
+/// [`AtomicFile::create_without_cleanup`].
 pub(crate) fn write_without_cleanup(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_to(AtomicFile::create_without_cleanup(path)?, bytes)
 }
 
-/// Writes and commits, after reading the bytes back to detect a faulty disk.
+/// Writes `bytes` to the temporary file, reads them back to detect a faulty disk, and commits.
 fn write_to(mut file: AtomicFile, bytes: &[u8]) -> io::Result<()> {
     file.file_mut().write_all(bytes)?;
     let mut written = Vec::with_capacity(bytes.len());

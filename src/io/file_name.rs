@@ -1,8 +1,9 @@
 //! File names that are valid on every common file system.
 
-/// Returns `name` with every character that some file system does not allow replaced by `-`.
+/// Returns `name` with every character except letters, digits and `-_. ,()+&` replaced by `-`, and
+/// without dots and spaces at both ends.
 ///
-/// The result has at most 80 characters and is never empty.
+/// The result has at most 80 characters. An empty result becomes `untitled`.
 #[must_use]
 pub fn safe_file_name(name: &str) -> String {
     let replace = |c: char| {
@@ -12,8 +13,8 @@ pub fn safe_file_name(name: &str) -> String {
             '-'
         }
     };
-    // File systems allow 255 bytes. 80 characters of up to 3 bytes leave room for a number and
-    // an extension.
+    // File systems allow names of 255 bytes. 80 characters take at most 240 bytes (for all but the
+    // rarest scripts), which leaves room for a number and an extension.
     let replaced: String = name.chars().take(80).map(replace).collect();
     // A leading dot hides a file on Unix. Windows drops trailing dots and spaces.
     let trimmed = replaced.trim_matches(|c| c == '.' || c == ' ');

@@ -41,7 +41,7 @@ pub enum ReadError {
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, ReadError> {
     check_kind(&metadata(path)?)?;
     let file = File::open(path)?;
-    // Checked again: another file may have taken its place before it was opened.
+    // Checked again on the open file, because another file may have taken the path in between.
     check_kind(&file.metadata()?)?;
     let mut bytes = Vec::new();
     // The reported size cannot be trusted: it is 0 for virtual files such as those in /proc.
@@ -50,7 +50,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, ReadError> {
     Ok(bytes)
 }
 
-/// Checks that there are at most [`MAX_FILE_BYTES`].
+/// Checks that `bytes` is not longer than [`MAX_FILE_BYTES`].
 pub(crate) fn check_size(bytes: &[u8]) -> Result<(), ReadError> {
     match bytes.len() as u64 > MAX_FILE_BYTES {
         true => Err(ReadError::TooLarge),

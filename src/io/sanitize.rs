@@ -1,8 +1,8 @@
 //! Escaping of text from files, so that it can be shown in a message of one line.
 //!
 //! A JSON key, an id in a drawing or a path may contain line breaks and terminal commands. Every
-//! message that quotes a file goes through [`SanitizedLine`]; output to a terminal goes through
-//! it once more, which changes nothing the second time.
+//! message that quotes a file goes through [`SanitizedLine`]. Terminal output goes through it a
+//! second time, which changes nothing.
 //!
 //! The result has no line breaks, no control characters and no characters that override the
 //! writing direction; they are escaped as in Rust (`\n`, `\u{1b}`). Text longer than
@@ -18,7 +18,8 @@ const MAX_CHARS: usize = 1_000;
 /// Number of characters at the end of a shortened message, enough for any remedy (heuristic).
 const TAIL_CHARS: usize = 400;
 
-/// Wrapper whose `Display` escapes and shortens the text of the value to one safe line.
+/// Wrapper whose `Display` writes the text of the value as one line: escaped, and shortened if it
+/// is too long.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SanitizedLine<T>(pub T);
 

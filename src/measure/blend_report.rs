@@ -1,4 +1,4 @@
-//! Measures of one blend of many designs.
+//! Measures of one blend of several designs: folds, crossings, distortion, area, length and travel.
 
 use super::distortion::{Distortion, distortion};
 use crate::compatible::CompatibleMesh;
@@ -6,39 +6,39 @@ use crate::geometry::{DVec2, count_crossings, perimeter, signed_area};
 use crate::space::{DesignSpace, SpaceFrame};
 use serde::Serialize;
 
-/// Defects and distortion of a blend.
+/// Defects and distortion of one blend of several designs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct BlendReport {
-    /// Number of faces that are folded or flat.
+    /// Number of faces that are folded or flat; 0 without a mesh.
     pub folds: usize,
-    /// Number of proper crossings among the outlines.
+    /// Number of pairs of outline edges that properly cross, within one outline or between two.
     pub crossings: usize,
-    /// 95th percentile by area of the conformal distortion σ₁/σ₂, relative to the design for
-    /// which it is smallest; `None` without a mesh.
+    /// Conformal distortion σ₁/σ₂ that 95 % of the area does not exceed, measured relative to the
+    /// design for which this value is smallest; `None` without a mesh.
     pub conformal_p95: Option<f64>,
-    /// Difference between the area and the weighted mean of the designs' areas, as a fraction of
-    /// that mean.
+    /// Absolute difference between the area of the blend and the weighted mean of the designs'
+    /// areas, as a fraction of that mean.
     pub area_off: f64,
 }
 
 /// All measures of one blend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct BlendMeasures {
-    /// Defects and distortion.
+    /// Defects and distortion of the blend.
     #[serde(flatten)]
     pub quality: BlendReport,
-    /// Filled area in squared design units; for bars, length times width.
+    /// Filled area of the blend in squared design units; for bars, length times width.
     pub area: f64,
-    /// Length of the outlines in design units; for bars, of both sides.
+    /// Length of the blend's outlines in design units; for bars, of both sides.
     pub perimeter: f64,
-    /// Mean distance of the vertices from those of the nearest design, in design diameters; `None`
-    /// without a mesh.
+    /// Mean distance of the mesh vertices from their positions in the nearest design, in design
+    /// diameters; `None` without a mesh.
     pub travel: Option<f64>,
 }
 
 impl BlendReport {
     /// Combines two reports, taking the worse value of each measure.
-    pub(super) fn worst_of(self, other: Self) -> Self {
+    pub(super) fn worse_of_both(self, other: Self) -> Self {
         Self {
             folds: self.folds.max(other.folds),
             crossings: self.crossings.max(other.crossings),
@@ -51,13 +51,15 @@ impl BlendReport {
     }
 }
 
-/// Measures blends of a space; owns a frame, so that each thread needs its own sampler.
+/// Measures blends of a design space. The sampler owns a frame, so each thread needs its own
+/// sampler.
 #[derive(Debug)]
 pub struct BlendSampler {
     frame: SpaceFrame,
-    /// Common mesh with each design as its reference; empty if the space has no mesh.
+    /// For each design, the common mesh with that design as its reference; empty if the space has
+    /// no mesh.
     meshes: Vec<CompatibleMesh>,
-    /// Area of each design.
+    /// Filled area of each design, in squared design units.
     areas: Vec<f64>,
     diameter: f64,
 }
@@ -106,7 +108,7 @@ impl BlendSampler {
                 folds: distortions.first().map_or(0, |distortion| distortion.folds),
                 crossings: shape.crossings,
                 conformal_p95: p95.min_by(f64::total_cmp),
-                // Bars of width 0 have no area, which would give NaN.
+                // Bars of width 0 have no area, so the quotient is NaN.
                 area_off: if area_deviation.is_finite() {
                     area_deviation
                 } else {
@@ -119,13 +121,14 @@ impl BlendSampler {
         }
     }
 
-    /// Returns the distortion relative to each design.
+    /// Returns the distortion of the mesh with vertices at `places`, once relative to each design.
     fn distortion(&self, places: &[DVec2]) -> Vec<Distortion> {
         let meshes = self.meshes.iter();
         meshes.filter_map(|mesh| distortion(mesh, places)).collect()
     }
 
-    /// Returns the mean vertex distance from the nearest design.
+    /// Returns the mean distance of the vertices from their positions in the nearest design, in
+    /// design diameters.
     fn travel(&self, places: &[DVec2]) -> Option<f64> {
         let mean_distance = |mesh: &CompatibleMesh| {
             let gaps = mesh.source().iter().zip(places);
@@ -136,7 +139,7 @@ impl BlendSampler {
     }
 }
 
-/// Measures of the drawn shape of a blend.
+/// Area, perimeter and crossings of a blend's shape as it is drawn.
 struct BlendMoment {
     area: f64,
     perimeter: f64,

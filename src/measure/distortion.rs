@@ -1,41 +1,45 @@
-//! Distortion of each face, from the singular values σ₁ ≥ σ₂ of its Jacobian.
+//! Distortion of each face, from the singular values σ₁ ≥ σ₂ of the Jacobian of the face's linear
+//! map from the source.
 //!
-//! Whether a face is folded is decided by exact predicates. The values of nearly flat faces are
+//! Exact predicates decide whether a face is folded. The distortion of nearly flat faces is
 //! affected by rounding.
 
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, orient2d};
 use serde::Serialize;
 
-/// Distribution of a measure over the faces, weighted by area in the source.
+/// Weighted distribution of a measure: over faces, weighted by their area in the source, or over
+/// the boundary, weighted by its length in the source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distribution {
-    /// Value that half of the area does not exceed.
+    /// Value that half of the total weight does not exceed.
     pub median: f64,
-    /// Value that 95 % of the area does not exceed.
+    /// Value that 95 % of the total weight does not exceed.
     pub p95: f64,
-    /// Value of the worst face.
+    /// Largest value.
     pub worst: f64,
 }
 
-/// Distortion of the faces between the source and a placement of its vertices. 1 means none.
+/// Distortion of the faces when the vertices move from the source to other positions. A ratio of 1
+/// means undistorted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distortion {
     /// Number of faces that are folded or flat (det ≤ 0).
     pub folds: usize,
-    /// Smallest determinant of a face: its signed area divided by that in the source.
+    /// Smallest determinant of any face: its signed area divided by its area in the source.
     pub min_det: f64,
-    /// Largest determinant of a face.
+    /// Largest determinant of any face.
     pub max_det: f64,
-    /// Distortion of angles, σ₁/σ₂.
+    /// Distortion of angles, σ₁/σ₂, over the faces.
     pub conformal: Distribution,
-    /// Distortion of lengths, max(σ₁, 1/σ₂).
+    /// Distortion of lengths, max(σ₁, 1/σ₂), over the faces.
     pub isometric: Distribution,
-    /// Distortion of areas, max(det, 1/det).
+    /// Distortion of areas, max(det, 1/det), over the faces.
     pub area: Distribution,
 }
 
-/// Measures the map from the source to `places`; returns `None` if there are no faces.
+/// Measures how the faces are distorted when the vertices move from the source to `places`. Returns
+/// `None` if there are no faces.
 ///
 /// The distortion of folded faces is infinite.
 ///
@@ -106,7 +110,7 @@ pub(super) struct FaceStrain {
 }
 
 impl FaceStrain {
-    /// Decomposes a Jacobian. Rounding decides whether a nearly flat face counts as folded.
+    /// Decomposes a Jacobian. Here rounding decides whether a nearly flat face counts as folded.
     pub(super) fn of(m: DMat2) -> Self {
         let (large, small) = singular_values(m);
         let det = m.determinant();
@@ -143,7 +147,7 @@ impl FaceStrain {
     }
 }
 
-/// Returns σ₁ ≥ |σ₂|, the second with the sign of the determinant.
+/// Returns the singular values σ₁ ≥ |σ₂| of a matrix; σ₂ has the sign of the determinant.
 ///
 /// Follows Blinn (1996): splits the matrix into a scaled rotation and a scaled reflection.
 fn singular_values(m: DMat2) -> (f64, f64) {
@@ -153,7 +157,8 @@ fn singular_values(m: DMat2) -> (f64, f64) {
     (rotation + reflection, rotation - reflection)
 }
 
-/// Returns the quantiles of `(value, weight)` pairs; `None` without values.
+/// Returns the median, the 95th percentile and the maximum of `(value, weight)` pairs; `None`
+/// without values.
 pub(super) fn distribution(mut values: Vec<(f64, f64)>) -> Option<Distribution> {
     values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     let total: f64 = values.iter().map(|(_, weight)| weight).sum();

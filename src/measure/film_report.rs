@@ -1,4 +1,4 @@
-//! Measures of a whole film, sampled at evenly spaced t.
+//! Measures of a whole film (a transition from t = 0 to t = 1), sampled at evenly spaced t.
 //!
 //! Every sample is a frame exactly as it is drawn; nothing is known between samples. The cost is
 //! that of the frames: a few microseconds per face and sample for rigid parts, one contour per
@@ -16,12 +16,12 @@ use crate::geometry::{
 use crate::transition::{Frame, Transition};
 use crate::warp::ArapError;
 use crate::work::progress::{
-    Cancelled, Progress, ProgressSpan, WholeProgress, check_cancelled, checkpoint,
+    Cancelled, OverallProgress, Progress, ProgressSpan, check_cancelled, checkpoint,
 };
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Measures at one t.
+/// Measures of a film at one t.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct FilmSample {
@@ -29,19 +29,21 @@ pub struct FilmSample {
     pub t: f64,
     /// Filled area, in squared design units.
     pub area: f64,
-    /// Length of all boundaries, in design units.
+    /// Length of all boundaries, in design units; for bars, of both sides.
     pub perimeter: f64,
-    /// Total absolute turning of all boundaries, in radians; 2π for each convex ring.
+    /// Total absolute turning of all boundaries, in radians; 2π for each convex ring. A ring that
+    /// is absent at this t counts as 2π.
     pub turning: f64,
-    /// Total turning of the parts that exist in both designs, in radians.
+    /// Total absolute turning of the boundaries of parts that exist in both designs, in radians.
+    /// For a contour, the same as `turning`.
     pub turning_of_both: f64,
-    /// Number of separate pieces; for a solid, the number of outer boundary loops.
+    /// Number of separate pieces: for a solid, of outer boundary loops. `None` for bars.
     pub pieces: Option<usize>,
-    /// Number of holes; for a solid, the number of inner boundary loops.
+    /// Number of holes: for a solid, of inner boundary loops. `None` for bars.
     pub holes: Option<usize>,
-    /// Number of crossings of the boundary, including those between rings; only for solids.
+    /// Number of crossings of the boundary, within rings and between rings; only for filled solids.
     pub crossings: Option<usize>,
-    /// Distortion relative to the source; only for meshes.
+    /// Distortion of the faces relative to the source; only for meshes.
     pub distortion: Option<Distortion>,
 }
 
@@ -63,51 +65,56 @@ pub struct FilmSample {
 pub struct FilmReport {
     /// Samples, evenly spaced over [0, 1].
     pub samples: Vec<FilmSample>,
-    /// Largest number of folded faces at any sample.
+    /// Largest number of folded faces at any sample; `None` without a mesh.
     pub worst_folds: Option<usize>,
-    /// First sampled t with a folded face.
+    /// First sampled t with a folded face; `None` if there is none.
     pub first_fold_t: Option<f64>,
-    /// Smallest determinant of a face at any sample, relative to the source.
+    /// Smallest determinant of any face at any sample, relative to the source: at 0 or below, the
+    /// face is folded.
     pub min_det: Option<f64>,
     /// Largest number of boundary crossings at any sample.
     pub worst_crossings: Option<usize>,
-    /// First sampled t with a crossing.
+    /// First sampled t with a boundary crossing; `None` if there is none.
     pub first_crossing_t: Option<f64>,
-    /// Largest conformal distortion of a face at any sample, divided by the largest one at the
-    /// worse end; 1 if the ends bound it.
+    /// Largest conformal distortion of any face at any sample, divided by the largest at t = 0 or t
+    /// = 1; 1 if no sample exceeds the two ends.
     pub conformal_by_end: Option<f64>,
-    /// Largest 95th percentile (by area) of the conformal distortion at any sample, divided by
-    /// that of the worse end.
+    /// As `conformal_by_end`, for the 95th percentile by area instead of the worst face.
     pub conformal_p95_by_end: Option<f64>,
-    /// Largest excess of a face's conformal distortion over its worse end.
+    /// Largest amount by which any face's conformal distortion at a sample exceeds that of the same
+    /// face in the target. (In the source it is 1.)
     pub conformal_excess: Option<f64>,
-    /// Largest excess of a face's isometric distortion over its worse end.
+    /// As `conformal_excess`, for the isometric distortion.
     pub isometric_excess: Option<f64>,
-    /// Largest excess of a face's area distortion over its worse end.
+    /// As `conformal_excess`, for the area distortion.
     pub area_distortion_excess: Option<f64>,
-    /// Asymmetry under exchange of the designs: max ‖X_AB(t) − X_BA(1−t)‖ / diameter.
+    /// Asymmetry under exchange of the designs A and B: the largest distance ‖X_AB(t) − X_BA(1−t)‖
+    /// between the positions X of a vertex in both films, in design diameters. `None` without rigid
+    /// parts.
     pub asymmetry: Option<f64>,
-    /// Total variation of the area beyond the difference of the ends, as a fraction of the larger
-    /// end.
+    /// Total variation of the area over t, minus the difference of its two end values, as a
+    /// fraction of the larger end value.
     pub area_variation_excess: f64,
-    /// Total variation of the perimeter beyond the difference of the ends, as a fraction of the
-    /// larger end.
+    /// Total variation of the perimeter over t, minus the difference of its two end values, as a
+    /// fraction of the larger end value.
     pub perimeter_variation_excess: f64,
-    /// Largest excess of the boundaries' turning over the value interpolated between the ends, as a
-    /// fraction of that value. Large if the shape is jagged or wavy where neither end is.
+    /// Largest relative excess of `turning` over its value interpolated linearly between the two
+    /// ends. Large if the shape is jagged or wavy in between but at neither end.
     pub turning_excess: f64,
-    /// Excess of turning for the parts that exist in both designs, without transient holes. A
-    /// transient part adds its full turning the moment it appears.
+    /// As `turning_excess`, for `turning_of_both`. It ignores parts that exist in one design only,
+    /// whose turning would change abruptly when they appear.
     pub turning_of_both_excess: f64,
-    /// Number of pieces beyond the larger end.
+    /// Largest number of pieces at any sample, minus the number at the end that has more; at least
+    /// 0.
     pub pieces_excess: Option<usize>,
-    /// Number of holes beyond the larger end.
+    /// Largest number of holes at any sample, minus the number at the end that has more; at least
+    /// 0.
     pub holes_excess: Option<usize>,
-    /// Travel and acceleration of the vertices without the rigid motion.
+    /// Travel and acceleration of the vertices, after removing the rigid motion of the whole shape.
     pub motion: Option<MotionReport>,
 }
 
-/// Fraction of the progress that is reached once all samples are taken (heuristic).
+/// Progress reported once all samples are taken, in [0, 1] (heuristic).
 const SAMPLED_FRACTION: f64 = 0.8;
 
 /// Measures a transition at `samples` evenly spaced t, at least 2.
@@ -119,7 +126,7 @@ pub fn film_report(
     samples: usize,
     progress: &dyn Progress,
 ) -> Result<FilmReport, Cancelled> {
-    let progress = &WholeProgress::new(progress);
+    let progress = &OverallProgress::new(progress);
     let mesh = transition.compatible();
     let sampler = FilmSampler::of(transition);
     let mut frame = transition.frame(0.0);
@@ -152,13 +159,13 @@ pub(super) fn evenly_spaced_times(count: usize) -> impl Iterator<Item = f64> + C
     (0..=last).map(move |i| i as f64 / last as f64)
 }
 
-/// Data for taking samples that does not change with t.
+/// Data that is the same for all samples of a film.
 struct FilmSampler<'a> {
     content: &'a Content,
     mesh: Option<&'a CompatibleMesh>,
-    /// Numbers of pieces and holes of a solid.
+    /// Number of pieces and number of holes of a solid; `None` without boundary loops.
     topology: Option<[usize; 2]>,
-    /// Diameter of the larger design.
+    /// Diameter of the larger design, in design units.
     diameter: f64,
 }
 
@@ -210,8 +217,8 @@ impl<'a> FilmSampler<'a> {
 
 /// Returns the number of crossings of a solid's rings at `t`.
 ///
-/// Returns 0 at t = 0 and t = 1, where the film shows the designs themselves. Parts into which a
-/// design was cut share seams there, whose rounded coordinates may cross.
+/// Returns 0 at t = 0 and t = 1, where the film shows the designs themselves. There, parts cut from
+/// one design share seams, whose rounded coordinates may cross.
 pub(super) fn crossings_at(t: f64, solid: &SolidContent, places: &[DVec2]) -> usize {
     if t == 0.0 || t == 1.0 {
         return 0;
@@ -227,10 +234,10 @@ fn larger_diameter(transition: &Transition) -> f64 {
     diameters.fold(0.0, f64::max)
 }
 
-/// Counts pieces and holes by the orientation of each boundary loop.
+/// Returns the numbers of pieces and holes, from the orientation of each boundary loop.
 ///
-/// The orientation is taken at the end where the loop is larger, because a transient loop shrinks
-/// to a point at the other.
+/// The orientation is taken at the end where the loop is larger: at the other end, a loop of a part
+/// that exists in one design only shrinks to a point.
 fn topology(solid: &SolidContent, frame: &Frame) -> [usize; 2] {
     let placement = frame.placement();
     let rings_at = |places: &Vec<DVec2>| {
@@ -243,11 +250,11 @@ fn topology(solid: &SolidContent, frame: &Frame) -> [usize; 2] {
         areas[usize::from(areas[1].abs() > areas[0].abs())] < 0.0
     };
     let holes = ends[0].iter().zip(&ends[1]).filter(is_hole).count();
-    // Transient holes are kept apart from the loops and counted like the others.
+    // Holes that exist in one design only are not among the loops, but count like the others.
     [ends[0].len() - holes, holes + solid.holes.len()]
 }
 
-/// Measures the rings of a contour.
+/// Measures a contour with the given rings at `t`.
 fn of_rings(t: f64, rings: &[Vec<DVec2>], diameter: f64) -> FilmSample {
     let areas: Vec<f64> = rings.iter().map(|ring| signed_area(ring)).collect();
     let holes = areas.iter().filter(|area| **area < 0.0).count();
@@ -264,7 +271,7 @@ fn of_rings(t: f64, rings: &[Vec<DVec2>], diameter: f64) -> FilmSample {
     }
 }
 
-/// Summarises the samples of a film.
+/// Summarises the samples of a film in a report.
 fn report(
     samples: Vec<FilmSample>,
     excess: Option<[f64; 3]>,
@@ -312,7 +319,8 @@ fn rings_perimeter(rings: &[Vec<DVec2>]) -> f64 {
     rings.iter().map(|ring| perimeter(ring)).sum()
 }
 
-/// Compares the film with that of the exchanged designs played backwards.
+/// Compares the film with the film of the exchanged designs played backwards. Returns the largest
+/// distance between the two positions of a vertex, in design diameters.
 fn asymmetry(
     transition: &Transition,
     paths: &[Vec<DVec2>],
@@ -321,8 +329,8 @@ fn asymmetry(
     let (Some(arap), Some(mesh)) = (transition.arap(), transition.compatible()) else {
         return Ok(None);
     };
-    // The way back uses the same turns, whole turns included: this measures the symmetry of the
-    // energy, not of the choice of turns.
+    // The reversed film uses the same rotation angles, whole turns included: this measures the
+    // symmetry of the energy, not of the choice of angles.
     let reversed = match arap.swapped(progress) {
         Ok(reversed) => reversed,
         Err(ArapError::Cancelled(cancelled)) => return Err(cancelled),

@@ -1,4 +1,5 @@
-//! Measures of blends sampled over a whole map, for its contour display.
+//! Measures of the blends at the points of a grid over a map of designs, from which the map's
+//! contour lines are drawn.
 
 use super::blend_report::{BlendMeasures, BlendSampler};
 use crate::geometry::DVec2;
@@ -7,18 +8,18 @@ use crate::space::{DesignSpace, WeightMap};
 use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
-/// Measure shown on a map.
+/// Measure of a blend that is drawn as contour lines on a map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MapMeasure {
-    /// [`BlendReport::conformal_p95`](super::BlendReport::conformal_p95).
+    /// Distortion of angles, [`BlendReport::conformal_p95`](super::BlendReport::conformal_p95).
     #[default]
     Distortion,
-    /// [`BlendMeasures::area`].
+    /// Filled area, [`BlendMeasures::area`].
     Area,
-    /// [`BlendMeasures::perimeter`].
+    /// Length of the outlines, [`BlendMeasures::perimeter`].
     Perimeter,
-    /// [`BlendMeasures::travel`].
+    /// Distance from the nearest design, [`BlendMeasures::travel`].
     Travel,
 }
 
@@ -30,7 +31,8 @@ named! { MapMeasure {
 } }
 
 impl MapMeasure {
-    /// Returns the value for a blend; `None` if the blend does not have it or it is infinite.
+    /// Returns the value of this measure for a blend; `None` if the blend has no such value or the
+    /// value is infinite.
     #[must_use]
     pub fn of(self, blend: &BlendMeasures) -> Option<f64> {
         let value = match self {
@@ -43,19 +45,22 @@ impl MapMeasure {
     }
 }
 
-/// Measures of the blends on a square grid over a map, in rows from the top.
+/// Measures of the blends at the points of a square grid over a map, in rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapLandscape {
     /// Number of grid points along each side.
     side: usize,
-    /// Half the side length of the square, which is centred at the origin of the map.
+    /// Half the side length of the square that the grid covers, in map units. The square is centred
+    /// at the origin of the map.
     reach: f64,
-    /// Measures of each grid point; `None` outside the hull of the sites.
+    /// Measures of the blend at each grid point. `None` more than 1.5 grid steps outside the convex
+    /// hull of the sites, which are the positions of the designs on the map.
     blends: Vec<Option<BlendMeasures>>,
 }
 
 impl MapLandscape {
-    /// Measures `side` × `side` grid points of the square from −`reach` to `reach`.
+    /// Measures the blend at the centre of each of `side` × `side` equal cells of the square from
+    /// (−`reach`, −`reach`) to (`reach`, `reach`) on the map.
     ///
     /// # Errors
     /// [`Cancelled`] if the work was cancelled.
@@ -74,7 +79,7 @@ impl MapLandscape {
             let measured = (0..side).map(|column| {
                 let [x, y] = [column, side - 1 - row].map(|k| (k as f64 + 0.5) * step - reach);
                 let place = DVec2::new(x, y);
-                // One step beyond the hull is measured too, for interpolation at its boundary.
+                // Points just outside the hull are measured too, for interpolation at its boundary.
                 if check_cancelled(progress).is_err() || !map.contains(place, 1.5 * step) {
                     return None;
                 }
@@ -98,13 +103,16 @@ impl MapLandscape {
         self.side
     }
 
-    /// Returns a measure at a place, bilinearly interpolated; `None` outside the hull of the sites.
+    /// Returns a measure at a place on the map, interpolated bilinearly between the grid points;
+    /// `None` where too few grid points around the place were measured, as outside the hull of the
+    /// sites.
     #[must_use]
     pub fn value(&self, measure: MapMeasure, place: DVec2) -> Option<f64> {
         self.interpolated(place, |blend| measure.of(blend))
     }
 
-    /// Returns the interpolated fraction of blends near a place that fold or cross, from 0 to 1.
+    /// Returns the fraction of the grid points around a place whose blends have folded faces or
+    /// crossing outlines, from 0 to 1, weighted bilinearly.
     #[must_use]
     pub fn defect_fraction(&self, place: DVec2) -> f64 {
         let has_defect = |blend: &BlendMeasures| blend.quality.folds + blend.quality.crossings > 0;
@@ -112,7 +120,8 @@ impl MapLandscape {
             .unwrap_or(0.0)
     }
 
-    /// Returns the smallest and the largest value of a measure; `None` if it has no values.
+    /// Returns the smallest and the largest value of a measure over all grid points; `None` if no
+    /// grid point has a value.
     #[must_use]
     pub fn range(&self, measure: MapMeasure) -> Option<[f64; 2]> {
         let values = self.blends.iter().flatten();
@@ -122,8 +131,9 @@ impl MapLandscape {
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 
-    /// Interpolates a value bilinearly between the measured grid points; missing ones are skipped
-    /// as long as the others have more than half of the weight.
+    /// Interpolates a value bilinearly between the four grid points around a place. Grid points
+    /// without a value are skipped as long as the others have more than half of the weight;
+    /// otherwise returns `None`.
     fn interpolated(
         &self,
         place: DVec2,

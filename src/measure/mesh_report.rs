@@ -9,13 +9,14 @@ use serde::Serialize;
 /// Angle below which a face counts as thin, in degrees (heuristic).
 const THIN_DEG: f64 = 5.0;
 
-/// Measures of the two embeddings of a compatible mesh.
+/// Measures of a compatible mesh, that is, of one triangulation with two embeddings: source and
+/// target.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct MeshReport {
-    /// Number of vertices.
+    /// Number of vertices of the mesh.
     pub vertices: usize,
-    /// Number of faces.
+    /// Number of faces of the mesh.
     pub faces: usize,
     /// Number of vertices on the boundary.
     pub boundary_vertices: usize,
@@ -30,9 +31,10 @@ pub struct MeshReport {
     /// Fraction of faces with an angle below 5° in either embedding.
     pub thin_faces: f64,
     /// Unevenness of the boundary stretch, weighted by length in the source: max(k, 1/k), where k
-    /// is the local stretch divided by the stretch of the whole loop. 1 is even.
+    /// is the local stretch divided by the stretch of the whole loop. It is 1 where the boundary is
+    /// stretched evenly.
     pub boundary_stretch: Distribution,
-    /// Distortion of the map from source to target.
+    /// Distortion of the faces from source to target.
     pub distortion: Distortion,
 }
 

@@ -3,21 +3,22 @@
 use crate::geometry::{DMat2, DVec2};
 use serde::Serialize;
 
-/// Travel and acceleration of the vertices after removing the rigid motion of the whole, in
+/// Travel and acceleration of the vertices, after removing the rigid motion of the whole shape. In
 /// design diameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct MotionReport {
-    /// Mean length of the vertices' paths.
+    /// Mean length of the paths of all vertices.
     pub mean_travel: f64,
-    /// Length of the longest path.
+    /// Length of the longest path of a vertex.
     pub max_travel: f64,
-    /// Largest second derivative of a path with respect to t, by second differences.
+    /// Largest acceleration of a vertex: the second derivative of its position with respect to t,
+    /// computed from second differences.
     pub max_acceleration: f64,
 }
 
-/// Measures vertex paths sampled at t values spaced by `step`; `None` for fewer than three
-/// samples.
+/// Measures the paths of the vertices from their positions at evenly spaced t, `step` apart.
+/// Returns `None` for fewer than three samples.
 pub(super) fn motion_report(
     samples: &[Vec<DVec2>],
     step: f64,
@@ -48,7 +49,8 @@ pub(super) fn motion_report(
     })
 }
 
-/// Returns the points moved rigidly to the least-squares fit onto `onto`.
+/// Returns the points after the rigid motion that brings them closest to `onto` in the
+/// least-squares sense.
 fn without_rigid(points: &[DVec2], onto: &[DVec2]) -> Vec<DVec2> {
     let mean = |all: &[DVec2]| all.iter().sum::<DVec2>() / all.len() as f64;
     let (c, d) = (mean(points), mean(onto));

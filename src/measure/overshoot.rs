@@ -1,27 +1,31 @@
-//! Measures of how far a film exceeds what its two ends require.
+//! Overshoot of a film: how far peaks, counts and face distortions exceed their values at the two
+//! ends (t = 0 and t = 1).
 
 use super::distortion::{FaceStrain, edges};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 
-/// Returns the largest value divided by the larger end value; `None` if any value is missing.
+/// Returns the largest value divided by the larger of the first and the last value; `None` if any
+/// value is missing.
 pub(super) fn peak_over_ends(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     let values: Vec<f64> = values.collect::<Option<_>>()?;
     let end = values.first()?.max(*values.last()?);
     Some(values.iter().fold(0.0, |max: f64, &value| max.max(value)) / end)
 }
 
-/// Returns by how much a count exceeds its larger end; `None` if any count is missing.
+/// Returns by how much the largest count exceeds the larger of the first and the last count; `None`
+/// if any count is missing.
 pub(super) fn count_over_ends(counts: impl Iterator<Item = Option<usize>>) -> Option<usize> {
     let counts: Vec<usize> = counts.collect::<Option<_>>()?;
     let ends = *counts.first()?.max(counts.last()?);
     Some(counts.iter().max()?.saturating_sub(ends))
 }
 
-/// Returns how much the faces' distortion exceeds that of their worse end, at most over all faces
-/// and samples: conformal, isometric, area.
+/// Returns the largest amount by which the conformal, isometric and area distortion of a face in
+/// `paths` exceeds that of the same face in the target.
 ///
-/// Distortion is relative to the source, where it is 1, so the worse end is the target.
+/// Distortion is measured relative to the source, where it is 1. So of the two ends, the target is
+/// the worse one.
 pub(super) fn distortion_over_ends(mesh: &CompatibleMesh, paths: &[Vec<DVec2>]) -> [f64; 3] {
     let mut worst = [0.0; 3];
     for face in mesh.faces().iter() {

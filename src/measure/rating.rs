@@ -8,17 +8,18 @@ use crate::work::progress::{Progress, ProgressShares, ProgressSpan};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// Number of samples of a rated film, which misses defects shorter than a sixteenth of it
-/// (heuristic).
+/// Number of t at which a film is sampled for its rating. Defects shorter than a sixteenth of the
+/// film may be missed (heuristic).
 const SAMPLES: usize = 17;
 
-/// Fraction of a method's progress that is reached once its transition is built (heuristic).
+/// Progress reported for a method once its transition is built, in [0, 1] (heuristic).
 const BUILT_FRACTION: f64 = 0.9;
 
-/// Defects of a film at its worst t, comparable between methods.
+/// Largest number of each kind of defect at any t of a film, comparable between methods.
 ///
-/// The better of two films has fewer defects. With equal counts it is the one with less
-/// overshoot: turning of the outlines and change of area beyond what the two ends require.
+/// A film that disappears completely at some t is worse than one that does not. Otherwise, the film
+/// with fewer defects is better. With equal counts it is the one with less overshoot: turning of
+/// the outlines and change of area beyond what the two ends require.
 ///
 /// ```
 /// use morphospace::measure::FilmRating;
@@ -33,13 +34,13 @@ const BUILT_FRACTION: f64 = 0.9;
 pub struct FilmRating {
     folds: usize,
     crossings: usize,
-    /// Number of pieces beyond the larger end.
+    /// Largest number of pieces at any t, minus the number at the end that has more.
     extra_pieces: usize,
-    /// Number of holes beyond the larger end.
+    /// Largest number of holes at any t, minus the number at the end that has more.
     extra_holes: usize,
     /// Whether the shape disappears completely at some t.
     disappears: bool,
-    /// Turning and change of area beyond what the ends require, as fractions.
+    /// Excess turning of the outlines plus excess change of area, both as fractions.
     overshoot: f64,
     is_solid: bool,
 }
@@ -76,30 +77,32 @@ impl FilmRating {
         }
     }
 
-    /// Total number of defects.
+    /// Returns the total number of folds, crossings, extra pieces and extra holes.
     fn defects(&self) -> usize {
         self.folds + self.crossings + self.extra_pieces + self.extra_holes
     }
 
-    /// Returns whether no defects were found.
+    /// Returns whether the film has no defects and never disappears.
     #[must_use]
     pub fn is_flawless(&self) -> bool {
         !self.disappears && self.defects() == 0
     }
 
     /// Returns whether this film has fewer defects than `other`, regardless of overshoot.
+    /// Disappearing counts more than any number of defects.
     #[must_use]
     pub fn has_fewer_defects_than(&self, other: &Self) -> bool {
         (self.disappears, self.defects()) < (other.disappears, other.defects())
     }
 
-    /// Returns turning and change of area beyond what the ends require, as a fraction.
+    /// Returns the excess turning of the outlines plus the excess change of area, both as
+    /// fractions; 0 means no more than the two ends require.
     #[must_use]
     pub fn overshoot(&self) -> f64 {
         self.overshoot
     }
 
-    /// Orders two ratings, the better one first.
+    /// Orders two ratings: `Less` if this one is better.
     #[must_use]
     pub fn compare(&self, other: &Self) -> Ordering {
         let by_disappearing = self.disappears.cmp(&other.disappears);
@@ -145,7 +148,8 @@ impl fmt::Display for FilmRating {
     }
 }
 
-/// Builds the transition by each method for shapes and returns the best one with its rating.
+/// Builds a transition with each of the three methods for shapes, and returns the best one with its
+/// rating.
 ///
 /// The methods are rigid parts, distance fields carried by rigid parts, and distance fields
 /// blended in place; of equal ratings the first wins. Pictures are built with the specified

@@ -1,14 +1,15 @@
-//! Measures of a space of many designs: its edges, its centre, and blends spread over it.
+//! Measures of a design space: blends of each pair of designs (an edge of the space), the blend of
+//! all designs with equal weights (its centre), and blends spread over the whole space.
 
 use super::blend_report::{BlendReport, BlendSampler};
 use crate::space::{DesignSpace, weight_sample};
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 use serde::Serialize;
 
-/// Number of blends measured on each edge (heuristic).
+/// Number of evenly spaced blends that are measured between each pair of designs (heuristic).
 const BLENDS_PER_EDGE: usize = 9;
 
-/// Measures of a space.
+/// Measures of a design space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpaceReport {
     /// Names of the designs.
@@ -19,11 +20,11 @@ pub struct SpaceReport {
     pub faces: Option<usize>,
     /// Notes on what was done differently from what was requested.
     pub notes: Vec<String>,
-    /// One report per pair of designs.
+    /// Measures of the blends of each pair of designs, one report per pair.
     pub edges: Vec<EdgeReport>,
-    /// Blend of all designs with equal weights.
+    /// Measures of the blend of all designs with equal weights.
     pub middle: BlendReport,
-    /// Summary of blends spread over the whole space.
+    /// Summary of the measures of blends spread over the whole space.
     pub all_over: BlendStatistics,
 }
 
@@ -34,7 +35,7 @@ pub struct EdgeReport {
     pub designs: [usize; 2],
     /// Dissimilarity of the two designs; see [`DesignDistances`](crate::space::DesignDistances).
     pub unlike: f64,
-    /// Worst value of each measure over nine blends.
+    /// Worst value of each measure over nine evenly spaced blends of the two designs.
     pub worst: BlendReport,
 }
 
@@ -51,9 +52,10 @@ pub struct BlendStatistics {
     pub worst: BlendReport,
 }
 
-/// Measures a space on its edges, at its centre, and at `blends` weights spread over it.
+/// Measures blends of each pair of designs, the blend of all with equal weights, and `blends`
+/// blends spread over the whole space.
 ///
-/// The weights are deterministic: they depend only on the number of designs.
+/// The weights of the latter are deterministic: they depend only on the number of designs.
 ///
 /// # Errors
 /// [`Cancelled`] if the work was cancelled.
@@ -79,7 +81,7 @@ pub fn space_report(
             let t = k as f64 / (BLENDS_PER_EDGE + 1) as f64;
             let mut weights = vec![0.0; count];
             (weights[a], weights[b]) = (1.0 - t, t);
-            worst = worst.worst_of(sampler.measure(&weights).quality);
+            worst = worst.worse_of_both(sampler.measure(&weights).quality);
         }
         edges.push(EdgeReport {
             designs: [a, b],
@@ -100,7 +102,7 @@ pub fn space_report(
         let quality = sampler.measure(&weight_sample(k, count)).quality;
         all_over.folded += usize::from(quality.folds > 0);
         all_over.crossed += usize::from(quality.crossings > 0);
-        all_over.worst = all_over.worst.worst_of(quality);
+        all_over.worst = all_over.worst.worse_of_both(quality);
     }
     let family = space.family();
     Ok(SpaceReport {

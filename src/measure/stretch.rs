@@ -1,15 +1,16 @@
-//! Local stretch of the boundary from source to target, relative to its whole loop.
+//! Local stretch of the boundary from source to target, relative to the stretch of the whole
+//! boundary loop.
 //!
-//! Lengths are fractions of their boundary loop, so uniform scaling counts as even. Single
-//! matched edges may have almost no length in one design, so the stretch is measured over
-//! windows that have a minimum length in source and target together.
+//! Lengths are fractions of the length of their boundary loop, so uniform scaling counts as even. A
+//! single edge may have almost no length in one design, so the stretch is measured over windows of
+//! several edges. Each window reaches a minimum length, counted in source and target together.
 
 use super::distortion::{self, Distribution};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 
-/// Minimum window length: the sum of its fractions of the loop in source and target. This is about
-/// two edges of an outline with 120 points (heuristic).
+/// Minimum length of a window: its fraction of the loop in the source plus its fraction in the
+/// target. This is about two edges of an outline with 120 points (heuristic).
 const MIN_WINDOW_LENGTH: f64 = 0.03;
 
 /// Stretch of the boundary around one vertex.
@@ -17,14 +18,16 @@ const MIN_WINDOW_LENGTH: f64 = 0.03;
 pub(super) struct EdgeStretch {
     /// Index of the vertex.
     pub vertex: u32,
-    /// Fraction of the target loop divided by fraction of the source loop; 1 is even.
+    /// Fraction of the loop that the window around the vertex covers in the target, divided by the
+    /// fraction in the source; 1 is even.
     pub ratio: f64,
-    /// Length of source boundary that the vertex represents, in design units.
+    /// Length of source boundary that the vertex represents, half of each adjacent edge, in design
+    /// units.
     pub weight: f64,
 }
 
 impl EdgeStretch {
-    /// Returns max(k, 1/k) for the ratio k, at least 1.
+    /// Returns max(k, 1/k) for the stretch ratio k, at least 1.
     pub fn unevenness(&self) -> f64 {
         self.ratio.max(1.0 / self.ratio)
     }
@@ -41,7 +44,8 @@ pub(super) fn boundary_stretch(mesh: &CompatibleMesh) -> Vec<EdgeStretch> {
     loops.iter().flat_map(stretch_of_loop).collect()
 }
 
-/// Returns the distribution of the unevenness, weighted by length in the source.
+/// Returns the distribution of the unevenness over all boundary vertices, weighted by length in the
+/// source; `None` without a boundary.
 pub(super) fn stretch_distribution(mesh: &CompatibleMesh) -> Option<Distribution> {
     let weighted = boundary_stretch(mesh).into_iter();
     distortion::distribution(weighted.map(|s| (s.unevenness(), s.weight)).collect())
@@ -84,7 +88,8 @@ fn loop_stretch(vertices: &[u32], source: &[f64], target: &[f64]) -> Vec<EdgeStr
 mod tests {
     use super::*;
 
-    /// A square with 40 edges on its lower and upper side; `bottom` maps the lower side's x.
+    /// Mesh of the unit square with 40 edges on its lower and 40 on its upper side. In the target,
+    /// `bottom` moves the vertices of the lower side along x.
     fn mesh_with(bottom: impl Fn(f64) -> f64) -> CompatibleMesh {
         /// Number of edges along the lower side.
         const COLUMNS: u32 = 40;

@@ -12,7 +12,7 @@ use crate::work::progress::{Cancelled, Progress, Silent};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// A mesh imported from OBJ text.
+/// Returns a mesh design with these vertices and faces, imported from OBJ text.
 pub(super) fn design(points: &[DVec2], faces: &[[u32; 3]]) -> Arc<Design> {
     let mut text = String::new();
     for p in points {
@@ -36,7 +36,7 @@ pub(super) fn transition(
     Transition::build(&spec, &Silent).expect("a transition")
 }
 
-/// A rectangle of `n` by `m` squares of side 1, each two faces.
+/// Returns the faces and vertices of a rectangle of `n` by `m` squares of side 1, two faces each.
 pub(super) fn sheet(n: u32, m: u32) -> (Vec<[u32; 3]>, Vec<DVec2>) {
     let points = (0..=m).flat_map(|j| (0..=n).map(move |i| DVec2::new(i.into(), j.into())));
     let at = |i: u32, j: u32| j * (n + 1) + i;
@@ -51,7 +51,7 @@ pub(super) fn sheet(n: u32, m: u32) -> (Vec<[u32; 3]>, Vec<DVec2>) {
     )
 }
 
-/// Film of a rectangle whose target is its image under `map`.
+/// Returns the measures of the film from a rectangle to its image under `map`.
 fn film_of(map: impl Fn(DVec2) -> DVec2, homotopy: Homotopy) -> FilmReport {
     let (faces, source) = sheet(4, 2);
     let target: Vec<_> = source.iter().map(|&p| map(p)).collect();
@@ -67,8 +67,8 @@ fn boundary_paths_are_measured_without_a_mesh() {
     let loaded = gallery::load("gecko").expect("bundled");
     let mut spec = loaded.spec().expect("a specification");
     spec.method = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).expect("a cell");
-    for course in [VertexPath::Straight, VertexPath::Intrinsic] {
-        spec.options.paths.course = course;
+    for vertex_path in [VertexPath::Straight, VertexPath::Intrinsic] {
+        spec.options.paths.course = vertex_path;
         let transition = Transition::build(&spec, &Silent).expect("a transition");
         let report = film_report(&transition, 17, &Silent).expect("not cancelled");
         assert_eq!((report.worst_folds, report.asymmetry), (None, None));
@@ -126,10 +126,10 @@ fn the_distortion_of_a_shear_matches_the_closed_form() {
     let report = film_of(|p| DVec2::new(p.x + s * p.y, p.y), Homotopy::Polar);
     let large = 0.5 * (s + s.hypot(2.0));
     let last = report.samples.last().expect("samples");
-    let found = last.distortion.expect("faces");
-    assert!((found.conformal.worst - large * large).abs() < 1e-9);
-    assert!((found.isometric.median - large).abs() < 1e-9);
-    assert!((found.area.worst - 1.0).abs() < 1e-9 && (found.max_det - 1.0).abs() < 1e-9);
+    let distortion = last.distortion.expect("faces");
+    assert!((distortion.conformal.worst - large * large).abs() < 1e-9);
+    assert!((distortion.isometric.median - large).abs() < 1e-9);
+    assert!((distortion.area.worst - 1.0).abs() < 1e-9 && (distortion.max_det - 1.0).abs() < 1e-9);
     assert!(report.conformal_excess.expect("faces") < 1e-9);
 }
 

@@ -3,7 +3,7 @@
 use super::film_report::{FilmReport, FilmSample};
 use crate::settings::named;
 
-/// A measure that a film has at every t.
+/// Measure of a film that can be plotted against t.
 ///
 /// ```
 /// use morphospace::{measure::Quantity, settings::Choice};
@@ -22,7 +22,8 @@ pub enum Quantity {
     WorstConformal,
     /// Isometric distortion max(σ₁, 1/σ₂) of the worst face, at least 1.
     WorstIsometric,
-    /// Smallest determinant of a face relative to the source, 1 at t = 0; a fold unless positive.
+    /// Smallest determinant of any face relative to the source: 1 at t = 0, and 0 or less for a
+    /// fold.
     MinDet,
     /// Number of faces that are folded or flat.
     Folds,
@@ -55,7 +56,8 @@ named! { Quantity {
 } }
 
 impl Quantity {
-    /// Returns the value at one sample; `None` if this kind of transition does not have it.
+    /// Returns the value of this measure at one sample; `None` if this kind of transition has no
+    /// such value.
     #[must_use]
     pub fn value_at(self, sample: &FilmSample) -> Option<f64> {
         let count = |n: Option<usize>| n.map(|n| n as f64);
@@ -76,7 +78,7 @@ impl Quantity {
 }
 
 impl FilmReport {
-    /// Returns a quantity as pairs `[t, value]` with t increasing from 0 to 1.
+    /// Returns a measure as pairs `[t, value]` with t increasing from 0 to 1.
     ///
     /// Empty if this kind of transition does not have it. The distortion of a folded face is
     /// infinite, which a graph shows as a gap.

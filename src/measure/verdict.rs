@@ -1,9 +1,10 @@
-//! Check of a film: finds defects, their place, cause and remedy, and describes them in words.
+//! Check of a film: finds its defects with their place, cause and remedy, and describes them in
+//! words.
 //!
 //! Every cause is a measured fact about the place of the worst defect: an angle, a boundary
 //! stretch, an overlap. A remedy that changes an option was tested on the same designs at the same
-//! t; pins and edits cannot be tested and are only suggested. Every reported defect was seen at a
-//! sampled t. Defects between samples are missed, and a cause need not be the only one.
+//! t; pins and edits of vertices cannot be tested and are only suggested. Every reported defect was
+//! found at a sampled t. Defects between samples are missed, and a cause need not be the only one.
 //!
 //! - `defect_scan`: counts defects at each sampled t
 //! - `cause`: finds the cause of a defect of rigid parts
@@ -27,11 +28,11 @@ pub use finding::{Finding, FindingCause, FindingKind, Remedy, SettingChange};
 use crate::content::Content;
 use crate::measure::film_report::FilmReport;
 use crate::transition::{Transition, TransitionNote};
-use crate::work::progress::{Cancelled, Progress, ProgressSpan, WholeProgress};
+use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan};
 use defect_scan::MomentCounts;
 use serde::Serialize;
 
-/// Result of checking a film: its defects, as text in [`Self::headline`].
+/// Result of checking a film: its defects. [`Self::headline`] lists them in words.
 ///
 /// The notes of the transition are included, but do not count as defects.
 ///
@@ -47,9 +48,9 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Verdict {
-    /// Number of sampled t.
+    /// Number of t at which defects were counted; 0 for pictures.
     pub steps: usize,
-    /// Headline to show if no defects were found; depends on the kind of content.
+    /// Headline if no defects were found. It depends on the kind of content.
     pub clear: &'static str,
     /// Defects, at most one of each kind, folds first.
     pub findings: Vec<Finding>,
@@ -57,14 +58,14 @@ pub struct Verdict {
     pub notes: Vec<TransitionNote>,
 }
 
-/// Minimum number of t at which a warp of the plane is checked (heuristic).
+/// Minimum number of t at which a warp of the plane is checked for folds (heuristic).
 const PLANE_STEPS: usize = 33;
 
 impl Verdict {
     /// Checks a transition at `steps` evenly spaced t, at least 2.
     ///
-    /// If there are defects, changed options are tested, each at the cost of another scan; large
-    /// meshes are excluded.
+    /// If there are defects, changed options are tested, each at the cost of one more scan of the
+    /// film. On large meshes options are not tested.
     ///
     /// # Errors
     /// [`Cancelled`] if the work was cancelled.
@@ -73,10 +74,13 @@ impl Verdict {
         steps: usize,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let whole = WholeProgress::new(progress);
-        let moments =
-            defect_scan::scan_transition(transition, steps, &ProgressSpan::new(&whole, 0.0, 0.4))?;
-        Self::of_moments(transition, &moments, &ProgressSpan::new(&whole, 0.4, 1.0))
+        let overall = OverallProgress::new(progress);
+        let moments = defect_scan::scan_transition(
+            transition,
+            steps,
+            &ProgressSpan::new(&overall, 0.0, 0.4),
+        )?;
+        Self::of_moments(transition, &moments, &ProgressSpan::new(&overall, 0.4, 1.0))
     }
 
     /// Checks a film that has already been measured.
@@ -89,7 +93,7 @@ impl Verdict {
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let moments: Vec<_> = film.samples.iter().map(MomentCounts::of_sample).collect();
-        Self::of_moments(transition, &moments, &WholeProgress::new(progress))
+        Self::of_moments(transition, &moments, &OverallProgress::new(progress))
     }
 
     fn of_moments(
@@ -113,7 +117,7 @@ impl Verdict {
             ),
             Content::Colours(_) => ("no folds", Vec::new()),
         };
-        // Pictures have no sampled moments, and a fold of the plane may be short.
+        // For pictures no moments were sampled, and a fold of the plane may be short.
         let steps = moments.len().max(PLANE_STEPS);
         let plane_progress = ProgressSpan::new(progress, 0.8, 1.0);
         findings.extend(plane::plane_findings(transition, steps, &plane_progress)?);

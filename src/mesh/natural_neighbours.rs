@@ -97,7 +97,7 @@ impl NaturalNeighbours {
     ///
     /// # Panics
     /// If `shares` does not have one entry for each site.
-    pub fn shares(&self, place: DVec2, shares: &mut [f64]) {
+    pub fn weights(&self, place: DVec2, shares: &mut [f64]) {
         assert_eq!(shares.len(), self.sites.len(), "a share for each site");
         shares.fill(0.0);
         if let Some(triangulation) = &self.triangulation {
@@ -137,7 +137,7 @@ impl NaturalNeighbours {
     /// Returns whether a point lies inside the convex hull of the sites, or at most `reach` away
     /// from it.
     #[must_use]
-    pub fn holds(&self, place: DVec2, reach: f64) -> bool {
+    pub fn contains(&self, place: DVec2, reach: f64) -> bool {
         let mut weights = Vec::new();
         if let Some(triangulation) = &self.triangulation {
             let place = Point2::new(place.x, place.y);
@@ -183,7 +183,7 @@ mod tests {
     fn shares(sites: &[DVec2], place: DVec2) -> Vec<f64> {
         let mut shares = vec![0.0; sites.len()];
         let neighbours = NaturalNeighbours::new(sites).expect("sites");
-        neighbours.shares(place, &mut shares);
+        neighbours.weights(place, &mut shares);
         shares
     }
 
@@ -226,7 +226,7 @@ mod tests {
             prop_assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
             prop_assert!(shares.iter().all(|&share| share >= 0.0));
             let neighbours = NaturalNeighbours::new(&sites).expect("sites");
-            if neighbours.holds(place, 0.0) {
+            if neighbours.contains(place, 0.0) {
                 // Sibson's identity: the weighted mean of the sites is the point.
                 let again: DVec2 = sites.iter().zip(&shares).map(|(&p, &w)| p * w).sum();
                 prop_assert!(again.distance(place) < 1e-6, "{again} {place}");

@@ -17,7 +17,8 @@ use std::path::{Path, PathBuf};
 /// written in the oldest version that can represent it.
 pub const FORMAT_VERSION: u32 = 2;
 
-/// Version of the format that suffices for two designs without a map.
+/// Format version that suffices for a film from one design to another, without a map and without
+/// times at its stops.
 const PAIR_VERSION: u32 = 1;
 
 /// Contents of a `.morph` project file.
@@ -38,7 +39,7 @@ const PAIR_VERSION: u32 = 1;
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct Project {
-    /// Version of the format.
+    /// Version of the format in which the file is written.
     pub version: u32,
     /// Title of the project.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -46,10 +47,12 @@ pub struct Project {
     /// One sentence about the project.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub description: String,
-    /// Warp, a row of the table of methods; `None` chooses the one that suits the designs.
+    /// Warp: a row of the table of methods in the crate documentation. `None` chooses the warp that
+    /// suits the designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub warp: Option<WarpKind>,
-    /// Content, a column of the table of methods; `None` chooses the one that suits the designs.
+    /// Content: a column of the table of methods in the crate documentation. `None` chooses the
+    /// content that suits the designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub content: Option<ContentKind>,
     /// How the other designs are aligned with the first.
@@ -57,14 +60,14 @@ pub struct Project {
     pub fit: DesignFit,
     /// Designs, at least two, in the order in which the film shows them.
     pub designs: Vec<DesignEntry>,
-    /// Whether the last design leads back to the first. From version 2 on.
+    /// Whether the film continues from the last design back to the first. From format version 2 on.
     #[serde(default, skip_serializing_if = "is_default")]
     pub closed: bool,
     /// Settings of each segment between two consecutive designs, if there are more than two
-    /// designs. Entries missing at the end are defaults. From version 2 on.
+    /// designs. Entries missing at the end are defaults. From format version 2 on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub legs: Vec<SegmentRecord>,
-    /// Map of all designs. From version 2 on.
+    /// Map of all designs. From format version 2 on.
     #[serde(default, skip_serializing_if = "is_default")]
     pub map: MapSettings,
     /// Options of all methods; their keys are at the top level of the file.
@@ -77,10 +80,10 @@ pub struct Project {
     /// Colours.
     #[serde(default)]
     pub style: TransitionStyle,
-    /// Named moments of the film.
+    /// Moments of the film with a name, a note or a pause.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stops: Vec<TransitionStop>,
-    /// Match and motion that were solved when the project was saved.
+    /// Match and motion as they were solved when the project was saved, to be reused on opening it.
     #[serde(default, skip_serializing_if = "CachedMatch::is_none")]
     pub found: CachedMatch,
 }
@@ -98,7 +101,7 @@ pub struct DesignEntry {
     /// Options for reading the file.
     #[serde(default, skip_serializing_if = "is_default")]
     pub import: ImportOptions,
-    /// Placement of the design, relative to its own centre.
+    /// Similarity that is applied to the design about its own centre, after `fit`.
     #[serde(default, skip_serializing_if = "is_default")]
     pub placement: Similarity,
 }

@@ -3,7 +3,7 @@
 use super::document::FORMAT_VERSION;
 use super::map::MapError;
 use crate::content::{ColourMixError, FieldBlendError};
-use crate::correspondence::MatchPlaceError;
+use crate::correspondence::MatchSettingsError;
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
 use crate::io::read::ReadError;
@@ -38,7 +38,7 @@ pub enum ProjectError {
     /// A key or value is invalid.
     #[error("line {line}: {}", SanitizedLine(message))]
     Syntax {
-        /// Line number, from 1.
+        /// Line of the key or value, from 1.
         line: usize,
         /// Message of the parser.
         message: String,
@@ -49,7 +49,7 @@ pub enum ProjectError {
         FORMAT_VERSION
     )]
     NewerVersion {
-        /// Line number, from 1.
+        /// Line of the version number, from 1.
         line: usize,
         /// Version of the file.
         version: u64,
@@ -68,9 +68,9 @@ pub enum ProjectError {
         "the project has {has} [[legs]], but its designs allow only {may_have} (a pair has none); remove the others"
     )]
     TooManySegments {
-        /// Number of entries.
+        /// Number of segment settings.
         has: usize,
-        /// Maximum number of entries; 0 for a pair.
+        /// Maximum number of segment settings; 0 for a project of two designs.
         may_have: usize,
     },
     /// Match settings are given both at the top level and in segments.
@@ -84,12 +84,12 @@ pub enum ProjectError {
     /// ε or the threshold of the field blend is out of range.
     #[error(transparent)]
     Blend(#[from] FieldBlendError),
-    /// The interval in which colours are mixed is invalid.
+    /// The interval of t in which colours are mixed is invalid.
     #[error(transparent)]
     Colours(#[from] ColourMixError),
     /// A pin, line or other match setting has an invalid position.
     #[error(transparent)]
-    MatchPlace(#[from] MatchPlaceError),
+    MatchPlace(#[from] MatchSettingsError),
     /// The mesh would have too many vertices after subdivision.
     #[error(transparent)]
     Subdivisions(#[from] TooManyVertices),
@@ -148,32 +148,32 @@ impl ProjectError {
         }
     }
 
-    /// Creates the error for an unknown top-level key; `known` are all keys.
+    /// Creates the error for an unknown top-level key; `known` lists all valid keys.
     pub(super) fn unknown_key(
         text: &str,
         key: &toml::Spanned<Cow<'_, str>>,
-        known: [&[&str]; 2],
+        valid: [&[&str]; 2],
     ) -> Self {
         Self::Syntax {
             line: line_of(text, key.span().start),
             message: format!(
                 "unknown key \"{}\", expected one of {}",
                 key.get_ref(),
-                known.concat().join(", ")
+                valid.concat().join(", ")
             ),
         }
     }
 
-    /// Creates the error for a newer version found at byte `at` of the text.
-    pub(super) fn newer(text: &str, at: usize, version: u64) -> Self {
+    /// Creates the error for a newer version found at a byte of the text.
+    pub(super) fn newer(text: &str, byte: usize, version: u64) -> Self {
         Self::NewerVersion {
-            line: line_of(text, at),
+            line: line_of(text, byte),
             version,
         }
     }
 }
 
-/// Returns the line, from 1, of a byte of the text.
+/// Returns the number, from 1, of the line that contains the given byte of the text.
 fn line_of(text: &str, byte: usize) -> usize {
     let before = text.as_bytes().iter().take(byte);
     1 + before.filter(|&&b| b == b'\n').count()

@@ -11,7 +11,7 @@ pub use super::loaded::bytes;
 /// Name and description of a bundled project.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct GalleryEntry {
-    /// Name by which it can be opened: `gallery:NAME`.
+    /// Name by which the project can be opened, as `gallery:NAME`.
     pub name: String,
     /// Title of the project.
     pub title: String,
@@ -55,11 +55,11 @@ pub fn document(name: &str) -> Result<Project, ProjectError> {
     let file = format!("{name}.morph");
     let path = Path::new(&file);
     let Some(text) = FILES.get_file(path).and_then(File::contents_utf8) else {
-        let mut known: Vec<_> = names().collect();
-        known.sort_unstable();
+        let mut all_names: Vec<_> = names().collect();
+        all_names.sort_unstable();
         return Err(ProjectError::NotInGallery {
             name: name.to_owned(),
-            known: known.join(", "),
+            known: all_names.join(", "),
         });
     };
     Project::parse(text).map_err(|error| error.in_file(path))

@@ -16,7 +16,7 @@ use crate::transition::{
     TransitionSpec, UnsupportedMethod, frame_similarity, place_in_frame,
 };
 use crate::warp::{ManyFeatures, WarpKind};
-use crate::work::progress::{Progress, WholeProgress};
+use crate::work::progress::{OverallProgress, Progress};
 use include_dir::{Dir, File, include_dir};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Files of the gallery, embedded in the binary.
 pub(super) static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/gallery");
 
-/// Returns the content of a bundled file, by its path in a bundled project.
+/// Returns the content of a gallery file by its path, as bundled projects state it.
 #[must_use]
 pub fn bytes(path: &Path) -> Option<&'static [u8]> {
     FILES.get_file(path).map(File::contents)
@@ -43,23 +43,24 @@ pub struct LoadedProject {
     pub project: Project,
     /// Designs as imported, in the order of the project.
     pub designs: Vec<Arc<Design>>,
-    /// Folder to which paths are relative; `None` for a bundled project.
+    /// Folder to which the paths of the designs are relative; `None` for a bundled project.
     pub folder: Option<PathBuf>,
     /// Whether jobs beyond the limits of [`crate::work::budget`] may start.
     pub patient: bool,
-    /// All designs of the sequence, if this is one of its segments.
-    whole: Option<Arc<WholeSource>>,
-    /// Index of the segment, if this is a segment of a path over the map.
+    /// All designs of the sequence, if this project is one of its segments.
+    sequence: Option<Arc<SequenceSource>>,
+    /// Index of the segment, if this project is one segment of a path over the map.
     path_segment: Option<usize>,
-    /// Design spaces built most recently, the newest first.
+    /// The design spaces that were built last, each with its specification, the newest first.
+    /// Shared by all clones.
     spaces: Arc<Mutex<Vec<(SpaceSpec, DesignSpace)>>>,
 }
 
-/// Maximum number of cached design spaces (resource limit: draft and best quality, as rigid parts
-/// and as distance fields).
+/// Maximum number of cached design spaces (resource limit: enough for draft and best quality, each
+/// as rigid parts and as distance fields).
 const MAX_CACHED_SPACES: usize = 4;
 
-/// Message where a path is requested to do what only two designs can do.
+/// Message for operations that need exactly two designs, if the film follows a path.
 const PAIR_REQUIRED: &str = "this applies to two designs, but the film follows a path between \
      all of them; remove the path first";
 
@@ -74,7 +75,7 @@ fn supports_spaces(method: TransitionMethod) -> bool {
 
 /// Designs and placements of the whole sequence to which a segment belongs.
 #[derive(Debug)]
-struct WholeSource {
+struct SequenceSource {
     designs: Vec<Arc<Design>>,
     places: Vec<Similarity>,
 }
@@ -90,19 +91,19 @@ impl LoadedProject {
         Self::load(project, Some(folder))
     }
 
-    /// Returns whether this is one of several segments.
+    /// Returns whether this project is one segment of a sequence or of a path.
     #[must_use]
     pub fn is_segment(&self) -> bool {
-        self.whole.is_some() || self.path_segment.is_some()
+        self.sequence.is_some() || self.path_segment.is_some()
     }
 
-    /// Returns the index of this segment of a path over the map; `None` otherwise.
+    /// Returns the index of the segment if this project is one segment of a path over the map.
     #[must_use]
     pub fn path_segment(&self) -> Option<usize> {
         self.path_segment
     }
 
-    /// Returns the name shown at each whole t: that of the design, or of the stop of a path.
+    /// Returns the name shown at each whole t: the name of the design, or of the stop of a path.
     ///
     /// A closed sequence ends with the name of the first design.
     #[must_use]
@@ -120,9 +121,9 @@ impl LoadedProject {
         designs.map(|design| design.name.as_str()).collect()
     }
 
-    /// Returns the segments as separate projects of two designs each.
+    /// Returns the segments of the film as separate projects, each of two designs.
     ///
-    /// A project of two designs is its own segment. Segments of a path keep all designs.
+    /// A project of two designs is its own only segment. The segments of a path keep all designs.
     #[must_use]
     pub fn segments(&self) -> Vec<Self> {
         if self.project.follows_path() {
@@ -137,7 +138,7 @@ impl LoadedProject {
         if !self.project.is_sequence() {
             return vec![self.clone()];
         }
-        let whole = Arc::new(WholeSource {
+        let sequence = Arc::new(SequenceSource {
             designs: self.designs.clone(),
             places: self
                 .project
@@ -153,7 +154,7 @@ impl LoadedProject {
                 designs: designs.map(|k| Arc::clone(&self.designs[k])).to_vec(),
                 folder: self.folder.clone(),
                 patient: self.patient,
-                whole: Some(Arc::clone(&whole)),
+                sequence: Some(Arc::clone(&sequence)),
                 path_segment: None,
                 spaces: Arc::default(),
             }
@@ -171,12 +172,12 @@ impl LoadedProject {
 
     /// Reads the designs of a project, whose paths are relative to `folder`.
     ///
-    /// Without a folder they are files of the gallery.
+    /// Without a folder, the designs are files of the gallery.
     ///
     /// # Errors
     /// [`ProjectError`] names the file and the place in it.
     pub fn load(project: Project, folder: Option<PathBuf>) -> Result<Self, ProjectError> {
-        let read = |entry: &DesignEntry| named(entry, folder.as_deref());
+        let read = |entry: &DesignEntry| read_named(entry, folder.as_deref());
         // Read in parallel, because large designs take a second each.
         let designs: Vec<_> = project.designs.par_iter().map(read).collect();
         let designs: Result<_, ProjectError> = designs.into_iter().collect();
@@ -185,7 +186,7 @@ impl LoadedProject {
             project,
             folder,
             patient: false,
-            whole: None,
+            sequence: None,
             path_segment: None,
             spaces: Arc::default(),
         })
@@ -206,27 +207,27 @@ impl LoadedProject {
     /// [`ProjectError`] names the file and the place in it.
     pub fn reread(self) -> Result<Self, ProjectError> {
         let patient = self.patient;
-        let read = Self::load(self.project, self.folder)?;
-        Ok(Self { patient, ..read })
+        let loaded = Self::load(self.project, self.folder)?;
+        Ok(Self { patient, ..loaded })
     }
 
-    /// Reads only the designs that are new, or have other import options, compared with `before`.
+    /// Reads the designs that have no equal in `before`: a design with the same path, name and
+    /// import options. The others are reused.
     ///
-    /// The designs currently loaded must be those of `before`.
+    /// `before` must be the project to which the currently loaded designs belong.
     ///
     /// # Errors
     /// [`ProjectError`] names the file and the place in it.
     pub fn reread_changed(self, before: &Project) -> Result<Self, ProjectError> {
-        let known = before.designs.iter().zip(&self.designs);
-        let known: Vec<_> = known.collect();
+        let previous: Vec<_> = before.designs.iter().zip(&self.designs).collect();
         let is_same = |a: &DesignEntry, b: &DesignEntry| {
             (&a.path, &a.name, &a.import) == (&b.path, &b.name, &b.import)
         };
         let read = |entry: &DesignEntry| {
-            let found = known.iter().find(|(known, _)| is_same(known, entry));
-            match found {
+            let unchanged = previous.iter().find(|(old, _)| is_same(old, entry));
+            match unchanged {
                 Some((_, design)) => Ok(Arc::clone(design)),
-                None => named(entry, self.folder.as_deref()),
+                None => read_named(entry, self.folder.as_deref()),
             }
         };
         let designs: Result<_, ProjectError> = self.project.designs.iter().map(read).collect();
@@ -236,7 +237,8 @@ impl LoadedProject {
         })
     }
 
-    /// Returns the title of the project in one line, or one made from the names of the designs.
+    /// Returns the title of the project in one line; without a title, one made from the designs'
+    /// names.
     #[must_use]
     pub fn title(&self) -> String {
         if self.project.title.is_empty() {
@@ -247,7 +249,8 @@ impl LoadedProject {
         }
     }
 
-    /// Returns the requested method, completed by what suits the designs best.
+    /// Returns the method of the transition: the requested warp and content, or what suits the
+    /// designs best if one of them or both are not requested.
     ///
     /// # Errors
     /// [`UnsupportedMethod`] if warp and content cannot be combined.
@@ -266,7 +269,8 @@ impl LoadedProject {
                     (method.content() == ContentKind::Colours) == are_pictures
                 };
                 let methods = TransitionMethod::all().filter(|method| method.warp() == warp);
-                // The first method that suits, or simply the first.
+                // The first method with this warp whose content suits the designs, or the first
+                // one.
                 let chosen = methods.min_by_key(|method| !suits(method));
                 Ok(chosen.unwrap_or(default))
             }
@@ -274,7 +278,7 @@ impl LoadedProject {
                 let mut methods =
                     TransitionMethod::all().filter(|method| method.content() == content);
                 let chosen = match content {
-                    // The last one has no warp; the others need pins or lines.
+                    // The last method has no warp. The others may need pins or lines.
                     ContentKind::Field | ContentKind::Colours => methods.last(),
                     ContentKind::Solid => methods.next(),
                 };
@@ -298,7 +302,7 @@ impl LoadedProject {
         TransitionSpec::available(method, &self.designs[0], &self.designs[1])
     }
 
-    /// Returns the similarities that place the first two designs in one frame.
+    /// Returns the two similarities that place the first two designs in the common frame.
     ///
     /// # Errors
     /// [`ProjectError`] if a placement is not a valid similarity.
@@ -306,37 +310,39 @@ impl LoadedProject {
     /// # Panics
     /// If there are fewer than two designs.
     pub fn frame_similarities(&self) -> Result<[Similarity; 2], ProjectError> {
-        let (first, fit) = (self.first(), self.project.fit);
-        let by = |k: usize| {
+        let (reference, fit) = (self.reference_design(), self.project.fit);
+        let similarity = |k: usize| {
             let place = self.project.designs[k].placement;
-            frame_similarity(&self.designs[k], first, fit, place)
+            frame_similarity(&self.designs[k], reference, fit, place)
         };
-        Ok([by(0)?, by(1)?])
+        Ok([similarity(0)?, similarity(1)?])
     }
 
     /// Returns the design to which all others are aligned.
-    fn first(&self) -> &Design {
-        let whole = self
-            .whole
+    fn reference_design(&self) -> &Design {
+        let designs = self
+            .sequence
             .as_ref()
-            .map_or(&self.designs, |whole| &whole.designs);
-        &whole[0]
+            .map_or(&self.designs, |sequence| &sequence.designs);
+        &designs[0]
     }
 
-    /// Returns the designs of the whole sequence if the film of a segment depends on them.
-    fn others(&self, method: TransitionMethod) -> Result<Vec<Arc<Design>>, ProjectError> {
-        let Some(whole) = &self.whole else {
+    /// Returns all designs of the sequence if the film of this segment depends on them; otherwise
+    /// none.
+    fn sequence_designs(&self, method: TransitionMethod) -> Result<Vec<Arc<Design>>, ProjectError> {
+        let Some(sequence) = &self.sequence else {
             return Ok(Vec::new());
         };
         let has_bars = |design: &Arc<Design>| matches!(design.form, DesignForm::Truss(_));
-        // Distance fields share a grid and bars share a width; nothing else depends on others.
-        if method.content() != ContentKind::Field && !whole.designs.iter().any(has_bars) {
+        // In a sequence, all distance fields share a grid and all bars a width; nothing else is
+        // shared.
+        if method.content() != ContentKind::Field && !sequence.designs.iter().any(has_bars) {
             return Ok(Vec::new());
         }
-        let (first, fit) = (self.first(), self.project.fit);
-        let laid = whole.designs.iter().zip(&whole.places);
-        let laid = laid.map(|(design, place)| place_in_frame(design, first, fit, *place));
-        Ok(laid.collect::<Result<_, _>>()?)
+        let (reference, fit) = (self.reference_design(), self.project.fit);
+        let entries = sequence.designs.iter().zip(&sequence.places);
+        let placed = entries.map(|(design, place)| place_in_frame(design, reference, fit, *place));
+        Ok(placed.collect::<Result<_, _>>()?)
     }
 
     /// Returns the specification of the space of all designs.
@@ -355,16 +361,17 @@ impl LoadedProject {
         if !supports_spaces(method) {
             return Err(BuildError::Unavailable(UNSUPPORTED_FOR_SPACE.to_owned()).into());
         }
-        let (first, fit) = (self.first(), project.fit);
-        let laid = self.designs.iter().zip(&project.designs);
-        let laid = laid.map(|(design, entry)| place_in_frame(design, first, fit, entry.placement));
+        let (reference, fit) = (self.reference_design(), project.fit);
+        let entries = self.designs.iter().zip(&project.designs);
+        let placed =
+            entries.map(|(design, entry)| place_in_frame(design, reference, fit, entry.placement));
         let mut spec = SpaceSpec {
             // `None` lets designs without a common mesh fall back to distance fields.
             content: Some(method.content()).filter(|content| *content != ContentKind::Solid),
             warp: method.warp(),
             options: project.options.clone(),
             patient: self.patient,
-            ..SpaceSpec::new(laid.collect::<Result<_, _>>()?)
+            ..SpaceSpec::new(placed.collect::<Result<_, _>>()?)
         };
         if method.content() == ContentKind::Colours && method.warp() != WarpKind::None {
             (spec.features, spec.unmatched_features) = self.features()?;
@@ -372,8 +379,8 @@ impl LoadedProject {
         Ok(spec)
     }
 
-    /// Returns the features common to all designs, in the common frame, and the number of features
-    /// that exist in only some designs.
+    /// Returns the features (pins and lines) that exist in all designs, at their positions in the
+    /// common frame, and the number of features that exist in only some designs.
     fn features(&self) -> Result<(ManyFeatures, usize), ProjectError> {
         let count = self.designs.len();
         let segments = (0..count.saturating_sub(1)).map(|pair| {
@@ -383,20 +390,20 @@ impl LoadedProject {
         let segments: Vec<MatchSettings> = segments.collect();
         let diameters: Vec<f64> = self.designs.iter().map(|d| d.extent.diameter()).collect();
         let (mut features, unmatched) = features_in_all_designs(&segments, &diameters);
-        let (first, fit) = (self.first(), self.project.fit);
+        let (reference, fit) = (self.reference_design(), self.project.fit);
         for design in 0..count {
             let place = self.project.designs[design].placement;
-            let by = frame_similarity(&self.designs[design], first, fit, place)?;
+            let similarity = frame_similarity(&self.designs[design], reference, fit, place)?;
             let points = features.points.iter_mut().map(|each| &mut each[design]);
             let ends = features.lines.iter_mut().flat_map(|each| &mut each[design]);
-            points.chain(ends).for_each(|p| *p = by.apply(*p));
+            points.chain(ends).for_each(|p| *p = similarity.apply(*p));
         }
         Ok((features, unmatched))
     }
 
     /// Builds the space of all designs, or returns a cached one.
     ///
-    /// `quality` overrides that of the project.
+    /// `quality` overrides the quality of the project.
     ///
     /// # Errors
     /// As [`Self::space_spec`] and [`DesignSpace::build`].
@@ -409,14 +416,15 @@ impl LoadedProject {
         if let Some(quality) = quality {
             spec.options.quality = quality;
         }
-        // Locked while building, so that a second request for the same space waits for it.
-        let mut known = self.spaces.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, space)) = known.iter().find(|(of, _)| *of == spec) {
+        // The list stays locked while building, so that a second request for the same space waits
+        // for it.
+        let mut cached = self.spaces.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, space)) = cached.iter().find(|(cached_spec, _)| *cached_spec == spec) {
             return Ok(space.clone());
         }
         let space = DesignSpace::build(&spec, progress)?;
-        known.insert(0, (spec, space.clone()));
-        known.truncate(MAX_CACHED_SPACES);
+        cached.insert(0, (spec, space.clone()));
+        cached.truncate(MAX_CACHED_SPACES);
         Ok(space)
     }
 
@@ -429,7 +437,8 @@ impl LoadedProject {
         Ok(WeightMap::new(&sites).map_err(super::map::MapError::from)?)
     }
 
-    /// Builds the transition of [`Self::spec`], or, for a segment of a path, that of the space.
+    /// Builds the transition that [`Self::spec`] specifies. For a segment of a path, builds the
+    /// design space and the transition between the two stops instead.
     ///
     /// # Errors
     /// [`ProjectError`] says why the designs are incompatible, or that the work was cancelled.
@@ -439,11 +448,11 @@ impl LoadedProject {
         };
         let space = self.build_space(None, progress)?;
         let map = self.map_of(&space)?;
-        let progress = &WholeProgress::new(progress).patient(self.patient);
+        let progress = &OverallProgress::new(progress).patient(self.patient);
         Ok(space.segment(&map, &self.project.map.path, segment, progress)?)
     }
 
-    /// Builds a draft, to be shown until the requested quality is ready.
+    /// Builds a draft of the transition, to be shown until the requested quality is ready.
     ///
     /// Returns `None` if a draft would not be faster, see [`TransitionSpec::draft`], or cannot be
     /// built.
@@ -485,22 +494,22 @@ impl LoadedProject {
             return self.segments()[0].spec();
         }
         let project = &self.project;
-        let by = self.frame_similarities()?;
-        let (first, fit) = (self.first(), project.fit);
-        let laid = |k: usize| {
+        let similarities = self.frame_similarities()?;
+        let (reference, fit) = (self.reference_design(), project.fit);
+        let placed_design = |k: usize| {
             let place = project.designs[k].placement;
-            place_in_frame(&self.designs[k], first, fit, place)
+            place_in_frame(&self.designs[k], reference, fit, place)
         };
         let method = self.method().map_err(BuildError::from)?;
         Ok(TransitionSpec {
-            source: laid(0)?,
-            target: laid(1)?,
+            source: placed_design(0)?,
+            target: placed_design(1)?,
             method,
-            others: self.others(method)?,
+            others: self.sequence_designs(method)?,
             options: TransitionOptions {
                 // Pins are stored in the designs' own coordinates, but matched in the common frame.
-                matching: project.options.matching.placed(&by),
-                parts: placed(&project.options.parts, &by),
+                matching: project.options.matching.placed(&similarities),
+                parts: placed_part_times(&project.options.parts, &similarities),
                 ..project.options.clone()
             },
             patient: self.patient,
@@ -509,12 +518,12 @@ impl LoadedProject {
     }
 }
 
-fn placed(parts: &[PartTime], by: &[Similarity; 2]) -> Vec<PartTime> {
-    parts.iter().map(|part| part.placed(by)).collect()
+fn placed_part_times(parts: &[PartTime], similarities: &[Similarity; 2]) -> Vec<PartTime> {
+    parts.iter().map(|part| part.placed(similarities)).collect()
 }
 
 /// Reads a design and gives it the name from the project, if there is one.
-fn named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>, ProjectError> {
+fn read_named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>, ProjectError> {
     let mut design = read(entry, folder)?;
     if !entry.name.is_empty() {
         design.name = SanitizedLine(&entry.name).to_string();
@@ -522,7 +531,8 @@ fn named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>, Proj
     Ok(Arc::new(design))
 }
 
-/// Reads a design whose path is relative to `folder`, or one of the gallery without a folder.
+/// Reads a design. Its path is relative to `folder`; without a folder, the path leads to a file of
+/// the gallery.
 fn read(entry: &DesignEntry, folder: Option<&Path>) -> Result<Design, ProjectError> {
     let source = match folder {
         Some(folder) => DesignSource::in_folder(folder, &entry.path),

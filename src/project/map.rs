@@ -9,10 +9,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MapSettings {
-    /// Automatic layout, used unless `sites` are given.
+    /// Automatic layout of the designs, used unless `sites` are given.
     #[serde(skip_serializing_if = "is_default")]
     pub layout: MapLayout,
-    /// Manually chosen sites, one per design; empty for the automatic layout.
+    /// Manually chosen sites (positions of the designs on the map), one per design; empty for the
+    /// automatic layout.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sites: Vec<DVec2>,
     /// Path that the film follows; if it is empty, the film goes from design to design.
@@ -20,13 +21,13 @@ pub struct MapSettings {
     pub path: MapPath,
     /// Saved blends.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub kept: Vec<SavedPlace>,
+    pub kept: Vec<SavedBlend>,
 }
 
 /// A saved blend: a place on the map with a name, a note and a rating.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct SavedPlace {
+pub struct SavedBlend {
     /// Position on the map.
     pub at: DVec2,
     /// Name; may be empty.
@@ -35,16 +36,17 @@ pub struct SavedPlace {
     /// Note; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// Rating from 1 to [`SavedPlace::MOST_STARS`]; 0 if unrated.
+    /// Rating from 1 to [`SavedBlend::MOST_STARS`]; 0 if unrated.
     #[serde(default, skip_serializing_if = "is_default")]
     pub stars: u8,
 }
 
-/// Maximum coordinate of a place (resource limit: automatic layouts lie within the unit circle).
+/// Maximum absolute value of a coordinate on the map (resource limit: automatic layouts lie within
+/// the unit circle).
 const MAX_COORDINATE: f64 = 100.0;
 
-/// Maximum number of places of a path, and of saved blends (resource limit: far more than set by
-/// hand).
+/// Maximum number of places of a path, and maximum number of saved blends (resource limit: far more
+/// than anyone sets by hand).
 pub const MAX_PLACES: usize = 500;
 
 /// Returns whether a place has finite coordinates within the allowed range.
@@ -56,11 +58,11 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-impl SavedPlace {
+impl SavedBlend {
     /// Highest rating.
     pub const MOST_STARS: u8 = 5;
 
-    /// Creates an unrated place without name and note.
+    /// Creates a saved blend without name, note and rating.
     #[must_use]
     pub fn new(at: DVec2) -> Self {
         Self {
@@ -90,20 +92,21 @@ pub enum MapError {
     /// The place of the path with this index lies outside the map.
     #[error("place {} of the path lies outside the map; use coordinates from -{MAX_COORDINATE} to {MAX_COORDINATE}", .0 + 1)]
     PathPlace(usize),
-    /// There are too many places.
+    /// There are too many places of the path or saved blends.
     #[error(
-        "a map can have at most {MAX_PLACES} saved places and {MAX_PLACES} places on its path; remove some"
+        "a map can have at most {MAX_PLACES} saved blends and {MAX_PLACES} places on its path; remove some"
     )]
     TooMany,
-    /// The saved place with this index lies outside the map, or has too many stars.
+    /// The saved blend with this index lies outside the map, or has too many stars.
     #[error(
-        "saved place {} lies outside the map, or has more than {} stars", .0 + 1, SavedPlace::MOST_STARS
+        "saved blend {} lies outside the map, or has more than {} stars", .0 + 1, SavedBlend::MOST_STARS
     )]
-    SavedPlace(usize),
+    SavedBlend(usize),
 }
 
 impl MapSettings {
-    /// Returns the sites of the designs: the manual ones, or those of the layout.
+    /// Returns the sites of the designs: the manually chosen ones, or those of the automatic
+    /// layout.
     #[must_use]
     pub fn sites(&self, distances: &DesignDistances) -> Vec<DVec2> {
         match self.sites.len() == distances.count() {
@@ -112,7 +115,7 @@ impl MapSettings {
         }
     }
 
-    /// Checks the settings for the given number of designs.
+    /// Checks that the settings are valid for the given number of designs.
     pub(super) fn check(&self, designs: usize) -> Result<(), MapError> {
         if !self.sites.is_empty() {
             let has = self.sites.len();
@@ -120,29 +123,29 @@ impl MapSettings {
                 return Err(MapError::Sites { has, designs });
             }
             NaturalNeighbours::new(&self.sites)?;
-            if let Some(far) = self.sites.iter().position(|site| !is_on_map(*site)) {
-                return Err(SitesError::NotFinite(far).into());
+            if let Some(index) = self.sites.iter().position(|site| !is_on_map(*site)) {
+                return Err(SitesError::NotFinite(index).into());
             }
         }
         let places = &self.path.places;
-        if let Some(nowhere) = places.iter().position(|place| !is_on_map(place.at)) {
-            return Err(MapError::PathPlace(nowhere));
+        if let Some(index) = places.iter().position(|place| !is_on_map(place.at)) {
+            return Err(MapError::PathPlace(index));
         }
         if places.len().max(self.kept.len()) > MAX_PLACES {
             return Err(MapError::TooMany);
         }
-        let is_sound =
-            |kept: &SavedPlace| is_on_map(kept.at) && kept.stars <= SavedPlace::MOST_STARS;
-        match self.kept.iter().position(|kept| !is_sound(kept)) {
-            Some(bad) => Err(MapError::SavedPlace(bad)),
+        let is_valid =
+            |saved: &SavedBlend| is_on_map(saved.at) && saved.stars <= SavedBlend::MOST_STARS;
+        match self.kept.iter().position(|saved| !is_valid(saved)) {
+            Some(index) => Err(MapError::SavedBlend(index)),
             None => Ok(()),
         }
     }
 
     /// Returns whether the film is the same with both settings.
     ///
-    /// Without a path it does not depend on the map at all; with one, names and saved blends do not
-    /// matter.
+    /// Without a path, the film does not depend on the map at all. With a path, names and saved
+    /// blends do not affect it.
     #[must_use]
     pub fn has_same_film(&self, other: &Self) -> bool {
         let path_places = |map: &Self| -> Vec<_> {
@@ -150,9 +153,9 @@ impl MapSettings {
             let places = map.path.places.iter().filter(|_| !map.path.is_too_short());
             places.map(|place| (place.at, place.passed)).collect()
         };
-        let (own, others) = (path_places(self), path_places(other));
-        own == others
-            && (own.is_empty() || (self.layout, &self.sites) == (other.layout, &other.sites))
+        let (places, other_places) = (path_places(self), path_places(other));
+        places == other_places
+            && (places.is_empty() || (self.layout, &self.sites) == (other.layout, &other.sites))
     }
 }
 
@@ -162,7 +165,7 @@ mod tests {
     use crate::project::Project;
 
     /// Returns the error for a project with the given map, or an empty string.
-    fn refused(map: &str) -> String {
+    fn error_for(map: &str) -> String {
         let text = format!(
             "version = 2\n[[designs]]\npath = \"a.svg\"\n[[designs]]\npath = \"b.svg\"\n{map}"
         );
@@ -185,16 +188,16 @@ mod tests {
                 "[map.path]\nplaces = [{ at = [0.0, 0.0], to = 1 }]",
                 "line 7",
             ),
-            ("[[map.kept]]\nat = [0.0, 0.0]\nstars = 6", "saved place 1"),
+            ("[[map.kept]]\nat = [0.0, 0.0]\nstars = 6", "saved blend 1"),
             ("[[map.kept]]\nat = [0.0, 0.0]\nstars = -1", "line"),
         ] {
-            let error = refused(map);
+            let error = error_for(map);
             assert!(error.contains(expected), "{map}: {error}");
         }
         let many = "{ at = [0.0, 0.0] },".repeat(MAX_PLACES + 1);
-        let error = refused(&format!("[map.path]\nplaces = [{many}]"));
+        let error = error_for(&format!("[map.path]\nplaces = [{many}]"));
         assert!(error.contains("at most 500"), "{error}");
-        assert_eq!(refused("[map.path]\nplaces = [{ at = [0.0, 0.0] }]"), "");
+        assert_eq!(error_for("[map.path]\nplaces = [{ at = [0.0, 0.0] }]"), "");
     }
 
     #[test]

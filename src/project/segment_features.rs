@@ -9,10 +9,10 @@ use crate::warp::ManyFeatures;
 /// pixels).
 const MAX_GAP: f64 = 0.01;
 
-/// Returns the features that exist in all designs, in the coordinates of each design, and the
-/// number of all others.
+/// Returns the features (pins and lines) that exist in all designs, with their positions in each
+/// design, and the number of features that do not.
 ///
-/// Takes the match settings of each segment and the diameters of all designs.
+/// `segments` are the match settings of each segment; `diameters` are those of all designs.
 pub(super) fn features_in_all_designs(
     segments: &[MatchSettings],
     diameters: &[f64],
@@ -39,8 +39,8 @@ pub(super) fn features_in_all_designs(
 
 /// Joins the features of consecutive segments.
 ///
-/// Takes the source and target places of each feature, per segment. Returns the places of the
-/// features that continue through all segments, and the number of those that do not.
+/// `segments` holds, for each segment, the places of each feature in source and target. Returns the
+/// places of the features that continue through all segments, and the number of those that do not.
 fn join<const N: usize>(
     segments: Vec<Vec<[[DVec2; N]; 2]>>,
     diameters: &[f64],
@@ -56,16 +56,16 @@ fn join<const N: usize>(
         };
         let before = joined.len();
         joined.retain_mut(|places| {
-            let Some(here) = places.last().copied() else {
+            let Some(end) = places.last().copied() else {
                 return false;
             };
             let nearest = (0..segment.len())
-                .map(|k| (gap(&here, &segment[k][0]), k))
+                .map(|k| (gap(&end, &segment[k][0]), k))
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             match nearest {
                 Some((gap, k)) if gap <= MAX_GAP * diameter => {
-                    let [_, there] = segment.swap_remove(k);
-                    places.push(there);
+                    let [_, target] = segment.swap_remove(k);
+                    places.push(target);
                     true
                 }
                 _ => false,
@@ -83,14 +83,14 @@ mod tests {
 
     #[test]
     fn continuing_features_are_joined_and_others_counted() {
-        let at = |x: f64| DVec2::new(x, 0.0);
+        let on_x_axis = |x: f64| DVec2::new(x, 0.0);
         let pin = |a: f64, b: f64| PointPair {
-            source: at(a),
-            target: at(b),
+            source: on_x_axis(a),
+            target: on_x_axis(b),
         };
         let line = |a: f64, b: f64| LinePair {
-            source: [at(a), at(a + 10.0)],
-            target: [at(b), at(b + 10.0)],
+            source: [on_x_axis(a), on_x_axis(a + 10.0)],
+            target: [on_x_axis(b), on_x_axis(b + 10.0)],
         };
         let segment = |pins: Vec<PointPair>, lines: Vec<LinePair>| MatchSettings {
             pins,
@@ -99,13 +99,17 @@ mod tests {
         };
         let segments = [
             segment(vec![pin(1.0, 2.0), pin(50.0, 60.0)], vec![line(5.0, 6.0)]),
-            // Listed in another order, and one with a small gap.
+            // The pin that continues is listed first instead of second, and starts 0.4 away from
+            // its end.
             segment(vec![pin(60.4, 70.0), pin(90.0, 91.0)], vec![line(6.0, 7.0)]),
         ];
         let (features, unmatched) = features_in_all_designs(&segments, &[100.0; 3]);
-        assert_eq!(features.points, [[at(50.0), at(60.0), at(70.0)]]);
+        assert_eq!(
+            features.points,
+            [[on_x_axis(50.0), on_x_axis(60.0), on_x_axis(70.0)]]
+        );
         assert_eq!(features.lines.len(), 1);
-        assert_eq!(features.lines[0][2], [at(7.0), at(17.0)]);
+        assert_eq!(features.lines[0][2], [on_x_axis(7.0), on_x_axis(17.0)]);
         assert_eq!(unmatched, 2);
     }
 }

@@ -11,10 +11,10 @@ pub struct SegmentRecord {
     /// Match settings, in the coordinates of the two designs.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
     pub matching: MatchSettings,
-    /// Parts with their own timing.
+    /// Timing of the parts that have their own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartTime>,
-    /// Match and motion that were solved when the project was saved.
+    /// Match and motion as they were solved when the project was saved, to be reused on opening it.
     #[serde(skip_serializing_if = "CachedMatch::is_none")]
     pub found: CachedMatch,
 }

@@ -3,8 +3,8 @@
 //! Match settings, part timing and cached matches belong to the segment between two consecutive
 //! designs; everything else belongs to the whole project. A project of two designs has one segment,
 //! whose settings are stored at the top level. If the film follows a path over the map, its
-//! segments lie between the stops of the path and share all settings; the settings of pairs of
-//! designs are retained for when the path is removed.
+//! segments lie between the stops of the path and share all settings. The settings of pairs of
+//! designs are still stored then, for when the path is removed.
 //!
 //! Taking out a segment and putting it back unchanged changes nothing. When designs are reordered,
 //! settings stay with pairs that remain neighbours.
@@ -16,7 +16,8 @@ use crate::geometry::DVec2;
 use crate::space::MapPath;
 use crate::transition::{CachedMatch, TransitionStop};
 
-/// A design with its previous index; `None` for a new design.
+/// An entry of a new list of designs: the design, and the index that it had before; `None` for a
+/// new design.
 pub type MovedDesigns = (DesignEntry, Option<usize>);
 
 impl Project {
@@ -31,7 +32,7 @@ impl Project {
     }
 
     /// Returns the number of pairs of consecutive designs: one less than the number of designs, or
-    /// equal to it if the last leads back to the first.
+    /// equal to it if the film is closed (continues from the last design to the first).
     #[must_use]
     pub fn pair_count(&self) -> usize {
         let closing_pair = usize::from(self.closed);
@@ -62,7 +63,8 @@ impl Project {
 
     /// Returns the indices of the two designs of a segment.
     ///
-    /// Segments of a path blend all designs; for them the first and the last are returned.
+    /// Each segment of a path blends all designs; for it, the first and the last design are
+    /// returned.
     #[must_use]
     pub fn segment_designs(&self, segment: usize) -> [usize; 2] {
         match self.follows_path() {
@@ -71,7 +73,8 @@ impl Project {
         }
     }
 
-    /// Returns the indices of the two designs of a pair of consecutive designs.
+    /// Returns the indices of the two designs of a pair. The pair that closes a film ends at index
+    /// 0.
     #[must_use]
     pub fn pair_designs(&self, pair: usize) -> [usize; 2] {
         [pair, pair + 1].map(|design| design % self.designs.len().max(1))
@@ -79,7 +82,8 @@ impl Project {
 
     /// Returns one segment as a separate project of two designs with their settings.
     ///
-    /// Timing and stops are those of the whole project. A segment of a path keeps all designs.
+    /// Timing and stops are those of the whole project. If the film follows a path, the segment
+    /// keeps all designs.
     #[must_use]
     pub fn segment(&self, segment: usize) -> Self {
         match self.follows_path() {
@@ -88,7 +92,8 @@ impl Project {
         }
     }
 
-    /// Like [`Self::segment`], for a pair of consecutive designs, even if the film follows a path.
+    /// Like [`Self::segment`], but always returns a pair of consecutive designs, even if the film
+    /// follows a path.
     #[must_use]
     pub fn pair_project(&self, pair: usize) -> Self {
         if !self.is_sequence() {
@@ -103,7 +108,7 @@ impl Project {
         project
     }
 
-    /// Takes back a segment that was returned by [`Self::segment`] and then changed.
+    /// Puts back a segment that was taken out with [`Self::segment`] and then changed.
     pub fn replace_segment(&mut self, segment: usize, changed: Self) {
         match self.follows_path() {
             true => *self = changed,
@@ -111,7 +116,7 @@ impl Project {
         }
     }
 
-    /// Like [`Self::replace_segment`], for a pair returned by [`Self::pair_project`].
+    /// Like [`Self::replace_segment`], for a pair that was taken out with [`Self::pair_project`].
     pub fn replace_pair(&mut self, pair: usize, mut changed: Self) {
         if !self.is_sequence() {
             *self = changed;
@@ -122,21 +127,21 @@ impl Project {
         for (k, entry) in self.cyclic_pair(pair, designs.len()).zip(changed.designs) {
             designs[k] = entry;
         }
-        let mut legs = std::mem::take(&mut self.legs);
-        if legs.len() <= pair {
-            legs.resize_with(pair + 1, SegmentRecord::default);
+        let mut records = std::mem::take(&mut self.legs);
+        if records.len() <= pair {
+            records.resize_with(pair + 1, SegmentRecord::default);
         }
-        legs[pair] = record;
+        records[pair] = record;
         *self = Self {
             designs,
             closed: self.closed,
             map: std::mem::take(&mut self.map),
             ..changed
         };
-        self.set_segment_records(legs);
+        self.set_segment_records(records);
     }
 
-    /// Returns the indices of the two designs of a pair among the given number of designs.
+    /// Returns the indices of the two designs of a pair if there are `designs` designs.
     fn cyclic_pair(&self, pair: usize, designs: usize) -> impl Iterator<Item = usize> + use<> {
         [pair, pair + 1]
             .into_iter()
@@ -145,10 +150,10 @@ impl Project {
 
     /// Replaces or reorders the designs. Does nothing if fewer than two are given.
     ///
-    /// Pairs that remain neighbours keep their settings, stops move with their designs, and a film
+    /// Pairs that remain neighbours keep their settings, and stops move with their designs. A film
     /// through all designs still goes through all of them.
     pub fn set_designs(&mut self, designs: Vec<MovedDesigns>) {
-        self.rearranged(designs, self.closed);
+        self.rearrange(designs, self.closed);
     }
 
     /// Returns the designs with their indices, as [`Self::set_designs`] takes them.
@@ -158,8 +163,8 @@ impl Project {
         designs.map(|(k, entry)| (entry, Some(k))).collect()
     }
 
-    /// Like [`Self::designs_with_indices`], with design `k` moved before the design at `place`, or
-    /// to the end.
+    /// Like [`Self::designs_with_indices`], with design `k` moved in front of the design with index
+    /// `place`, or to the end if there is no such design.
     ///
     /// Returns `None` if this would not change the order.
     #[must_use]
@@ -192,11 +197,12 @@ impl Project {
 
     /// Sets whether the last design leads back to the first.
     pub fn set_closed(&mut self, closed: bool) {
-        self.rearranged(self.designs_with_indices(), closed);
+        self.rearrange(self.designs_with_indices(), closed);
     }
 
-    /// Sets the designs and whether the last leads back to the first, and moves settings along.
-    fn rearranged(&mut self, designs: Vec<MovedDesigns>, closed: bool) {
+    /// Sets the designs and whether the film is closed, and moves settings, sites and stops
+    /// accordingly.
+    fn rearrange(&mut self, designs: Vec<MovedDesigns>, closed: bool) {
         if designs.len() < 2 {
             return;
         }
@@ -208,7 +214,8 @@ impl Project {
             (0..old.pair_count()).find(|&k| old.pair_designs(k).map(Some) == [a, b])
         };
         let old_pairs: Vec<Option<usize>> = (0..self.pair_count()).map(old_pair).collect();
-        // New pairs take over the settings without positions, such as the treatment of holes.
+        // A new pair copies the first pair's settings, except those that contain positions, such as
+        // pins.
         let new_record = || SegmentRecord {
             matching: old.pair_project(0).options.matching.without_places(),
             ..SegmentRecord::default()
@@ -226,16 +233,16 @@ impl Project {
             return;
         }
         self.stops = moved_stops(&old, &origins, &old_pairs);
-        let (before, now) = (old.segment_count() as f64, self.segment_count() as f64);
-        if (old.timing.from, old.timing.to) == (0.0, before) {
-            self.timing.to = now;
-            self.timing.duration_secs *= now / before;
+        let (count_before, count_after) = (old.segment_count() as f64, self.segment_count() as f64);
+        if (old.timing.from, old.timing.to) == (0.0, count_before) {
+            self.timing.to = count_after;
+            self.timing.duration_secs *= count_after / count_before;
         } else {
             // The film must not end at a removed design.
             let timing = &mut self.timing;
-            (timing.from, timing.to) = (timing.from.min(now), timing.to.min(now));
+            (timing.from, timing.to) = (timing.from.min(count_after), timing.to.min(count_after));
             if timing.from == timing.to {
-                (timing.from, timing.to) = (0.0, now);
+                (timing.from, timing.to) = (0.0, count_after);
             }
         }
     }
@@ -245,7 +252,8 @@ impl Project {
         self.pair_project(pair).take_pair_record()
     }
 
-    /// Takes the settings of its only segment out of the top level of a project of two designs.
+    /// Removes the match settings, part timing and cached match at the top level and returns them.
+    /// There, a project of two designs stores the settings of its segment.
     pub(super) fn take_pair_record(&mut self) -> SegmentRecord {
         SegmentRecord {
             matching: std::mem::take(&mut self.options.matching),
@@ -254,18 +262,18 @@ impl Project {
         }
     }
 
-    /// Sets the settings of its only segment at the top level of a project of two designs.
+    /// Stores segment settings at the top level, as a project of two designs does.
     fn set_pair_record(&mut self, record: SegmentRecord) {
         (self.options.matching, self.options.parts, self.found) =
             (record.matching, record.parts, record.found);
     }
 
-    /// Sets the settings of all pairs; those of a single pair go to the top level.
+    /// Stores the settings of all pairs; those of a single pair at the top level.
     pub(super) fn set_segment_records(&mut self, mut records: Vec<SegmentRecord>) {
         if !self.is_sequence() {
-            let only = records.into_iter().next();
+            let record = records.into_iter().next();
             self.legs = Vec::new();
-            return self.set_pair_record(only.unwrap_or_default());
+            return self.set_pair_record(record.unwrap_or_default());
         }
         // Trailing defaults are left out of the file.
         let is_default =
@@ -276,45 +284,49 @@ impl Project {
         self.legs = records;
     }
 
-    /// Stores the solved match of a segment.
-    pub fn cache_match(&mut self, segment: usize, found: CachedMatch) {
+    /// Stores the solved match and motion of a segment.
+    pub fn cache_match(&mut self, segment: usize, cached: CachedMatch) {
         if !self.is_sequence() {
-            self.found = found;
+            self.found = cached;
             return;
         }
         if self.legs.len() <= segment {
             self.legs.resize_with(segment + 1, SegmentRecord::default);
         }
-        self.legs[segment].found = found;
+        self.legs[segment].found = cached;
     }
 
-    /// Makes the film follow a path over the map, or go from design to design if the path is empty.
+    /// Makes the film follow a path over the map, or go from design to design if the path is too
+    /// short.
     ///
-    /// The film covers the whole path at its previous pace and pauses at each stop.
+    /// If this changes the number of segments, the film then covers all of them at its previous
+    /// pace and pauses at each stop.
     pub fn set_path(&mut self, path: MapPath) {
-        let before = self.segment_count() as f64;
+        let count_before = self.segment_count() as f64;
         let had_path = self.follows_path();
         let has_same_count = path.segment_count() == self.map.path.segment_count();
         self.map.path = path;
         if has_same_count {
             return;
         }
-        let now = self.segment_count() as f64;
+        let count_after = self.segment_count() as f64;
         // A path that was extended or shortened keeps its stops.
         let keeps_stops = had_path && self.follows_path();
-        self.stops.retain(|stop| keeps_stops && stop.t <= now);
-        (self.timing.from, self.timing.to) = (0.0, now);
-        self.timing.duration_secs *= now / before;
+        self.stops
+            .retain(|stop| keeps_stops && stop.t <= count_after);
+        (self.timing.from, self.timing.to) = (0.0, count_after);
+        self.timing.duration_secs *= count_after / count_before;
         *self = self.clone().with_pauses_at_designs();
     }
 
-    /// Adds a pause at each inner design that does not have a stop.
+    /// Adds a pause at each whole t between the ends (a design, or a stop of a path) that has no
+    /// stop yet.
     pub(super) fn with_pauses_at_designs(mut self) -> Self {
         for k in 1..self.segment_count() {
             let t = k as f64;
             if self.stops.iter().all(|stop| stop.t != t) {
                 self.stops
-                    .push(TransitionStop::at(t).resting(self.timing.hold_secs));
+                    .push(TransitionStop::at(t).with_pause(self.timing.hold_secs));
             }
         }
         self.stops.sort_by(|a, b| a.t.total_cmp(&b.t));
@@ -322,7 +334,8 @@ impl Project {
     }
 }
 
-/// Returns the sites in the new order of the designs; empty if a design is new and has no site.
+/// Returns the sites in the new order of the designs; an empty list if a design has no site, or if
+/// two would share one.
 fn moved_sites(sites: &[DVec2], origins: &[Option<usize>]) -> Vec<DVec2> {
     let moved = origins.iter().map(|origin| sites.get((*origin)?).copied());
     let mut moved: Vec<DVec2> = moved.collect::<Option<_>>().unwrap_or_default();
@@ -338,8 +351,9 @@ fn moved_sites(sites: &[DVec2], origins: &[Option<usize>]) -> Vec<DVec2> {
 
 /// Returns the stops after a change of the designs.
 ///
-/// `origins` holds the previous index of each design, `old_pairs` that of each pair. Stops at
-/// designs and within pairs move with them; new inner designs get a pause.
+/// `origins` holds the previous index of each design, `old_pairs` that of each pair. A stop at a
+/// design moves with the design, a stop between two designs with the pair. New inner designs get a
+/// pause.
 fn moved_stops(
     old: &Project,
     origins: &[Option<usize>],
@@ -347,8 +361,9 @@ fn moved_stops(
 ) -> Vec<TransitionStop> {
     let end = old_pairs.len() as f64;
     let old_end = old.pair_count() as f64;
-    let at = |stop: &TransitionStop, t: f64| TransitionStop { t, ..stop.clone() };
-    let within = |stop: &&TransitionStop, k: usize| (k as f64) < stop.t && stop.t < (k + 1) as f64;
+    let moved_to = |stop: &TransitionStop, t: f64| TransitionStop { t, ..stop.clone() };
+    let is_within =
+        |stop: &&TransitionStop, k: usize| (k as f64) < stop.t && stop.t < (k + 1) as f64;
     let mut stops: Vec<TransitionStop> = Vec::new();
     stops.extend(old.stops.iter().filter(|stop| stop.t < 0.0).cloned());
     for t in 0..=old_pairs.len() {
@@ -361,17 +376,17 @@ fn moved_stops(
         let is_needed =
             |stop: &&TransitionStop| is_inner || !stop.name.is_empty() || !stop.note.is_empty();
         if let Some(stop) = old_stop.filter(is_needed) {
-            stops.push(at(stop, t as f64));
+            stops.push(moved_to(stop, t as f64));
         } else if is_inner {
-            stops.push(TransitionStop::at(t as f64).resting(old.timing.hold_secs));
+            stops.push(TransitionStop::at(t as f64).with_pause(old.timing.hold_secs));
         }
         if let Some(Some(pair)) = old_pairs.get(t) {
-            let of_pair = old.stops.iter().filter(|stop| within(stop, *pair));
-            stops.extend(of_pair.map(|stop| at(stop, stop.t - *pair as f64 + t as f64)));
+            let of_pair = old.stops.iter().filter(|stop| is_within(stop, *pair));
+            stops.extend(of_pair.map(|stop| moved_to(stop, stop.t - *pair as f64 + t as f64)));
         }
     }
-    let beyond = old.stops.iter().filter(|stop| stop.t > old_end);
-    stops.extend(beyond.map(|stop| at(stop, stop.t - old_end + end)));
+    let after_end = old.stops.iter().filter(|stop| stop.t > old_end);
+    stops.extend(after_end.map(|stop| moved_to(stop, stop.t - old_end + end)));
     stops
 }
 
@@ -381,42 +396,43 @@ mod tests {
     use crate::correspondence::PointPair;
     use crate::space::Waypoint;
 
-    /// The paths of the designs.
+    /// Returns the paths of the designs.
     fn names(project: &Project) -> Vec<String> {
         let path = |entry: &DesignEntry| entry.path.display().to_string();
         project.designs.iter().map(path).collect()
     }
 
-    /// Sets a pin with the coordinate `x` in a segment.
+    /// Sets a single pin with the coordinate `x` in a segment.
     fn set_pin(project: &mut Project, segment: usize, x: f64) {
-        let mut alone = project.segment(segment);
+        let mut segment_project = project.segment(segment);
         let pin = PointPair {
             source: DVec2::new(x, 0.0),
             target: DVec2::new(0.0, x),
         };
-        alone.options.matching.pins = vec![pin];
-        project.replace_segment(segment, alone);
+        segment_project.options.matching.pins = vec![pin];
+        project.replace_segment(segment, segment_project);
     }
 
-    /// The coordinate of the pin of a segment.
+    /// Returns the coordinate of the pin of a segment.
     fn pin(project: &Project, segment: usize) -> Option<f64> {
         let matching = project.segment(segment).options.matching;
         matching.pins.first().map(|pin| pin.source.x)
     }
 
-    /// A project of four designs with pins in the first and the last segment, and two named stops.
-    fn four() -> Project {
+    /// Returns a project of four designs with pins in the first and the last segment, and two named
+    /// stops.
+    fn four_designs() -> Project {
         let mut project = Project::from_paths(["a.svg", "b.svg", "c.svg", "d.svg"]);
         set_pin(&mut project, 0, 1.0);
         set_pin(&mut project, 2, 3.0);
         project.stops[0].name = "at b".to_owned();
         project
             .stops
-            .push(TransitionStop::at(2.5).named("on the way to d"));
+            .push(TransitionStop::at(2.5).with_name("on the way to d"));
         project
     }
 
-    /// The designs of a project with the given indices.
+    /// Returns the designs of a project with the given indices, in that order.
     fn selected(project: &Project, order: &[usize]) -> Vec<MovedDesigns> {
         let entry = |&k: &usize| (project.designs[k].clone(), Some(k));
         order.iter().map(entry).collect()
@@ -424,7 +440,7 @@ mod tests {
 
     #[test]
     fn taking_out_a_segment_and_putting_it_back_changes_nothing() {
-        let mut project = four();
+        let mut project = four_designs();
         assert_eq!(project.segment_count(), 3);
         assert_eq!(names(&project.segment(1)), ["b.svg", "c.svg"]);
         assert_eq!(
@@ -433,21 +449,21 @@ mod tests {
         );
         let before = project.clone();
         for segment in 0..3 {
-            let alone = project.segment(segment);
-            assert!(!alone.is_sequence());
-            project.replace_segment(segment, alone);
+            let segment_project = project.segment(segment);
+            assert!(!segment_project.is_sequence());
+            project.replace_segment(segment, segment_project);
             assert_eq!(project, before);
         }
         let mut pair = Project::from_pair("a.svg", "b.svg");
-        let alone = pair.segment(0);
-        assert_eq!(alone, pair);
-        pair.replace_segment(0, alone.clone());
-        assert_eq!(alone, pair);
+        let segment_project = pair.segment(0);
+        assert_eq!(segment_project, pair);
+        pair.replace_segment(0, segment_project.clone());
+        assert_eq!(segment_project, pair);
     }
 
     #[test]
     fn pairs_that_stay_neighbours_keep_their_settings() {
-        let mut project = four();
+        let mut project = four_designs();
         let order = selected(&project, &[2, 3, 0, 1]);
         project.set_designs(order);
         assert_eq!(names(&project), ["c.svg", "d.svg", "a.svg", "b.svg"]);
@@ -473,7 +489,7 @@ mod tests {
 
     #[test]
     fn removing_and_adding_designs_switches_between_pair_and_sequence() {
-        let mut project = four();
+        let mut project = four_designs();
         let order = selected(&project, &[2, 3]);
         project.set_designs(order);
         assert!(!project.is_sequence() && project.legs.is_empty());
@@ -490,31 +506,31 @@ mod tests {
             project.stops.last().map(|stop| (stop.t, stop.hold_secs)),
             Some((1.0, 0.5))
         );
-        let one = selected(&project, &[0]);
+        let single = selected(&project, &[0]);
         let before = project.clone();
-        project.set_designs(one);
+        project.set_designs(single);
         assert_eq!(project, before);
     }
 
     #[test]
     fn a_closed_project_has_a_segment_back_to_the_first_design() {
-        let mut project = four();
+        let mut project = four_designs();
         project.set_closed(true);
         assert_eq!(project.segment_count(), 4);
         assert_eq!(names(&project.segment(3)), ["d.svg", "a.svg"]);
         assert_eq!(project.timing.to, 4.0);
         assert_eq!(pin(&project, 2), Some(3.0));
         project.set_closed(false);
-        assert_eq!(project, four());
+        assert_eq!(project, four_designs());
     }
 
     #[test]
     fn removing_a_path_restores_the_segments_of_the_designs() {
-        let mut project = four();
+        let mut project = four_designs();
         let before = project.clone();
         let stop = |x: f64| Waypoint::stop(DVec2::new(x, 0.5));
         let path = |xs: &[f64]| MapPath {
-            name: "a walk".to_owned(),
+            name: "a path".to_owned(),
             places: xs.iter().copied().map(stop).collect(),
         };
         project.set_path(path(&[0.0, 0.2, 0.4]));
@@ -522,13 +538,13 @@ mod tests {
         assert_eq!((project.segment_count(), project.pair_count()), (2, 3));
         assert_eq!(project.timing.to, 2.0);
         assert_eq!(project.stops.len(), 1);
-        let alone = project.segment(1);
-        project.replace_segment(1, alone.clone());
-        assert_eq!(project, alone);
-        // The settings of pairs are still in the file.
-        let again = Project::parse(&project.to_toml().expect("text")).expect("a project");
-        project.version = again.version;
-        assert_eq!(again, project);
+        let segment_project = project.segment(1);
+        project.replace_segment(1, segment_project.clone());
+        assert_eq!(project, segment_project);
+        // The settings of pairs of designs are still in the file.
+        let reread = Project::parse(&project.to_toml().expect("text")).expect("a project");
+        project.version = reread.version;
+        assert_eq!(reread, project);
         project.set_path(MapPath::default());
         assert_eq!(project.legs, before.legs);
         assert_eq!(project.timing, before.timing);
@@ -537,7 +553,7 @@ mod tests {
 
     #[test]
     fn sites_move_with_their_designs() {
-        let mut project = four();
+        let mut project = four_designs();
         project.map.sites = (0..4).map(|k| DVec2::new(f64::from(k), 0.0)).collect();
         let mut order = project.designs_with_indices();
         order.reverse();
@@ -551,15 +567,15 @@ mod tests {
 
     #[test]
     fn a_design_moves_to_the_given_place() {
-        let whole = Project::from_paths(["a.svg", "b.svg", "c.svg", "d.svg"]);
+        let project = Project::from_paths(["a.svg", "b.svg", "c.svg", "d.svg"]);
         let order = |k: usize, place: usize| -> Option<Vec<usize>> {
-            let moved = whole.with_moved(k, place)?;
+            let moved = project.with_moved(k, place)?;
             Some(moved.into_iter().filter_map(|(_, from)| from).collect())
         };
         assert_eq!(order(0, 4), Some(vec![1, 2, 3, 0]));
         assert_eq!(order(3, 0), Some(vec![3, 0, 1, 2]));
         assert_eq!(order(1, 3), Some(vec![0, 2, 1, 3]));
-        // Moving it before or after itself changes nothing.
+        // Moving a design in front of itself or behind itself changes nothing.
         assert_eq!(order(2, 2), None);
         assert_eq!(order(2, 3), None);
     }

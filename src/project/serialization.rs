@@ -1,8 +1,9 @@
 //! Reading and writing of project files as TOML.
 //!
 //! The keys at the top level belong to two structs: the project and its transition options. Serde's
-//! `flatten` would accept unknown keys and lose the line numbers of errors. Therefore the keys are
-//! first distributed to the struct that has them, and each struct is read from its own table.
+//! `flatten` would accept unknown keys and lose the line numbers of errors. Instead, each top-level
+//! key is first assigned to the struct that has a field of that name, and each struct is then read
+//! from a table of its own.
 
 use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;
@@ -32,11 +33,12 @@ impl Project {
         Ok(project)
     }
 
-    /// Moves match settings at the top level to the first segment if there are more than two
-    /// designs.
+    /// Moves match settings and part timing at the top level to the first segment if there are more
+    /// than two designs.
     ///
     /// # Errors
-    /// [`ProjectError`] if there are too many segment settings, or match settings in both places.
+    /// [`ProjectError`] if there are too many segment settings, or if they exist both at the top
+    /// level and in segments.
     fn assign_top_level_match(&mut self) -> Result<(), ProjectError> {
         let (has, pair_count) = (self.legs.len(), self.pair_count());
         let may_have = if self.is_sequence() { pair_count } else { 0 };
@@ -69,9 +71,9 @@ impl Project {
         self.options.colours.check()?;
         self.options.matching.check()?;
         PartTime::check(&self.options.parts)?;
-        for leg in &self.legs {
-            leg.matching.check()?;
-            PartTime::check(&leg.parts)?;
+        for record in &self.legs {
+            record.matching.check()?;
+            PartTime::check(&record.parts)?;
         }
         self.options.coats.check()?;
         self.options.arap.check()?;
@@ -121,8 +123,8 @@ impl Project {
 /// # Errors
 /// [`ProjectError::NewerVersion`], or [`ProjectError::Syntax`] with the line of the error.
 fn read(text: &str) -> Result<Project, ProjectError> {
-    let wrong = |error: toml::de::Error| ProjectError::syntax(text, &error);
-    let document = DeTable::parse(text).map_err(wrong)?;
+    let syntax_error = |error: toml::de::Error| ProjectError::syntax(text, &error);
+    let document = DeTable::parse(text).map_err(syntax_error)?;
     // The version is checked first: a newer file may have unknown keys, and the user needs to know
     // that it is newer.
     if let Some(version) = document.get_ref().get("version")
@@ -133,28 +135,32 @@ fn read(text: &str) -> Result<Project, ProjectError> {
         return Err(ProjectError::newer(text, version.span().start, number));
     }
     let span = document.span();
-    // The structs provide their keys, so that a new option needs no second list.
-    let (own, shared) = (keys_of::<Project>(), keys_of::<TransitionOptions>());
+    // Serde reports the keys of both structs, so that a new option needs no second list.
+    let (project_keys, option_keys) = (keys_of::<Project>(), keys_of::<TransitionOptions>());
     let (mut project, mut options) = (DeTable::new(), DeTable::new());
     for (key, value) in document.into_inner() {
         let name = key.get_ref().as_ref();
         // Values keep their spans, so that errors still have line numbers.
-        let table = if shared.contains(&name) {
+        let table = if option_keys.contains(&name) {
             &mut options
-        } else if own.contains(&name) {
+        } else if project_keys.contains(&name) {
             &mut project
         } else {
-            return Err(ProjectError::unknown_key(text, &key, [own, shared]));
+            return Err(ProjectError::unknown_key(
+                text,
+                &key,
+                [project_keys, option_keys],
+            ));
         };
         table.insert(key, value);
     }
     let from = |table| toml::Deserializer::from(Spanned::new(span.clone(), table));
-    let mut project = Project::deserialize(from(project)).map_err(wrong)?;
-    project.options = TransitionOptions::deserialize(from(options)).map_err(wrong)?;
+    let mut project = Project::deserialize(from(project)).map_err(syntax_error)?;
+    project.options = TransitionOptions::deserialize(from(options)).map_err(syntax_error)?;
     Ok(project)
 }
 
-/// Returns the keys that a struct deserialises.
+/// Returns the names of the fields that a struct deserialises.
 fn keys_of<'de, T: Deserialize<'de>>() -> &'static [&'static str] {
     let mut keys: &[&str] = &[];
     // Always fails, because the deserialiser provides no values.

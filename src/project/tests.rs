@@ -112,9 +112,12 @@ fn only_projects_of_three_or_more_designs_have_segment_settings() {
     assert!(matched.segment(0).options.matching.keep_up);
     assert!(!matched.segment(1).options.matching.keep_up);
     let legs = "[[legs]]\n[[legs]]\n[legs.match]\nkeep-up = true\n";
-    let second = Project::parse(&format!("{three}{legs}")).unwrap();
-    assert!(second.segment(1).options.matching.keep_up);
-    assert_eq!(Project::parse(&second.to_toml().unwrap()).unwrap(), second);
+    let with_legs = Project::parse(&format!("{three}{legs}")).unwrap();
+    assert!(with_legs.segment(1).options.matching.keep_up);
+    assert_eq!(
+        Project::parse(&with_legs.to_toml().unwrap()).unwrap(),
+        with_legs
+    );
     let pair = Project::parse(MINIMAL).unwrap();
     assert!(pair.to_toml().unwrap().starts_with("version = 1\n"));
     for (text, word) in [
@@ -127,7 +130,7 @@ fn only_projects_of_three_or_more_designs_have_segment_settings() {
         (format!("{three}[[legs]]\n[legs.mach]\n"), "mach"),
         (
             format!("{MINIMAL}[[stops]]\nt = 0.5\nhold-secs = -1\n"),
-            "rest of 0 or more",
+            "pause of 0 or more",
         ),
     ] {
         let error = Project::parse(&text).unwrap_err().to_string();
@@ -184,8 +187,8 @@ fn a_failed_save_leaves_the_old_file() {
     let project = Project::parse(MINIMAL).unwrap();
     project.save_atomically(&path).unwrap();
     let before = std::fs::read(&path).unwrap();
-    let nowhere = folder.path().join("missing").join("x.morph");
-    assert!(project.save_atomically(&nowhere).is_err());
+    let unwritable = folder.path().join("missing").join("x.morph");
+    assert!(project.save_atomically(&unwritable).is_err());
     assert_eq!(std::fs::read(&path).unwrap(), before);
     let entries: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
     assert_eq!(entries.len(), 1, "no temporary file stays behind");
@@ -261,12 +264,12 @@ proptest! {
         positive in prop::collection::vec(1e-6f64..1e6, 4),
         turns in prop::collection::vec(-9i32..9, 0..4),
         names in prop::collection::vec("\\PC{0,12}", 4),
-        pick in 0usize..4, flag in any::<bool>(), colour in any::<[u8; 3]>(),
+        index in 0usize..4, flag in any::<bool>(), colour in any::<[u8; 3]>(),
     ) {
         let mut project = Project::from_pair("a b/ä.png", "..\\c'\"\n.svg");
         project.title = names[0].clone();
         project.description = names[1].clone();
-        project.fit = [DesignFit::AsDrawn, DesignFit::Centred, DesignFit::SameArea, DesignFit::Centred][pick];
+        project.fit = [DesignFit::AsDrawn, DesignFit::Centred, DesignFit::SameArea, DesignFit::Centred][index];
         project.warp = flag.then_some(WarpKind::Arap);
         project.options.bar_width = positive[0];
         project.designs[0].name = names[2].clone();
@@ -282,8 +285,8 @@ proptest! {
         project.options.arap.path = if flag { ArapPath::Anchor(3) } else { ArapPath::Centroid };
         project.options.paths.course = if flag { VertexPath::Straight } else { VertexPath::Intrinsic };
         project.timing.duration_secs = positive[2];
-        project.timing.easing = NamedEasing::ALL[pick].into();
-        project.timing.play = [PlayMode::Once, PlayMode::Loop, PlayMode::PingPong, PlayMode::Once][pick];
+        project.timing.easing = NamedEasing::ALL[index].into();
+        project.timing.play = [PlayMode::Once, PlayMode::Loop, PlayMode::PingPong, PlayMode::Once][index];
         project.options.field.blend.epsilon = positive[3];
         project.options.field.blend.threshold = numbers[3];
         project.style.ground = Rgb(colour);
@@ -295,7 +298,7 @@ proptest! {
                 duration_secs: flag.then_some(positive[0]),
                 note: names[3].clone(),
                 easing: Some("0.25,0,0.5,1".parse().expect("a curve")),
-                ..TransitionStop::at(numbers[4]).named(&names[3])
+                ..TransitionStop::at(numbers[4]).with_name(&names[3])
             },
             TransitionStop::at(numbers[5]),
         ];

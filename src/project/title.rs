@@ -1,10 +1,10 @@
 //! Default title of a project, from the names of its designs.
 
-/// Maximum number of names listed in a title; with more, only the first, the last and the number
-/// of designs are given (heuristic).
+/// Maximum number of names listed in a title. With more designs, the title gives only the first
+/// name, the last name and the number of designs (heuristic).
 const MAX_NAMES: usize = 3;
 
-/// Joins names as in "a to b" or "a to f, 6 designs".
+/// Returns a title made from the names of the designs: "a to b" or "a to f, 6 designs".
 pub(crate) fn title_of(names: &[impl AsRef<str>]) -> String {
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     match names.as_slice() {

@@ -1,18 +1,20 @@
-//! Which channels of a placement a warp moves.
+//! Channels of a placement: its three position lists, of which a warp moves some and leaves the
+//! others constant.
 
 use crate::geometry::DVec2;
 use crate::warp::Placement;
 
-/// The channels of a placement that a warp moves; the others are the same at every t.
+/// Set of the channels of a placement that a warp moves. The other channels are the same at every
+/// t.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct MovingChannels {
-    /// The positions in the common frame move.
+    /// Whether the positions in the frame move.
     pub in_frame: bool,
     in_source: bool,
     in_target: bool,
 }
 
-/// One of the three positions that a placement has for each vertex.
+/// Channel: one of the three position lists of a placement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PlacementChannel {
     Frame,
@@ -21,7 +23,7 @@ pub(super) enum PlacementChannel {
 }
 
 impl PlacementChannel {
-    /// Returns the positions of this channel.
+    /// Returns the position list of this channel.
     pub(super) fn of(self, placement: &Placement) -> &[DVec2] {
         match self {
             Self::Frame => &placement.in_frame,
@@ -30,7 +32,7 @@ impl PlacementChannel {
         }
     }
 
-    /// Returns the positions of this channel for writing.
+    /// Returns the position list of this channel, for writing.
     pub(super) fn of_mut(self, placement: &mut Placement) -> &mut [DVec2] {
         match self {
             Self::Frame => &mut placement.in_frame,
@@ -41,7 +43,7 @@ impl PlacementChannel {
 }
 
 impl MovingChannels {
-    /// Adds the channels that differ between two placements.
+    /// Adds the channels in which two placements differ.
     pub(super) fn with_changes(self, first: &Placement, other: &Placement) -> Self {
         let differs = |channel: PlacementChannel| channel.of(other) != channel.of(first);
         Self {

@@ -1,51 +1,54 @@
-//! The polynomials of all vertices in one time interval, and their evaluation.
+//! Polynomials of all vertices in one time interval of a recording, and their evaluation.
 //!
-//! Vertices are stored in blocks, in the order in which a frame reads them: the positions at both
-//! ends, then coefficient by coefficient. Small coefficients are stored in single precision, since
-//! their rounding is smaller than the omitted terms: frames of large meshes are limited by memory
-//! bandwidth. The sum is compiled for several SIMD widths, one of which is chosen at run time.
+//! Vertices are stored in blocks, in the order in which they are read when a frame is evaluated:
+//! first the positions at both ends of the interval, then one coefficient after another. Small
+//! coefficients are stored in single precision, because their rounding error is small compared with
+//! the tolerance and frames of large meshes are limited by memory bandwidth. The sum is compiled
+//! for several SIMD widths; one of them is chosen at run time.
 
 use super::nodes::{MAX_NODES, basis};
 use crate::geometry::DVec2;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-/// Number of vertices in a block: two 512-bit vectors of coordinates (heuristic).
+/// Number of vertices in a block (heuristic: their coordinates fill two 512-bit vectors).
 pub(super) const BLOCK: usize = 8;
 
-/// x and y of the vertices of a block, alternating.
+/// Row of a block: x and y of each of its vertices, alternating.
 pub(super) type BlockRow = [f64; 2 * BLOCK];
-/// The same in single precision.
+/// Row of a block in single precision.
 type NarrowBlockRow = [f32; 2 * BLOCK];
 
-/// Number of blocks that one thread evaluates at a time (heuristic; distributing fewer costs more
-/// than evaluating them).
+/// Number of blocks that one thread evaluates at a time (heuristic: fewer cost more to distribute
+/// than to evaluate).
 const BLOCKS_PER_TASK: usize = 1 << 11;
 
-/// Returns the number of blocks that `vertices` vertices fill.
+/// Returns the number of blocks that `vertices` vertices need; the last one may be partly filled.
 pub(super) fn block_count(vertices: usize) -> usize {
     vertices.div_ceil(BLOCK)
 }
 
-/// The polynomials of all vertices in one time interval.
+/// Polynomials of all vertices in one time interval.
 #[derive(Clone, Debug)]
 pub(super) struct RecordingInterval {
-    /// t at the beginning.
+    /// The t at which the interval begins.
     pub from: f64,
-    /// t at the end.
+    /// The t at which the interval ends.
     pub to: f64,
     arch: Arch,
-    /// Number of coefficients in double and in single precision.
+    /// Numbers of coefficients of each vertex that are stored in double and in single precision.
     counts: [usize; 2],
-    /// For each block the positions at both ends, then the double-precision coefficients.
+    /// For each block: the rows of positions at both ends, then the rows of double-precision
+    /// coefficients.
     full: Vec<BlockRow>,
-    /// For each block the single-precision coefficients.
+    /// For each block: the rows of single-precision coefficients.
     narrow: Vec<NarrowBlockRow>,
 }
 
 impl RecordingInterval {
-    /// Builds an interval from the positions at both ends and the coefficients block by block, the
-    /// first `full_count` of which stay in double precision.
+    /// Builds an interval from the positions at its ends and from all coefficients, block by block.
+    /// The first `full_count` coefficients of each vertex stay in double precision; the others are
+    /// rounded to single precision.
     pub(super) fn new(
         [from, to]: [f64; 2],
         ends: [&[BlockRow]; 2],
@@ -74,30 +77,31 @@ impl RecordingInterval {
         interval
     }
 
-    /// Returns the number of coefficients of each vertex.
+    /// Returns the number of coefficients that each vertex has.
     pub(super) fn coefficient_count(&self) -> usize {
         self.counts[0] + self.counts[1]
     }
 
-    /// Returns the positions of a vertex at both ends, by its index in the blocks.
+    /// Returns the positions at both ends of the interval of the vertex with the index `vertex`,
+    /// counted through the blocks.
     pub(super) fn ends(&self, vertex: usize) -> [DVec2; 2] {
         let first = vertex / BLOCK * (2 + self.counts[0]);
         [0, 1].map(|end| point(&self.full[first + end], vertex))
     }
 
-    /// Returns coefficient `k` of a vertex, by its index in the blocks.
+    /// Returns coefficient `k` of the vertex with the index `vertex`, counted through the blocks.
     pub(super) fn coefficient(&self, vertex: usize, k: usize) -> DVec2 {
         let ([full, narrow], block) = (self.counts, vertex / BLOCK);
         if k < full {
-            // Two rows of end positions come before the coefficients.
+            // Two rows of end positions precede the coefficients.
             return point(&self.full[block * (2 + full) + 2 + k], vertex);
         }
         let row = &self.narrow[block * narrow + k - full];
         point(&row.map(f64::from), vertex)
     }
 
-    /// Returns row `k` of a block: rows 0 and 1 are the positions at both ends, the others the
-    /// coefficients.
+    /// Returns row `k` of a block. Rows 0 and 1 are the positions at both ends of the interval, the
+    /// other rows the coefficients.
     #[cfg(feature = "bevy")]
     pub(super) fn row(&self, block: usize, k: usize) -> BlockRow {
         let [full, narrow] = self.counts;
@@ -107,19 +111,19 @@ impl RecordingInterval {
         }
     }
 
-    /// Returns the fraction of the interval that has passed at `t`, from 0 to 1.
-    pub(super) fn share(&self, t: f64) -> f64 {
+    /// Returns s, the fraction of the interval that has passed at `t`, from 0 to 1.
+    pub(super) fn fraction(&self, t: f64) -> f64 {
         (t - self.from) / (self.to - self.from)
     }
 
-    /// Returns the size of the coefficients and end positions in bytes.
+    /// Returns the size of the end positions and coefficients in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&self.full[..]) + size_of_val(&self.narrow[..])
     }
 
-    /// Writes the positions at `t` of the vertices from block `first` on.
+    /// Writes the positions at `t` of the vertices in the blocks from `first` on to `places`.
     pub(super) fn place(&self, t: f64, first: usize, places: &mut [DVec2]) {
-        let s = self.share(t);
+        let s = self.fraction(t);
         let evaluate_task = |k: usize, places: &mut [DVec2]| {
             self.arch.dispatch(IntervalSum {
                 interval: self,
@@ -136,7 +140,7 @@ impl RecordingInterval {
     }
 }
 
-/// The evaluation of some vertices, compiled for several SIMD widths.
+/// Evaluation of the vertices in some blocks at one s, compiled for several SIMD widths.
 struct IntervalSum<'a> {
     interval: &'a RecordingInterval,
     first: usize,
@@ -169,7 +173,8 @@ impl WithSimd for IntervalSum<'_> {
             for (weight, row) in small.iter().zip(narrow_rows) {
                 add(&mut sum, *weight, &row.map(f64::from));
             }
-            // The sum is exactly 0 at both ends; added last, it leaves the end positions exact.
+            // At both ends of the interval the sum is exactly 0, so adding it leaves the end
+            // positions exact.
             let straight = |i: usize| rows[0][i] * (1.0 - s) + rows[1][i] * s;
             for (i, place) in places.iter_mut().enumerate() {
                 let [x, y] = [2 * i, 2 * i + 1].map(|i| straight(i) + sum[i]);
@@ -179,13 +184,14 @@ impl WithSimd for IntervalSum<'_> {
     }
 }
 
-/// Returns the entry of a row that belongs to a vertex of its block.
+/// Returns the point that a row contains for the vertex with the index `vertex`, counted through
+/// the blocks.
 fn point(row: &BlockRow, vertex: usize) -> DVec2 {
     let first_number = 2 * (vertex % BLOCK);
     DVec2::new(row[first_number], row[first_number + 1])
 }
 
-/// Adds a weighted row to a sum.
+/// Adds a row, multiplied by `weight`, to a sum.
 #[inline(always)]
 fn add(sum: &mut BlockRow, weight: f64, row: &BlockRow) {
     for (sum, c) in sum.iter_mut().zip(row) {

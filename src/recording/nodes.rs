@@ -1,30 +1,33 @@
-//! Interpolation nodes within a time interval, and the polynomials through them.
+//! Interpolation nodes within a time interval of a recording, and the polynomials through the
+//! values at these nodes.
 //!
-//! Within an interval, s runs from 0 to 1. The recorded functions are zero at both ends, which
-//! therefore serve as nodes for free. The other nodes are Leja points: each lies where the
-//! polynomial through the earlier nodes is least constrained. They come in pairs s and 1 − s, so
-//! that the reversed motion is evaluated at the same times. The values at new nodes test the
-//! polynomial through the earlier ones, and no placement is ever discarded.
+//! Within an interval, s runs from 0 to 1. The recorded functions are zero at s = 0 and s = 1, so
+//! both ends serve as nodes without an evaluation. The other nodes are Leja points: the next one
+//! maximises the product of its distances to both ends and to all earlier nodes. Its mirror image 1
+//! − s follows, so that the reversed motion is evaluated at the same times. The values at a new
+//! pair first test the polynomial through the earlier nodes; then the pair joins these nodes.
 //!
-//! A function is written as b(s) Σ c_k T_k(2s − 1) with b(s) = 4s(1 − s) and the Chebyshev
-//! polynomials T_k. Its coefficients decrease as fast as the function is smooth, and the omitted
-//! terms are never larger than their coefficients.
+//! A function is written as b(s) Σ c_k T_k(2s − 1), with b(s) = 4s(1 − s) and the Chebyshev
+//! polynomials T_k. The smoother the function, the faster the coefficients c_k decrease. An omitted
+//! term is never larger than its coefficient.
 
 use crate::numerics::DenseLu;
 use std::sync::LazyLock;
 
-/// Maximum number of nodes within an interval, not counting its ends (resource limit; an interval
-/// that needs more is halved). Odd: the middle and pairs.
+/// Maximum number of nodes within an interval, not counting its ends (resource limit: an interval
+/// that needs more is halved). The number is odd: the middle, then pairs.
 pub(crate) const MAX_NODES: usize = 23;
 
-/// Number of candidates for the next node in one half of the interval (resource limit).
+/// Number of candidate positions for the next node in the first half of an interval (resource
+/// limit).
 const NODE_CANDIDATES: usize = 1 << 14;
 
-/// Leja nodes: the middle, then pairs s and 1 − s.
+/// Leja points in [0, 1]: the middle, then pairs s and 1 − s.
 static NODES: LazyLock<[f64; MAX_NODES]> = LazyLock::new(|| {
     let mut nodes = [0.5; MAX_NODES];
     for first in (1..MAX_NODES).step_by(2) {
-        // Logarithm of the distance product: the next Leja point maximises it.
+        // Logarithm of the product of the distances to the earlier nodes and both ends; the next
+        // Leja point maximises it.
         let log_product = |s: f64| -> f64 {
             let product = |from: &[f64]| from.iter().map(|x| (s - x).abs().ln()).sum::<f64>();
             (s * (1.0 - s)).ln() + product(&nodes[..first])
@@ -43,12 +46,13 @@ pub(super) fn nodes() -> &'static [f64; MAX_NODES] {
     &NODES
 }
 
-/// Bubble function b(s) of the basis: 1 in the middle, 0 at both ends.
+/// Factor b(s) of the basis functions: 1 in the middle of the interval, 0 at both ends.
 fn bubble(s: f64) -> f64 {
     4.0 * s * (1.0 - s)
 }
 
-/// Returns the weights of the values at the first `n` nodes in the interpolating polynomial at `s`.
+/// Returns the weights of the values at the first `n` nodes, such that the weighted sum is the
+/// value at `s` of the polynomial through them.
 pub(super) fn weights(n: usize, s: f64) -> [f64; MAX_NODES] {
     let nodes = nodes();
     let mut weights = [0.0; MAX_NODES];
@@ -60,7 +64,8 @@ pub(super) fn weights(n: usize, s: f64) -> [f64; MAX_NODES] {
     weights
 }
 
-/// Returns the basis functions b(s) T_k(2s − 1) for k below `n`: exactly 0 at both ends.
+/// Returns the values at `s` of the basis functions b(s) T_k(2s − 1) for k below `n`. They are
+/// exactly 0 at both ends.
 pub(super) fn basis(n: usize, s: f64) -> [f64; MAX_NODES] {
     let x = 2.0 * s - 1.0;
     let mut values = [0.0; MAX_NODES];
@@ -72,9 +77,10 @@ pub(super) fn basis(n: usize, s: f64) -> [f64; MAX_NODES] {
     values
 }
 
-/// Returns the matrix from values at the first `n` nodes to coefficients, row by row.
+/// Returns the matrix that converts values at the first `n` nodes to coefficients of the basis
+/// functions, row by row.
 pub(super) fn coefficients_from_values(n: usize) -> Vec<Vec<f64>> {
-    // Column k holds basis function k at all nodes.
+    // Column k contains the values of basis function k at all nodes.
     let at_nodes: Vec<[f64; MAX_NODES]> = nodes()[..n].iter().map(|&s| basis(n, s)).collect();
     let columns: Vec<f64> = (0..n)
         .flat_map(|k| at_nodes.iter().map(move |values| values[k]))
@@ -95,7 +101,7 @@ pub(super) fn coefficients_from_values(n: usize) -> Vec<Vec<f64>> {
 mod tests {
     use super::*;
 
-    /// Deviation of a part that turns by 2 radians: zero at both ends.
+    /// Deviation from the straight line for a part that turns by 2 radians; zero at both ends.
     fn turning(s: f64) -> f64 {
         (2.0 * s).sin() - s * 2.0_f64.sin()
     }

@@ -1,13 +1,13 @@
-//! The tolerance and the memory limit of a recording.
+//! Tolerance and memory limit of a recording.
 
 /// Options of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecordingOptions {
-    /// Largest distance between a vertex of the recording and of the warp, as a fraction of the
-    /// diameter of all positions at both ends.
+    /// Maximum distance between a vertex in the recording and the same vertex in the warp, as a
+    /// fraction of the diameter of all moving positions at both ends.
     pub tolerance: f64,
-    /// Largest size of the coefficients in bytes (resource limit); also limits the memory for the
-    /// interval that is being recorded.
+    /// Maximum size of the recording in bytes (resource limit). The memory that is used while an
+    /// interval is recorded counts too.
     pub max_bytes: usize,
 }
 

@@ -1,23 +1,26 @@
 //! Certificates that hold at every t of a recording: no face folds, and no outlines meet.
 //!
-//! Within an interval of a recording every vertex is a polynomial of s, which runs from 0 to 1 over
-//! the interval. So are twice the area of a face and the side of an edge on which a vertex lies. A
-//! polynomial whose Bernstein coefficients are all positive is positive throughout; otherwise both
-//! halves are examined, down to a thousand-millionth of the interval. Without folds and meetings,
-//! every frame is drawn as it should be.
+//! Within a time interval of a recording, every vertex position is a polynomial of s, which runs
+//! from 0 to 1. The following are therefore polynomials of s too: twice the signed area of a face,
+//! and a number whose sign tells on which side of an edge a vertex lies. A polynomial is positive
+//! throughout if all its Bernstein coefficients are positive. If they are not, both halves of the
+//! interval are examined, and so on, down to a thousand-millionth of the interval. If nothing folds
+//! or meets, every frame is drawn as it should be.
 //!
-//! The certificate covers the recording as it is played: all bounds include its rounding. The
-//! recording itself is as close to the warp as it states ([`Recording::error`]).
+//! The certificate covers the recording as it is played: all error bounds include its rounding. How
+//! close the recording is to the warp is a separate number ([`Recording::error`]).
 //!
-//! Guaranteed: whatever is reported as proved is true. Not guaranteed: that everything true can be
-//! proved; undecided cases are reported as failures, at the first t where the decision failed. A
-//! vertex that touches an edge at an end of the motion, like the sides of a cut, is not tested
-//! against that edge for the first or last 1024th, and is counted. At the ends themselves the
-//! designs decide the orientation, even of faces smaller than rounding.
+//! Guaranteed: everything that is reported as proved is true. Not guaranteed: that everything true
+//! can be proved; an undecided case is reported as a failure, at the first t where the decision
+//! failed. There is one exception: a vertex that touches an edge at t = 0 or t = 1, as on the two
+//! sides of a cut, is not tested against that edge within 1/1024 of that end; such pairs are
+//! counted. At t = 0 and t = 1 the positions are those of the designs, so orientations are exact
+//! even for faces smaller than rounding.
 //!
-//! - `bernstein`: polynomials with bounded errors; `vertex_curve`: the curves of vertices
-//! - `folds`: the first face that may fold; `meetings`: the first outlines that may meet
-//! - `drawn_loop`: the boundary loops to examine
+//! - `bernstein`: polynomials with error bounds; `vertex_curve`: the curves of vertices
+//! - `folds`: the first face in an interval that may fold; `meetings`: the earliest time in an
+//!   interval at which outlines may meet
+//! - `drawn_loop`: a boundary loop that is examined for meetings
 
 mod bernstein;
 mod drawn_loop;
@@ -36,52 +39,53 @@ use crate::work::progress::{Cancelled, Progress, checkpoint};
 use serde::Serialize;
 use vertex_curve::IntervalCurves;
 
-/// The result of examining a recording at every t.
+/// Result of examining a recording at every t.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RecordingProof {
-    /// The first time at which a face is not proved to be positively oriented.
+    /// The first t at which a face is not proved to be positively oriented; `None` if all faces are
+    /// proved.
     pub fold: Option<FaceFold>,
-    /// The first time at which outlines are not proved to be apart.
+    /// The first t at which outlines are not proved to be apart; `None` if all are proved.
     pub meeting: Option<OutlineMeeting>,
-    /// Number of vertices that touch an edge at an end of the motion and were not tested against
-    /// that edge for the 1024th next to that end.
+    /// Number of vertex–edge pairs that touch at t = 0 or t = 1 and were therefore not tested
+    /// within 1/1024 of that end.
     pub touching: usize,
 }
 
 impl RecordingProof {
-    /// Returns whether no face folds and no outlines meet at any t.
+    /// Returns whether it is proved that no face folds and no outlines meet at any t.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.fold.is_none() && self.meeting.is_none()
     }
 }
 
-/// A face that folds, or could not be proved not to.
+/// Face that folds, or that could not be proved not to fold.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FaceFold {
-    /// t at which the fold begins, accurate to 1e-9 of an interval.
+    /// The t at which the fold begins, accurate to 1e-9 of a time interval.
     pub t: f64,
     /// Index of the face.
     pub face: usize,
 }
 
-/// A vertex that meets an edge of an outline, or could not be proved not to.
+/// Vertex and edge of outlines that meet, or that could not be proved not to meet.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OutlineMeeting {
-    /// t of the meeting, accurate to 1e-9 of an interval.
+    /// The t of the meeting, accurate to 1e-9 of a time interval.
     pub t: f64,
     /// Index of the vertex.
     pub vertex: u32,
-    /// Indices of the vertices of the edge.
+    /// Indices of the edge's two vertices.
     pub edge: [u32; 2],
-    /// Position of the vertex at that time.
+    /// Approximate position of the meeting, for display.
     pub place: DVec2,
 }
 
 impl Recording {
-    /// Examines all faces and all given boundary loops of the recording at every t in [0, 1]. Takes
-    /// about 20 µs per face, plus a search for nearby edges.
+    /// Examines all faces and the given boundary loops of the recording at every t in [0, 1]. Takes
+    /// about 20 µs for each face, plus a search for nearby edges.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled.
@@ -94,7 +98,7 @@ impl Recording {
         progress: &dyn Progress,
     ) -> Result<RecordingProof, Cancelled> {
         let mut proof = RecordingProof::default();
-        // If nothing moves in the frame, every frame equals the designs.
+        // If no vertex moves in the frame, every frame equals the designs.
         if !self.0.channels.in_frame {
             return Ok(proof);
         }

@@ -1,9 +1,9 @@
-//! Records a warp: from placements to intervals of polynomials.
+//! Recording of a warp: converts its placements at a few times to intervals of polynomials.
 //!
 //! Within an interval the warp is evaluated at one pair of nodes after another, until the new
 //! values agree with the polynomial through the earlier ones. An interval that would need too many
-//! nodes is halved. The warp itself reports the times at which a part starts or stops
-//! ([`Warp::break_times`]); intervals never extend across them.
+//! nodes is halved. The warp reports the times at which a part starts or stops
+//! ([`Warp::break_times`]); no interval extends across such a time.
 
 use super::channels::MovingChannels;
 use super::interval::{BLOCK, BlockRow, RecordingInterval, block_count};
@@ -14,43 +14,45 @@ use crate::warp::{Placer, Warp};
 use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
-/// Number of nodes after which convergence is extrapolated, to stop early in an interval that would
-/// need too many (heuristic).
+/// Number of nodes from which on convergence is extrapolated, so that an interval that would need
+/// too many nodes is halved early (heuristic).
 const FORECAST_NODES: usize = 9;
 
-/// Intervals this short are not halved any more: the warp jumps there (tolerance: a thousandth of
-/// the transition).
+/// Length in t up to which an interval is not halved; the warp is then reported as not smooth
+/// (tolerance: a thousandth of the transition).
 const SHORTEST_INTERVAL: f64 = 1.0 / 1024.0;
 
-/// Break times closer than this are merged (tolerance: rounding of equal times).
+/// Break times that differ by less than this are merged (tolerance: the rounding of times that
+/// should be equal).
 const SAME_TIME: f64 = 1e-12;
 
-/// Position between two break times, as a fraction, at which moving channels are detected. The
-/// golden section: no symmetric motion returns to its ends there.
+/// Time between two break times at which the warp is compared with its start to detect moving
+/// channels, as a fraction of the interval (heuristic: at the golden section, a motion that returns
+/// to its start is unlikely to be there).
 const PROBE_FRACTION: f64 = 0.381_966;
 
-/// Fraction of the tolerance that storing small coefficients in single precision may use
-/// (heuristic).
+/// Fraction of the tolerance that may be used up by the rounding of small coefficients to single
+/// precision (heuristic).
 const ROUNDING_SHARE: f64 = 0.1;
-/// Fraction of the tolerance that omitted coefficients may use (heuristic).
+/// Fraction of the tolerance that may be used up by omitted coefficients (heuristic).
 const OMISSION_SHARE: f64 = 0.1;
 
-/// Why a warp could not be recorded.
+/// Reason why a warp could not be recorded.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {
-    /// The coefficients would exceed the memory limit.
+    /// The recording would exceed its memory limit.
     #[error("the recording would take {bytes} bytes; the limit is {limit}")]
     TooLarge {
-        /// Size in bytes when recording stopped.
+        /// Size of the recording in bytes when it was stopped.
         bytes: usize,
-        /// Limit in bytes.
+        /// Limit in bytes, from the options.
         limit: usize,
     },
-    /// The warp jumps near a time, or its placements are too inexact there.
+    /// The warp jumps near a certain t, or its placements are too inexact there.
     #[error("the motion is not smooth near t = {t:.3}; each frame is solved instead")]
     NotSmooth {
-        /// The time.
+        /// The t near which the warp is not smooth.
         t: f64,
     },
     /// The work was cancelled.
@@ -58,23 +60,24 @@ pub enum RecordingError {
     Cancelled(#[from] Cancelled),
 }
 
-/// The result of recording.
+/// Result of recording a warp.
 pub(super) struct RecordedIntervals {
     pub channels: MovingChannels,
     pub intervals: Vec<RecordingInterval>,
-    /// Largest measured error, as a fraction of the diameter.
+    /// Largest measured distance from the warp, as a fraction of the diameter of all moving
+    /// positions.
     pub error: f64,
-    /// Number of placements of the warp that were computed.
+    /// Number of times that the warp was evaluated.
     pub evaluation_count: usize,
 }
 
-/// Positions of all moving channels at one time, channel after channel, in blocks of vertices.
+/// Positions of all moving channels at one t, in blocks of vertices, channel after channel.
 type PositionBlocks = Vec<BlockRow>;
 
 /// Records a warp over [0, 1].
 ///
 /// # Errors
-/// As [`Recording::record`](super::Recording::record).
+/// Same as [`Recording::record`](super::Recording::record).
 pub(super) fn record(
     warp: &dyn Warp,
     options: &RecordingOptions,
@@ -101,24 +104,25 @@ pub(super) fn record(
     })
 }
 
-/// The state of a recording in progress.
+/// State of a recording in progress.
 struct WarpRecorder<'a> {
-    /// Two, to evaluate a pair of nodes in parallel.
+    /// Two placers, so that a pair of nodes is evaluated in parallel.
     placers: [Placer; 2],
     moving: MovingChannels,
     options: &'a RecordingOptions,
     progress: &'a dyn Progress,
-    /// Diameter of all moving positions at both ends; the scale of the tolerance.
+    /// Diameter of all moving positions at both ends, in units of the plane; the tolerance is a
+    /// fraction of it.
     diameter: f64,
     intervals: Vec<RecordingInterval>,
-    /// Largest error so far, in units of the plane.
+    /// Largest measured distance from the warp so far, in units of the plane.
     error: f64,
     evaluation_count: usize,
 }
 
 impl<'a> WarpRecorder<'a> {
-    /// Prepares recording: detects the moving channels and the scale of the tolerance. `breaks` are
-    /// the ends of the intervals between break times.
+    /// Prepares a recording: detects the moving channels and measures the diameter. `breaks`
+    /// contains the break times in ascending order, followed by 1.
     fn new(
         warp: &dyn Warp,
         breaks: &[f64],
@@ -141,7 +145,7 @@ impl<'a> WarpRecorder<'a> {
             let ends = ends.iter();
             ends.flat_map(move |placement| channel.of(placement).iter().copied())
         });
-        // If nothing moves, any scale works.
+        // If nothing moves, any diameter is suitable.
         let diameter = Bounds::of(ends).map_or(1.0, |bounds| bounds.diameter());
         Self {
             placers: [placer, warp.placer()],
@@ -162,7 +166,7 @@ impl<'a> WarpRecorder<'a> {
 
     /// Returns the moving positions at `t`.
     fn at(&mut self, t: f64) -> PositionBlocks {
-        // The ends are the designs themselves; nothing is solved there.
+        // At t = 0 and t = 1 the warp returns the designs themselves; nothing is computed there.
         self.evaluation_count += usize::from(t > 0.0 && t < 1.0);
         places(&mut self.placers[0], self.moving, t)
     }
@@ -176,10 +180,12 @@ impl<'a> WarpRecorder<'a> {
         [a, b]
     }
 
-    /// Records the interval between two times, halving it where it needs too many nodes.
+    /// Records the interval between two times, given with their positions. Halves the interval
+    /// where it needs too many nodes.
     ///
     /// # Errors
-    /// Where an interval is too short to halve, too large for memory, or the work is cancelled.
+    /// [`RecordingError`] if the warp is not smooth, if the recording exceeds the memory limit, or
+    /// if the work is cancelled.
     fn record_interval(
         &mut self,
         from: (f64, PositionBlocks),
@@ -224,7 +230,8 @@ impl<'a> WarpRecorder<'a> {
         self.record_interval((at_middle, middle_positions), to)
     }
 
-    /// Checks that `extra` bytes fit into the memory limit together with the intervals so far.
+    /// Checks that `extra` bytes and the intervals recorded so far together fit into the memory
+    /// limit.
     ///
     /// # Errors
     /// [`RecordingError::TooLarge`] if they do not.
@@ -242,12 +249,12 @@ impl<'a> WarpRecorder<'a> {
         Ok(())
     }
 
-    /// Stores the polynomial through the samples as an interval. Trailing coefficients that are
-    /// small enough are omitted, those before them rounded to single precision, the rest stored in
-    /// full.
+    /// Stores the polynomials through the samples as an interval. Trailing coefficients that are
+    /// small enough are omitted. Small ones before them are stored in single precision, the others
+    /// in double precision. `off` is the measured error of the polynomials.
     ///
     /// # Errors
-    /// If the interval exceeds the memory limit or the work is cancelled.
+    /// [`RecordingError`] if the interval exceeds the memory limit or the work is cancelled.
     fn store(
         &mut self,
         times: [f64; 2],
@@ -259,7 +266,7 @@ impl<'a> WarpRecorder<'a> {
         let coefficients = coefficients(samples);
         let n = samples.len();
         let largest = max_lengths(&coefficients, n);
-        // Omit trailing coefficients as long as their sum stays small enough.
+        // Trailing coefficients are omitted as long as their sum stays small enough.
         let mut omitted = 0.0;
         let mut stored = n;
         while stored > 0 && omitted + largest[stored - 1] <= OMISSION_SHARE * self.tolerance() {
@@ -289,19 +296,21 @@ impl<'a> WarpRecorder<'a> {
     }
 }
 
-/// Returns whether an interval with `node_count` nodes will converge within the maximum number of
-/// nodes, if the residual goes on shrinking at least as fast as in the last step.
+/// Returns whether an interval that has `known` nodes is expected to converge within the maximum
+/// number of nodes. `off` and `previous_off` are the residuals at the last two pairs of nodes; the
+/// estimate assumes that the residual keeps shrinking by the same factor.
 fn will_converge(node_count: usize, off: f64, previous_off: f64, tolerance: f64) -> bool {
     let shrink_factor = off / previous_off;
     if shrink_factor >= 1.0 {
         return false;
     }
     let pairs_needed = (tolerance / off).ln() / shrink_factor.ln();
-    // Convergence only accelerates, so the estimate is pessimistic.
+    // Convergence usually accelerates, so `pairs_needed` is too high. Each pair is therefore
+    // counted as one node and not as two.
     node_count as f64 + pairs_needed <= MAX_NODES as f64
 }
 
-/// Evaluates a warp and packs its moving positions into blocks.
+/// Evaluates a warp at `t` and packs its moving positions into blocks.
 fn places(placer: &mut Placer, moving: MovingChannels, t: f64) -> PositionBlocks {
     placer.place(t);
     let placement = placer.placement();
@@ -320,7 +329,8 @@ fn places(placer: &mut Placer, moving: MovingChannels, t: f64) -> PositionBlocks
     places
 }
 
-/// Returns the deviation of positions from the straight line between the ends.
+/// Returns the deviation of the positions at `s` from the straight line between the positions at
+/// both ends.
 fn deviation(
     mut places: PositionBlocks,
     [begin, end]: [&PositionBlocks; 2],
@@ -335,8 +345,8 @@ fn deviation(
     places
 }
 
-/// Returns the largest distance between the polynomial through the samples and the deviation
-/// measured at `s`.
+/// Returns the largest distance between the measured deviation at `s` and the polynomial through
+/// the samples.
 fn residual(samples: &[PositionBlocks], measured: &PositionBlocks, s: f64) -> f64 {
     let weights = weights(samples.len(), s);
     let off = |block: usize| {
@@ -354,14 +364,15 @@ fn residual(samples: &[PositionBlocks], measured: &PositionBlocks, s: f64) -> f6
         .reduce(|| 0.0, f64::max)
 }
 
-/// Returns the length of the longest vector in a row; infinity if one is not a number.
+/// Returns the length of the longest vector in a row; infinity if a vector contains NaN.
 fn max_length(row: &BlockRow) -> f64 {
     let squares = row.chunks(2).map(|xy| xy[0] * xy[0] + xy[1] * xy[1]);
     let finite = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
     squares.map(finite).fold(0.0, f64::max).sqrt()
 }
 
-/// Returns the coefficients of the polynomials through the samples, block by block.
+/// Returns the coefficients of the polynomials through the samples, block by block; each block has
+/// one row for each coefficient.
 fn coefficients(samples: &[PositionBlocks]) -> Vec<BlockRow> {
     let n = samples.len();
     let rows = coefficients_from_values(n);
@@ -380,7 +391,7 @@ fn coefficients(samples: &[PositionBlocks]) -> Vec<BlockRow> {
     coefficients
 }
 
-/// Returns, for each coefficient, the length of its longest vector over all vertices.
+/// Returns, for each of the `n` coefficients, the length of its longest vector over all vertices.
 fn max_lengths(coefficients: &[BlockRow], n: usize) -> Vec<f64> {
     let none = || vec![0.0_f64; n];
     let of_blocks = coefficients.par_chunks(n.max(1));

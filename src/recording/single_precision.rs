@@ -1,44 +1,48 @@
-//! Recording intervals in single precision, laid out for evaluation on a graphics card.
+//! Time intervals of a recording in single precision, laid out for evaluation on a graphics card.
 //!
-//! A vertex is at `near end + share · (other end − near end) + Σ weight · coefficient`, all
-//! relative to an origin among the vertices. Which end is the near one depends on t alone, so that
-//! both ends are exact and resting vertices do not jitter.
+//! The position of a vertex is `near end + share · (other end − near end) + Σ weight ·
+//! coefficient`, relative to a common origin. The near end is the end of the interval to which t is
+//! closer, and `share` is the fraction of the interval between the two. Both ends are therefore
+//! exact, and vertices that do not move do not jitter.
 //!
-//! Guaranteed: at both ends of an interval, positions are exact in single precision. Not
-//! guaranteed: anything better in between; coefficients below single precision are omitted.
+//! Guaranteed: at both ends of an interval, positions are exact to single precision. Not
+//! guaranteed: any better precision in between; coefficients that have no effect in single
+//! precision are omitted.
 
 use super::interval::{BLOCK, RecordingInterval, block_count};
 use super::nodes::{MAX_NODES, basis};
 use super::{Recording, RecordingData};
 use crate::geometry::DVec2;
 
-/// Half a unit in the last place of a single-precision number near 1: the relative rounding error.
+/// Relative rounding error of a single-precision number: half a unit in the last place of 1.
 const RELATIVE_ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
 
-/// One interval of a recording in single precision.
+/// One time interval of a recording in single precision.
 #[derive(Clone, Debug)]
 pub(crate) struct SinglePrecisionInterval {
-    /// Number of vertices in a row, rounded up to whole blocks.
+    /// Number of entries in a row: the number of vertices, rounded up to whole blocks.
     pub vertices: usize,
-    /// Number of coefficient rows.
+    /// Number of coefficients of each vertex; each is a row of `numbers`.
     pub coefficients: usize,
-    /// Row after row: the positions at both ends, then the coefficients.
+    /// x and y of each vertex, row after row: first the positions at both ends, then the
+    /// coefficients.
     pub numbers: Vec<[f32; 2]>,
 }
 
-/// The weights with which the rows of an interval are summed at one t.
+/// Weights with which the rows of an interval are summed at one t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct IntervalWeights {
-    /// Fractions of the interval before and after t; their sum is 1.
+    /// Fractions of the interval before t and after t; their sum is 1.
     pub shares: [f32; 2],
-    /// Weight of each coefficient.
+    /// Weight of each row of coefficients.
     pub coefficients: [f32; MAX_NODES],
 }
 
 impl Recording {
-    /// Returns the intervals in single precision, in order; none if no vertex moves in the frame.
-    /// `vertices` is the number of vertices in a placement of the warp.
-    pub(crate) fn singles(
+    /// Returns the time intervals in single precision, in order; an empty iterator if no vertex
+    /// moves in the frame. `vertices` is the number of vertices in a placement of the warp.
+    /// Positions are stored relative to `origin`.
+    pub(crate) fn single_precision_intervals(
         &self,
         vertices: usize,
         origin: DVec2,
@@ -52,8 +56,8 @@ impl Recording {
         (0..count).map(move |interval| recording.0.convert_interval(interval, vertices, origin))
     }
 
-    /// Returns the index of the interval that contains `t`, and the weights for its rows; `None`
-    /// outside [0, 1].
+    /// Returns the index of the time interval that contains `t`, and the weights of its rows at
+    /// `t`; `None` outside [0, 1].
     pub(crate) fn weights(&self, t: f64) -> Option<(usize, IntervalWeights)> {
         let is_within = (0.0..=1.0).contains(&t);
         is_within.then(|| {
@@ -64,7 +68,8 @@ impl Recording {
 }
 
 impl RecordingData {
-    /// Converts one interval to single precision relative to `origin`.
+    /// Converts the time interval with the index `interval` to single precision, with positions
+    /// relative to `origin`.
     fn convert_interval(
         &self,
         interval: usize,
@@ -77,7 +82,8 @@ impl RecordingData {
         let vertices = blocks * BLOCK;
         let mut numbers = Vec::with_capacity(vertices * (2 + coefficients));
         for k in 0..2 + coefficients {
-            // Positions are relative to the origin; coefficients are differences already.
+            // Positions are relative to the origin. Coefficients are differences, which the origin
+            // does not affect.
             let from = if k < 2 { origin } else { DVec2::ZERO };
             numbers.extend((0..blocks).flat_map(|block| {
                 let row = interval.row(block, k);
@@ -93,17 +99,17 @@ impl RecordingData {
     }
 }
 
-/// Returns the weights for the rows of an interval at `t`.
+/// Returns the weights of the rows of an interval at `t`.
 fn weights(interval: &RecordingInterval, t: f64) -> IntervalWeights {
-    let s = interval.share(t);
+    let s = interval.fraction(t);
     IntervalWeights {
         shares: [s as f32, (1.0 - s) as f32],
         coefficients: basis(interval.coefficient_count(), s).map(|weight| weight as f32),
     }
 }
 
-/// Returns the number of coefficients to keep: the omitted ones together stay below the rounding of
-/// positions to single precision.
+/// Returns the number of coefficients to keep. The omitted ones together change a position by no
+/// more than the rounding of positions to single precision.
 fn visible_coefficients(interval: &RecordingInterval, vertices: usize, origin: DVec2) -> usize {
     let longest = |k: usize, from: DVec2| {
         let rows = (0..block_count(vertices)).flat_map(|block| interval.row(block, k));
@@ -135,11 +141,12 @@ mod tests {
     use crate::work::progress::Silent;
     use std::sync::Arc;
 
-    /// Two strips of points. One turns, much faster after a break; the other rests.
+    /// Two strips of points. The first one turns, much faster from the break on; the second does
+    /// not move.
     #[derive(Debug)]
     struct TurningStrips(DVec2);
 
-    /// t at which the turning strip accelerates.
+    /// The t at which the turning strip accelerates.
     const BREAK: f64 = 0.3;
     /// Number of points in a strip.
     const POINTS: usize = 11;
@@ -180,7 +187,7 @@ mod tests {
         recording.expect("a recording")
     }
 
-    /// Evaluates a vertex as the graphics card does.
+    /// Evaluates the position of a vertex in the same way as the graphics card.
     fn place(
         single: &SinglePrecisionInterval,
         weights: &IntervalWeights,
@@ -204,10 +211,11 @@ mod tests {
     fn the_sum_matches_the_recording_to_single_precision_far_from_zero() {
         for middle in [DVec2::ZERO, DVec2::new(1e5, -3e4)] {
             let (recording, vertices) = (recorded_strips(middle), 2 * POINTS);
-            let singles: Vec<SinglePrecisionInterval> =
-                recording.singles(vertices, middle).collect();
+            let singles: Vec<SinglePrecisionInterval> = recording
+                .single_precision_intervals(vertices, middle)
+                .collect();
             assert!(singles.len() == recording.interval_count() && singles.len() > 1);
-            // Some coefficients are below single precision.
+            // Some coefficients are too small for single precision and are omitted.
             let known = recording
                 .0
                 .intervals
@@ -237,8 +245,9 @@ mod tests {
     #[test]
     fn ends_are_exact_and_resting_points_do_not_jitter() {
         let (recording, vertices) = (recorded_strips(DVec2::ZERO), 2 * POINTS);
-        let singles: Vec<SinglePrecisionInterval> =
-            recording.singles(vertices, DVec2::ZERO).collect();
+        let singles: Vec<SinglePrecisionInterval> = recording
+            .single_precision_intervals(vertices, DVec2::ZERO)
+            .collect();
         let single = |p: &DVec2| p.as_vec2().to_array();
         let all = |t: f64| -> Vec<[f32; 2]> {
             let (interval, weights) = recording.weights(t).expect("within");

@@ -1,4 +1,5 @@
-//! Recordings reproduce the warps that they were recorded from.
+//! Tests of recordings: they reproduce the warps from which they were recorded, are exact at both
+//! ends, and report jumps and limits.
 
 use super::*;
 use crate::compatible::CompatibleMesh;
@@ -8,8 +9,8 @@ use crate::warp::homotopy::Homotopy;
 use crate::warp::{Arap, ArapOptions, PartClock, StaggeredArap, TimeWindow};
 use crate::work::progress::Silent;
 
-/// A strip of `2 n` faces whose target is bent by `turn` radians over its length; beyond a full
-/// turn it becomes a spiral.
+/// Straight strip of `2 n` faces whose target is bent by `turn` radians over its length. If it
+/// bends by more than a full turn, it becomes a spiral.
 fn strip(n: u32, turn: f64) -> CompatibleMesh {
     let points = (0..=n).flat_map(|i| [[i, 0], [i, 1]]);
     let source: Vec<DVec2> = points
@@ -35,15 +36,15 @@ fn arap(mesh: &CompatibleMesh, homotopy: Homotopy, time_windows: &[Option<TimeWi
     Arap::of_outlines(mesh, &options, time_windows, &Silent).expect("a solution")
 }
 
-/// Records a warp and returns both.
+/// Records a warp and returns the recording and the warp.
 fn recorded(warp: impl Warp + 'static) -> (Recording, Arc<dyn Warp>) {
     let warp: Arc<dyn Warp> = Arc::new(warp);
     let recording = Recording::record(Arc::clone(&warp), &RecordingOptions::default(), &Silent);
     (recording.expect("a recording"), warp)
 }
 
-/// Returns the largest distance between recording and warp, as a fraction of the diameter of the
-/// ends.
+/// Returns the largest distance between a vertex in the recording and in the warp, as a fraction of
+/// the diameter of the positions at both ends.
 fn off(recording: &dyn Warp, warp: &dyn Warp) -> f64 {
     let [mut recording, mut warp] = [recording.placer(), warp.placer()];
     let ends = recording
@@ -70,7 +71,7 @@ fn off(recording: &dyn Warp, warp: &dyn Warp) -> f64 {
 #[test]
 fn a_recording_matches_its_warp_within_the_stated_error() {
     for (turn, solves) in [(0.1, 12), (2.0, 14), (6.0, 22), (19.0, 80)] {
-        // Bounded distortion is not smooth in t, so it cannot be recorded.
+        // The homotopy of bounded distortion is not smooth in t, so it cannot be recorded.
         let smooth = |homotopy: &Homotopy| *homotopy != Homotopy::Bounded;
         for homotopy in Homotopy::ALL.into_iter().filter(smooth) {
             let (recording, warp) = recorded(arap(&strip(40, turn), homotopy, &[]));
@@ -167,7 +168,8 @@ fn exchanging_the_designs_reverses_the_recording() {
     }
 }
 
-/// Two strips, the second of which is a seed shape in the source.
+/// Mesh of two strips; in the source the second one is only a seed shape (a tiny copy of itself).
+/// Also returns the time window in which that strip grows.
 fn with_an_appearing_part() -> (CompatibleMesh, [Option<TimeWindow>; 2]) {
     let [a, b] = [strip(6, 2.0), strip(4, 1.0)];
     let n = a.source().len() as u32;
@@ -243,7 +245,7 @@ fn too_large_and_cancelled_recordings_are_refused() {
     assert!(matches!(error, RecordingError::Cancelled(_)));
 }
 
-/// A point that jumps at t = 0.3 without reporting a break.
+/// Warp of one point that jumps at t = 0.3 and does not report a break time.
 #[derive(Debug)]
 struct JumpingWarp;
 
@@ -267,7 +269,8 @@ fn a_jump_is_reported_and_not_smoothed_over() {
     );
 }
 
-/// A point that starts to move at two times and is back at the end.
+/// Warp of two points, the first of which starts to move at the first given time, accelerates at
+/// the second, and is back at its start at t = 1.
 #[derive(Debug)]
 struct ReturningWarp([f64; 2]);
 

@@ -1,5 +1,5 @@
-//! Names of the values of enumerated options, defined once for files, command line, reports and
-//! window.
+//! Names of the values of enumerated options, defined once for project files, the command line,
+//! reports and the window.
 //!
 //! Each option enum has a table with one row per variant: key, title, sentence.
 //!
@@ -19,14 +19,14 @@ use std::marker::PhantomData;
 
 use serde::de::{Deserializer, Error, Visitor};
 
-/// Names of one value of an option.
+/// Key, title and help sentence of one value of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChoiceName {
-    /// Name in files and on the command line.
+    /// Name of the value in files and on the command line.
     pub key: &'static str,
-    /// Label in the window, one to three words.
+    /// Label of the value in the window, one to three words.
     pub title: &'static str,
-    /// Sentence that explains the effect, shown in tooltips and `--help`.
+    /// Sentence that explains the effect of the value, shown in tooltips and `--help`.
     pub sentence: &'static str,
 }
 
@@ -68,7 +68,7 @@ pub struct UnknownKey {
     valid: Vec<&'static str>,
 }
 
-/// Returns the keys of an option in the order in which they are offered.
+/// Returns the keys of all values of an option, in the order in which they are offered.
 pub fn choice_keys<T: Choice>() -> impl Iterator<Item = &'static str> {
     T::CHOICES.iter().map(|choice| choice.name().key)
 }

@@ -1,4 +1,4 @@
-//! A design space that is ready to be blended, and its frames.
+//! A built design space, and its frames, which show one blend each.
 
 use super::design_distance::DesignDistances;
 use super::error::SpaceNote;
@@ -12,7 +12,7 @@ use crate::warp::{ArapBlend, BlendPlacer};
 use image::RgbaImage;
 use std::sync::Arc;
 
-/// Several designs, prepared for blending with any weights. Cloning is cheap.
+/// Several designs that are prepared for blending with any weights. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::Design;
@@ -44,7 +44,7 @@ pub(super) struct DesignSpaceData {
     pub notes: Vec<SpaceNote>,
 }
 
-/// Content of a space, by its kind.
+/// Prepared designs of a space, by the kind of content.
 #[derive(Debug)]
 pub(super) enum BlendContent {
     /// Rigid parts.
@@ -117,9 +117,11 @@ impl DesignSpace {
         &self.0.notes
     }
 
-    /// Returns the position of a blend's colour between the style's two colours, 0 to 1.
+    /// Returns the position of a blend's colour between the first (0) and the second (1) colour of
+    /// the style.
     ///
-    /// The designs' colours run from the first to the second colour in order.
+    /// The first design has the first colour, the last design the second; those between are evenly
+    /// spaced.
     #[must_use]
     pub fn colour_fraction(&self, weights: &[f64]) -> f64 {
         let layout = SequenceLayout {
@@ -148,7 +150,7 @@ impl DesignSpace {
     }
 }
 
-/// Frame of a space, which can be moved to any blend.
+/// One blend of a design space. A frame can be moved to any other blend.
 #[derive(Debug)]
 pub struct SpaceFrame {
     space: DesignSpace,
@@ -175,7 +177,8 @@ impl SpaceFrame {
         let sum: f64 = weights.iter().map(finite).sum();
         let correction = (1.0 - sum) / weights.len() as f64;
         for (corrected, weight) in self.weights.iter_mut().zip(weights) {
-            // A rounding error of the sum must not move a design from its corner.
+            // A rounding error of the sum is left alone, so that weight 1 on a design shows exactly
+            // that design.
             *corrected = finite(weight)
                 + if correction.abs() < 1e-12 {
                     0.0

@@ -1,4 +1,4 @@
-//! Building of a design space, as rigid parts of a common mesh, distance fields or pictures.
+//! Builds a design space: rigid parts of a common mesh, distance fields, or pictures.
 
 use super::blend::{BlendContent, DesignSpace, DesignSpaceData};
 use super::design_distance::DesignDistances;
@@ -18,15 +18,17 @@ use crate::transition::{
 use crate::warp::{ArapBlend, ManyFeatures, WarpKind};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::{
-    Progress, ProgressShares, ProgressSpan, WholeProgress, check_cancelled, checkpoint,
+    OverallProgress, Progress, ProgressShares, ProgressSpan, check_cancelled, checkpoint,
 };
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Maximum number of hub designs for which a common mesh is tried with draft matches (heuristic).
+/// Maximum number of designs that are tried as the hub of a common mesh with draft matches
+/// (heuristic).
 ///
-/// The full-quality matches with the first hub are tried before. Their points may be so close
-/// together that no common mesh without folds exists, while draft matches still allow one.
+/// The hub is the design with which all others are matched. Matches in full quality are tried
+/// first, but only with the best hub. Their points may be so close together that no common mesh
+/// without folds exists, while draft matches still allow one.
 const MAX_HUBS: usize = 3;
 
 /// Specification of a design space: designs placed in one frame, and options.
@@ -41,11 +43,12 @@ pub struct SpaceSpec {
     /// Warp that aligns pictures: lines, scattered points or a lattice; with any other, pictures
     /// stay in place.
     pub warp: WarpKind,
-    /// Features common to all pictures, with their position in each, in the common frame.
+    /// Pins and lines that exist in all pictures, with their position in each, in the common frame.
     pub features: ManyFeatures,
-    /// Number of features that exist in only some of the pictures; reported as a note.
+    /// Number of pins and lines that exist in only some of the pictures; reported as a note.
     pub unmatched_features: usize,
-    /// Options; pins, links and cuts belong to two particular designs and are ignored.
+    /// Options of all methods. Pins, lines, links and cuts are ignored, because they belong to two
+    /// particular designs.
     pub options: TransitionOptions,
     /// Whether jobs beyond the limits of [`crate::work::budget`] may start.
     pub patient: bool,
@@ -84,7 +87,7 @@ impl SpaceSpec {
             },
             parts: Vec::new(),
             paint: PaintRule::One,
-            // Only the match is needed.
+            // Only the match is used, so collisions need not be avoided.
             guard: CollisionAvoidance::Off,
             ..self.options.clone()
         };
@@ -93,7 +96,8 @@ impl SpaceSpec {
 }
 
 impl DesignSpace {
-    /// Matches, triangulates and factors the designs, or computes their distance fields.
+    /// Builds a space: matches, triangulates and factors the designs, computes their distance
+    /// fields, or prepares their pictures.
     ///
     /// # Errors
     /// [`SpaceError`] says why the designs are incompatible, or that the work was cancelled.
@@ -102,7 +106,7 @@ impl DesignSpace {
         if count < 2 {
             return Err(SpaceError::TooFew(count));
         }
-        let progress = &WholeProgress::new(progress).patient(spec.patient);
+        let progress = &OverallProgress::new(progress).patient(spec.patient);
         if spec.content == Some(ContentKind::Colours) {
             return Self::of_pictures(spec, progress);
         }
@@ -173,22 +177,23 @@ impl DesignSpace {
     }
 }
 
-/// Common form of the designs, and their distances.
+/// How the common mesh of the designs is obtained, and how dissimilar they are.
 struct BuiltContent {
     form: CommonForms,
     distances: DesignDistances,
 }
 
-/// Source of the common mesh.
+/// How the common mesh of the designs is obtained.
 enum CommonForms {
-    /// The designs share their connectivity: the common mesh, or why there is none, and the bars.
+    /// The common mesh itself, or why there is none, and the bars of trusses. For trusses and
+    /// meshes with common connectivity, and for outlines with too many points.
     Given(Result<CompatibleFamily, FamilyError>, Vec<[u32; 2]>),
-    /// The designs are outlines, which must be matched and triangulated.
+    /// The outlines of the designs must be matched and triangulated.
     Outlines,
 }
 
 impl BuiltContent {
-    /// Determines the common form and the distances of the designs.
+    /// Determines how the common mesh is obtained, and measures how dissimilar the designs are.
     fn of(spec: &SpaceSpec, bar_width: f64, progress: &dyn Progress) -> Result<Self, SpaceError> {
         if let Some(built) = Self::from_common_connectivity(&spec.designs, progress)? {
             return Ok(built);
@@ -216,7 +221,7 @@ impl BuiltContent {
         })
     }
 
-    /// Returns the common form of trusses or of meshes with equal numbers of points; `None` for
+    /// Returns the common mesh of trusses, or of meshes with equal numbers of points; `None` for
     /// other designs.
     fn from_common_connectivity(
         designs: &[Arc<Design>],
@@ -243,7 +248,8 @@ impl BuiltContent {
         Ok(Some(Self { form, distances }))
     }
 
-    /// Returns the blend of rigid parts; the inner error says why there is no common mesh.
+    /// Returns the content for blending rigid parts. The inner error says why there is no common
+    /// mesh.
     fn solid(
         &self,
         spec: &SpaceSpec,
@@ -275,9 +281,10 @@ impl BuiltContent {
         }))
     }
 
-    /// Builds the common mesh of outlines by matching all of them with one hub design.
+    /// Builds the common mesh of outlines by matching all of them with one design, the hub.
     ///
-    /// The first hub is the design with the smallest sum of distances to all others.
+    /// The first hub to be tried is the design with the smallest sum of dissimilarities to all
+    /// others.
     fn outlines(
         &self,
         spec: &SpaceSpec,
@@ -307,7 +314,8 @@ impl BuiltContent {
             check_cancelled(progress)?;
             match family {
                 Ok(family) => return Ok(Ok(family)),
-                // Parts without a counterpart remain unmatched with any hub.
+                // Another hub does not help: parts without a counterpart remain unmatched with any
+                // hub.
                 Err(error @ FamilyError::PartsDiffer { .. }) => return Ok(Err(error)),
                 Err(error) => _ = first_error.get_or_insert(error),
             }
@@ -319,7 +327,7 @@ impl BuiltContent {
 
 /// Matches the hub with each other design by building the transition between them.
 ///
-/// The entry of the hub itself is `None`.
+/// Returns one match per design; that of the hub itself is `None`.
 fn matches(
     spec: &SpaceSpec,
     hub: usize,
@@ -364,7 +372,7 @@ fn mesh(design: &Arc<Design>) -> Option<&TriangleMesh> {
     }
 }
 
-/// Computes the distance fields of all designs on one grid.
+/// Computes the distance fields of all designs on one grid, which covers the frame of `frame`.
 fn fields(
     spec: &SpaceSpec,
     frame: &TransitionSpec,
@@ -396,8 +404,8 @@ fn fields(
     ))
 }
 
-/// Returns the bounding box of the designs, the blends halfway between each two, and the blend of
-/// all with equal weights, each widened by half of `bar_width`.
+/// Returns a box around the designs (`ends`), the blends halfway between each two, and the blend of
+/// all with equal weights. The blends are widened by half of `bar_width`.
 fn swept_bounds(ends: Bounds, blend: &ArapBlend, bar_width: f64) -> Bounds {
     let count = blend.family().count();
     let mut placer = blend.placer();

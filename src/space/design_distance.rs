@@ -1,8 +1,9 @@
 //! Dissimilarity of each pair of designs.
 //!
-//! For outlines it is the cost of their match, averaged over the parts by area, with cost 1 for
-//! unmatched parts. For trusses and meshes with common connectivity, it is the distance between
-//! corresponding points after the best similarity fit.
+//! For outlines, the dissimilarity is the cost of their match, averaged over the parts by area,
+//! with cost 1 for unmatched parts. For trusses and meshes with common connectivity, it is the
+//! distance between corresponding points after the best similarity fit. For pictures,
+//! `picture_space` defines it.
 
 use crate::correspondence::{MatchSettings, PieceMatch, RingMatch, match_regions};
 use crate::geometry::{Bounds, DVec2, Regions, SimilarityFit, signed_area};
@@ -13,12 +14,13 @@ use rayon::prelude::*;
 #[derive(Clone, Debug, PartialEq)]
 pub struct DesignDistances {
     count: usize,
-    /// Matrix entries, row by row.
+    /// Entries of the matrix, row by row.
     costs: Vec<f64>,
 }
 
 impl DesignDistances {
-    /// Fills the matrix from `cost(a, b)` with a < b; costs that are not finite become 1.
+    /// Fills the matrix from `cost(a, b)` with a < b. Negative costs become 0; costs that are not
+    /// finite become 1.
     pub(super) fn of(count: usize, cost: impl Fn(usize, usize) -> f64 + Sync) -> Self {
         let pairs: Vec<[usize; 2]> = (0..count)
             .flat_map(|a| (a + 1..count).map(move |b| [a, b]))
@@ -33,7 +35,7 @@ impl DesignDistances {
         Self { count, costs }
     }
 
-    /// Matches each pair of outlines and takes the cost of the match.
+    /// Matches each pair of outlines and takes the cost of the match as the dissimilarity.
     pub(super) fn of_outlines(
         outlines: &[Regions],
         settings: &MatchSettings,
@@ -55,12 +57,12 @@ impl DesignDistances {
         Ok(distances)
     }
 
-    /// Distance 1 between all designs, for use where nothing is known.
+    /// Sets the dissimilarity of all pairs to 1, for designs that are too large to be matched.
     pub(super) fn uniform(count: usize) -> Self {
         Self::of(count, |_, _| 1.0)
     }
 
-    /// Compares lists of points that correspond by index.
+    /// Compares lists of points; points with the same index correspond to each other.
     pub(super) fn of_corresponding_points(places: &[Vec<DVec2>]) -> Self {
         Self::of(places.len(), |a, b| fitted_distance(&places[a], &places[b]))
     }
@@ -80,7 +82,8 @@ impl DesignDistances {
         self.costs[a * self.count + b]
     }
 
-    /// Returns the design indices, sorted by the sum of their distances to all others.
+    /// Returns the indices of the designs, sorted by the sum of their dissimilarities to all
+    /// others, the smallest first.
     pub(super) fn most_central_first(&self) -> Vec<usize> {
         let sum = |k: usize| (0..self.count).map(|j| self.between(k, j)).sum::<f64>();
         let mut order: Vec<usize> = (0..self.count).collect();
@@ -89,9 +92,9 @@ impl DesignDistances {
     }
 }
 
-/// Returns the mean cost of the pieces of a match, weighted by area.
+/// Returns the mean cost of the pieces (matched or unmatched parts) of a match, weighted by area.
 ///
-/// Unmatched pieces cost 1, and so do unmatched holes, in addition.
+/// An unmatched piece has cost 1. An unmatched hole adds cost 1 for its own area.
 fn mean_cost(pieces: &[PieceMatch]) -> f64 {
     let area = |ring: &RingMatch| {
         signed_area(&ring.source)
@@ -106,7 +109,7 @@ fn mean_cost(pieces: &[PieceMatch]) -> f64 {
             .filter(|ring| ring.transient_side().is_some())
             .map(area)
             .sum();
-        let cost = if piece.is_in_both() { piece.cost } else { 1.0 };
+        let cost = if piece.is_matched() { piece.cost } else { 1.0 };
         sum += weight * cost + unmatched_hole_area;
         total += weight;
     }

@@ -1,4 +1,4 @@
-//! Layouts of the designs on a map: polygon, line, or by similarity.
+//! Automatic layouts of the designs on a map: a polygon, a line, or by similarity.
 
 use super::design_distance::DesignDistances;
 use crate::geometry::DVec2;
@@ -10,38 +10,38 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum MapLayout {
-    /// At the corners of a regular polygon, clockwise from the top; four designs form a square,
-    /// starting at the upper left.
+    /// Designs at the corners of a regular polygon, clockwise from the top. Four designs form a
+    /// square, starting at the upper left.
     #[default]
     Polygon,
-    /// In a row.
+    /// Designs in a row, in order.
     Line,
     /// Similar designs close to each other.
-    Likeness,
+    Similarity,
 }
 
 named! { MapLayout {
     Polygon: "polygon", "Polygon", "Places the designs at the corners of a regular polygon";
     Line: "line", "Line", "Places the designs in a row, in order";
-    Likeness: "likeness", "Similarity", "Places similar designs close to each other";
+    Similarity: "likeness", "Similarity", "Places similar designs close to each other";
 } }
 
-/// Minimum distance between two sites, in radii of the map. It leaves room for thumbnails and
-/// names, and separates identical designs (heuristic).
+/// Minimum distance between two sites (positions of designs), in radii of the map. It leaves room
+/// for thumbnails and names, and separates identical designs (heuristic).
 const MIN_SITE_DISTANCE: f64 = 0.42;
 
-/// Minimum distance for many designs, multiplied by the square root of their number, because larger
-/// distances do not fit into the circle (heuristic).
+/// Minimum distance between two sites for many designs, times the square root of their number. With
+/// many designs, [`MIN_SITE_DISTANCE`] does not fit into the circle (heuristic).
 const CROWDED_DISTANCE: f64 = 1.3;
 
 impl MapLayout {
-    /// Returns a site for each design, within distance 1 of the origin.
+    /// Returns a site for each design, at most 1 away from the origin.
     #[must_use]
     pub fn sites(self, distances: &DesignDistances) -> Vec<DVec2> {
         match self {
             Self::Polygon => polygon(distances.count()),
             Self::Line => line(distances.count()),
-            Self::Likeness => multidimensional_scaling(distances),
+            Self::Similarity => multidimensional_scaling(distances),
         }
     }
 }
@@ -65,8 +65,8 @@ fn line(count: usize) -> Vec<DVec2> {
     (0..count).map(place).collect()
 }
 
-/// Returns sites whose distances approximate those of the designs: classical multidimensional
-/// scaling (Torgerson 1952), with a minimum distance between sites.
+/// Returns sites whose distances approximate the dissimilarities of the designs: classical
+/// multidimensional scaling (Torgerson 1952), with a minimum distance between sites.
 fn multidimensional_scaling(distances: &DesignDistances) -> Vec<DVec2> {
     let count = distances.count();
     let squares: Vec<f64> = (0..count * count)
@@ -106,8 +106,8 @@ fn multidimensional_scaling(distances: &DesignDistances) -> Vec<DVec2> {
     sites
 }
 
-/// Moves and scales the sites so that their enclosing circle becomes the unit circle; returns its
-/// original radius.
+/// Moves and scales the sites so that their enclosing circle becomes the unit circle; returns the
+/// radius that the circle had.
 ///
 /// The centre is that of the enclosing circle, not the mean, which a single outlier would move so
 /// far that the other sites end up in a corner.
@@ -134,7 +134,7 @@ fn fit_to_unit_circle(sites: &mut [DVec2]) -> f64 {
     radius
 }
 
-/// Moves sites apart that are too close to each other, a little in every round.
+/// Moves sites that are too close to each other apart, a little in every round.
 fn push_apart(sites: &mut [DVec2]) {
     /// Maximum number of rounds (resource limit: twelve coincident sites need about twenty).
     const ROUNDS: usize = 200;
@@ -190,7 +190,7 @@ mod tests {
             places(0.2),
             places(2.2),
         ]);
-        let sites = MapLayout::Likeness.sites(&distances);
+        let sites = MapLayout::Similarity.sites(&distances);
         let distance = |a: usize, b: usize| sites[a].distance(sites[b]);
         assert!(distance(0, 2) < distance(0, 1) && distance(1, 3) < distance(1, 2));
         // An outlier does not push the others into a corner.
@@ -202,14 +202,14 @@ mod tests {
             places(5.0),
         ];
         let sites =
-            MapLayout::Likeness.sites(&DesignDistances::of_corresponding_points(&with_outlier));
+            MapLayout::Similarity.sites(&DesignDistances::of_corresponding_points(&with_outlier));
         let [min, max] =
             [f64::min, f64::max].map(|of| sites.iter().map(|site| site.x).fold(0.0, of));
         assert!((min + max).abs() < 0.05 && max > 0.9, "{sites:?}");
         // Identical designs get different sites.
         let same =
             DesignDistances::of_corresponding_points(&[places(0.0), places(0.0), places(1.0)]);
-        let sites = MapLayout::Likeness.sites(&same);
+        let sites = MapLayout::Similarity.sites(&same);
         assert!(sites[0].distance(sites[1]) > 0.2);
     }
 }

@@ -3,7 +3,7 @@
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::{NaturalNeighbours, SitesError};
 
-/// Sites of designs in the plane, y up, and the weights at all places between them.
+/// Positions of designs in the plane (sites), y up, and the weights of the designs at every place.
 ///
 /// ```
 /// use morphospace::{geometry::DVec2, space::WeightMap};
@@ -20,7 +20,7 @@ pub struct WeightMap {
 }
 
 impl WeightMap {
-    /// Creates the map of designs with the given sites.
+    /// Creates the map of designs that lie at the given sites.
     ///
     /// # Errors
     /// [`SitesError`] if there is no site or two of them coincide.
@@ -49,19 +49,20 @@ impl WeightMap {
     /// # Panics
     /// If the number of weights differs from that of the sites.
     pub fn weights(&self, place: DVec2, weights: &mut [f64]) {
-        self.neighbours.shares(place, weights);
+        self.neighbours.weights(place, weights);
     }
 
-    /// Returns whether a place lies within `reach` of the convex hull of the sites.
+    /// Returns whether a place lies inside the convex hull of the sites, or at most `reach` away
+    /// from it.
     #[must_use]
     pub fn contains(&self, place: DVec2, reach: f64) -> bool {
-        self.neighbours.holds(place, reach)
+        self.neighbours.contains(place, reach)
     }
 
     /// Returns a grid of places over the map, in rows from the top.
     ///
-    /// The grid place nearest to each site is moved onto the site. Places outside the convex hull
-    /// of the sites are `None`.
+    /// The grid place nearest to each site is moved onto the site. Places farther than a third of a
+    /// grid step from the convex hull of the sites are `None`.
     #[must_use]
     pub fn grid(&self, columns: usize, rows: usize) -> Vec<Option<DVec2>> {
         let size = self.bounds.size();
@@ -77,7 +78,8 @@ impl WeightMap {
             let fraction = DVec2::new(fraction(column, columns), 1.0 - fraction(row, rows));
             self.bounds.min + fraction * size
         };
-        // A third of a step outside is allowed, so that cells at the hull are not empty.
+        // Places up to a third of a step outside the hull count, so that cells at its boundary are
+        // not empty.
         let reach = step.max_element() / 3.0;
         let mut places: Vec<Option<DVec2>> = (0..columns * rows)
             .map(place)

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct Waypoint {
     /// Position on the map.
     pub at: DVec2,
-    /// Whether the path passes through without a stop. The first and the last place are always
-    /// stops.
+    /// Whether the path passes through this place without a stop. The first and the last place are
+    /// always stops, whatever this says.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub passed: bool,
     /// Name of the blend at this place; may be empty.
@@ -39,7 +39,7 @@ impl Waypoint {
     }
 }
 
-/// Sequence of waypoints. It forms a path only if there are at least two.
+/// Sequence of waypoints on a map. It forms a path only if there are at least two.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MapPath {
@@ -57,14 +57,14 @@ impl MapPath {
         self.places.len() < 2
     }
 
-    /// Returns the stops with their indices in `places`: at least two, or none without a path.
+    /// Returns the stops with their indices in `places`: at least two, or none if there is no path.
     pub fn stops(&self) -> impl Iterator<Item = (usize, &Waypoint)> {
         let last = self.places.len().saturating_sub(1);
         let places = self.places.iter().enumerate().filter(move |_| last > 0);
         places.filter(move |(k, place)| *k == 0 || *k == last || !place.passed)
     }
 
-    /// Returns the number of segments between consecutive stops.
+    /// Returns the number of segments between consecutive stops; 0 if there is no path.
     #[must_use]
     pub fn segment_count(&self) -> usize {
         self.stops().count().saturating_sub(1)
@@ -82,11 +82,11 @@ pub struct MapCurve {
 /// Cubic curve from one waypoint to the next.
 #[derive(Clone, Debug)]
 struct CurveSpan {
-    /// Coefficients of 1, u, u² and u³, u in [0, 1].
+    /// Coefficients of 1, u, u² and u³ of the position, for u in [0, 1].
     cubic: [DVec2; 4],
-    /// Exact position at u = 1, which may be the site of a design.
+    /// Exact position at u = 1. Without it, a rounding error could miss the site of a design.
     end: DVec2,
-    /// Arc length from the start to each of the evenly spaced u.
+    /// Arc length from u = 0 to each of the evenly spaced u = k / [`STEPS`].
     lengths: [f64; STEPS + 1],
 }
 
@@ -121,7 +121,7 @@ impl CurveSpan {
         self.lengths[STEPS]
     }
 
-    /// Returns the position at the given arc length from the start.
+    /// Returns the position at the given arc length from the start of the span.
     fn at(&self, length: f64) -> DVec2 {
         let k = self.lengths.partition_point(|&to| to < length);
         let k = k.clamp(1, STEPS);
@@ -162,13 +162,14 @@ impl MapCurve {
         self.segments.len()
     }
 
-    /// Returns the length of a segment.
+    /// Returns the length of a segment, in map units.
     #[must_use]
     pub fn length(&self, segment: usize) -> f64 {
         self.spans_of(segment).iter().map(CurveSpan::length).sum()
     }
 
-    /// Returns the position at a fraction of a segment's length; continues straight beyond 0 and 1.
+    /// Returns the position at a fraction of a segment's length. Below 0 and above 1, the curve
+    /// continues straight.
     #[must_use]
     pub fn place(&self, segment: usize, fraction: f64) -> DVec2 {
         let spans = self.spans_of(segment);
@@ -192,7 +193,7 @@ impl MapCurve {
         last.end
     }
 
-    /// Returns the position at `t`, which is k at the stop with index k.
+    /// Returns the position at `t`: the stop with index k is at t = k.
     #[must_use]
     pub fn at(&self, t: f64) -> DVec2 {
         let (segment, fraction) = crate::transition::segment_at(self.segments.len(), t);
@@ -205,7 +206,7 @@ impl MapCurve {
     }
 }
 
-/// Simplifies a polyline (Douglas and Peucker 1973), keeping its ends.
+/// Simplifies a polyline (Douglas and Peucker 1973). Its two ends are kept.
 ///
 /// Every removed point lies within `tolerance` of the simplified line.
 #[must_use]
@@ -228,7 +229,7 @@ pub fn simplify_polyline(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     }
 }
 
-/// Returns the cubic from place k − 1 to place k, as coefficients of 1, u, u² and u³.
+/// Returns the cubic curve from place k − 1 to place k, as coefficients of 1, u, u² and u³.
 fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
     let last = places.len() - 1;
     let is_closed = last > 1 && places[0] == places[last];
@@ -249,8 +250,8 @@ fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
         (gap(before, from), gap(from, to), gap(to, after));
     let chord = to - from;
     let tangent = |other: DVec2, gap: f64| match interval > 0.0 && gap > 0.0 {
-        // Mean of the slopes on both sides, weighted towards the shorter interval and scaled to
-        // this span.
+        // Mean of the slopes of both intervals, weighted towards the shorter one and scaled to this
+        // span.
         true => (chord * gap / interval + other * interval / gap) * (interval / (interval + gap)),
         false => chord,
     };

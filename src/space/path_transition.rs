@@ -1,8 +1,8 @@
 //! Films along a path over a map: one transition per segment between two stops.
 //!
 //! Each stop shows exactly the blend of its place, so a stop at a design's site shows that design.
-//! Between stops the weights are smooth approximations of the map's; for distance fields they are
-//! piecewise linear, and for pictures linear from stop to stop.
+//! Between stops, the weights of rigid parts are smooth approximations of the map's. Those of
+//! distance fields are piecewise linear, and those of pictures linear from stop to stop.
 
 use super::blend::{BlendContent, DesignSpace};
 use super::error::SpaceError;
@@ -19,12 +19,12 @@ use crate::work::budget::WorkloadKind;
 use crate::work::progress::{Progress, check_cancelled};
 use std::sync::Arc;
 
-/// Number of pieces of a segment in which the weights of distance fields are linear (resource
-/// limit: each piece stores a field; on random curves over a map of six designs the weights
-/// deviate by at most 0.05).
-pub(super) const PIECES: usize = 32;
+/// Number of pieces into which a segment of distance fields is divided; within a piece the weights
+/// are linear (resource limit: each piece stores a field; on random curves over a map of six
+/// designs the weights deviate by at most 0.05).
+pub(super) const FIELD_PIECES: usize = 32;
 
-/// Number of steps in which a segment is sampled for its bounding box (heuristic).
+/// Number of steps in which a segment is sampled to find its bounding box (heuristic).
 const BOUNDS_STEPS: u32 = 16;
 
 impl DesignSpace {
@@ -47,8 +47,8 @@ impl DesignSpace {
     /// Builds the transition of one segment of a path, from stop to stop.
     ///
     /// # Errors
-    /// [`SpaceError`] if there is no such segment, if the map does not have one site per design,
-    /// or if the distance fields of all segments need too much memory.
+    /// [`SpaceError`] if there is no such segment, if the map does not have one site per design, if
+    /// the distance fields of all segments need too much memory, or if the work was cancelled.
     pub fn segment(
         &self,
         map: &WeightMap,
@@ -97,7 +97,7 @@ impl DesignSpace {
                 Transition::along_blend(ends, warp, self.solid_content(boundary_loops, bars))
             }
             BlendContent::Field(set) => {
-                // 18 segments of 512² cells take 0.6 GB.
+                // The limit allows 18 segments of 512² cells, whose fields take 0.6 GB.
                 let cells = 2 * segments * set.grid().cells();
                 let check = WorkloadKind::Cells.check(cells, progress);
                 check.map_err(BuildError::from)?;
@@ -111,8 +111,8 @@ impl DesignSpace {
         })
     }
 
-    /// Returns a blend as a separate design with the given name, or with [`Self::blend_label`] if
-    /// the name is empty.
+    /// Returns a blend as a design of its own with the given name, or named by
+    /// [`Self::blend_label`] if the name is empty.
     ///
     /// With weight 1 on one design, returns a copy of that design.
     #[must_use]
@@ -184,7 +184,8 @@ impl DesignSpace {
     }
 }
 
-/// Returns a mesh or truss with vertices at the given places; `None` if it would be invalid.
+/// Returns a mesh, or a truss if there are bars, with vertices at the given places; `None` if it
+/// would be invalid.
 fn form_at(blend: &ArapBlend, bars: &[[u32; 2]], places: &[DVec2]) -> Option<DesignForm> {
     if bars.is_empty() {
         let faces = blend.family().faces().to_vec();
@@ -193,7 +194,7 @@ fn form_at(blend: &ArapBlend, bars: &[[u32; 2]], places: &[DVec2]) -> Option<Des
     Some(Truss::new(places.to_vec(), bars.to_vec()).ok()?.into())
 }
 
-/// Returns the bounding box of a segment, widened by half of `bar_width`.
+/// Returns the bounding box of all blends along a segment, widened by half of `bar_width`.
 fn swept_bounds(warp: &AlongBlend, bar_width: f64) -> Bounds {
     let mut placer = warp.placer();
     let boxes = (0..=BOUNDS_STEPS).filter_map(|k| {
@@ -205,10 +206,11 @@ fn swept_bounds(warp: &AlongBlend, bar_width: f64) -> Bounds {
     all.padded(0.5 * bar_width)
 }
 
-/// Blends the fields at evenly spaced t and returns them as consecutive pairs.
+/// Blends the distance fields at evenly spaced t of a segment, and returns each two consecutive
+/// ones as a pair.
 fn fields_along(set: &FieldSet, weights_at: impl Fn(f64) -> Vec<f64>) -> FieldContent {
-    let field = |k: usize| Arc::new(set.blended(&weights_at(k as f64 / PIECES as f64)));
-    let fields: Vec<_> = (0..=PIECES).map(field).collect();
+    let field = |k: usize| Arc::new(set.blended(&weights_at(k as f64 / FIELD_PIECES as f64)));
+    let fields: Vec<_> = (0..=FIELD_PIECES).map(field).collect();
     let pair =
         |two: &[Arc<_>]| FieldPair::new(Arc::clone(&two[0]), Arc::clone(&two[1]), set.blend());
     let pairs = fields.windows(2).map(pair).collect::<Result<Vec<_>, _>>();

@@ -15,32 +15,34 @@ use crate::work::progress::{Progress, checkpoint};
 use image::RgbaImage;
 use std::sync::Arc;
 
-/// Number of grid squares along the longer side of the frame, in each of which the warp is linear
-/// (resource limit: half as many as for two designs, because each frame warps all designs).
+/// Number of squares of the warp's grid along the longer side of the frame. The warp is linear in
+/// each triangle of the grid (resource limit: half as many as for two designs, because each frame
+/// warps all designs).
 const GRID: u32 = 80;
 
 /// Side length of the reduced pictures that are compared, in pixels (heuristic).
 const COMPARED_PX: u32 = 32;
 
-/// Maximum number of pixels of a blend that becomes a design (resource limit: those of a large
-/// screen).
+/// Maximum number of pixels of a blend that becomes a design of its own (resource limit: as many as
+/// a large screen has).
 const MAX_DESIGN_PX: f64 = 4e6;
 
 /// Pictures of all designs and the warp that aligns their features.
 #[derive(Debug)]
 pub(super) struct PictureSpace {
-    /// Pictures, and how their colours are mixed.
+    /// Pictures of the designs, and how their colours are mixed.
     pub set: PictureSet,
-    /// Warp of the plane for any weights.
+    /// Warp that aligns the features of all pictures, for any weights.
     pub blend: PlaneBlend,
-    /// Warp, features and options for the transitions along a path.
+    /// Kind of the warp. This and the next two fields specify the transitions along a path.
     warp_kind: WarpKind,
     features: ManyFeatures,
     options: TransitionOptions,
 }
 
 impl PictureSpace {
-    /// Prepares the pictures of the designs, which the warp aligns by the features common to all.
+    /// Prepares the pictures of the designs, and a warp of the given kind that aligns the features
+    /// common to all of them.
     pub fn of(
         designs: &[Arc<Design>],
         warp_kind: WarpKind,
@@ -125,7 +127,8 @@ impl PictureSpace {
             .render(&self.blend.places(weights), weights, raster)
     }
 
-    /// Returns a blend as a separate picture, in the resolution of the finest picture.
+    /// Returns a blend as a picture of its own, in the resolution of the finest picture but with at
+    /// most [`MAX_DESIGN_PX`] pixels.
     pub fn picture(&self, weights: &[f64]) -> Picture {
         let window = self.set.window(weights);
         let finest = self
@@ -150,7 +153,8 @@ impl PictureSpace {
         Picture::new(self.render(weights, &raster)).transformed(&place)
     }
 
-    /// Builds the transition between two blends, as one between two pictures.
+    /// Builds the transition between two blends with the given weights; `ends` are the blends as
+    /// pictures.
     pub fn transition_between(
         &self,
         ends: [Arc<Design>; 2],

@@ -1,5 +1,5 @@
-//! A design space as a transition whose weights are set from outside, for a stage whose entities
-//! are transitions.
+//! A transition that shows any blend of a design space, with weights set from outside. The stage
+//! uses it because its entities show transitions, not spaces.
 
 use super::blend::{BlendContent, DesignSpace};
 use crate::transition::{BlendEnds, Transition};
@@ -8,9 +8,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Transition of rigid parts that shows the blend with the weights set last.
 ///
-/// Cloning is cheap, and clones share their weights. A frame that is sought after setting the
-/// weights shows exactly that blend; t determines its colour between those of the first and the
-/// last design.
+/// Cloning is cheap, and clones share their weights. After the weights are set, a frame shows
+/// exactly that blend once it is sought. Its t only determines the colour, between those of the
+/// first and the last design.
 ///
 /// ```
 /// use morphospace::Design;
@@ -39,7 +39,8 @@ pub struct SteeredTransition {
 }
 
 impl SteeredTransition {
-    /// Starts at the first design; returns `None` unless the space is blended as rigid parts.
+    /// Creates the transition with weight 1 on the first design. Returns `None` unless the space is
+    /// blended as rigid parts.
     #[must_use]
     pub fn new(space: &DesignSpace) -> Option<Self> {
         let BlendContent::Solid {
@@ -75,18 +76,19 @@ impl SteeredTransition {
         })
     }
 
-    /// Returns the transition. Do not record it: the recording would show a single blend.
+    /// Returns the transition. Do not record it: the recording would show only one blend.
     #[must_use]
     pub fn transition(&self) -> &Transition {
         &self.transition
     }
 
-    /// Sets the weights, which must sum to one, and returns the t to which frames must be sought.
+    /// Sets the weights, which must sum to one. Returns the t to which frames must be sought to
+    /// show them in the colour of the blend.
     ///
     /// Returns `None`, and keeps the previous weights, if their number differs from that of the
     /// designs or one of them is not finite.
     #[must_use = "frames show the blend when they are sought again"]
-    pub fn set(&self, weights: &[f64]) -> Option<f64> {
+    pub fn set_weights(&self, weights: &[f64]) -> Option<f64> {
         let count = self.space.designs().len();
         if weights.len() != count || !weights.iter().all(|weight| weight.is_finite()) {
             return None;

@@ -92,7 +92,7 @@ fn the_order_of_the_designs_hardly_affects_blends() {
     let first = blend_points(vec![a.clone(), b.clone(), c.clone()], [0.5, 0.3, 0.2]);
     let reordered = blend_points(vec![c, a, b], [0.2, 0.5, 0.3]);
     assert_eq!(first.len(), reordered.len());
-    // Only similar, because the mesh starts from a different design.
+    // The points are only similar, because the mesh starts from a different design.
     let bounds = |points: &[DVec2]| Bounds::of(points.iter().copied()).expect("points");
     let (p, q) = (bounds(&first), bounds(&reordered));
     assert!(p.min.distance(q.min) < 0.1 && p.max.distance(q.max) < 0.1);

@@ -1,5 +1,5 @@
-//! Weights along a path over a map as polynomials in t, so that the film can be recorded and
-//! checked at every t.
+//! Approximates the weights along a segment of a path over a map by polynomials in t, so that the
+//! film can be recorded and checked at every t.
 //!
 //! Natural-neighbour weights have kinks where the set of neighbours changes, and the
 //! arc-length parameter of the path is only piecewise smooth; a polynomial smooths both. The
@@ -9,8 +9,8 @@
 
 use std::f64::consts::PI;
 
-/// Number of interpolation nodes of a segment (tolerance: on the curves of the test below the
-/// weights deviate by at most 0.02).
+/// Number of interpolation nodes of a segment (tolerance: on the curves of the test below, the
+/// weights deviate from those of the map by at most 0.02).
 const NODES: usize = 65;
 
 /// Weights at Chebyshev nodes, interpolated by the barycentric formula (Berrut and Trefethen 2004).
@@ -27,7 +27,8 @@ fn node(k: usize) -> f64 {
 }
 
 impl WeightPolynomials {
-    /// Interpolates the weights that `write` gives for each node's t.
+    /// Interpolates weights. `write(t, weights)` gives the exact weights at t and is called for
+    /// each node.
     pub fn new(designs: usize, mut write: impl FnMut(f64, &mut [f64])) -> Self {
         let mut weights = vec![0.0; NODES * designs];
         for (k, node_weights) in weights.chunks_exact_mut(designs).enumerate() {
@@ -94,7 +95,7 @@ mod tests {
     #[test]
     fn weights_along_curves_on_a_map_are_approximated() {
         use crate::geometry::DVec2;
-        use crate::space::path_transition::PIECES;
+        use crate::space::path_transition::FIELD_PIECES;
         use crate::space::{DesignDistances, MapCurve, MapLayout, MapPath, Waypoint, WeightMap};
         let sites = MapLayout::Polygon.sites(&DesignDistances::uniform(6));
         let map = WeightMap::new(&sites).expect("a map");
@@ -124,7 +125,7 @@ mod tests {
                 let mut expected = [0.0; 6];
                 on_map(t, &mut expected);
                 let weights = at(t);
-                let pieces = PIECES as f64;
+                let pieces = FIELD_PIECES as f64;
                 let from = (t * pieces).floor().min(pieces - 1.0);
                 let fraction = t * pieces - from;
                 let [a, b] = [from, from + 1.0].map(|k| at(k / pieces));

@@ -1,4 +1,4 @@
-//! Deterministic sample weights spread evenly over a design space.
+//! Deterministic sample of weights, spread evenly over a design space.
 
 /// Returns the k-th sample of the weights of `count` designs, evenly spread over all weights.
 ///

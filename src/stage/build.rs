@@ -1,8 +1,9 @@
-//! Builds transitions from meshes in the background, on Bevy's compute pool.
+//! Builds transitions from meshes in the background, on Bevy's compute pool, and adds a [`Morph`]
+//! for each finished build and for each transition that was built elsewhere.
 //!
-//! Guaranteed: the main thread never waits. A build is cancelled, and its result dropped, when its
-//! entity or meshes are gone. The previous picture stays until the new transition is ready, and
-//! also if its build fails.
+//! Guaranteed: the main thread never waits. A build is cancelled when its entity is despawned or a
+//! newer build replaces it; its result is then dropped. The previous picture stays until the new
+//! transition is ready, and also if the build fails.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,8 +26,8 @@ use super::mesh_family;
 use super::mesh_family::{FamilySteering, MeshFamily};
 use super::part_assembly::WithoutParts;
 
-/// A running build. Dropping it, with its entity or because a newer build replaces it, cancels the
-/// build.
+/// A running build of an entity's transition. Dropping the component cancels the build; this
+/// happens if the entity is despawned or a newer build replaces the component.
 #[derive(Component)]
 pub(super) struct TransitionBuild {
     task: Task<Result<BuildOutcome, BuildError>>,
@@ -34,19 +35,19 @@ pub(super) struct TransitionBuild {
 }
 
 impl TransitionBuild {
-    /// Starts a build on the pool.
+    /// Starts `work` on the compute pool.
     pub(super) fn start(
         work: impl FnOnce(&dyn Progress) -> Result<BuildOutcome, BuildError> + Send + 'static,
     ) -> Self {
         let request = Arc::new(BuildCancelFlag(AtomicBool::new(true)));
-        // Shared with the task, which may outlive the entity.
+        // The flag is shared with the task, because the task may outlive the entity.
         let progress = Arc::clone(&request);
         let task = AsyncComputeTaskPool::get().spawn(async move { work(&*progress) });
         Self { task, request }
     }
 }
 
-/// Result of a build.
+/// Transition or blend that a finished build has produced.
 pub(super) enum BuildOutcome {
     /// Transition between two designs.
     Pair(Transition),
@@ -61,7 +62,8 @@ impl Drop for TransitionBuild {
     }
 }
 
-/// Flag shared with a running build; false once the result is no longer needed.
+/// Flag shared with a running build; false once the result is no longer needed, which cancels the
+/// build.
 struct BuildCancelFlag(AtomicBool);
 
 impl Progress for BuildCancelFlag {
@@ -72,19 +74,19 @@ impl Progress for BuildCancelFlag {
     }
 }
 
-/// Filter for entities whose meshes or options changed.
+/// Filter for entities whose transition must be built because their meshes or options changed.
 type MeshesChanged = (
     Or<(
         Changed<SourceMesh>,
         Changed<TargetMesh>,
         Changed<MorphOptions>,
     )>,
-    // A transition that was built elsewhere adds its meshes to the entity; they must not be built
-    // again.
+    // `adopt_transitions` adds the meshes of a transition that is already built; they must not
+    // trigger another build.
     Without<StageTransition>,
 );
 
-/// Starts a build for each entity with new meshes or options.
+/// Starts a build for each entity with new meshes or options; it replaces a running build.
 pub(super) fn start_builds(
     mut commands: Commands,
     changed: Query<(Entity, &SourceMesh, &TargetMesh, &MorphOptions), MeshesChanged>,
@@ -99,7 +101,7 @@ pub(super) fn start_builds(
     }
 }
 
-/// Starts a build for each entity with a new family.
+/// Starts a build for each entity with a new mesh family.
 pub(super) fn start_families(
     mut commands: Commands,
     changed: Query<(Entity, &MeshFamily), Changed<MeshFamily>>,
@@ -127,7 +129,7 @@ fn build(
     Transition::build(&spec, progress)
 }
 
-/// Takes in the results of finished builds.
+/// Adds a [`Morph`] to each entity whose build has finished, and reports failed builds.
 pub(super) fn finish_builds(
     mut commands: Commands,
     mut building: Query<(Entity, &mut TransitionBuild, Option<&Blend>)>,
@@ -136,7 +138,7 @@ pub(super) fn finish_builds(
         let Some(result) = check_ready(&mut building.task) else {
             continue;
         };
-        // `try_`, because the entity may be gone when commands are applied.
+        // The entity may have been despawned by the time commands are applied; `try_` ignores this.
         commands.entity(entity).try_remove::<TransitionBuild>();
         match result {
             Ok(BuildOutcome::Pair(transition)) => {
@@ -147,7 +149,7 @@ pub(super) fn finish_builds(
                 entity.try_insert((morph, WithoutParts));
             }
             Ok(BuildOutcome::Family(steered)) => {
-                // Moved to its weights before it is drawn.
+                // `solve_families` moves the morph to its weights before it is drawn.
                 let morph = Morph(steered.transition().frame(0.0));
                 let steering = FamilySteering(steered);
                 commands
@@ -168,7 +170,7 @@ pub(super) fn adopt_transitions(
         let morph = Morph(transition.frame(blend.t));
         let mut entity = commands.entity(entity);
         entity
-            // A running build would replace this frame later.
+            // Otherwise a running build would later replace this transition.
             .try_remove::<TransitionBuild>()
             .try_insert((morph, WithoutParts));
         match transition.compatible().and_then(|_| meshes(transition)) {
@@ -179,9 +181,9 @@ pub(super) fn adopt_transitions(
     }
 }
 
-/// Both ends of a transition with triangles: the designs themselves, or the panels between the bars
-/// of trusses. Returns `None` for panels of which three meet at an edge, because these are no valid
-/// mesh.
+/// Returns the source and target meshes of a transition with faces: the designs themselves if they
+/// are meshes, otherwise the faces of the compatible mesh. Returns `None` if these are no valid
+/// mesh: three panels between the bars of a truss may meet at an edge.
 fn meshes(transition: &Transition) -> Option<(SourceMesh, TargetMesh)> {
     let [source, target] = transition.designs();
     if let (DesignForm::Mesh(source), DesignForm::Mesh(target)) = (&source.form, &target.form) {

@@ -1,10 +1,10 @@
-//! Captures of the stage: pictures of any size on a coloured or transparent background, drawn off
-//! screen by a separate camera.
+//! Captures pictures of the stage, of any size and on a coloured or transparent background. A
+//! separate camera draws each picture off screen.
 //!
 //! Guaranteed: each [`CaptureStage`] is answered by exactly one [`StageCaptured`], with the picture
 //! or an error message for the user; colours are blended as in exported files; panels and other
-//! windows are not captured. Not guaranteed: the exact frame of the request. The graphics card may
-//! have to compile shaders first; the answer reports the t of the picture.
+//! windows are not captured. Not guaranteed: that the picture shows the frame of the request. The
+//! graphics card may have to compile shaders first; the answer contains the t of the picture.
 
 use bevy::camera::{CompositingSpace, RenderTarget};
 use bevy::ecs::system::SystemParam;
@@ -26,7 +26,7 @@ use super::stage_view::{StageView, units_per_px};
 /// (heuristic).
 const MAX_WAIT_FRAMES: u32 = 1200;
 
-/// Requests a picture of the stage.
+/// Message that requests a picture of the stage.
 #[derive(Message, Clone, Debug)]
 pub struct CaptureStage {
     /// Identifier that the answer repeats.
@@ -35,14 +35,14 @@ pub struct CaptureStage {
     pub size_px: UVec2,
     /// Background colour; `None` is transparent.
     pub ground: Option<Rgb>,
-    /// Part of the plane to show. All of it is visible, centred in the picture.
+    /// Region of the plane to show: all of it is visible, centred in the picture.
     pub view: Bounds,
 }
 
-/// Answer to a [`CaptureStage`].
+/// Message that answers a [`CaptureStage`].
 #[derive(Message, Clone, Debug)]
 pub struct StageCaptured {
-    /// Identifier of the request.
+    /// Identifier of the answered request.
     pub id: u64,
     /// Blend parameter shown in the picture; `None` if the stage was empty.
     pub t: Option<f64>,
@@ -51,34 +51,34 @@ pub struct StageCaptured {
     pub result: Result<RgbaImage, String>,
 }
 
-/// Captures in progress.
+/// Captures that have been requested and not yet answered.
 #[derive(Resource, Default)]
 pub(super) struct PendingCaptures(Vec<CaptureTarget>);
 
-/// A capture in progress: the off-screen camera, its image, and the screenshot once it was
-/// requested.
+/// A capture in progress: the off-screen camera, the image into which it renders, and, once the
+/// shaders are ready, the screenshot of the image with its t.
 struct CaptureTarget {
     id: u64,
     camera: Entity,
     image: Handle<Image>,
     shot: Option<Entity>,
     t: Option<f64>,
-    /// Number of frames waited so far.
+    /// Number of frames since the request.
     frames: u32,
 }
 
-/// Resources of the renderer that a capture needs; all missing without a renderer.
+/// Resources of the renderer that a capture needs. A program without a renderer has none of them.
 #[derive(SystemParam)]
 pub(super) struct RenderAccess<'w> {
-    /// Images, to which each capture adds its target.
+    /// Image assets, to which each capture adds the image that it renders into.
     images: Option<ResMut<'w, Assets<Image>>>,
     /// The graphics card, which limits the size of images.
     device: Option<Res<'w, RenderDevice>>,
-    /// Whether the shaders have been compiled.
+    /// Tracker of whether the graphics card has compiled all shaders.
     pipelines: Option<Res<'w, PipelinesReady>>,
 }
 
-/// Spawns a camera for each request.
+/// Spawns an off-screen camera for each request, or answers the request with an error.
 pub(super) fn begin_captures(
     mut commands: Commands,
     mut requests: MessageReader<CaptureStage>,
@@ -116,7 +116,7 @@ pub(super) fn begin_captures(
         let format = TextureFormat::Rgba8UnormSrgb;
         let image = images.add(Image::new_target_texture(size.x, size.y, format, None));
         let camera = commands.spawn(camera(request, &image, view.anchor())).id();
-        // The target has another format than the window, so it may need other pipelines.
+        // The image has another format than the window, so other pipelines may have to be compiled.
         ready.reset();
         captures.0.push(CaptureTarget {
             id: request.id,
@@ -129,7 +129,7 @@ pub(super) fn begin_captures(
     }
 }
 
-/// Answer to a request that failed for the given reason.
+/// Answer with the reason why a capture failed.
 fn failed_capture(id: u64, reason: &str) -> StageCaptured {
     StageCaptured {
         id,
@@ -163,7 +163,8 @@ fn camera(request: &CaptureStage, image: &Handle<Image>, anchor: glam::DVec2) ->
     )
 }
 
-/// Takes each picture once the graphics card is ready; gives up after [`MAX_WAIT_FRAMES`] frames.
+/// Requests the screenshot of each capture once the graphics card is ready. Answers captures with
+/// an error after [`MAX_WAIT_FRAMES`] frames.
 pub(super) fn advance_captures(
     mut commands: Commands,
     mut answers: MessageWriter<StageCaptured>,
@@ -175,7 +176,7 @@ pub(super) fn advance_captures(
     captures.0.retain_mut(|capture| {
         capture.frames += 1;
         if is_ready && capture.shot.is_none() {
-            // If there are several entities, t of the first one is reported.
+            // If several transitions are on the stage, the answer contains the t of the first.
             capture.t = blends.iter().next().map(|blend| blend.t);
             let shot = Screenshot::image(capture.image.clone());
             capture.shot = Some(commands.spawn(shot).observe(finish_capture).id());
@@ -183,7 +184,7 @@ pub(super) fn advance_captures(
         if capture.frames <= MAX_WAIT_FRAMES {
             return true;
         }
-        // Otherwise the camera would draw in every later frame.
+        // If the camera stayed, it would draw in every later frame.
         commands.entity(capture.camera).try_despawn();
         if let Some(shot) = capture.shot {
             commands.entity(shot).try_despawn();
@@ -196,7 +197,7 @@ pub(super) fn advance_captures(
     });
 }
 
-/// Answers a request when its screenshot arrives.
+/// Observer that answers a request when its screenshot arrives.
 fn finish_capture(
     shot: On<ScreenshotCaptured>,
     mut commands: Commands,
@@ -204,7 +205,7 @@ fn finish_capture(
     mut captures: ResMut<PendingCaptures>,
 ) {
     let is_of_shot = |capture: &CaptureTarget| capture.shot == Some(shot.entity);
-    // Otherwise the capture was given up and has been answered.
+    // A capture that is no longer listed has already been answered with an error.
     let Some(index) = captures.0.iter().position(is_of_shot) else {
         return;
     };
@@ -215,8 +216,8 @@ fn finish_capture(
     let picture = RgbaImage::from_raw(x, y, data);
     answers.write(match picture {
         Some(mut picture) => {
-            // The camera blends in sRGB over a transparent background, which leaves sRGB colours
-            // multiplied by alpha.
+            // Blending in sRGB over a transparent background leaves sRGB colours multiplied by
+            // alpha; the answer needs straight alpha.
             picture.pixels_mut().for_each(make_straight);
             StageCaptured {
                 id: capture.id,

@@ -1,9 +1,9 @@
-//! Render mesh of distance fields, pictures and the warp grid: the vertices of the placement with
-//! texture coordinates.
+//! Writes the render meshes of distance fields, pictures and the warp grid: vertex positions, and
+//! for each vertex its positions in source and target, where the shader looks up the designs.
 //!
-//! The fragment shader needs three points per vertex: the position in the plane, stored as texture
-//! coordinates, and the lookup positions in source and target, stored as a colour of four floats,
-//! which Bevy interpolates unchanged.
+//! The fragment shader needs three interpolated points. The position in the plane is stored as
+//! texture coordinates. The lookup positions in source and target are stored as a vertex colour of
+//! four floats, which Bevy interpolates without conversion.
 
 use bevy::mesh::VertexAttributeValues;
 use bevy::prelude::*;
@@ -14,9 +14,11 @@ use crate::transition::Frame;
 
 use super::vertices::{positions, write_points};
 
-/// Writes a mesh that has as many vertices as the placement. Lookup positions are in samples for
-/// fields, in fractions of the sides for pictures, and in units of the plane relative to `origin`
-/// if `content` is `None`.
+/// Writes the frame into a mesh that has as many vertices as its placement.
+///
+/// Positions are relative to `origin`. Lookup positions are in grid samples for distance fields, in
+/// fractions of the sides for pictures, and relative to `origin` for the warp grid, whose `content`
+/// is `None`.
 pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mesh: &mut Mesh) {
     let places = &frame.placement().in_frame;
     write_points(places, origin, positions(mesh));
@@ -24,7 +26,7 @@ pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mes
         mesh.attribute_mut(Mesh::ATTRIBUTE_UV_0)
     {
         for (out, &p) in coordinates.iter_mut().zip(places) {
-            // Subtracted in double precision, like the positions.
+            // The difference is taken in double precision, since designs may lie far from zero.
             *out = (p - origin).as_vec2().to_array();
         }
     }
@@ -47,14 +49,15 @@ pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mes
     }
 }
 
-/// Converts a point of the plane to fractions of a picture's sides.
+/// Returns the map from points of the plane to fractions of the picture's width and height.
 fn picture_fractions(layer: &PictureLayer) -> impl Fn(DVec2) -> DVec2 {
     let (width, height) = layer.picture().pixels().dimensions();
     let size = DVec2::new(f64::from(width), f64::from(height));
     move |p| layer.pixel_from_plane(p) / size
 }
 
-/// Writes the lookup positions of all vertices, converted by `source` and `target`.
+/// Writes the positions of all vertices in source and target to `out`, converted to lookup
+/// positions by the maps `source` and `target`.
 fn write_lookups(
     frame: &Frame,
     out: &mut [[f32; 4]],

@@ -1,9 +1,9 @@
 //! Components of a transition on the stage: those that a program spawns and those that the plugin
 //! adds.
 //!
-//! Guaranteed: removing or replacing any of them never leaves a stale picture. Not guaranteed: a
-//! picture while a build is running. Until it finishes, the entity keeps its previous picture, or
-//! shows nothing.
+//! Guaranteed: removing or replacing any of these components never leaves an outdated picture. Not
+//! guaranteed: a picture of the new transition while its build is running. Until it finishes, the
+//! entity shows its previous picture, or nothing.
 
 use bevy::prelude::*;
 
@@ -11,25 +11,26 @@ use crate::mesh::TriangleMesh;
 use crate::transition::{BuildError, Frame, Transition, TransitionStyle};
 use crate::warp::ArapOptions;
 
-/// Design at t = 0, as triangles. It must have the same faces as the [`TargetMesh`]; together the
-/// two are all that a morphing entity needs.
+/// Triangle mesh at t = 0. It must have the same faces as the [`TargetMesh`]; an entity with both
+/// meshes is morphed by the plugin.
 ///
-/// Changing it, the target or the options rebuilds the transition.
+/// Changing this mesh, the target or the [`MorphOptions`] rebuilds the transition.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
 #[require(Blend, MorphOptions, StageStyle, Transform, Visibility)]
 pub struct SourceMesh(pub TriangleMesh);
 
-/// Design at t = 1: the same faces as the [`SourceMesh`], in the same order, at other positions.
+/// Triangle mesh at t = 1. It must have the faces of the [`SourceMesh`], in the same order; only
+/// the positions differ.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
 #[require(Blend, MorphOptions, StageStyle, Transform, Visibility)]
 pub struct TargetMesh(pub TriangleMesh);
 
-/// Blend parameter of an entity: 0 is the source, 1 the target, values outside extrapolate. NaN and
-/// infinity leave the picture unchanged.
+/// Blend parameter of an entity: 0 is the source, 1 the target, values outside [0, 1] extrapolate.
+/// NaN and infinity leave the picture unchanged.
 ///
 /// ```
 /// use morphospace::stage::Blend;
@@ -38,58 +39,59 @@ pub struct TargetMesh(pub TriangleMesh);
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Blend {
-    /// Blend parameter.
+    /// Blend parameter; see [`Blend`].
     pub t: f64,
 }
 
-/// Options of the interpolation between two meshes.
+/// Options of the as-rigid-as-possible interpolation between a [`SourceMesh`] and a [`TargetMesh`].
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug, Default)]
 pub struct MorphOptions(pub ArapOptions);
 
-/// A built transition with its current frame. The plugin adds it and moves it to [`Blend`] whenever
-/// that changes. Its content determines how it is drawn.
+/// A built transition with its current frame. The plugin adds the component to an entity and moves
+/// the frame whenever the [`Blend`] changes. The content of the transition determines how it is
+/// drawn.
 ///
-/// Reflection shows the component but not the frame, which owns its memory and cannot be cloned.
+/// Reflection lists the component without its frame, which cannot be cloned.
 #[derive(Component, Debug, Reflect)]
 #[reflect(Component, Debug, from_reflect = false)]
 pub struct Morph(#[reflect(ignore)] pub(super) Frame);
 
 impl Morph {
-    /// Returns the current frame. If the graphics card plays it, its vertices are placed on the
-    /// first read at each t, so read them only where needed.
+    /// Returns the current frame. If the graphics card plays the morph, the first read of the
+    /// vertices at each t computes them on the CPU, so read them only where needed.
     pub fn frame(&self) -> &Frame {
         &self.0
     }
 }
 
-/// A transition that was built elsewhere, of any kind.
+/// A transition of any kind that the program has built itself.
 ///
-/// The plugin adds a [`Morph`] and, if the transition has triangles, a [`SourceMesh`] and a
-/// [`TargetMesh`]. Replacing the component replaces the picture.
+/// The plugin adds a [`Morph`] and, if the transition has faces, a [`SourceMesh`] and a
+/// [`TargetMesh`] to the entity. Replacing the component replaces the picture.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
 #[require(Blend, StageStyle, Transform, Visibility)]
 pub struct StageTransition(pub Transition);
 
-/// Colours of an entity on the stage, and which of its elements are visible.
+/// Colours of an entity on the stage, and the elements of it that are visible.
 #[derive(Component, Clone, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
 pub struct StageStyle {
-    /// Colours, shared with the exporters.
+    /// Colours, joints and background, as in exported files.
     #[reflect(ignore, clone)]
     pub style: TransitionStyle,
-    /// Visible elements.
-    pub show: StageVisibility,
+    /// Elements that are visible.
+    pub visibility: StageVisibility,
 }
 
-/// Visible elements of a transition. Elements that do not apply to it are ignored.
+/// Elements of a transition that are visible. Elements that a transition does not have are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Reflect)]
 #[reflect(Clone, Debug, Default, PartialEq)]
 pub struct StageVisibility {
-    /// Filled shape (solids and fields) or picture.
+    /// Filled shapes of solids and distance fields, and pictures.
     pub fill: bool,
     /// Edges of the triangulation.
     pub wireframe: bool,
@@ -97,11 +99,11 @@ pub struct StageVisibility {
     pub bars: bool,
     /// Thin outlines of source and target.
     pub ghosts: bool,
-    /// Lines of equal blended distance (fields only).
+    /// Lines of equal blended distance (distance fields only).
     pub iso_lines: bool,
-    /// Blended field in two hues, warm inside and cool outside (fields only).
+    /// Blended distance in two colours, orange inside and violet outside (distance fields only).
     pub signed_colours: bool,
-    /// Square grid of the source, deformed by the warp (any transition with faces).
+    /// Square grid in the source, deformed by the warp (transitions with faces only).
     pub grid: bool,
 }
 
@@ -119,12 +121,11 @@ impl Default for StageVisibility {
     }
 }
 
-/// Triggered on an entity whose transition could not be built. The entity keeps its previous
-/// picture.
+/// Event on an entity whose transition could not be built. The entity keeps its previous picture.
 #[derive(EntityEvent, Debug)]
 pub struct BuildFailed {
     /// Entity whose build failed.
     pub entity: Entity,
-    /// Reason, readable by a user.
+    /// Reason of the failure; its text is suitable for users.
     pub error: BuildError,
 }

@@ -1,8 +1,8 @@
-//! Designs as assets: Bevy's asset server reads the files, and an entity is rebuilt when one of its
-//! files is reloaded.
+//! Designs as assets: Bevy's asset server reads the files, and the transition of an entity is
+//! rebuilt when one of its files is reloaded.
 //!
 //! Guaranteed: a build starts only when all designs of an entity are loaded. The previous
-//! transition stays until the new one is ready. It also stays if a file cannot be read any more,
+//! transition stays until the new one is ready. It also stays if a reloaded file cannot be read,
 //! which triggers a [`BuildFailed`].
 
 use std::sync::Arc;
@@ -20,13 +20,13 @@ use super::build::{BuildOutcome, TransitionBuild};
 use super::components::{Blend, BuildFailed, StageStyle};
 use super::mesh_family::{BlendWeights, build_steered};
 
-/// A design loaded from a file by `AssetServer::load`, in any format that
-/// [`import`](crate::design::import) knows. The asset settings are [`ImportOptions`].
+/// A design that `AssetServer::load` has read from a file, in any format that
+/// [`import`](crate::design::import) knows. The settings of the asset are [`ImportOptions`].
 #[derive(Asset, TypePath, Clone, Debug)]
 pub struct DesignAsset(pub Arc<Design>);
 
 /// Asset loader of [`DesignAsset`]. [`MorphPlugin`](super::MorphPlugin) registers it if the app has
-/// assets.
+/// an asset server.
 #[derive(TypePath, Clone, Debug)]
 pub struct DesignLoader {
     extensions: Vec<&'static str>,
@@ -40,7 +40,7 @@ impl Default for DesignLoader {
     }
 }
 
-/// Errors of loading a [`DesignAsset`].
+/// Reasons why a [`DesignAsset`] cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LoadDesignError {
@@ -75,11 +75,11 @@ impl AssetLoader for DesignLoader {
     }
 }
 
-/// Two or more design assets: all that an entity needs to show the transition between them, matched
-/// automatically with the default options. Two designs follow [`Blend`]; three or more are blended
-/// as rigid parts and follow [`BlendWeights`].
+/// Two or more design assets whose transition an entity shows. The designs are matched
+/// automatically, with the default options. Two designs are blended according to [`Blend`]; three
+/// or more are blended as rigid parts according to [`BlendWeights`].
 ///
-/// Replacing the designs, or reloading one of their files, rebuilds the transition.
+/// Replacing the component, or reloading one of the files, rebuilds the transition.
 ///
 /// ```no_run
 /// use bevy::prelude::*;
@@ -101,7 +101,8 @@ impl AssetLoader for DesignLoader {
 #[require(Blend, BlendWeights, StageStyle, Transform, Visibility)]
 pub struct MorphDesigns(pub Vec<Handle<DesignAsset>>);
 
-/// Starts a build for each entity whose designs are all loaded and of which one is new.
+/// Starts a build for each entity whose designs are all loaded and at least one of which is new.
+/// Triggers [`BuildFailed`] for each design of an entity that cannot be loaded.
 pub(super) fn start_designs(
     mut commands: Commands,
     assets: Res<Assets<DesignAsset>>,
@@ -132,7 +133,7 @@ pub(super) fn start_designs(
     }
 }
 
-/// Builds a transition between two designs, or the blend of more.
+/// Builds the transition between two designs, or the blend of any other number of designs.
 fn build(designs: Vec<Arc<Design>>, progress: &dyn Progress) -> Result<BuildOutcome, BuildError> {
     match <[_; 2]>::try_from(designs) {
         Ok([source, target]) => {

@@ -1,7 +1,7 @@
-//! Draws morphs: one system updates the meshes and materials of render parts whose frame or style
-//! changed.
+//! Draws morphs: updates the meshes and materials of all render parts of morphs whose frame or
+//! style changed.
 //!
-//! Guaranteed: only vertices of visible parts are written, in place, and only then is the mesh
+//! Guaranteed: only the meshes of visible parts are written, in place, and only written meshes are
 //! marked as changed. Hidden parts are written when they become visible.
 
 use bevy::platform::time::Instant;
@@ -12,15 +12,15 @@ use crate::content::Content;
 use crate::transition::Frame;
 
 use super::components::{Morph, StageStyle};
-use super::field_material::{FieldKind, FieldLook, FieldMaterial};
+use super::field_material::{FieldKind, FieldMaterial, FieldUniform};
 use super::frame_times::FrameTimes;
-use super::ink_material::linear;
+use super::ink_material::linear_rgba_from_rgb;
 use super::paint::{StagePaint, StagePaints};
 use super::parts::{DeferredMesh, PartKind, StagePart};
-use super::picture_material::PictureLook;
+use super::picture_material::PictureUniform;
 use super::recorded_material::{RecordedMaterial, RecordedSum};
 use super::uploaded_recording::UploadState;
-use super::warp_grid::GridLook;
+use super::warp_grid::GridUniform;
 
 /// Components of a morph entity that drawing needs.
 type DrawnRoots = (
@@ -47,7 +47,7 @@ pub(super) fn draw_morphs(
         let mut parts = parts.iter_many_mut(children);
         while let Some((mut part, mut visibility, mesh)) = parts.fetch_next() {
             let (has_moved, is_restyled) = (morph.is_changed(), style.is_changed());
-            // A hidden part stays stale until it is shown, however far the frame moves.
+            // A hidden part stays marked as stale until it is shown.
             part.is_stale |= part.kind.is_outdated(has_moved, is_restyled, frame);
             let is_shown = part.kind.is_shown(&style);
             visibility.set_if_neq(if is_shown {
@@ -59,11 +59,11 @@ pub(super) fn draw_morphs(
                 continue;
             }
             if let Some(DeferredMesh(make)) = part.deferred_mesh.take() {
-                // Cannot fail: the handle was reserved for this part and lives as long.
+                // This cannot fail: the handle was reserved for this part and lives as long as it.
                 paints.meshes.insert(mesh, make(frame)).ok();
             }
-            // A part played by the graphics card stays stale, like a hidden one.
-            let is_played = part.is_played(upload, frame.t());
+            // The mesh of a part that the graphics card plays is not written and stays stale.
+            let is_played = part.is_gpu_played(upload, frame.t());
             any_played |= is_played;
             any_read |= part.needs_positions(frame, frame.t(), &style, upload);
             if part.is_stale
@@ -81,7 +81,7 @@ pub(super) fn draw_morphs(
     }
 }
 
-/// Updates the material of a part.
+/// Updates the material of a part to the current frame and style.
 fn paint(
     part: &StagePart,
     frame: &Frame,
@@ -92,15 +92,15 @@ fn paint(
     let (t, origin) = (frame.t(), part.origin);
     match (&part.paint, frame.transition().content()) {
         (StagePaint::Ink(ink), _) => {
-            let colour = linear(part.kind.colour(t, style));
+            let colour = linear_rgba_from_rgb(part.kind.colour(t, style));
             set_if_changed(&mut paints.inks, ink, |ink| &mut ink.colour, colour);
             if let PartKind::PaintLayers(layers) = &part.kind {
                 let gradients = layers.gradients().clone();
                 set_if_changed(&mut paints.inks, ink, |ink| &mut ink.gradients, gradients);
             }
         }
-        (StagePaint::Played(played), _) => {
-            let colour = linear(part.kind.colour(t, style));
+        (StagePaint::Recorded(played), _) => {
+            let colour = linear_rgba_from_rgb(part.kind.colour(t, style));
             set_if_changed(&mut paints.played, played, |part| &mut part.colour, colour);
             let sum = match upload.and_then(|upload| upload.at(t)) {
                 Some((rows, sum)) => {
@@ -112,27 +112,27 @@ fn paint(
             set_if_changed(&mut paints.played, played, |part| &mut part.sum, sum);
         }
         (StagePaint::Grid(grid), _) => {
-            let look = GridLook::new(frame, origin, style);
+            let look = GridUniform::new(frame, origin, style);
             set_if_changed(&mut paints.grids, grid, |grid| &mut grid.look, look);
         }
         (StagePaint::Field(field), Content::Field(fields)) => {
             let (pair, within) = fields.pair_at(t);
             bind_field_pair(&mut paints.fields, field, pair);
-            let look = FieldLook::new(&fields.pairs()[pair], within, t, style);
+            let look = FieldUniform::new(&fields.pairs()[pair], within, t, style);
             set_if_changed(&mut paints.fields, field, |field| &mut field.look, look);
             let kind = FieldKind::new(fields, style);
             set_if_changed(&mut paints.fields, field, |field| &mut field.kind, kind);
         }
         (StagePaint::Picture(picture), Content::Colours(pair)) => {
-            let look = PictureLook::new(pair, t, origin);
+            let look = PictureUniform::new(pair, t, origin);
             set_if_changed(&mut paints.colours, picture, |part| &mut part.look, look);
         }
-        // Cannot happen: an entity has parts of one transition only.
+        // This cannot happen, since an entity has render parts of one transition only.
         (StagePaint::Field(_) | StagePaint::Picture(_), _) => {}
     }
 }
 
-/// Binds the buffer of another recorded interval, if it is not bound already.
+/// Binds the buffer of a recorded interval to a material, unless it is already bound.
 fn bind_interval(
     materials: &mut Assets<RecordedMaterial>,
     handle: &Handle<RecordedMaterial>,
@@ -145,7 +145,7 @@ fn bind_interval(
     }
 }
 
-/// Shows another pair of fields, if it is not shown already.
+/// Makes a material show the pair of distance fields with the index `pair`, unless it already does.
 fn bind_field_pair(
     materials: &mut Assets<FieldMaterial>,
     handle: &Handle<FieldMaterial>,
@@ -159,8 +159,8 @@ fn bind_field_pair(
     }
 }
 
-/// Sets a value in a material only if it differs, so that unchanged materials are not sent to the
-/// graphics card again.
+/// Sets a value in a material if it differs. Unchanged materials are not marked as changed, so they
+/// are not sent to the graphics card again.
 fn set_if_changed<M: Asset, L: PartialEq>(
     materials: &mut Assets<M>,
     handle: &Handle<M>,
@@ -168,7 +168,7 @@ fn set_if_changed<M: Asset, L: PartialEq>(
     value: L,
 ) {
     if let Some(mut material) = materials.get_mut(handle)
-        // A mutable borrow would mark the material as changed even if nothing changes.
+        // A mutable borrow marks the material as changed, so values are compared without one.
         && *field(material.bypass_change_detection()) != value
     {
         *field(&mut material) = value;

@@ -1,10 +1,10 @@
-//! Material of distance fields: both fields as textures, blended and cut at the threshold by the
-//! fragment shader.
+//! Material that draws blends of distance fields: both fields are textures, and the fragment shader
+//! blends them and fills the region above the threshold.
 //!
-//! Guaranteed: the shader evaluates the same blend as [`FieldPair`] (bilinear between samples, then
-//! L) in single precision; the contour is anti-aliased at any zoom and under any warp; nothing is
-//! drawn outside the mesh. Not guaranteed: the last digits. Contours agree with those of the CPU to
-//! a fraction of a pixel.
+//! Guaranteed: the shader evaluates the same blend as [`FieldPair`] in single precision (bilinear
+//! interpolation between samples, then the scale given by [`BlendSpace`]); the contour is
+//! anti-aliased at any zoom and under any warp; nothing is drawn outside the mesh. Not guaranteed:
+//! the last digits. Contours agree with those of the CPU to a fraction of a pixel.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::ToExtents;
@@ -21,10 +21,10 @@ use crate::content::{BlendSpace, FieldContent, FieldPair};
 use crate::field::DistanceField;
 
 use super::components::StageStyle;
-use super::ink_material::{contrasting_colour, embedded, linear};
+use super::ink_material::{contrasting_colour, embedded_shader_path, linear_rgba_from_rgb};
 
-/// Colour of positive blended distances: orange. With violet it is distinguishable under all common
-/// kinds of colour vision, on dark and light backgrounds.
+/// Colour of positive blended distances: orange. It is distinguishable from [`OUTSIDE`] under all
+/// common kinds of colour vision, on dark and light backgrounds.
 const INSIDE: Srgba = Srgba::rgb(0.878, 0.51, 0.078);
 /// Colour of negative blended distances: violet.
 const OUTSIDE: Srgba = Srgba::rgb(0.502, 0.451, 0.675);
@@ -32,27 +32,28 @@ const OUTSIDE: Srgba = Srgba::rgb(0.502, 0.451, 0.675);
 /// Number of lines of equal distance along the longer side of the grid (heuristic).
 const ISO_LINES: f32 = 40.0;
 
-/// Two distance fields, and how they are blended and drawn.
+/// Material with two distance fields, and with the way in which they are blended and drawn.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(FieldKind)]
 pub(super) struct FieldMaterial {
     #[uniform(0)]
-    pub(super) look: FieldLook,
-    // Filtering 32-bit floats is an optional feature of graphics cards, and 16 bits are not precise
-    // enough; the shader interpolates itself.
+    pub(super) look: FieldUniform,
+    // The shader interpolates the samples itself: not all graphics cards can filter 32-bit floats,
+    // and 16 bits are not precise enough.
     #[texture(1, sample_type = "float", filterable = false)]
     source: Handle<Image>,
     #[texture(2, sample_type = "float", filterable = false)]
     target: Handle<Image>,
     pub(super) kind: FieldKind,
-    /// All fields of a sequence; each pair blends one with the next.
+    /// Textures of all fields of a sequence; pair `k` blends texture `k` with texture `k + 1`.
     nodes: Vec<Handle<Image>>,
 }
 
-/// Properties that select the shader variant of a field.
+/// Properties of a field and its style, each of which selects a shader variant.
 ///
-/// Not branches on uniforms, which change with t: some drivers compile a new shader for each change
-/// (Mesa's lavapipe 22.3 also kept all of them, 26 MB per second of playback).
+/// The shader does not branch on uniforms instead, because some drivers compile a new shader
+/// whenever a uniform changes, hence for each t (Mesa's lavapipe 22.3 also kept all of them in
+/// memory, 26 MB per second of playback).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct FieldKind {
     is_log: bool,
@@ -63,17 +64,17 @@ pub(super) struct FieldKind {
 
 impl FieldKind {
     pub(super) fn new(fields: &FieldContent, style: &StageStyle) -> Self {
-        let show = style.show;
+        let show = style.visibility;
         Self {
             is_log: matches!(fields.first_pair().blend().space, BlendSpace::Log),
-            // Painted fields are filled by the paint layers below.
-            shows_fill: show.fill && fields.painted().is_none(),
+            // Fields with paints are filled by a separate render part with paint layers.
+            shows_fill: show.fill && fields.painted_fields().is_none(),
             shows_lines: show.iso_lines,
             shows_signs: show.signed_colours,
         }
     }
 
-    /// Shader definitions of the variant.
+    /// Shader definitions that select the variant.
     fn definitions(self) -> impl Iterator<Item = ShaderDefVal> {
         let all = [
             (self.is_log, "LOG_SPACE"),
@@ -92,9 +93,9 @@ impl From<&FieldMaterial> for FieldKind {
     }
 }
 
-/// Uniform of [`FieldMaterial`]; the same fields as in `field.wgsl`.
+/// Uniform of [`FieldMaterial`], with the same members as in `field.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
-pub(super) struct FieldLook {
+pub(super) struct FieldUniform {
     fill: Vec4,
     inside: Vec4,
     outside: Vec4,
@@ -107,7 +108,7 @@ pub(super) struct FieldLook {
 
 impl Material2d for FieldMaterial {
     fn fragment_shader() -> ShaderRef {
-        ShaderRef::Path(embedded("field.wgsl"))
+        ShaderRef::Path(embedded_shader_path("field.wgsl"))
     }
 
     fn alpha_mode(&self) -> AlphaMode2d {
@@ -129,13 +130,13 @@ impl Material2d for FieldMaterial {
 }
 
 impl FieldMaterial {
-    /// Uploads the fields of a sequence of pairs.
+    /// Creates the textures of all fields of a sequence of pairs; shows the first pair.
     pub(super) fn new(pairs: &[FieldPair], images: &mut Assets<Image>) -> Self {
         let first = pairs.iter().take(1).map(FieldPair::source);
         let nodes = first.chain(pairs.iter().map(FieldPair::target));
         let nodes: Vec<_> = nodes.map(|field| images.add(texture_of(field))).collect();
         Self {
-            look: FieldLook::default(), // set when it is drawn
+            look: FieldUniform::default(), // set when it is drawn
             kind: FieldKind::default(),
             source: nodes[0].clone(),
             target: nodes[1].clone(),
@@ -143,13 +144,13 @@ impl FieldMaterial {
         }
     }
 
-    /// A placeholder of the most common variant (logarithmic scale, fill only), to compile its
-    /// pipeline.
+    /// Returns a material that shows nothing, in the most common shader variant (logarithmic scale,
+    /// fill only), so that the pipeline of this variant is compiled.
     pub(super) fn placeholder(images: &mut Assets<Image>) -> Self {
         let single_texel = texture(UVec2::ONE, &[1.0]);
         let node = images.add(single_texel);
         Self {
-            look: FieldLook::default(),
+            look: FieldUniform::default(),
             kind: FieldKind {
                 is_log: true,
                 shows_fill: true,
@@ -161,40 +162,40 @@ impl FieldMaterial {
         }
     }
 
-    /// Whether the material shows the pair with this index.
+    /// Whether the material shows the pair of fields with the index `pair`.
     pub(super) fn shows_pair(&self, pair: usize) -> bool {
         self.source == self.nodes[pair]
     }
 
-    /// Shows the pair with this index.
+    /// Shows the pair of fields with the index `pair`.
     pub(super) fn show_pair(&mut self, pair: usize) {
         self.source.clone_from(&self.nodes[pair]);
         self.target.clone_from(&self.nodes[pair + 1]);
     }
 }
 
-impl FieldLook {
-    /// Uniform of a pair at its own blend parameter `within`. Colours are those of the whole
-    /// transition at `t`.
+impl FieldUniform {
+    /// Returns the uniform of a pair of fields at the blend parameter `within` between these two
+    /// fields. The colours are those of the whole transition at `t`.
     pub(super) fn new(pair: &FieldPair, within: f64, t: f64, style: &StageStyle) -> Self {
         let blend = pair.blend();
         let grid = pair.grid();
         let style = &style.style;
         Self {
-            fill: linear(style.fill_at(t)).to_vec4(),
+            fill: linear_rgba_from_rgb(style.fill_at(t)).to_vec4(),
             inside: LinearRgba::from(INSIDE).to_vec4(),
             outside: LinearRgba::from(OUTSIDE).to_vec4(),
             line: contrasting_colour(style.ground).to_vec4(),
             t: within as f32,
             epsilon: blend.epsilon as f32,
             level: blend.level() as f32,
-            // In cells, like distances, whatever the units of the design.
+            // The spacing is in cells, like the distances, whatever the units of the design.
             spacing: grid.width.max(grid.height) as f32 / ISO_LINES,
         }
     }
 }
 
-/// Texture of a field; row 0 is the lowest.
+/// Texture of a distance field; row 0 is the lowest.
 fn texture_of(field: &DistanceField) -> Image {
     let grid = field.grid();
     texture(UVec2::new(grid.width, grid.height), field.values())

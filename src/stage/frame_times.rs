@@ -1,7 +1,7 @@
-//! Durations of the stages of a frame.
+//! Measured durations of the work in recent frames: solving and drawing.
 //!
-//! Guaranteed: recording neither allocates nor blocks. Not guaranteed: GPU time. `draw` is the time
-//! the CPU takes to write vertices and uniforms.
+//! Guaranteed: recording a duration neither allocates nor blocks. Not guaranteed: the time of the
+//! GPU. Only the time that the CPU takes is measured.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use bevy::prelude::*;
 /// Number of frames that a median covers (heuristic).
 pub const HISTORY_LEN: usize = 120;
 
-/// The last [`HISTORY_LEN`] durations of one stage of the frame.
+/// The last [`HISTORY_LEN`] durations of one kind of work.
 ///
 /// ```
 /// use std::time::Duration;
@@ -40,16 +40,16 @@ impl Default for DurationHistory {
 }
 
 impl DurationHistory {
-    /// Records a duration, replacing the oldest.
+    /// Records a duration; it replaces the oldest one if the history is full.
     pub fn record(&mut self, duration: Duration) {
         self.ring[self.recorded % HISTORY_LEN] = duration;
         self.recorded += 1;
     }
 
-    /// Returns the median of the recorded durations (the lower one of an even count); `None` before
-    /// the first.
+    /// Returns the median of the recorded durations (of an even number, the lower one of the two
+    /// in the middle); `None` if no duration is recorded.
     pub fn median(&self) -> Option<Duration> {
-        // A copy of 2 kB on the stack, to avoid an allocation.
+        // A copy of 2 kB on the stack avoids an allocation.
         let mut sorted = self.ring;
         let recorded = &mut sorted[..self.recorded.min(HISTORY_LEN)];
         recorded.sort_unstable();
@@ -57,13 +57,13 @@ impl DurationHistory {
     }
 }
 
-/// Durations of the stage's work in recent frames. Frames without work are not recorded.
+/// CPU times of solving and drawing in recent frames. Frames without this work are not recorded.
 #[derive(Resource, Clone, Debug, Default, Reflect)]
 #[reflect(Resource, Clone, Debug, Default)]
 pub struct FrameTimes {
-    /// Placing all vertices: right-hand sides, back substitution and placement.
+    /// Time to compute all vertices: right-hand sides, back substitution and placement.
     pub solve: DurationHistory,
-    /// Writing render meshes and uniforms.
+    /// Time to write render meshes and uniforms.
     pub draw: DurationHistory,
     /// Whether the graphics card evaluated the last drawn frame from a recording, without solving
     /// or writing vertices.

@@ -1,5 +1,5 @@
-//! Gradients as the shader reads them: a uniform table of numbers, and per vertex the position in
-//! the gradient's own space.
+//! Encodes gradients for the shader: a uniform table of numbers with all gradients, and for each
+//! vertex the index of its gradient in the table and its position in the gradient's own space.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::ShaderType;
@@ -7,12 +7,12 @@ use glam::{DAffine2, DVec2};
 
 use crate::colour::{Gradient, GradientGeometry, GradientSpread, Paint};
 
-/// Size of the table, in vectors of four numbers; the same as in `ink.wgsl`. A gradient takes two
-/// vectors plus two per stop; gradients that do not fit are drawn in their mean colour (resource
-/// limit: 8 KiB of uniforms).
+/// Size of the gradient table, in vectors of four numbers; the same as in `ink.wgsl`. A gradient
+/// takes two vectors plus two per stop. Gradients that do not fit are drawn in their mean colour
+/// (resource limit: 8 KiB of uniforms).
 const CAPACITY: usize = 512;
 
-/// Uniform with all gradients of a frame.
+/// Uniform with the table of all gradients of a frame.
 #[derive(Clone, Debug, PartialEq, ShaderType)]
 pub(super) struct GradientUniform {
     numbers: [Vec4; CAPACITY],
@@ -26,28 +26,28 @@ impl Default for GradientUniform {
     }
 }
 
-/// Builder of the uniform table.
+/// Builder of the [`GradientUniform`] of a frame.
 #[derive(Default)]
 pub(super) struct GradientTable {
     pub(super) gradients: GradientUniform,
-    /// Index of the first vector of each gradient.
+    /// For each gradient: the index of its first vector in the table.
     firsts: Vec<usize>,
-    /// Number of vectors in use.
+    /// Number of vectors of the table that are in use.
     used: usize,
 }
 
-/// Reference to a gradient in the table.
+/// Place of a gradient in the table, with the map into the gradient's own space.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GradientSlot {
-    /// Index of the first vector of the gradient.
+    /// Index of the gradient's first vector in the table.
     first: usize,
     /// Map from the plane to the gradient's own space.
-    into: DAffine2,
+    gradient_from_plane: DAffine2,
 }
 
 impl GradientTable {
-    /// Adds a gradient. Returns `None` if there is no room, it has no stops, or its frame is
-    /// degenerate.
+    /// Adds a gradient to the table. Returns `None` if the table has no room for it, or if the
+    /// gradient has no stops or a degenerate frame.
     pub(super) fn insert(&mut self, gradient: &Gradient) -> Option<GradientSlot> {
         let into = gradient.frame.inverse();
         if !into.is_finite() || gradient.stops.is_empty() {
@@ -71,12 +71,12 @@ impl GradientTable {
         let numbers: Vec<Vec4> = [head, focus].into_iter().chain(stops).collect();
         Some(GradientSlot {
             first: self.put_numbers(&numbers)?,
-            into,
+            gradient_from_plane: into,
         })
     }
 
-    /// Index of a sequence of vectors, which is added if it is new. Equal gradients at different
-    /// positions share it.
+    /// Returns the index in the table of a gradient's vectors, which are added if they are new.
+    /// Gradients that differ only in their position share their vectors.
     fn put_numbers(&mut self, numbers: &[Vec4]) -> Option<usize> {
         let is_there = |&first: &usize| self.gradients.numbers[first..].starts_with(numbers);
         if let Some(&first) = self.firsts.iter().find(|first| is_there(first)) {
@@ -95,19 +95,22 @@ impl GradientTable {
 }
 
 impl GradientSlot {
-    /// Vertex colour that refers to the gradient. The negative opacity distinguishes it from a
-    /// colour.
+    /// Vertex colour that encodes the gradient's index in the table. Its negative opacity
+    /// distinguishes it from a real colour.
     pub(super) fn vertex_colour(&self) -> [f32; 4] {
         [self.first as f32, 0.0, 0.0, -1.0]
     }
 
     /// Converts a point of the plane to the gradient's own space.
     pub(super) fn gradient_coordinates(&self, p: DVec2) -> [f32; 2] {
-        self.into.transform_point2(p).as_vec2().to_array()
+        self.gradient_from_plane
+            .transform_point2(p)
+            .as_vec2()
+            .to_array()
     }
 }
 
-/// sRGB with straight opacity, the space in which gradients are mixed.
+/// Encodes a paint as sRGB with straight alpha, the space in which gradients are interpolated.
 fn encode_srgb(paint: Paint) -> Vec4 {
     let [red, green, blue] = paint.colour.0.map(|channel| f32::from(channel) / 255.0);
     Vec4::new(red, green, blue, paint.opacity as f32)

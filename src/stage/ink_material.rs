@@ -1,9 +1,9 @@
-//! Material of shapes in one colour (faces, bars, joints, wireframes and outlines), and of faces in
-//! several paint layers.
+//! Material that draws shapes in one colour (faces, bars, joints, wireframes and outlines), and
+//! faces in several paint layers.
 //!
-//! Guaranteed: edges are smooth at any zoom. Lines keep their width on the screen and grow with the
-//! height of the picture, so that a capture in 4K looks like the window. Faces are visible from
-//! both sides.
+//! Guaranteed: edges are smooth at any zoom. The width of lines does not depend on the zoom; it is
+//! proportional to the height of the picture, so that a capture in 4K looks like the window. Faces
+//! are visible from both sides.
 
 use bevy::asset::embedded_path;
 use bevy::mesh::MeshVertexBufferLayoutRef;
@@ -26,27 +26,27 @@ pub(super) enum InkKind {
     Faces,
     /// Triangles in paint layers: each vertex has its own colour or gradient.
     PaintLayers,
-    /// Bars and discs: a fragment is inside if its texture coordinates have length below 1.
+    /// Bars and discs: a fragment lies inside if the length of its texture coordinates is below 1.
     Round,
-    /// Edges of triangles that share no vertices.
+    /// Edges of triangles; the triangles share no vertices.
     Wire,
     /// Segments that the vertex shader widens to lines.
     Line,
 }
 
-/// One opaque colour, or the colours of the vertices.
+/// Material with one opaque colour, or with a colour or gradient per vertex.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(InkKind)]
 pub(super) struct InkMaterial {
     #[uniform(0)]
     pub(super) colour: LinearRgba,
-    /// Gradients of paint layers.
+    /// Gradients of paint layers, to which vertex colours refer.
     #[uniform(1)]
     pub(super) gradients: GradientUniform,
     pub(super) kind: InkKind,
 }
 
-/// Selects the shader variant.
+/// The kind of shape selects the shader variant.
 impl From<&InkMaterial> for InkKind {
     fn from(material: &InkMaterial) -> Self {
         material.kind
@@ -55,11 +55,11 @@ impl From<&InkMaterial> for InkKind {
 
 impl Material2d for InkMaterial {
     fn fragment_shader() -> ShaderRef {
-        ShaderRef::Path(embedded("ink.wgsl"))
+        ShaderRef::Path(embedded_shader_path("ink.wgsl"))
     }
 
     fn alpha_mode(&self) -> AlphaMode2d {
-        // The colour is opaque, but the smooth edges are not.
+        // The colour is opaque, but the anti-aliased edges are not.
         AlphaMode2d::Blend
     }
 
@@ -88,31 +88,32 @@ impl Material2d for InkMaterial {
     }
 }
 
-/// Asset path of a shader embedded in the binary, from the folder of this file.
-pub(super) fn embedded(name: &'static str) -> bevy::asset::AssetPath<'static> {
+/// Asset path of a shader file from the folder of this file, which is embedded in the program.
+pub(super) fn embedded_shader_path(name: &'static str) -> bevy::asset::AssetPath<'static> {
     let path = embedded_path!("ink.wgsl").with_file_name(name);
     bevy::asset::AssetPath::from_path_buf(path).with_source("embedded")
 }
 
-/// Packs a rectangle for shaders: minimum x and y, maximum x and y, relative to an origin.
+/// Packs a rectangle for shaders: minimum x and y, maximum x and y, relative to `origin`.
 pub(super) fn relative_rectangle(window: Bounds, origin: glam::DVec2) -> Vec4 {
     let [low, high] = [window.min, window.max].map(|p| (p - origin).as_vec2());
     Vec4::new(low.x, low.y, high.x, high.y)
 }
 
 /// Converts an opaque sRGB colour to linear light.
-pub(super) fn linear(colour: Rgb) -> LinearRgba {
+pub(super) fn linear_rgba_from_rgb(colour: Rgb) -> LinearRgba {
     let [red, green, blue] = colour.to_linear();
     LinearRgba::rgb(red, green, blue)
 }
 
-/// Returns a readable colour on a background: near black on light ones, near white on dark ones.
+/// Returns a colour that is readable on a background: near black on light backgrounds, near white
+/// on dark ones.
 pub(super) fn contrasting_colour(ground: Rgb) -> LinearRgba {
-    // Close to 0.18, the luminance on which black and white have equal contrast (WCAG 2: √(1.05 ·
-    // 0.05) − 0.05).
-    if linear(ground).luminance() > 0.2 {
-        linear(Rgb([28, 32, 38]))
+    // The threshold is close to 0.18, the luminance of a background on which black and white have
+    // equal contrast (WCAG 2: √(1.05 · 0.05) − 0.05).
+    if linear_rgba_from_rgb(ground).luminance() > 0.2 {
+        linear_rgba_from_rgb(Rgb([28, 32, 38]))
     } else {
-        linear(Rgb([236, 238, 240]))
+        linear_rgba_from_rgb(Rgb([236, 238, 240]))
     }
 }

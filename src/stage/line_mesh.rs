@@ -1,5 +1,5 @@
-//! Triangulates strokes along outlines: a quad for each edge, and a polygon for each corner on its
-//! outer side.
+//! Triangulates strokes along outlines: a quad along each edge, and a polygon that fills the outer
+//! side of each corner.
 
 use std::f64::consts::PI;
 
@@ -7,12 +7,12 @@ use glam::DVec2;
 
 use crate::colour::{StrokeJoin, StrokeStyle};
 
-/// Number of segments of a full circle; round joins use part of it (tolerance: deviates from the
-/// circle by 0.2 % of the radius).
+/// Number of straight segments of a full circle, of which a round join uses a part (tolerance: the
+/// segments deviate from the circle by 0.2 % of the radius).
 const CIRCLE_SEGMENTS: f64 = 48.0;
 
-/// Appends the triangles of a stroke along closed rings. Positions are relative to `origin`;
-/// overlapping triangles are not merged.
+/// Appends the triangles of a stroke along closed rings to a mesh. Positions are relative to
+/// `origin`; overlapping triangles are not merged.
 pub(super) fn push_stroke(
     rings: &[Vec<DVec2>],
     line: &StrokeStyle,
@@ -36,8 +36,8 @@ pub(super) fn push_stroke(
     }
 }
 
-/// Passes convex polygons that cover a stroke along one ring to `fan`. Rings with points that are
-/// not finite are skipped.
+/// Covers the stroke along one ring by convex polygons and calls `fan` with each of them. Rings
+/// with points that are not finite are skipped.
 fn push_ring(ring: &[DVec2], line: &StrokeStyle, fan: &mut impl FnMut(&[DVec2])) {
     let mut points = ring.to_vec();
     points.dedup();
@@ -62,8 +62,8 @@ fn push_ring(ring: &[DVec2], line: &StrokeStyle, fan: &mut impl FnMut(&[DVec2]))
     }
 }
 
-/// Fills the gap at a corner on its outer side. `left` are the offsets of the two edges to their
-/// left.
+/// Covers the outer side of the corner `at` between two edges by a polygon. `left` are the offsets
+/// from the two edges to the left borders of their quads.
 fn corner(
     at: DVec2,
     left: [DVec2; 2],
@@ -71,7 +71,7 @@ fn corner(
     half: f64,
     fan: &mut impl FnMut(&[DVec2]),
 ) {
-    // The outer side is on the right if the ring turns left.
+    // The outer side is on the right if the ring turns left at this corner.
     let turn = left[0].perp_dot(left[1]);
     let [a, b] = if turn > 0.0 { left.map(|p| -p) } else { left };
     let angle = a.angle_to(b).abs();
@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use crate::colour::Rgb;
 
-    /// Total area of all triangles; overlaps count multiply.
+    /// Sum of the areas of all triangles of a stroke; overlaps count several times.
     fn area(ring: &[(f64, f64)], join: StrokeJoin) -> f64 {
         let ring = ring.iter().map(|&p| DVec2::from(p)).collect();
         let line = StrokeStyle {

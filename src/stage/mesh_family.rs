@@ -1,7 +1,7 @@
-//! Blends of many meshes with the same faces on one entity.
+//! Blends of several meshes with the same faces, or of several designs, by weights.
 //!
-//! Guaranteed: the picture shows the blend for the weights of this update. Weights that are not
-//! finite, or not one per mesh, leave it unchanged.
+//! Guaranteed: the picture shows the blend for the weights of the current update. The picture stays
+//! unchanged if a weight is not finite or the number of weights is not that of the meshes.
 
 use std::sync::Arc;
 
@@ -19,10 +19,10 @@ use crate::work::progress::Progress;
 use super::components::{Morph, StageStyle};
 use super::frame_times::FrameTimes;
 
-/// Two or more meshes with the same faces in the same order. Together with [`BlendWeights`] it is
-/// all that an entity needs to show any blend of them, as rigid as possible.
+/// Two or more meshes with the same faces in the same order. The entity shows their
+/// as-rigid-as-possible blend for the weights in [`BlendWeights`].
 ///
-/// Changing it rebuilds the blend.
+/// Changing the meshes rebuilds the blend.
 #[derive(Component, Clone, Debug, Reflect)]
 #[reflect(opaque)]
 #[reflect(Component, Clone, Debug)]
@@ -30,8 +30,8 @@ use super::frame_times::FrameTimes;
 pub struct MeshFamily(pub Vec<TriangleMesh>);
 
 /// Weights of the meshes of a [`MeshFamily`], or of three or more
-/// [`MorphDesigns`](super::MorphDesigns): one per design, with sum 1. Weights outside [0, 1]
-/// extrapolate. An empty list shows the first design.
+/// [`MorphDesigns`](super::MorphDesigns): one per mesh or design, with sum 1. Weights outside
+/// [0, 1] extrapolate. An empty list shows the first mesh or design.
 ///
 /// ```
 /// use bevy::prelude::*;
@@ -57,17 +57,17 @@ pub struct MeshFamily(pub Vec<TriangleMesh>);
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct BlendWeights(pub Vec<f64>);
 
-/// Built blend of a family, steered by weights.
+/// Finished blend of a mesh family or of several designs, which is moved by weights.
 #[derive(Component, Debug)]
 pub(super) struct FamilySteering(pub(super) SteeredTransition);
 
-/// Builds the blend of meshes with the same faces.
+/// Builds the blend of several meshes with the same faces.
 pub(super) fn build(
     meshes: Vec<TriangleMesh>,
     progress: &dyn Progress,
 ) -> Result<SteeredTransition, BuildError> {
-    // Checked first, because meshes with different faces would otherwise be matched by their
-    // outlines.
+    // The faces are compared first, because meshes with different faces would otherwise be matched
+    // by their outlines.
     let mesh_refs: Vec<&TriangleMesh> = meshes.iter().collect();
     if let Err(error) = CompatibleFamily::from_meshes(&mesh_refs) {
         return Err(BuildError::Unavailable(error.to_string()));
@@ -77,7 +77,7 @@ pub(super) fn build(
     build_steered(designs.collect(), progress)
 }
 
-/// Builds the blend of designs as rigid parts.
+/// Builds the blend of several designs as rigid parts.
 pub(super) fn build_steered(
     designs: Vec<Arc<Design>>,
     progress: &dyn Progress,
@@ -91,14 +91,14 @@ pub(super) fn build_steered(
     Ok(SteeredTransition::new(&space).unwrap_or_else(|| unreachable!("solids were asked for")))
 }
 
-/// Filter for families with new weights or a new blend.
+/// Filter for blends that are new or whose weights changed.
 type WeightsMoved = Or<(
     Changed<BlendWeights>,
     Added<FamilySteering>,
     Changed<FamilySteering>,
 )>;
 
-/// Moves every family with new weights to its blend.
+/// Moves the morph of every family with changed weights to these weights.
 pub(super) fn solve_families(
     mut families: Query<(&BlendWeights, &FamilySteering, &mut Morph), WeightsMoved>,
     mut times: ResMut<FrameTimes>,
@@ -106,7 +106,7 @@ pub(super) fn solve_families(
     let start = Instant::now();
     let mut has_sought = false;
     for (BlendWeights(weights), FamilySteering(steered), mut morph) in &mut families {
-        if let Some(t) = steered.set(weights) {
+        if let Some(t) = steered.set_weights(weights) {
             morph.0.seek(t);
             has_sought = true;
         }

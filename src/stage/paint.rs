@@ -9,17 +9,17 @@ use super::picture_material::PictureMaterial;
 use super::recorded_material::RecordedMaterial;
 use super::warp_grid::GridMaterial;
 
-/// Material of a render part.
+/// Handle of the material of a render part.
 #[derive(Clone, Debug)]
 pub(super) enum StagePaint {
     Ink(Handle<InkMaterial>),
-    Played(Handle<RecordedMaterial>),
+    Recorded(Handle<RecordedMaterial>),
     Field(Handle<FieldMaterial>),
     Picture(Handle<PictureMaterial>),
     Grid(Handle<GridMaterial>),
 }
 
-/// Assets needed to create and update render parts.
+/// Asset collections needed to create and update render parts.
 #[derive(SystemParam)]
 pub(super) struct StagePaints<'w> {
     pub(super) meshes: ResMut<'w, Assets<Mesh>>,

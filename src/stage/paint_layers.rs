@@ -1,5 +1,6 @@
-//! Render mesh of a content in several paint layers: all layers in one mesh, lowest first, each
-//! stroke above its fill. Within a mesh the graphics card draws triangles in order.
+//! Builds the render mesh of a content with several paint layers. All layers are in one mesh,
+//! lowest first and each stroke above its fill, because the graphics card draws the triangles of a
+//! mesh in order.
 
 use bevy::mesh::{Indices, Mesh};
 use glam::DVec2;
@@ -13,37 +14,38 @@ use super::line_mesh;
 use super::ring_fill::triangulate;
 use super::vertices::write_points;
 
-/// State of the render mesh of a solid or of fields in paint layers.
+/// State of the render mesh of a solid or of distance fields with paint layers.
 #[derive(Clone, Debug)]
 pub(super) struct LayerMesh {
-    /// Faces of the placement, which stay the same; `None` if the rings are triangulated anew in
-    /// each frame, because faces cannot represent transient parts and holes.
+    /// Faces of the placement by layer, which do not change from frame to frame; `None` if the
+    /// rings of the layers are triangulated anew in each frame, because faces cannot represent
+    /// transient parts and holes.
     faces: Option<LayerFaces>,
-    /// Gradients of the last written frame.
+    /// Gradients of the frame that was written last.
     gradients: Box<GradientUniform>,
     is_of_fields: bool,
 }
 
-/// Layer of each face and vertex.
+/// Assignment of the faces and vertices of a placement to layers.
 #[derive(Clone, Debug)]
 struct LayerFaces {
-    /// For each layer the corners of its faces, as vertex indices.
+    /// For each layer: the corners of its faces, as vertex indices.
     corners: Vec<Vec<u32>>,
-    /// For each vertex, the index of its layer.
+    /// For each vertex: the index of its layer.
     of_vertices: Vec<usize>,
 }
 
-/// Fill of a layer.
+/// Colour or gradient that fills a layer.
 #[derive(Clone, Copy)]
 enum LayerInkSlot {
     /// Colour in linear light with straight alpha.
     Flat([f32; 4]),
-    /// Gradient of the table.
+    /// Gradient in the gradient table.
     Shaded(GradientSlot),
 }
 
 impl LayerMesh {
-    /// Layers of distance fields.
+    /// Returns the state for distance fields with paint layers.
     pub(super) fn of_fields() -> Self {
         Self {
             faces: None,
@@ -52,13 +54,14 @@ impl LayerMesh {
         }
     }
 
-    /// Layers of a solid with the given paint layers.
+    /// Returns the state for a solid with the paint layers in `stack`.
     pub(super) fn of_solid(frame: &Frame, solid: &SolidContent, stack: &PaintLayerStack) -> Self {
-        // Faces cannot represent these, nor layers whose rings differ in paint.
+        // Faces cannot represent transient parts and holes, parts with their own times, or layers
+        // whose rings differ in paint.
         let has_transients = !solid.holes.is_empty()
             || !solid.swelling_shapes.is_empty()
             || solid.part_clocks.is_some()
-            || stack.fades;
+            || stack.fades_unmatched;
         let arap = frame.transition().arap().filter(|_| !has_transients);
         let faces = arap.map(|arap| {
             let components = arap.mesh().components();
@@ -76,17 +79,18 @@ impl LayerMesh {
         self.is_of_fields
     }
 
-    /// Whether the faces of the placement are drawn.
+    /// Whether the layers consist of the faces of the placement.
     pub(super) fn has_faces(&self) -> bool {
         self.faces.is_some()
     }
 
-    /// Gradients of the last written frame.
+    /// Gradients of the frame that was written last.
     pub(super) fn gradients(&self) -> &GradientUniform {
         &self.gradients
     }
 
-    /// Writes the mesh of a frame in a style. Positions are relative to `origin`.
+    /// Writes all layers of a frame into `mesh`, with the colours of a style. Positions are
+    /// relative to `origin`.
     pub(super) fn write(
         &mut self,
         frame: &Frame,
@@ -110,7 +114,7 @@ impl LayerMesh {
             let places = &placement.in_frame;
             layers.positions.resize(places.len(), [0.0; 3]);
             write_points(places, origin, &mut layers.positions);
-            // With faces, each layer occurs exactly once.
+            // If faces are drawn, each layer has exactly one group of rings.
             let mut ink_of_layer = vec![LayerInkSlot::Flat([0.0; 4]); groups.len()];
             for (inked, &ink) in groups.iter().zip(&inks) {
                 ink_of_layer[inked.layer] = ink;
@@ -134,8 +138,9 @@ impl LayerMesh {
 }
 
 impl LayerFaces {
-    /// Assigns faces and vertices to layers. `components` gives the connected component of each
-    /// vertex; components belong to the layer of their boundary loop.
+    /// Assigns the faces and vertices of the placement to layers. `components` contains the index
+    /// of each vertex's connected component; a component belongs to the layer of its boundary
+    /// loops.
     fn new(
         frame: &Frame,
         solid: &SolidContent,
@@ -164,13 +169,13 @@ impl LayerFaces {
     }
 }
 
-/// A mesh under construction, triangles in drawing order.
+/// Builder of a mesh with paint layers; triangles are added in drawing order.
 struct LayerMeshBuilder {
-    /// Point that positions are relative to.
+    /// Point of the plane to which positions are relative.
     origin: DVec2,
     positions: Vec<[f32; 3]>,
     colours: Vec<[f32; 4]>,
-    /// Position of each vertex in the space of its gradient.
+    /// For each vertex: its position in the space of its gradient; zero if it has a plain colour.
     places: Vec<[f32; 2]>,
     indices: Vec<u32>,
 }
@@ -186,7 +191,8 @@ impl LayerMeshBuilder {
         }
     }
 
-    /// Adds the colour and gradient position of the next vertex, which lies at `at`.
+    /// Adds the colour and the gradient coordinates of the next vertex; `at` is its position in the
+    /// plane.
     fn ink(&mut self, ink: LayerInkSlot, at: DVec2) {
         let (colour, place) = match ink {
             LayerInkSlot::Flat(colour) => (colour, [0.0; 2]),
@@ -198,7 +204,7 @@ impl LayerMeshBuilder {
         self.places.push(place);
     }
 
-    /// Adds the triangulated area of rings.
+    /// Adds the triangles of the area that rings enclose.
     fn fill(&mut self, rings: &[Vec<DVec2>], ink: LayerInkSlot) {
         let first = self.positions.len() as u32;
         let (points, corners) = triangulate(rings, self.origin);
@@ -210,7 +216,7 @@ impl LayerMeshBuilder {
         self.indices.extend(corners);
     }
 
-    /// Adds a stroke along rings.
+    /// Adds the triangles of a stroke along rings.
     fn draw(&mut self, rings: &[Vec<DVec2>], line: &StrokeStyle) {
         line_mesh::push_stroke(
             rings,
@@ -224,7 +230,8 @@ impl LayerMeshBuilder {
         self.places.resize(self.positions.len(), [0.0; 2]);
     }
 
-    /// Replaces all attributes, because the triangles change from frame to frame.
+    /// Replaces all vertices and triangles of `mesh`, because their number changes from frame to
+    /// frame.
     fn put_into(self, mesh: &mut Mesh) {
         mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, self.positions);
         mesh.insert_attribute(Mesh::ATTRIBUTE_COLOR, self.colours);
@@ -233,7 +240,7 @@ impl LayerMeshBuilder {
     }
 }
 
-/// Colour of a paint in linear light with straight alpha.
+/// Converts a paint to linear light with straight alpha.
 fn linear_rgba(paint: Paint) -> [f32; 4] {
     let [red, green, blue] = paint.colour.to_linear();
     [red, green, blue, paint.opacity as f32]

@@ -1,4 +1,4 @@
-//! Spawns the render parts of a new transition, and despawns those of a removed one.
+//! Spawns the render parts of new transitions, and despawns those of removed transitions.
 //!
 //! Guaranteed: an entity has render parts of one transition only, however quickly transitions are
 //! replaced; when its [`Morph`] is removed, its parts are despawned.
@@ -28,43 +28,46 @@ use super::uploaded_recording::UploadState;
 use super::vertices::{BarShapes, OutlineSegments, corner_coordinates, quad_indices};
 use super::warp_grid::GridMaterial;
 
-/// Marks an entity whose transition is new and has no render parts yet.
+/// Marks an entity whose transition is new, so that its render parts are not spawned yet.
 #[derive(Component)]
 pub(super) struct WithoutParts;
 
-/// A render mesh of triangles.
+/// A triangle mesh with the given vertex positions.
 fn mesh(positions: Vec<[f32; 3]>) -> Mesh {
-    // The default usage keeps a copy in main memory, which is rewritten in later frames.
+    // The default usage keeps a copy of the mesh in main memory, which later frames rewrite.
     Mesh::new(PrimitiveTopology::TriangleList, default())
         .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
 }
 
-/// A mesh whose positions are written later; its texture coordinates stay.
+/// A mesh with constant texture coordinates, whose positions are written later.
 fn unwritten_mesh(coordinates: Vec<[f32; 2]>) -> Mesh {
     mesh(vec![[0.0; 3]; coordinates.len()])
         .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, coordinates)
 }
 
-/// A mesh of quads of four vertices, with given texture coordinates.
+/// A mesh of quads of four vertices each, with constant texture coordinates, whose positions are
+/// written later.
 fn quads(coordinates: Vec<[f32; 2]>) -> Mesh {
     let indices = quad_indices(coordinates.len() / 4);
     unwritten_mesh(coordinates).with_inserted_indices(Indices::U32(indices))
 }
 
-/// A placeholder for rings, whose number of vertices is known only after they are triangulated.
+/// A mesh that shows nothing, as a placeholder for rings: their number of vertices is known only
+/// after they are triangulated.
 fn nothing() -> Mesh {
     let (positions, indices) = ring_fill::degenerate_triangle();
     mesh(positions).with_inserted_indices(Indices::U32(indices))
 }
 
-/// Faces of the placement, sharing vertices.
+/// Mesh with the faces and vertices of the placement; faces share vertices.
 fn faces(frame: &Frame) -> Mesh {
     let placement = frame.placement();
     let indices = placement.faces.as_flattened().to_vec();
     mesh(vec![[0.0; 3]; placement.in_frame.len()]).with_inserted_indices(Indices::U32(indices))
 }
 
-/// Faces with lookup positions in source and target.
+/// Mesh with the faces of the placement and with attributes for the lookup positions in source and
+/// target.
 fn carried(frame: &Frame) -> Mesh {
     let count = frame.placement().in_frame.len();
     faces(frame)
@@ -72,12 +75,12 @@ fn carried(frame: &Frame) -> Mesh {
         .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0; 4]; count])
 }
 
-/// Faces that share no vertices, for wireframes.
+/// Mesh with the faces of the placement for wireframes; faces do not share vertices.
 fn corners(frame: &Frame) -> Mesh {
     unwritten_mesh(corner_coordinates(frame.placement().faces.len()))
 }
 
-/// Outlines of a figure as lines.
+/// Mesh of the outlines of a figure, as lines.
 fn lines(figure: &VectorFigure, origin: DVec2) -> Mesh {
     let mut segments = OutlineSegments::of(figure, origin);
     if segments.quads() == 0 {
@@ -90,19 +93,19 @@ fn lines(figure: &VectorFigure, origin: DVec2) -> Mesh {
         .with_inserted_indices(indices)
 }
 
-/// Faces whose vertices carry their index in the placement.
+/// Mesh like [`faces`], with the index in the placement as an attribute of each vertex.
 fn numbered_faces(frame: &Frame) -> Mesh {
     let numbers: Vec<u32> = (0..frame.placement().in_frame.len() as u32).collect();
     faces(frame).with_inserted_attribute(VERTEX_INDEX, numbers)
 }
 
-/// Unshared corners that carry their index in the placement.
+/// Mesh like [`corners`], with the index in the placement as an attribute of each vertex.
 fn numbered_corners(frame: &Frame) -> Mesh {
     let numbers = frame.placement().faces.as_flattened().to_vec();
     corners(frame).with_inserted_attribute(VERTEX_INDEX, numbers)
 }
 
-/// Resources needed to spawn render parts.
+/// Commands and resources needed to spawn and despawn render parts.
 #[derive(SystemParam)]
 pub(super) struct PartAssets<'w, 's> {
     commands: Commands<'w, 's>,
@@ -112,20 +115,20 @@ pub(super) struct PartAssets<'w, 's> {
 }
 
 impl PartAssets<'_, '_> {
-    /// Despawns the render parts among the given children.
+    /// Despawns those of the given children that are render parts.
     fn remove_parts(&mut self, children: Option<&Children>) {
         for &child in children.into_iter().flatten() {
-            // A program may have added children of its own to the entity.
+            // The program may have added other children to the entity.
             if self.parts.contains(child) {
                 self.commands.entity(child).try_despawn();
             }
         }
     }
 
-    /// Spawns the render parts of a frame as children of `entity`.
+    /// Spawns all render parts of a frame's transition as children of `entity`.
     fn add_parts(&mut self, entity: Entity, frame: &Frame) {
         let transition = frame.transition();
-        // The centre of the vertices, where single precision is finest.
+        // Vertices are stored relative to the centre, where single precision is finest.
         let origin = transition.bounds().centre();
         let mut factory = PartFactory {
             assets: self,
@@ -136,7 +139,7 @@ impl PartAssets<'_, '_> {
         match transition.content() {
             Content::Solid(solid) => factory.add_solid(solid),
             Content::Field(fields) => {
-                if fields.painted().is_some() {
+                if fields.painted_fields().is_some() {
                     factory.add_paint_layers(LayerMesh::of_fields());
                 }
                 let paints = &mut factory.assets.paints;
@@ -163,7 +166,7 @@ impl PartAssets<'_, '_> {
     }
 }
 
-/// Spawns the render parts of one transition.
+/// Spawner of the render parts of one transition as children of `entity`.
 struct PartFactory<'a, 'w, 's> {
     assets: &'a mut PartAssets<'w, 's>,
     entity: Entity,
@@ -172,7 +175,8 @@ struct PartFactory<'a, 'w, 's> {
 }
 
 impl PartFactory<'_, '_, '_> {
-    /// Spawns a part. Its mesh is created when the part is shown for the first time.
+    /// Spawns a render part with a material. `mesh` creates its mesh when the part is shown for the
+    /// first time.
     fn add<M: Material2d>(
         &mut self,
         kind: PartKind,
@@ -180,7 +184,7 @@ impl PartFactory<'_, '_, '_> {
         material: Handle<M>,
         paint: fn(Handle<M>) -> StagePaint,
     ) {
-        // Reserves the handle only, so that parts never shown take no memory.
+        // Only a handle is reserved, so that parts that are never shown take no memory.
         let handle = self.assets.paints.meshes.reserve_handle();
         let part = StagePart {
             kind,
@@ -190,16 +194,16 @@ impl PartFactory<'_, '_, '_> {
             is_stale: true,
         };
         let mesh = Mesh2d(handle);
-        // A bounding box for culling would have to be recomputed after each write, and would not
-        // include the lines widened by the shader.
+        // Culling needs a bounding box, which would have to be recomputed after each write and
+        // would not include lines widened by the shader.
         let drawn = (mesh, MeshMaterial2d(material), NoFrustumCulling);
         let hidden = Visibility::Hidden;
         let parent = ChildOf(self.entity);
         self.assets.commands.spawn((part, drawn, hidden, parent));
     }
 
-    /// Adds faces or a wireframe, played by the graphics card if it supports recordings. `mesh` are
-    /// the constructors without and with vertex indices.
+    /// Adds a part with faces or a wireframe, which the graphics card can play if it supports
+    /// recordings. `mesh` are the constructors of its mesh without and with vertex indices.
     fn add_triangles(&mut self, kind: PartKind, mesh: [fn(&Frame) -> Mesh; 2]) {
         let [plain, numbered] = mesh;
         let Some(gpu) = &self.assets.gpu else {
@@ -211,10 +215,10 @@ impl PartFactory<'_, '_, '_> {
             reel: gpu.placeholder().clone(),
             kind: kind.ink_kind(),
         });
-        self.add(kind, numbered, material, StagePaint::Played);
+        self.add(kind, numbered, material, StagePaint::Recorded);
     }
 
-    /// Adds a part whose vertices the CPU writes.
+    /// Adds a part in one colour or with paint layers, whose vertices the CPU writes.
     fn add_inked(
         &mut self,
         kind: PartKind,
@@ -228,7 +232,7 @@ impl PartFactory<'_, '_, '_> {
         self.add(kind, mesh, material, StagePaint::Ink);
     }
 
-    /// Adds a mesh of paint layers.
+    /// Adds a part with paint layers.
     fn add_paint_layers(&mut self, layers: LayerMesh) {
         let mesh = match layers.has_faces() {
             true => faces(self.frame),
@@ -241,7 +245,7 @@ impl PartFactory<'_, '_, '_> {
         self.add_inked(PartKind::PaintLayers(layers), |_| mesh);
     }
 
-    /// Adds the parts of a solid: fill, bars, joints and wireframe.
+    /// Adds the parts of a solid content: fill, bars, joints and wireframe.
     fn add_solid(&mut self, solid: &SolidContent) {
         let count = self.frame.placement().faces.len();
         let has_loops = !solid.loops.is_empty();
@@ -269,13 +273,14 @@ impl PartFactory<'_, '_, '_> {
     }
 }
 
-/// Spawns the render parts of new transitions. Drawing sets their look.
+/// Spawns the render parts of new transitions, hidden and without a mesh; `draw_morphs` then shows
+/// them.
 pub(super) fn spawn_parts(
     new_morphs: Query<(Entity, &Morph, Option<&Children>), With<WithoutParts>>,
     mut assets: PartAssets,
 ) {
     for (entity, morph, children) in &new_morphs {
-        // Parts of an earlier transition that this one replaces.
+        // These are the parts of the transition that the new one replaces, if any.
         assets.remove_parts(children);
         let mut commands = assets.commands.entity(entity);
         commands.remove::<(WithoutParts, UploadState)>();

@@ -1,5 +1,6 @@
-//! Render parts of an entity on the stage: child entities for faces, fields, bars, joints,
-//! wireframes and outlines.
+//! Render parts of an entity on the stage: child entities that draw its faces, distance fields,
+//! pictures, bars, joints, wireframe, warp grid and outlines. Defines their kinds, their drawing
+//! order, and when and how their vertices are written.
 
 use bevy::prelude::*;
 use glam::DVec2;
@@ -23,19 +24,20 @@ use super::vertices::{BarShapes, positions, write_corners, write_points};
 /// A render part: a child entity that draws one element of a transition.
 #[derive(Component, Debug)]
 pub(super) struct StagePart {
-    /// Element that the part draws.
+    /// Element of the transition that the part draws.
     pub(super) kind: PartKind,
     /// Material of the part.
     pub(super) paint: StagePaint,
-    /// Point of the plane that the vertices are relative to.
+    /// Point of the plane to which the vertex positions are relative.
     pub(super) origin: DVec2,
-    /// Constructor of its mesh; taken when the part is shown for the first time.
+    /// Constructor of the part's mesh; `None` once the part has been shown.
     pub(super) deferred_mesh: Option<DeferredMesh>,
-    /// Whether the vertices are older than the frame: the frame moved since they were written.
+    /// Whether the vertices must be rewritten, because the frame or the style changed after they
+    /// were written.
     pub(super) is_stale: bool,
 }
 
-/// Deferred constructor of a mesh.
+/// Constructor of a mesh that is called when a part is shown for the first time.
 pub(super) struct DeferredMesh(pub(super) Box<dyn FnOnce(&Frame) -> Mesh + Send + Sync>);
 
 impl fmt::Debug for DeferredMesh {
@@ -47,26 +49,27 @@ impl fmt::Debug for DeferredMesh {
 /// Element of a transition that a render part draws.
 #[derive(Clone, Debug)]
 pub(super) enum PartKind {
-    /// Filled faces.
+    /// Filled faces in one colour.
     Faces,
-    /// Filled boundaries without faces, or with holes that the faces do not have.
+    /// Filled boundaries in one colour, if the transition has no faces or has transient parts or
+    /// holes that faces cannot represent.
     Rings,
     /// Faces or rings in several paint layers.
     PaintLayers(LayerMesh),
-    /// Distance fields.
+    /// Blend of distance fields.
     Field,
     /// Cross-dissolved pictures.
     Picture,
     /// Bars of a truss that share their paints.
     Bars(BarShapes),
-    /// Lighter cores of their joints.
+    /// Lighter cores of the joints of these bars.
     JointCores(BarShapes),
     /// Edges of the triangulation.
     Wire {
-        /// Whether it is drawn on filled faces, not on the background.
+        /// Whether the edges are drawn on filled faces; otherwise they lie on the background.
         on_faces: bool,
     },
-    /// Grid that shows the warp.
+    /// Grid deformed by the warp.
     Grid,
     /// Outline of the source.
     SourceGhost,
@@ -75,11 +78,12 @@ pub(super) enum PartKind {
 }
 
 impl PartKind {
-    /// Height in the drawing order; parts with larger values cover those with smaller ones.
+    /// Height of the part in the drawing order; parts with larger values cover those with smaller
+    /// values.
     pub(super) fn z(&self) -> f32 {
         match self {
             Self::Faces | Self::Rings | Self::PaintLayers(_) | Self::Picture => 0.0,
-            // Lines of equal distance lie above the paint layers.
+            // Fields draw lines of equal distance, which lie above the paint layers.
             Self::Field => 0.05,
             Self::Bars(bars) => 0.1 + 0.05 * bars.z_fraction,
             Self::JointCores(bars) => 0.2 + 0.05 * bars.z_fraction,
@@ -90,7 +94,7 @@ impl PartKind {
         }
     }
 
-    /// Shader variant of its material.
+    /// Kind of shape that the part's material draws; it selects the shader variant.
     pub(super) fn ink_kind(&self) -> InkKind {
         match self {
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
@@ -101,14 +105,20 @@ impl PartKind {
         }
     }
 
-    /// Whether the style shows the part.
-    pub(super) fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
+    /// Whether a style shows the part.
+    pub(super) fn is_shown(
+        &self,
+        StageStyle {
+            style,
+            visibility: show,
+        }: &StageStyle,
+    ) -> bool {
         match self {
             Self::Faces | Self::Rings | Self::Picture => show.fill,
             Self::PaintLayers(layers) => {
                 show.fill && !(layers.is_of_fields() && show.signed_colours)
             }
-            // One shader draws all three and omits those that are off.
+            // One material draws the fill, the lines and the signed colours, whichever are on.
             Self::Field => show.fill || show.iso_lines || show.signed_colours,
             Self::Bars(_) => show.bars,
             Self::JointCores(_) => show.bars && style.joints,
@@ -118,29 +128,38 @@ impl PartKind {
         }
     }
 
-    /// Colour at `t`, for parts in one colour.
-    pub(super) fn colour(&self, t: f64, StageStyle { style, show }: &StageStyle) -> Rgb {
+    /// Colour of the part at `t` in a style, for parts in one colour.
+    pub(super) fn colour(
+        &self,
+        t: f64,
+        StageStyle {
+            style,
+            visibility: show,
+        }: &StageStyle,
+    ) -> Rgb {
         match self {
             Self::Bars(bars) => style.paint_at(bars.paints, t).colour,
             Self::JointCores(bars) => joint_core(style.paint_at(bars.paints, t).colour),
             Self::SourceGhost => style.source,
             Self::TargetGhost => style.target,
-            // On a fill, wireframes are drawn in the background colour.
+            // On filled faces, a wireframe has the colour of the background.
             Self::Wire { on_faces: true } if show.fill => style.ground,
             _ => style.fill_at(t),
         }
     }
 
-    /// Whether its vertices must be rewritten after the frame moved or the style changed.
+    /// Whether the part's vertices must be rewritten because the frame has moved (`has_moved`) or
+    /// the style has changed (`is_restyled`).
     pub(super) fn is_outdated(&self, has_moved: bool, is_restyled: bool, frame: &Frame) -> bool {
         match self {
             Self::SourceGhost | Self::TargetGhost => false,
-            // Without a warp only the material changes; the stale flag triggers the first write.
+            // Without a warp only the material changes. A new part is stale, so its vertices are
+            // written once.
             Self::Field | Self::Picture => {
                 has_moved && frame.transition().method().warp() != WarpKind::None
             }
-            // The style sets the radius of joints and the colours of layers without paints of their
-            // own.
+            // The style determines the radius of joints, and the colours of layers that have no
+            // paints.
             Self::Bars(_) | Self::PaintLayers(_) => has_moved || is_restyled,
             _ => has_moved,
         }
@@ -148,13 +167,13 @@ impl PartKind {
 }
 
 impl StagePart {
-    /// Whether the graphics card evaluates its vertices at `t` from a recording.
-    pub(super) fn is_played(&self, upload: Option<&UploadState>, t: f64) -> bool {
+    /// Whether the graphics card evaluates the part's vertices at `t` from a recording.
+    pub(super) fn is_gpu_played(&self, upload: Option<&UploadState>, t: f64) -> bool {
         let is_uploaded = upload.is_some_and(|upload| upload.covers(t));
-        is_uploaded && matches!(self.paint, StagePaint::Played(_))
+        is_uploaded && matches!(self.paint, StagePaint::Recorded(_))
     }
 
-    /// Whether the part is shown and its vertices must be placed on the CPU for `t`.
+    /// Whether the part is shown and the CPU must compute vertex positions for it at `t`.
     pub(super) fn needs_positions(
         &self,
         frame: &Frame,
@@ -163,10 +182,10 @@ impl StagePart {
         upload: Option<&UploadState>,
     ) -> bool {
         let is_outdated = self.kind.is_outdated(true, false, frame);
-        self.kind.is_shown(style) && is_outdated && !self.is_played(upload, t)
+        self.kind.is_shown(style) && is_outdated && !self.is_gpu_played(upload, t)
     }
 
-    /// Writes the vertices of the current frame.
+    /// Writes the part's vertices for a frame and a style into its mesh.
     pub(super) fn write(&mut self, frame: &Frame, style: &StageStyle, mesh: &mut Mesh) {
         let placement = frame.placement();
         let (points, faces, origin) = (&placement.in_frame, &placement.faces, self.origin);
@@ -191,11 +210,11 @@ impl StagePart {
     }
 }
 
-/// Positions render parts in Bevy's world, relative to the anchor of the view.
+/// Moves render parts to their place in Bevy's world, whose origin is the anchor of the view.
 pub(super) fn place_parts(view: Res<StageView>, mut parts: Query<(&StagePart, &mut Transform)>) {
     for (part, transform) in &mut parts {
-        // Subtracted in double precision: designs may lie far from zero, and the anchor follows
-        // them.
+        // The difference is taken in double precision: the design and the anchor may lie far from
+        // zero, but near each other.
         let offset = (part.origin - view.anchor()).as_vec2();
         let translation = offset.extend(part.kind.z());
         let mut current = transform.map_unchanged(|transform| &mut transform.translation);

@@ -1,8 +1,9 @@
-//! Material of cross-dissolved pictures: both pictures as textures, mixed by the fragment shader.
+//! Material that draws cross-dissolved pictures: both pictures are textures, which the fragment
+//! shader mixes.
 //!
 //! Guaranteed: pictures are mixed in linear light with premultiplied alpha, as by [`PicturePair`];
-//! a pixel of an opaque picture seen at its own size keeps its value. Not guaranteed: the last
-//! digits. Results agree with those of the CPU to about one of 255 steps.
+//! an opaque picture shown at its original size keeps its pixel values. Not guaranteed: the last
+//! digits. Pixel values agree with those of the CPU to about 1 of 255.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::{ImageAddressMode, ImageSampler, ImageSamplerDescriptor, ToExtents};
@@ -14,13 +15,13 @@ use glam::DVec2;
 
 use crate::content::{PictureLayer, PicturePair};
 
-use super::ink_material::{embedded, relative_rectangle};
+use super::ink_material::{embedded_shader_path, relative_rectangle};
 
-/// Two pictures and how they are mixed.
+/// Material with two pictures, and with the fraction in which they are mixed.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 pub(super) struct PictureMaterial {
     #[uniform(0)]
-    pub(super) look: PictureLook,
+    pub(super) look: PictureUniform,
     #[texture(1)]
     #[sampler(2)]
     source: Handle<Image>,
@@ -29,18 +30,19 @@ pub(super) struct PictureMaterial {
     target: Handle<Image>,
 }
 
-/// Uniform of [`PictureMaterial`]; the same fields as in `colours.wgsl`.
+/// Uniform of [`PictureMaterial`], with the same members as in `colours.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
-pub(super) struct PictureLook {
-    /// Visible rectangle relative to the part's origin: minimum x and y, maximum x and y.
+pub(super) struct PictureUniform {
+    /// Rectangle outside which nothing is drawn, relative to the part's origin: minimum x and y,
+    /// maximum x and y.
     window: Vec4,
-    /// Fraction of the target in the mix.
+    /// Fraction of the target picture in the mix.
     share: f32,
 }
 
 impl Material2d for PictureMaterial {
     fn fragment_shader() -> ShaderRef {
-        ShaderRef::Path(embedded("colours.wgsl"))
+        ShaderRef::Path(embedded_shader_path("colours.wgsl"))
     }
 
     fn alpha_mode(&self) -> AlphaMode2d {
@@ -52,14 +54,14 @@ impl PictureMaterial {
     pub(super) fn new(pair: &PicturePair, images: &mut Assets<Image>) -> Self {
         let [source, target] = pair.layers();
         Self {
-            look: PictureLook::default(), // set when it is drawn
+            look: PictureUniform::default(), // set when it is drawn
             source: images.add(texture(source)),
             target: images.add(texture(target)),
         }
     }
 }
 
-impl PictureLook {
+impl PictureUniform {
     pub(super) fn new(pair: &PicturePair, t: f64, origin: DVec2) -> Self {
         Self {
             window: relative_rectangle(pair.window(t), origin),
@@ -68,12 +70,12 @@ impl PictureLook {
     }
 }
 
-/// Texture of a picture with all mipmap levels, premultiplied, encoded as sRGB. The graphics card
-/// decodes it before it interpolates.
+/// Texture of a picture with all mipmap levels, with premultiplied alpha and encoded as sRGB. The
+/// graphics card decodes the texture before it interpolates.
 fn texture(layer: &PictureLayer) -> Image {
     let (width, height) = layer.picture().pixels().dimensions();
     let (bytes, levels) = layer.texture();
-    // Not `Image::new`, which accepts the largest level only.
+    // `Image::new` cannot be used, because it accepts only the largest mipmap level.
     let mut image = Image::new_uninit(
         UVec2::new(width, height).to_extents(),
         TextureDimension::D2,

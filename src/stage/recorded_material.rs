@@ -1,8 +1,8 @@
-//! Material of faces and wireframes played by the graphics card: the vertex shader evaluates the
-//! recording, and no vertices are written while t moves.
+//! Material of faces and wireframes that the graphics card plays: the vertex shader evaluates the
+//! recording, so no vertices are written while t moves.
 //!
-//! Without a recording, and for t outside it, the shader uses the vertices of the mesh, so the
-//! picture does not change when the recording arrives. Fragments are drawn by the shader of
+//! If no recording is uploaded, or t is outside [0, 1], the shader uses the vertices of the mesh.
+//! Fragments are drawn by the shader of
 //! [`InkMaterial`](super::ink_material::InkMaterial).
 
 use bevy::mesh::{MeshVertexAttribute, MeshVertexBufferLayoutRef};
@@ -16,20 +16,21 @@ use bevy::sprite_render::{AlphaMode2d, Material2d, Material2dKey};
 
 use crate::recording::{IntervalWeights, MOST_COEFFICIENTS};
 
-use super::ink_material::{InkKind, embedded};
+use super::ink_material::{InkKind, embedded_shader_path};
 
-/// Vertex attribute: index of the vertex in the placement. Meshes share buffers, so the shader's
-/// built-in vertex index is not the index in the mesh.
+/// Vertex attribute with the index of the vertex in the placement. The shader's built-in vertex
+/// index cannot be used, because meshes share buffers.
 pub(super) const VERTEX_INDEX: MeshVertexAttribute = MeshVertexAttribute::new(
     "Vertex_Of_Placement",
     0x6d6f_7270_6801,
     VertexFormat::Uint32,
 );
 
-/// Number of `vec4` that hold the maximum number of weights.
+/// Number of four-component vectors that are needed for [`MOST_COEFFICIENTS`] weights.
 const WEIGHT_VECTORS: usize = MOST_COEFFICIENTS.div_ceil(4);
 
-/// One opaque colour for faces or their edges.
+/// Material with one opaque colour for faces or their edges, and with the recorded interval that is
+/// played.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(InkKind)]
 pub(super) struct RecordedMaterial {
@@ -37,22 +38,25 @@ pub(super) struct RecordedMaterial {
     pub(super) colour: LinearRgba,
     #[uniform(3)]
     pub(super) sum: RecordedSum,
-    /// Recorded interval, row by row.
+    /// Recorded interval, as rows with one entry per vertex: the positions at both ends, then the
+    /// polynomial coefficients.
     #[storage(4, read_only, buffer, visibility(vertex))]
     pub(super) reel: Buffer,
     pub(super) kind: InkKind,
 }
 
-/// Weights of the rows of a recorded interval; the same fields as in `played.wgsl`.
+/// Numbers with which the shader combines the rows of a recorded interval at t. The members are the
+/// same as in `played.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct RecordedSum {
     /// Weights of the coefficient rows, four per vector.
     weights: [Vec4; WEIGHT_VECTORS],
-    /// Distance from each end of the interval, as fractions that sum to 1.
+    /// Distances of t from the two ends of the interval, as fractions of the interval; they sum
+    /// to 1.
     shares: Vec2,
     /// Number of coefficient rows.
     coefficients: u32,
-    /// Number of vertices per row; 0 if the positions are those of the mesh.
+    /// Number of vertices per row; 0 if the shader shall use the positions of the mesh.
     vertices: u32,
 }
 
@@ -79,11 +83,11 @@ impl From<&RecordedMaterial> for InkKind {
 
 impl Material2d for RecordedMaterial {
     fn vertex_shader() -> ShaderRef {
-        ShaderRef::Path(embedded("played.wgsl"))
+        ShaderRef::Path(embedded_shader_path("played.wgsl"))
     }
 
     fn fragment_shader() -> ShaderRef {
-        ShaderRef::Path(embedded("ink.wgsl"))
+        ShaderRef::Path(embedded_shader_path("ink.wgsl"))
     }
 
     fn alpha_mode(&self) -> AlphaMode2d {

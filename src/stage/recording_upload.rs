@@ -1,10 +1,10 @@
-//! Uploads recordings to the graphics card, in single precision, so that it plays them without the
-//! CPU.
+//! Uploads recordings to the graphics card, in single precision, so that the card computes vertex
+//! positions by itself.
 //!
-//! Guaranteed: nothing waits for an upload, and the picture is the same before and after it. A
-//! recording that does not fit into the memory of the card is played by the CPU. Not guaranteed:
-//! recordings after the device was lost and recreated; a program must then put its transitions on
-//! the stage again.
+//! Guaranteed: nothing waits for an upload, and the picture looks the same before and after it. If
+//! a recording does not fit into the memory of the card, the CPU computes the vertices. Not
+//! guaranteed: playback after the graphics device was lost and recreated; the program must then
+//! put its transitions on the stage again.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::{Buffer, BufferInitDescriptor, BufferUsages, DownlevelFlags};
@@ -21,27 +21,28 @@ use super::paint::StagePaint;
 use super::parts::StagePart;
 use super::uploaded_recording::{UploadState, UploadedInterval, UploadedIntervals};
 
-/// Number of storage buffers that Bevy binds in our vertex shaders; the recording needs one more.
+/// Number of storage buffers that Bevy itself binds in the vertex shaders of 2D meshes. A recording
+/// needs one more.
 const BEVY_STORAGE_BUFFERS: u32 = 3;
 
-/// The graphics card, if its vertex shaders can read storage buffers. The resource is missing
-/// otherwise.
+/// The graphics device to which recordings are uploaded. The resource exists only if its vertex
+/// shaders can read one more storage buffer than Bevy needs.
 #[derive(Resource, Clone)]
 pub(super) struct RecordingGpu {
     device: RenderDevice,
-    /// Buffer bound while there is no recording.
-    nothing: Buffer,
-    /// Maximum size of an uploaded interval, in bytes.
+    /// Buffer that is bound while no recording is uploaded.
+    placeholder: Buffer,
+    /// Maximum size of a buffer, and thus of an uploaded interval, in bytes.
     max_bytes: u64,
 }
 
 impl RecordingGpu {
     pub(super) fn placeholder(&self) -> &Buffer {
-        &self.nothing
+        &self.placeholder
     }
 }
 
-/// Inserts [`RecordingGpu`] if the graphics card supports it.
+/// Inserts the resource [`RecordingGpu`] if the graphics card can play recordings.
 pub(super) fn detect_gpu(
     mut commands: Commands,
     device: Option<Res<RenderDevice>>,
@@ -56,7 +57,7 @@ pub(super) fn detect_gpu(
         && limits.max_storage_buffers_per_shader_stage > BEVY_STORAGE_BUFFERS
     {
         commands.insert_resource(RecordingGpu {
-            nothing: buffer(&device, &[[0.0; 2]]),
+            placeholder: buffer(&device, &[[0.0; 2]]),
             max_bytes: limits
                 .max_storage_buffer_binding_size
                 .min(limits.max_buffer_size),
@@ -65,16 +66,16 @@ pub(super) fn detect_gpu(
     }
 }
 
-/// Creates a storage buffer.
+/// Creates a storage buffer with the given numbers.
 fn buffer(device: &RenderDevice, numbers: &[[f32; 2]]) -> Buffer {
     device.create_buffer_with_data(&BufferInitDescriptor {
-        label: Some("film"),
+        label: Some("recording"),
         contents: bytemuck::cast_slice(numbers),
         usage: BufferUsages::STORAGE,
     })
 }
 
-/// Starts uploading transitions that have been recorded since the last frame.
+/// Starts to upload the recording of each morph that has one and has not been uploaded yet.
 pub(super) fn start_uploads(
     mut commands: Commands,
     gpu: Option<Res<RecordingGpu>>,
@@ -87,7 +88,7 @@ pub(super) fn start_uploads(
     for (entity, morph, children) in &morphs {
         let transition = morph.frame().transition();
         let mut parts = parts.iter_many(children);
-        let played = parts.find(|part| matches!(part.paint, StagePaint::Played(_)));
+        let played = parts.find(|part| matches!(part.paint, StagePaint::Recorded(_)));
         if let (Some(Ok(recording)), Some(part)) = (transition.recording(), played) {
             let (gpu, recording, origin) = (gpu.clone(), recording.clone(), part.origin);
             let vertices = morph.frame().placement().in_frame.len();
@@ -100,7 +101,7 @@ pub(super) fn start_uploads(
     }
 }
 
-/// Takes in finished uploads.
+/// Updates the state of morphs whose upload has finished.
 pub(super) fn finish_uploads(mut uploads: Query<&mut UploadState>) {
     for mut state in &mut uploads {
         if let UploadState::Uploading(task) = state.bypass_change_detection()
@@ -112,7 +113,8 @@ pub(super) fn finish_uploads(mut uploads: Query<&mut UploadState>) {
 }
 
 impl RecordingGpu {
-    /// Uploads a recording; `None` if the card has no room. Positions are relative to `origin`.
+    /// Uploads all intervals of a recording; `None` if they do not fit into the memory of the
+    /// graphics card. Positions are relative to `origin`.
     async fn upload(
         self,
         recording: Recording,
@@ -120,9 +122,9 @@ impl RecordingGpu {
         origin: DVec2,
     ) -> Option<UploadedIntervals> {
         let device = self.device.wgpu_device();
-        // Without a scope, running out of memory would end the program.
+        // Without an error scope, the program would end if the card runs out of memory.
         let scope = device.push_error_scope(ErrorFilter::OutOfMemory);
-        let intervals = recording.singles(vertices, origin);
+        let intervals = recording.single_precision_intervals(vertices, origin);
         let uploaded: Option<Vec<UploadedInterval>> = intervals
             .map(|single| self.upload_interval(&single))
             .collect();
@@ -134,7 +136,7 @@ impl RecordingGpu {
         })
     }
 
-    /// Uploads one interval; `None` if it exceeds the limit.
+    /// Uploads one interval of a recording; `None` if it is larger than `max_bytes`.
     fn upload_interval(&self, single: &SinglePrecisionInterval) -> Option<UploadedInterval> {
         let bytes = size_of_val(&single.numbers[..]) as u64;
         (bytes <= self.max_bytes).then(|| UploadedInterval {

@@ -1,9 +1,9 @@
-//! Render mesh of rings filled by the non-zero rule, for boundaries without faces or with transient
-//! holes.
+//! Triangulates rings filled by the non-zero rule, for transitions without faces or with transient
+//! parts and holes.
 //!
-//! The rings may cross themselves and each other, so they are triangulated anew in each frame
-//! (`i_triangle`, a sweep over a grid of 64-bit integers; a few microseconds per vertex). Unlike
-//! other render parts, this one allocates while it moves.
+//! The rings may cross themselves and each other, so they are triangulated anew in each frame (by
+//! the crate `i_triangle`, a sweep over a grid of 64-bit integers; a few microseconds per vertex).
+//! Unlike other render parts, filled rings allocate memory in each frame.
 
 use bevy::mesh::Indices;
 use bevy::prelude::*;
@@ -13,38 +13,41 @@ use i_triangle::float::triangulatable::Triangulatable;
 use crate::content::Content;
 use crate::transition::Frame;
 
-/// Maximum absolute coordinate that is filled, relative to the origin (resource limit: the GPU's
-/// 32-bit floats end at 3e38, and the integer grid panics from 2^500 on).
+/// Maximum absolute coordinate, relative to the origin, of rings that are filled (resource limit:
+/// 32-bit floats end at 3e38, and `i_triangle` panics from 2^500 on).
 const MAX_COORDINATE: f64 = 1e30;
 
-/// Positions and indices of a triangle mesh.
+/// Vertex positions of a triangle mesh, and the indices of its faces' corners.
 type RingFill = (Vec<[f32; 3]>, Vec<u32>);
 
-/// A triangle without area, which shows nothing. The GPU does not accept an empty mesh.
+/// A triangle without area, which shows nothing. It replaces an empty mesh, which the graphics card
+/// does not accept.
 pub(super) fn degenerate_triangle() -> RingFill {
     (vec![[0.0; 3]; 3], vec![0, 1, 2])
 }
 
-/// Triangulates the rings of a frame's solid, relative to `origin`, and writes them into `mesh`.
+/// Writes the triangulated rings of a frame's solid content into `mesh`; positions are relative to
+/// `origin`.
 pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
     let Content::Solid(solid) = frame.transition().content() else {
         return;
     };
     let rings = solid.rings_at(&frame.placement().in_frame, frame.t());
     let (positions, indices) = triangulate(&rings, origin);
-    // Replaces all attributes, because the triangles change from frame to frame.
+    // All vertices are replaced, because their number changes from frame to frame.
     mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, positions);
     mesh.insert_indices(Indices::U32(indices));
 }
 
-/// Triangulates rings relative to `origin`. The result shows nothing if the rings have no area, or
-/// a coordinate is not finite or exceeds [`MAX_COORDINATE`], as can happen far outside [0, 1].
+/// Triangulates rings; positions are relative to `origin`. The result shows nothing if the rings
+/// have no area, or if a coordinate is not finite or exceeds [`MAX_COORDINATE`]. Such coordinates
+/// can occur for t far outside [0, 1].
 pub(super) fn triangulate(rings: &[Vec<DVec2>], origin: DVec2) -> RingFill {
     let to_contour = |ring: &Vec<DVec2>| -> Vec<[f64; 2]> {
         ring.iter().map(|&p| (p - origin).to_array()).collect()
     };
     let contours: Vec<Vec<[f64; 2]>> = rings.iter().map(to_contour).collect();
-    // Written so that NaN fails the test.
+    // The comparison is false for NaN, so NaN is rejected too.
     let mut coordinates = contours.iter().flatten().flatten();
     if !coordinates.all(|x| x.abs() < MAX_COORDINATE) {
         return degenerate_triangle();

@@ -1,10 +1,10 @@
-//! Moves the frame of each morph to its [`Blend`].
+//! Moves the frame of each morph to the t of its [`Blend`].
 //!
-//! A frame that the graphics card plays is placed only if its positions are read: see
-//! [`Morph::frame`].
+//! If the graphics card plays all visible parts of a morph, the CPU computes its vertices only when
+//! they are read; see [`Morph::frame`].
 //!
-//! Guaranteed: nothing is allocated and nothing can fail; an unchanged t costs nothing and marks
-//! nothing as changed.
+//! Guaranteed: nothing is allocated and nothing can fail. An unchanged t costs nothing, and the
+//! morph is not marked as changed.
 
 use bevy::platform::time::Instant;
 use bevy::prelude::*;
@@ -14,15 +14,15 @@ use super::frame_times::FrameTimes;
 use super::parts::StagePart;
 use super::uploaded_recording::UploadState;
 
-/// Components that moving a frame needs: the morph, and what decides whether its positions are
-/// read.
+/// Components needed to move a morph: its blend parameter, the morph, and the components that
+/// determine whether the CPU must compute its vertices.
 type MorphEntities = (
     &'static Blend,
     &'static mut Morph,
     Option<(&'static UploadState, &'static StageStyle, &'static Children)>,
 );
 
-/// Moves every frame whose blend parameter changed.
+/// Moves the frame of every morph whose blend parameter changed.
 pub(super) fn solve_frames(
     mut morphs: Query<MorphEntities, Changed<Blend>>,
     parts: Query<&StagePart>,
@@ -31,8 +31,8 @@ pub(super) fn solve_frames(
     let start = Instant::now();
     let mut has_sought = false;
     for (&Blend { t }, mut morph, drawn) in &mut morphs {
-        // Compared through a shared borrow: only an actual move marks the frame as changed and
-        // triggers drawing.
+        // The comparison uses a shared borrow, so only an actual move marks the morph as changed
+        // and triggers drawing.
         if t.is_finite() && morph.frame().t() != t {
             let is_played = drawn.is_some_and(|(sent, style, children)| {
                 let reads =

@@ -1,7 +1,8 @@
-//! View of the stage: fit, pan, and zoom at the pointer.
+//! The visible part of the plane on the stage: it can be fitted to bounds, panned, and zoomed at
+//! the pointer. Also conversion between pixels and the plane.
 //!
-//! Guaranteed: the point under the pointer stays there while zooming; screen and plane convert into
-//! each other in `f64` without drift. Pixels are logical pixels; Bevy applies the window's scale
+//! Guaranteed: zooming keeps the point under the pointer in place; conversion between pixels and
+//! the plane is in `f64`, without drift. Pixels are logical pixels; Bevy applies the window's scale
 //! factor.
 
 use bevy::prelude::*;
@@ -9,8 +10,8 @@ use glam::DVec2;
 
 use crate::geometry::Bounds;
 
-/// Minimum scale, relative to the scale of the last fit (resource limit: closer, single precision
-/// becomes visible).
+/// Minimum scale in units per pixel, relative to the scale of the last fit (resource limit: at
+/// smaller scales the rounding of single precision becomes visible).
 const MIN_SCALE: f64 = 1e-4;
 /// Maximum scale, relative to the scale of the last fit (heuristic).
 const MAX_SCALE: f64 = 1e2;
@@ -34,16 +35,16 @@ const MAX_SCALE: f64 = 1e2;
 #[derive(Resource, Clone, Debug, PartialEq, Reflect)]
 #[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct StageView {
-    /// Point of the plane in the middle of the viewport.
+    /// Point of the plane that is shown in the middle of the viewport.
     pub centre: DVec2,
     /// Units of the designs per logical pixel, positive.
     pub units_per_px: f64,
-    /// Size of the viewport in logical pixels. The plugin keeps it up to date if there is a stage
-    /// camera.
+    /// Size of the viewport in logical pixels. The plugin updates it if there is a
+    /// [`StageCamera`](super::StageCamera).
     pub viewport_px: Vec2,
-    /// Scale of the last fit, in units per logical pixel.
+    /// Value of `units_per_px` after the last fit.
     fitted: f64,
-    /// Point of the plane at the origin of Bevy's world.
+    /// Point of the plane that lies at the origin of Bevy's world.
     anchor: DVec2,
 }
 
@@ -60,10 +61,10 @@ impl Default for StageView {
 }
 
 impl StageView {
-    /// Shows all of `bounds` as large as a viewport of the given size (in logical pixels) allows,
-    /// and moves the [anchor](Self::anchor) to its centre.
+    /// Shows all of `bounds`, as large as a viewport of the given size (in logical pixels) allows,
+    /// and moves the [anchor](Self::anchor) to the centre of `bounds`.
     pub fn fit(&mut self, bounds: Bounds, viewport_px: Vec2) {
-        // A minimised window has size 0, which must not be divided by.
+        // A minimised window has size 0, by which the scale must not be divided.
         self.viewport_px = viewport_px.max(Vec2::ONE);
         self.fitted = units_per_px(bounds, self.viewport_px);
         self.units_per_px = self.fitted;
@@ -71,14 +72,16 @@ impl StageView {
         self.anchor = self.centre;
     }
 
-    /// Pans with a pointer that moved by `delta_px` logical pixels, y down.
+    /// Moves the view so that the picture follows a pointer that has moved by `delta_px` logical
+    /// pixels, y down.
     pub fn pan_px(&mut self, delta_px: Vec2) {
         let delta = DVec2::new(-f64::from(delta_px.x), f64::from(delta_px.y));
         self.centre += delta * self.units_per_px;
     }
 
-    /// Magnifies by `factor` and keeps the point under the pointer in place. The scale is limited
-    /// relative to the last fit; invalid factors are ignored.
+    /// Magnifies the picture by `factor` and keeps the point under the pointer in place. The scale
+    /// is limited relative to that of the last fit. Factors that are not positive and finite are
+    /// ignored.
     pub fn zoom_at(&mut self, pointer_px: Vec2, factor: f64) {
         if !factor.is_finite() || factor <= 0.0 {
             return;
@@ -86,7 +89,8 @@ impl StageView {
         let under = self.world_from_px(pointer_px);
         let limits = (self.fitted * MIN_SCALE, self.fitted * MAX_SCALE);
         self.units_per_px = (self.units_per_px / factor).clamp(limits.0, limits.1);
-        // Compensates for the shift at the pointer; zero if the limit stopped the zoom.
+        // The point under the pointer moves back into place. This changes nothing if the scale was
+        // already at its limit.
         self.centre += under - self.world_from_px(pointer_px);
     }
 
@@ -104,7 +108,7 @@ impl StageView {
         0.5 * self.viewport_px + DVec2::new(from_middle.x, -from_middle.y).as_vec2()
     }
 
-    /// Returns the visible part of the plane.
+    /// Returns the visible rectangle of the plane.
     pub fn visible(&self) -> Bounds {
         let half = 0.5 * self.viewport_px.as_dvec2() * self.units_per_px;
         Bounds {
@@ -113,16 +117,16 @@ impl StageView {
         }
     }
 
-    /// Returns the point of the plane at the origin of Bevy's world: zero before the first
-    /// [`Self::fit`], then the centre of the fitted bounds, so that single precision suffices
-    /// wherever a design lies.
+    /// Returns the point of the plane that lies at the origin of Bevy's world: zero before the
+    /// first [`Self::fit`], then the centre of the fitted bounds. Bevy's coordinates are therefore
+    /// small wherever a design lies, and single precision suffices.
     pub fn anchor(&self) -> DVec2 {
         self.anchor
     }
 }
 
-/// Returns the scale at which `bounds` fits into a picture of the given size, in units per pixel; 1
-/// for bounds without extent.
+/// Returns the smallest scale, in units per pixel, at which a picture of the given size shows all
+/// of `bounds`; 1 for bounds without extent.
 pub(super) fn units_per_px(bounds: Bounds, size_px: Vec2) -> f64 {
     let scale = (bounds.size() / size_px.as_dvec2()).max_element();
     if scale.is_finite() && scale > 0.0 {

@@ -1,4 +1,5 @@
-//! State of a recording's upload to the graphics card.
+//! State of the upload of a recording to the graphics card, and lookup of the uploaded interval at
+//! a given t.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::Buffer;
@@ -8,30 +9,31 @@ use crate::recording::Recording;
 
 use super::recorded_material::RecordedSum;
 
-/// Upload state of a transition's recording.
+/// State of the upload of a transition's recording.
 #[derive(Component, Debug)]
 pub(super) enum UploadState {
     /// The upload is running.
     Uploading(Task<Option<UploadedIntervals>>),
-    /// The recording is on the graphics card.
+    /// The upload has finished; the graphics card can play the recording.
     Ready(UploadedIntervals),
-    /// The graphics card has no room for it.
+    /// The recording does not fit into the memory of the graphics card.
     Refused,
 }
 
-/// A recording on the graphics card.
+/// A recording whose intervals are on the graphics card.
 #[derive(Debug)]
 pub(super) struct UploadedIntervals {
-    /// The recording, which provides the weights at each t.
+    /// The recording, which provides the weights of the coefficients at each t.
     pub(super) recording: Recording,
-    /// Uploaded intervals, one per interval of the recording.
+    /// For each interval of the recording: its uploaded form.
     pub(super) intervals: Vec<UploadedInterval>,
 }
 
-/// One interval of a recording: polynomials between two times.
+/// One interval of a recording on the graphics card: the polynomials of all vertices.
 #[derive(Debug)]
 pub(super) struct UploadedInterval {
-    /// Rows as `played.wgsl` reads them.
+    /// Buffer with the rows that `played.wgsl` reads: the positions at both ends of the interval,
+    /// then the polynomial coefficients.
     pub(super) rows: Buffer,
     /// Number of vertices per row.
     pub(super) vertices: usize,
@@ -40,8 +42,8 @@ pub(super) struct UploadedInterval {
 }
 
 impl UploadState {
-    /// Returns the buffer that covers `t`, and the weights of its rows; `None` if the recording is
-    /// not uploaded or does not cover `t`.
+    /// Returns the buffer of the interval that contains `t`, and the weights of its rows at `t`;
+    /// `None` if the recording is not uploaded or `t` is outside [0, 1].
     pub(super) fn at(&self, t: f64) -> Option<(&Buffer, RecordedSum)> {
         let Self::Ready(UploadedIntervals {
             recording,
@@ -56,7 +58,7 @@ impl UploadState {
         Some((&interval.rows, sum))
     }
 
-    /// Whether the uploaded recording covers `t`.
+    /// Whether the recording is uploaded and `t` is in [0, 1].
     pub(super) fn covers(&self, t: f64) -> bool {
         matches!(self, Self::Ready(_)) && (0.0..=1.0).contains(&t)
     }

@@ -1,8 +1,9 @@
-//! Vertex layouts of render meshes: faces, bars with joints, wireframes and outlines.
+//! Vertices of render meshes: layouts for faces, wireframes, bars with joints and outlines, and
+//! functions that write their positions.
 //!
-//! Guaranteed: each layout is created once, and later only its positions are rewritten in place.
-//! Positions are `f32` relative to an origin, subtracted here in double precision, so that designs
-//! far from zero keep their precision.
+//! Guaranteed: each layout is created once, and later only its positions are rewritten, in place.
+//! Positions are `f32` relative to an origin, which is subtracted in double precision, so that
+//! designs far from zero keep their precision.
 
 use bevy::mesh::{Mesh, VertexAttributeValues};
 use glam::DVec2;
@@ -12,40 +13,41 @@ use crate::content::{InkedBars, SolidContent};
 use crate::export::{JOINT_CORE_RADIUS, JOINT_RADIUS};
 use crate::transition::VectorFigure;
 
-/// Half side of the quad of a bar or disc, as a multiple of its radius. Derived: for shapes at
-/// least two pixels across, the extra half radius covers the half pixel that the smooth edge takes.
+/// Half the side of the quad that contains a bar or disc, as a multiple of the radius of the shape.
+/// Derived: for shapes at least two pixels across, the extra half radius contains the half pixel by
+/// which an anti-aliased edge exceeds the shape.
 const MARGIN: f32 = 1.5;
 
-/// Maximum distance of a mitred corner from the outline, in half line widths (the default limit of
-/// SVG).
+/// Maximum distance of a mitred corner from the corner of the outline, in half line widths (the
+/// default limit of SVG).
 const MITRE_LIMIT: f64 = 4.0;
 
-/// Positions of a render mesh that are rewritten each frame.
+/// Vertex positions of a render mesh, which are rewritten in each frame.
 pub(super) type VertexPositions = [[f32; 3]];
 
-/// Position of a vertex relative to `origin`.
+/// Position of the point `p` relative to `origin`, as a render mesh stores it.
 fn vertex(p: DVec2, origin: DVec2) -> [f32; 3] {
     let p = (p - origin).as_vec2();
     [p.x, p.y, 0.0]
 }
 
-/// Returns the positions of a mesh, to be changed in place.
+/// Returns the vertex positions of a render mesh, to be changed in place.
 pub(super) fn positions(mesh: &mut Mesh) -> &mut VertexPositions {
     match mesh.attribute_mut(Mesh::ATTRIBUTE_POSITION) {
         Some(VertexAttributeValues::Float32x3(positions)) => positions,
-        // Render parts are always created with positions of this type.
+        // This case does not occur: all render meshes are created with positions of this type.
         _ => &mut [],
     }
 }
 
-/// Writes one vertex per point.
+/// Writes one vertex position per point.
 pub(super) fn write_points(points: &[DVec2], origin: DVec2, out: &mut VertexPositions) {
     for (out, &p) in out.iter_mut().zip(points) {
         *out = vertex(p, origin);
     }
 }
 
-/// Writes three vertices per face, shared with no other face.
+/// Writes three vertex positions per face, for meshes whose faces do not share vertices.
 pub(super) fn write_corners(
     points: &[DVec2],
     faces: &[[u32; 3]],
@@ -57,24 +59,26 @@ pub(super) fn write_corners(
     }
 }
 
-/// Returns two of the three barycentric coordinates of each corner in its triangle.
+/// Returns the first two barycentric coordinates of each corner in its own triangle, for `faces`
+/// triangles.
 pub(super) fn corner_coordinates(faces: usize) -> Vec<[f32; 2]> {
     [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]].repeat(faces)
 }
 
-/// Returns the indices of two triangles for each quad of four consecutive vertices.
+/// Returns the vertex indices of the two triangles of each quad; a quad has four consecutive
+/// vertices.
 pub(super) fn quad_indices(quads: usize) -> Vec<u32> {
     let corners = |q: u32| [0, 1, 2, 2, 1, 3].map(|k| 4 * q + k);
     (0..quads as u32).flat_map(corners).collect()
 }
 
-/// Bars that share their paints, and the discs at their ends: one quad per bar, then one per node
-/// of a bar in ascending order of index.
+/// Bars that share their paints, and the discs at their ends. Their mesh has a quad for each bar,
+/// then a quad for the disc at each node, by ascending index of the node.
 #[derive(Clone, Debug)]
 pub(super) struct BarShapes {
-    /// Paints in source and target.
+    /// Paints of the bars in the source and in the target; `None` is the colour of the style.
     pub(super) paints: [Option<Paint>; 2],
-    /// Height in the drawing order of all bars, from 0 (lowest) to 1.
+    /// Height of these bars in the drawing order of all bars, from 0 (lowest) to below 1.
     pub(super) z_fraction: f32,
     bars: Vec<[u32; 2]>,
     nodes: Vec<u32>,
@@ -93,7 +97,8 @@ impl BarShapes {
     fn new(solid: &SolidContent, inked: &InkedBars, height: f32) -> Self {
         let bars: Vec<[u32; 2]> = inked.bars.iter().map(|&bar| solid.bars[bar]).collect();
         let mut nodes = bars.as_flattened().to_vec();
-        // Bars that meet share one disc; drawn twice, its smooth edge would be darker.
+        // Bars that meet share one disc: its anti-aliased edge would be darker if it were drawn
+        // twice.
         nodes.sort_unstable();
         nodes.dedup();
         Self {
@@ -105,8 +110,9 @@ impl BarShapes {
         }
     }
 
-    /// Returns for each vertex of [`Self::write`] its position in units of the shape's radius. A
-    /// fragment is inside if this vector is shorter than 1.
+    /// For each vertex that [`Self::write`] writes: its position relative to the axis of the bar or
+    /// the centre of the disc, in units of the radius. A fragment is inside the shape if this
+    /// vector is shorter than 1.
     pub(super) fn coordinates(&self) -> Vec<[f32; 2]> {
         let across = [-MARGIN, MARGIN, -MARGIN, MARGIN].map(|v| [0.0, v]);
         let mut out = across.repeat(self.bars.len());
@@ -114,13 +120,13 @@ impl BarShapes {
         out
     }
 
-    /// Same as [`Self::coordinates`], for [`Self::write_cores`].
+    /// The same as [`Self::coordinates`], for the vertices that [`Self::write_cores`] writes.
     pub(super) fn core_coordinates(&self) -> Vec<[f32; 2]> {
         disc_coordinates(self.nodes.len())
     }
 
-    /// Writes the bars. With `joints` their ends are discs wider than the bars, otherwise just
-    /// round ends.
+    /// Writes the quads of the bars and of the discs at their ends. With `joints` the discs are
+    /// wider than the bars; otherwise they only round the ends.
     pub(super) fn write(
         &self,
         points: &[DVec2],
@@ -132,7 +138,8 @@ impl BarShapes {
         let (bars, discs) = out.split_at_mut(4 * self.bars.len());
         for (quad, &[a, b]) in bars.as_chunks_mut::<4>().0.iter_mut().zip(&self.bars) {
             let (a, b) = (points[a as usize], points[b as usize]);
-            // A bar without length has no direction; only the discs at its ends are visible.
+            // A bar without length has no direction; its quad has no area, and only its discs are
+            // visible.
             let across = (b - a).normalize_or_zero().perp() * half_width * f64::from(MARGIN);
             *quad = [a - across, a + across, b - across, b + across].map(|p| vertex(p, origin));
         }
@@ -144,12 +151,12 @@ impl BarShapes {
         self.write_discs(points, radius, origin, discs);
     }
 
-    /// Writes the lighter cores of the joints.
+    /// Writes the quads of the lighter cores of the joints.
     pub(super) fn write_cores(&self, points: &[DVec2], origin: DVec2, out: &mut VertexPositions) {
         self.write_discs(points, JOINT_CORE_RADIUS * self.bar_width, origin, out);
     }
 
-    /// Writes a disc of the given radius at each node.
+    /// Writes the quad of a disc of the given radius at each node.
     fn write_discs(&self, points: &[DVec2], radius: f64, origin: DVec2, out: &mut VertexPositions) {
         let reach = radius * f64::from(MARGIN);
         for (quad, &node) in out.as_chunks_mut::<4>().0.iter_mut().zip(&self.nodes) {
@@ -159,7 +166,7 @@ impl BarShapes {
     }
 }
 
-/// Corners of a disc's quad, in units of its half side.
+/// Corners of the quad of a disc, in units of half its side.
 const CORNERS: [DVec2; 4] = [
     DVec2::new(-1.0, -1.0),
     DVec2::new(-1.0, 1.0),
@@ -167,23 +174,25 @@ const CORNERS: [DVec2; 4] = [
     DVec2::new(1.0, 1.0),
 ];
 
-/// Positions of the quad corners of discs, in units of the radius.
+/// Positions of the quad corners of `discs` discs relative to their centres, in units of the
+/// radius.
 fn disc_coordinates(discs: usize) -> Vec<[f32; 2]> {
     CORNERS
         .map(|c| (c.as_vec2() * MARGIN).to_array())
         .repeat(discs)
 }
 
-/// Lines of constant width on the screen: one quad per segment, whose corners the vertex shader
-/// pushes apart.
+/// Lines of constant width on the screen: one quad per segment, which the vertex shader widens by
+/// moving its corners apart.
 ///
-/// Segments of an outline meet along the mitre and do not overlap; smooth edges drawn twice would
-/// show as dots.
+/// Segments of an outline meet along their mitre and do not overlap; if they did, dots would be
+/// visible where anti-aliased edges are drawn twice.
 #[derive(Clone, Debug, Default)]
 pub(super) struct OutlineSegments {
-    /// End of the segment that the corner belongs to.
+    /// For each corner of a quad: the end of the segment to which it belongs.
     pub(super) positions: Vec<[f32; 3]>,
-    /// Offset of the corner in half line widths, and its side, −1 or 1.
+    /// For each corner of a quad: its offset from that end in half line widths (x, y), and its side
+    /// of the segment, −1 or 1.
     pub(super) offsets: Vec<[f32; 3]>,
 }
 
@@ -201,12 +210,12 @@ impl OutlineSegments {
         segments
     }
 
-    /// Adds an invisible segment.
+    /// Adds an invisible segment, since a mesh must not be empty.
     pub(super) fn push_nothing(&mut self) {
         self.push([DVec2::ZERO; 2], [DVec2::ZERO; 2], DVec2::ZERO);
     }
 
-    /// Number of quads.
+    /// Number of quads, one per segment.
     pub(super) fn quads(&self) -> usize {
         self.positions.len() / 4
     }
@@ -222,10 +231,11 @@ impl OutlineSegments {
         }
     }
 
-    /// Adds a segment; `offsets` are the left offsets at its ends, in half line widths.
+    /// Adds a segment. `offsets` are the offsets of the left corners from its two ends, in half
+    /// line widths.
     fn push(&mut self, ends: [DVec2; 2], offsets: [DVec2; 2], origin: DVec2) {
         for (p, offset) in ends.into_iter().zip(offsets) {
-            // Two corners at the same position, which the vertex shader separates.
+            // Both corners at an end have the same position; the vertex shader separates them.
             for side in [-1.0, 1.0] {
                 let offset = offset.as_vec2() * side;
                 self.positions.push(vertex(p, origin));
@@ -235,12 +245,13 @@ impl OutlineSegments {
     }
 }
 
-/// Returns the common corner of two lines with the given unit normals, one unit off both; sharp
-/// corners are cut at [`MITRE_LIMIT`].
+/// Returns the offset from a corner of an outline to its mitre point, which is one unit away from
+/// both edges. `a` and `b` are the unit normals of the edges. Offsets longer than [`MITRE_LIMIT`]
+/// are shortened.
 fn mitre(a: DVec2, b: DVec2) -> DVec2 {
     let sum = a + b;
     let length = (2.0 / sum.length()).min(MITRE_LIMIT);
-    // The sum is zero where an outline turns straight back.
+    // The sum is zero if the outline reverses its direction at the corner.
     sum.normalize_or(b) * length
 }
 
@@ -260,10 +271,10 @@ mod tests {
         (points, all.into_iter().next().expect("bars"))
     }
 
-    /// Length of the interpolated shape coordinates at a point of the plane; 1 on the edge of the
-    /// shape.
+    /// Length of a quad's shape coordinates, interpolated at the point `p` of the plane; 1 on the
+    /// edge of the shape.
     fn reach(quad: &[[f32; 3]], coordinates: &[[f32; 2]], p: [f32; 2]) -> f32 {
-        // Quads are parallelograms: corner 0, with edges to corners 1 and 2.
+        // Quads are parallelograms; edges lead from corner 0 to corners 1 and 2.
         let at = |k: usize| glam::Vec2::new(quad[k][0], quad[k][1]);
         let edges = glam::Mat2::from_cols(at(1) - at(0), at(2) - at(0));
         let w = edges.inverse() * (glam::Vec2::from(p) - at(0));
@@ -316,7 +327,7 @@ mod tests {
         let segments = OutlineSegments::of(&figure, DVec2::ZERO);
         assert_eq!(segments.quads(), 3);
         assert_eq!(segments.positions[10], [0.0, 0.0, 0.0]);
-        // The mitre of the right angle is a diagonal, shared by both its segments.
+        // The mitre of the right angle is a diagonal, and both segments have it as a corner.
         assert_eq!(segments.offsets[1], [1.0, 1.0, 1.0]);
         assert_eq!(segments.offsets[11], segments.offsets[1]);
     }

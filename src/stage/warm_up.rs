@@ -1,10 +1,10 @@
-//! Compiles pipelines in advance: spawns a triangle without area in each material and vertex layout
-//! that render parts use.
+//! Makes Bevy compile render pipelines in advance: spawns a triangle without area in each material
+//! and vertex layout that render parts use.
 //!
-//! Guaranteed: the first frame of a transition is complete. Otherwise a part would be missing until
-//! its pipeline is compiled, and the stage would flicker whenever a transition of a new kind
-//! replaces another. Not guaranteed: fields with lines or signed colours, and pictures; they
-//! flicker once.
+//! Guaranteed: no part is missing from the first frame of a transition. Without warm-up, a part
+//! would be missing until its pipeline is compiled, and the stage would flicker whenever a
+//! transition of a new kind replaces another. Not guaranteed: distance fields with lines or signed
+//! colours, and pictures; the stage flickers when one of these is first shown.
 
 use bevy::camera::visibility::NoFrustumCulling;
 use bevy::mesh::{Indices, PrimitiveTopology};
@@ -21,10 +21,10 @@ use super::recording_upload::RecordingGpu;
 use super::ring_fill;
 use super::warp_grid::GridMaterial;
 
-/// A kind of shape, and the function that adds its vertex attributes to a mesh.
+/// A kind of shape, and the function that adds the vertex attributes of its render mesh.
 type WarmUpVertexLayout = (InkKind, fn(Mesh) -> Mesh);
 
-/// A triangle without area.
+/// Mesh of a triangle without area, which shows nothing.
 fn nothing() -> Mesh {
     let (positions, indices) = ring_fill::degenerate_triangle();
     Mesh::new(PrimitiveTopology::TriangleList, default())
@@ -32,28 +32,28 @@ fn nothing() -> Mesh {
         .with_inserted_indices(Indices::U32(indices))
 }
 
-/// Adds texture coordinates.
+/// Adds texture coordinates to the mesh.
 fn with_coordinates(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0_f32; 2]; 3])
 }
 
-/// Adds vertex colours.
+/// Adds vertex colours to the mesh.
 fn with_colours(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0_f32; 4]; 3])
 }
 
-/// Adds the offsets of lines.
+/// Adds the offsets of lines to the mesh.
 fn with_offsets(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, vec![[0.0_f32; 3]; 3])
 }
 
-/// Adds indices of vertices in the placement.
+/// Adds the vertex indices of recorded parts to the mesh.
 fn with_numbers(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(VERTEX_INDEX, vec![0_u32; 3])
 }
 
-/// Spawns an invisible triangle for every pipeline. They stay: they cost nothing to draw, and
-/// another camera needs pipelines of its own.
+/// Spawns an invisible triangle for each pipeline. The triangles are not despawned: they cost
+/// nothing to draw, and another camera needs its own pipelines.
 pub(super) fn warm_up_pipelines(
     mut commands: Commands,
     mut paints: StagePaints,
@@ -61,7 +61,7 @@ pub(super) fn warm_up_pipelines(
     ready: Option<Res<PipelinesReady>>,
 ) {
     if ready.is_none() {
-        // There is no renderer.
+        // The program has no renderer.
         return;
     }
     let inks: [WarmUpVertexLayout; 5] = [
@@ -101,7 +101,7 @@ pub(super) fn warm_up_pipelines(
     commands.spawn(drawn_mesh(carried, paints.fields.add(field)));
 }
 
-/// Components of a mesh with a material that is never culled.
+/// Components of an entity that draws a mesh with a material and is never culled.
 fn drawn_mesh<M: Material2d>(mesh: Handle<Mesh>, material: Handle<M>) -> impl Bundle {
     (Mesh2d(mesh), MeshMaterial2d(material), NoFrustumCulling)
 }

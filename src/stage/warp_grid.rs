@@ -1,8 +1,8 @@
-//! Grid that shows a warp: a square grid of the source, deformed by the warp. At t = 0 it is
-//! straight, at t = 1 it shows the whole warp.
+//! Material of the grid that shows a warp: a square grid in the source, deformed by the warp. At
+//! t = 0 the grid is straight, at t = 1 it shows the whole warp.
 //!
-//! Guaranteed: lines keep their width on the screen. Not guaranteed: lines that the warp moves to
-//! within a few pixels of each other; they fade.
+//! Guaranteed: lines keep their width on the screen. Not guaranteed: that dense lines are visible;
+//! lines fade where the warp moves them to within a few pixels of each other.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::{AsBindGroup, ShaderType};
@@ -14,25 +14,26 @@ use crate::content::Content;
 use crate::transition::Frame;
 
 use super::components::StageStyle;
-use super::ink_material::{contrasting_colour, embedded, relative_rectangle};
+use super::ink_material::{contrasting_colour, embedded_shader_path, relative_rectangle};
 
 /// Number of squares along the longer side of the designs (heuristic).
 const SQUARES: f64 = 20.0;
 
-/// Grid lines over the faces of a placement.
+/// Material that draws grid lines over the faces of a placement.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug, Default)]
 pub(super) struct GridMaterial {
     #[uniform(0)]
-    pub(super) look: GridLook,
+    pub(super) look: GridUniform,
 }
 
-/// Uniform of [`GridMaterial`]; the same fields as in `grid.wgsl`.
+/// Uniform of [`GridMaterial`], with the same members as in `grid.wgsl`.
 #[derive(ShaderType, Clone, Debug, Default, PartialEq)]
-pub(super) struct GridLook {
+pub(super) struct GridUniform {
     colour: LinearRgba,
     /// Colour around the lines, which keeps them readable on pictures.
     halo: LinearRgba,
-    /// Visible rectangle relative to the part's origin: minimum x and y, maximum x and y.
+    /// Rectangle outside which no lines are drawn, relative to the part's origin: minimum x and y,
+    /// maximum x and y.
     window: Vec4,
     /// Side length of a square, in units of the plane.
     spacing: f32,
@@ -40,7 +41,7 @@ pub(super) struct GridLook {
 
 impl Material2d for GridMaterial {
     fn fragment_shader() -> ShaderRef {
-        ShaderRef::Path(embedded("grid.wgsl"))
+        ShaderRef::Path(embedded_shader_path("grid.wgsl"))
     }
 
     fn alpha_mode(&self) -> AlphaMode2d {
@@ -48,19 +49,18 @@ impl Material2d for GridMaterial {
     }
 }
 
-impl GridLook {
+impl GridUniform {
     pub(super) fn new(frame: &Frame, origin: DVec2, StageStyle { style, .. }: &StageStyle) -> Self {
         let bounds = frame.transition().bounds();
         let ink = contrasting_colour(style.ground).with_alpha(0.7);
         let (colour, halo, window) = match frame.transition().content() {
             Content::Colours(pair) => {
                 let window = pair.window(frame.t());
-                // A picture may have any colour below the lines, so it needs both a line and a
-                // halo.
+                // The picture below the lines may have any colour, so light lines need a dark halo.
                 (LinearRgba::WHITE, LinearRgba::BLACK.with_alpha(0.4), window)
             }
             Content::Solid(_) | Content::Field(_) => {
-                // Parts may leave the frame while they move.
+                // Parts may leave the bounds while they move.
                 let all = bounds.padded(bounds.diameter());
                 (ink, LinearRgba::NONE, all)
             }

@@ -1,21 +1,22 @@
-//! Easing functions: increasing maps of [0, 1] onto itself that shape how t runs over time, or how
-//! one colour fades into another.
+//! Named easing functions. An easing function is an increasing map of [0, 1] onto itself; it shapes
+//! how t runs over time, or how one colour fades into another.
 //!
-//! This file holds the four named easings; `curve` adds cubic Bézier easings with two free handles.
+//! This file contains the four named easings. The module `easing_curve` adds cubic Bézier easings
+//! with two free handles.
 
 use crate::settings::named;
 
 /// Named easing function on [0, 1].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum NamedEasing {
-    /// Constant speed: x.
+    /// Constant speed: f(x) = x.
     Linear,
-    /// Slow at both ends (smoothstep): 3x² − 2x³.
+    /// Slow at both ends (smoothstep): f(x) = 3x² − 2x³.
     #[default]
     Smooth,
-    /// Slow at the start: x².
+    /// Slow at the start: f(x) = x².
     EaseIn,
-    /// Slow at the end: 1 − (1−x)².
+    /// Slow at the end: f(x) = 1 − (1 − x)².
     EaseOut,
 }
 
@@ -27,7 +28,8 @@ named! { NamedEasing {
 } }
 
 impl NamedEasing {
-    /// Maps [0, 1] onto itself, strictly increasing.
+    /// Returns the value of the easing at `x` in [0, 1]. The easing maps [0, 1] onto itself and is
+    /// strictly increasing.
     #[must_use]
     pub fn apply(self, x: f64) -> f64 {
         match self {
@@ -38,7 +40,7 @@ impl NamedEasing {
         }
     }
 
-    /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
+    /// Returns the easing that gives the same motion when time runs backwards: x ↦ 1 − f(1 − x).
     #[must_use]
     pub fn reversed(self) -> Self {
         match self {
@@ -48,10 +50,11 @@ impl NamedEasing {
         }
     }
 
-    /// Inverse of [`Self::apply`]. Arguments outside [0, 1] are clamped.
+    /// Returns the `x` at which the easing has the value `y`: the inverse of [`Self::apply`].
+    /// Values outside [0, 1] are clamped.
     #[must_use]
     pub fn inverse(self, y: f64) -> f64 {
-        // Outside [0, 1] the square roots and arcsine are NaN.
+        // Outside [0, 1] the square roots and the arcsine would be NaN.
         let y = y.clamp(0.0, 1.0);
         match self {
             Self::Linear => y,

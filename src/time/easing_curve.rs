@@ -1,8 +1,9 @@
-//! Cubic Bézier easing with two draggable handles, and the type that is either that or a named
-//! easing.
+//! Cubic Bézier easing with two draggable handles, and the type for an easing that is either named
+//! or such a curve.
 //!
-//! Guarantees: every accepted curve is non-decreasing on [0, 1], so eased time never runs
-//! backwards. Text and files hold the name of the easing or the four handle coordinates.
+//! Guaranteed: every accepted curve is non-decreasing on [0, 1], so eased time never runs
+//! backwards. In text and files, an easing is written as its name or as the four coordinates of its
+//! handles.
 
 use std::fmt;
 use std::str::FromStr;
@@ -16,7 +17,7 @@ use crate::settings::Choice;
 /// Cubic Bézier easing from (0, 0) to (1, 1) with handles (x₁, y₁) and (x₂, y₂), as in CSS
 /// `cubic-bezier()`.
 ///
-/// Unlike in CSS all four numbers lie in [0, 1], which keeps the curve non-decreasing.
+/// Unlike in CSS, all four numbers must lie in [0, 1]. This makes the curve non-decreasing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EasingBezier([f64; 4]);
 
@@ -25,12 +26,12 @@ pub struct EasingBezier([f64; 4]);
 #[error("an easing curve needs four numbers from 0 to 1: x1,y1,x2,y2")]
 pub struct EasingBezierError;
 
-/// Number of bisection steps when a Bézier coordinate is inverted (tolerance: 52 halvings of [0, 1]
-/// reach the precision of f64).
+/// Number of bisection steps when a coordinate of the Bézier curve is inverted (tolerance: 52
+/// halvings of [0, 1] reach the precision of f64).
 const HALVINGS: u32 = 52;
 
 impl EasingBezier {
-    /// Creates the easing with handles x₁, y₁, x₂, y₂.
+    /// Creates the easing with the handle coordinates x₁, y₁, x₂, y₂.
     ///
     /// # Errors
     /// [`EasingBezierError`] if a number is NaN or outside [0, 1].
@@ -39,11 +40,11 @@ impl EasingBezier {
         is_within.then_some(Self(handles)).ok_or(EasingBezierError)
     }
 
-    /// Returns the Bézier easing identical to a named easing.
+    /// Returns the Bézier easing that is identical to a named easing.
     #[must_use]
     pub fn from_named(easing: NamedEasing) -> Self {
-        // All named easings are polynomials in x of degree at most three. With the handles at x =
-        // 1/3 and x = 2/3 the Bézier parameter equals x, so the match is exact.
+        // Every named easing is a polynomial in x of degree at most three. With the handles at x =
+        // 1/3 and x = 2/3 the Bézier parameter equals x, so the two are identical.
         let third = 1.0 / 3.0;
         Self(match easing {
             NamedEasing::Linear => [third, third, 2.0 * third, 2.0 * third],
@@ -53,14 +54,14 @@ impl EasingBezier {
         })
     }
 
-    /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
+    /// Returns the easing that gives the same motion when time runs backwards: x ↦ 1 − f(1 − x).
     #[must_use]
     pub fn reversed(self) -> Self {
         let [x1, y1, x2, y2] = self.0.map(|h| 1.0 - h);
         Self([x2, y2, x1, y1])
     }
 
-    /// Handles as x₁, y₁, x₂, y₂.
+    /// Coordinates of the handles as x₁, y₁, x₂, y₂.
     #[must_use]
     pub fn handles(self) -> [f64; 4] {
         self.0
@@ -77,14 +78,15 @@ impl EasingBezier {
     }
 }
 
-/// Value at parameter `s` of one Bézier coordinate with control values 0, `a`, `b`, 1.
+/// Returns the value at parameter `s` of the cubic Bézier polynomial with the control values 0,
+/// `a`, `b` and 1.
 fn bernstein(a: f64, b: f64, s: f64) -> f64 {
     let r = 1.0 - s;
     s * (3.0 * r * (r * a + s * b) + s * s)
 }
 
-/// Parameter at which the non-decreasing Bézier coordinate 0, `a`, `b`, 1 takes `value`, by
-/// bisection.
+/// Returns the parameter at which the Bézier polynomial with the control values 0, `a`, `b` and 1,
+/// which is non-decreasing, has the value `value`; by bisection.
 fn parameter(a: f64, b: f64, value: f64) -> f64 {
     if value <= 0.0 {
         return 0.0;
@@ -134,7 +136,8 @@ impl From<NamedEasing> for EasingFunction {
 }
 
 impl EasingFunction {
-    /// Maps [0, 1] onto itself, non-decreasing.
+    /// Returns the value of the easing at `x` in [0, 1]. The easing maps [0, 1] onto itself and is
+    /// non-decreasing.
     #[must_use]
     pub fn apply(self, x: f64) -> f64 {
         match self {
@@ -143,7 +146,8 @@ impl EasingFunction {
         }
     }
 
-    /// Inverse of [`Self::apply`]. Where the curve is flat, any one of the matching arguments.
+    /// Returns an `x` at which the easing has the value `y`: the inverse of [`Self::apply`]. Where
+    /// the curve is flat, many `x` have the same value; any one of them is returned.
     #[must_use]
     pub fn inverse(self, y: f64) -> f64 {
         match self {
@@ -152,7 +156,7 @@ impl EasingFunction {
         }
     }
 
-    /// Returns the easing that gives the same motion when time runs backwards: 1 − f(1 − x).
+    /// Returns the easing that gives the same motion when time runs backwards: x ↦ 1 − f(1 − x).
     #[must_use]
     pub fn reversed(self) -> Self {
         match self {
@@ -161,7 +165,7 @@ impl EasingFunction {
         }
     }
 
-    /// Returns the easing as a Bézier curve, for editing by hand.
+    /// Returns the easing as a Bézier curve, for editing its handles by hand.
     #[must_use]
     pub fn curve(self) -> EasingBezier {
         match self {
@@ -183,7 +187,7 @@ impl fmt::Display for EasingFunction {
 impl FromStr for EasingFunction {
     type Err = String;
 
-    /// Parses the name of an easing, or four numbers separated by commas.
+    /// Parses the name of an easing, or four handle coordinates separated by commas.
     fn from_str(text: &str) -> Result<Self, String> {
         if !text.contains(',') {
             let named = NamedEasing::of_key(text).map(Self::Named);
@@ -285,7 +289,7 @@ mod tests {
             let y = ease.apply(x);
             prop_assert!((0.0..=1.0).contains(&y));
             prop_assert!(ease.apply((x + more).min(1.0)) >= y - 1e-9);
-            // Flat stretches map many x to one y, so only y is compared.
+            // On flat stretches many x have the same y, so only y is compared.
             prop_assert!((ease.apply(ease.inverse(y)) - y).abs() < 1e-6);
             let text = ease.to_string();
             prop_assert_eq!(text.parse::<EasingFunction>(), Ok(ease));

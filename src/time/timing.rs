@@ -1,15 +1,16 @@
-//! Playback timing: which t is shown after how many seconds. Pure, and shared by window and export.
+//! Playback timing: which t is shown after how many seconds. It has no state and is shared by the
+//! window and the export.
 //!
-//! One pass of the film runs from one t to another, with a pause at each end. Stops divide it into
-//! segments, each with its own easing; the film may pause at a stop. Time is distributed in
-//! proportion to the length in t, except for segments with a duration of their own. Play modes
-//! repeat passes.
+//! One pass of the animation runs from one t to another and pauses at each end. Stops divide it
+//! into segments, each with its own easing; the animation may pause at a stop. The duration of a
+//! pass is distributed over its segments in proportion to their lengths in t, except that a segment
+//! may have a duration of its own. The play mode determines how passes are repeated.
 
 use crate::settings::named;
 use crate::time::EasingFunction;
 use serde::{Deserialize, Serialize};
 
-/// Behaviour at the end of a pass.
+/// Behaviour at the end of a pass of the animation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PlayMode {
@@ -17,7 +18,7 @@ pub enum PlayMode {
     Once,
     /// The pass starts again from the beginning.
     Loop,
-    /// The next pass runs backwards, and so on.
+    /// The next pass runs backwards, the one after it forwards, and so on.
     #[default]
     PingPong,
 }
@@ -28,27 +29,27 @@ named! { PlayMode {
     Once: "once", "Once", "Stops at the end";
 } }
 
-/// A named moment of a transition.
+/// Stop: a named moment of a transition.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TransitionStop {
-    /// t of the stop.
+    /// The t of the stop.
     pub t: f64,
-    /// Name; may be empty.
+    /// Name of the stop; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
     /// Speaker's note; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// Easing from this stop to the next one in t; `None` uses the easing of the film.
+    /// Easing from this stop to the next one in ascending t; `None` uses that of the [`Timing`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub easing: Option<EasingFunction>,
-    /// Duration in seconds from this stop to the next one in t, positive; `None` uses the share of
-    /// the pass that corresponds to the length in t.
+    /// Duration in seconds from this stop to the next one in ascending t, positive. `None` uses the
+    /// fraction of the pass that corresponds to the length in t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_secs: Option<f64>,
-    /// Pause at this stop in seconds, not negative; at the ends of a pass, the longer of this pause
-    /// and that of the film applies.
+    /// Pause at this stop in seconds, not negative. At an end of a pass, the longer of this pause
+    /// and the pause of the [`Timing`] applies.
     #[serde(default, skip_serializing_if = "is_none")]
     pub hold_secs: f64,
 }
@@ -58,7 +59,7 @@ fn is_none(secs: &f64) -> bool {
 }
 
 impl TransitionStop {
-    /// Creates a stop without a name.
+    /// Creates a stop at `t` without a name, pause or settings of its own.
     #[must_use]
     pub fn at(t: f64) -> Self {
         Self {
@@ -71,59 +72,60 @@ impl TransitionStop {
         }
     }
 
-    /// Sets the name.
+    /// Sets the name of the stop.
     #[must_use]
-    pub fn named(self, name: impl Into<String>) -> Self {
+    pub fn with_name(self, name: impl Into<String>) -> Self {
         Self {
             name: name.into(),
             ..self
         }
     }
 
-    /// Sets the pause in seconds.
+    /// Sets the pause at the stop, in seconds.
     #[must_use]
-    pub fn resting(self, hold_secs: f64) -> Self {
+    pub fn with_pause(self, hold_secs: f64) -> Self {
         Self { hold_secs, ..self }
     }
 }
 
-/// How a transition is played over time.
+/// Timing of a transition: how it is played over time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct Timing {
-    /// Duration of a pass in seconds without pauses, positive. Segments with a duration of their
-    /// own replace their share of it.
+    /// Duration of a pass in seconds without pauses, positive. A segment with a duration of its own
+    /// takes that time instead of its share.
     pub duration_secs: f64,
-    /// Easing of each segment whose stop does not set one.
+    /// Easing of every segment whose lower stop does not set one.
     pub easing: EasingFunction,
-    /// Pause at each end in seconds, not negative.
+    /// Pause at each end of a pass in seconds, not negative.
     pub hold_secs: f64,
     /// Behaviour at the end of a pass.
     pub play: PlayMode,
-    /// t at the beginning of a pass.
+    /// The t at the beginning of a pass.
     pub from: f64,
-    /// t at the end of a pass; differs from the beginning.
+    /// The t at the end of a pass; differs from `from`.
     pub to: f64,
 }
 
-/// Why a timing is invalid.
+/// Reason why a timing is invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TimingError {
     /// The duration is not positive or not finite.
     #[error("the film cannot last {0} seconds; give a positive duration")]
     Duration(f64),
-    /// The pause is negative or not finite.
+    /// The pause at the ends is negative or not finite.
     #[error("a pause cannot last {0} seconds; give 0 or more")]
     Hold(f64),
-    /// The ends are equal or not finite.
+    /// The values of t at the ends of a pass are equal or not finite.
     #[error("the film cannot run from t = {0} to t = {1}; give two different finite numbers")]
     Range(f64, f64),
-    /// A stop is not finite.
+    /// The stop with this index has a t that is not finite.
     #[error("stop {} has no finite t; correct or remove it", .0 + 1)]
     Stop(usize),
-    /// The pause at a stop is negative, or the duration of its segment is not positive.
+    /// At the stop with this index, the pause is negative or the duration of the segment is not
+    /// positive, or one of them is not finite.
     #[error("stop {} has an invalid time: give a positive duration and a pause of 0 or more", .0 + 1)]
     StopSecs(usize),
 }
@@ -142,10 +144,10 @@ impl Default for Timing {
 }
 
 impl Timing {
-    /// Checks that the numbers define a pass.
+    /// Checks that the numbers of this timing and of the stops are valid.
     ///
     /// # Errors
-    /// [`TimingError`] for the first invalid number.
+    /// [`TimingError`] names the first invalid number.
     pub fn check(&self, stops: &[TransitionStop]) -> Result<(), TimingError> {
         if !(self.duration_secs.is_finite() && self.duration_secs > 0.0) {
             return Err(TimingError::Duration(self.duration_secs));
@@ -172,14 +174,15 @@ impl Timing {
 
     /// Returns the duration of one pass in seconds, pauses included.
     #[must_use]
-    pub fn pass_secs(&self, stops: &[TransitionStop]) -> f64 {
+    pub fn film_secs(&self, stops: &[TransitionStop]) -> f64 {
         let segments = self
             .segments(stops)
-            .map(|segment| segment.secs + segment.rest);
+            .map(|segment| segment.secs + segment.pause_secs);
         self.pause_at(self.from, stops) + segments.sum::<f64>()
     }
 
-    /// Returns t after `secs` seconds of a pass; before and after the pass, its ends.
+    /// Returns the t that is shown `secs` seconds after the start of a pass. Before and after the
+    /// pass this is the t of its beginning or its end.
     ///
     /// ```
     /// use morphospace::transition::Timing;
@@ -198,7 +201,7 @@ impl Timing {
                 let x = segment.easing.apply((left / segment.secs).clamp(0.0, 1.0));
                 return segment.from + (segment.to - segment.from) * x;
             }
-            left -= segment.secs + segment.rest;
+            left -= segment.secs + segment.pause_secs;
             if left < 0.0 {
                 return segment.to;
             }
@@ -206,8 +209,9 @@ impl Timing {
         self.to
     }
 
-    /// Returns the time in seconds at which a pass reaches `t`: the inverse of [`Self::t_at`].
-    /// Where the pass pauses, this is the moment of arrival; at the beginning, that of departure.
+    /// Returns the time in seconds at which a pass reaches `t`: the inverse of [`Self::t_at`]. If
+    /// the pass pauses at `t`, this is the time of arrival; at the beginning of the pass, the time
+    /// of departure.
     #[must_use]
     pub fn secs_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
         let sign = (self.to - self.from).signum();
@@ -217,22 +221,22 @@ impl Timing {
                 let x = ((t - segment.from) / (segment.to - segment.from)).clamp(0.0, 1.0);
                 return secs + segment.secs * segment.easing.inverse(x);
             }
-            secs += segment.secs + segment.rest;
+            secs += segment.secs + segment.pause_secs;
         }
-        // Beyond the end: the moment of arrival there.
+        // For t beyond the end: the time of arrival at the end.
         secs - self.pause_at(self.to, stops)
     }
 
-    /// Returns the easing of the segment that contains `t`, which the stop at its lower end may
-    /// set.
+    /// Returns the easing of the segment that contains `t`. The stop at the segment's lower end may
+    /// set it.
     #[must_use]
     pub fn easing_at(&self, t: f64, stops: &[TransitionStop]) -> EasingFunction {
-        // A stop belongs to the segment that begins there in the direction of the pass.
+        // If `t` is a stop, the segment is the one that begins there in the direction of the pass.
         let (begin, end) = self.segment(t, stops);
         self.segment_between(begin, end, stops).easing
     }
 
-    /// Returns the average speed in units of t per second in the segment that contains `t`.
+    /// Returns the average speed in the segment that contains `t`, in units of t per second.
     #[must_use]
     pub fn speed_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
         let (begin, end) = self.segment(t, stops);
@@ -253,9 +257,9 @@ impl Timing {
         })
     }
 
-    /// Returns the segment between two neighbouring stops or ends.
+    /// Returns the segment between two neighbouring stops or ends of the pass.
     fn segment_between(&self, from: f64, to: f64, stops: &[TransitionStop]) -> TimedSegment {
-        // A segment is configured by the stop at its lower end, whichever way the pass runs.
+        // The stop at the lower end of a segment configures it, whichever way the pass runs.
         let low = from.min(to);
         let lower_stop = stops.iter().find(|stop| stop.t == low);
         let share = self.duration_secs * (to - from) / (self.to - self.from);
@@ -265,14 +269,14 @@ impl Timing {
             secs: lower_stop
                 .and_then(|stop| stop.duration_secs)
                 .unwrap_or(share),
-            rest: self.pause_at(to, stops),
+            pause_secs: self.pause_at(to, stops),
             easing: lower_stop
                 .and_then(|stop| stop.easing)
                 .unwrap_or(self.easing),
         }
     }
 
-    /// Returns the pause in seconds at a stop or an end.
+    /// Returns the pause in seconds at `t`, if that is a stop or an end of the pass; otherwise 0.
     fn pause_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
         let stop_here = stops.iter().find(|stop| stop.t == t);
         let own = stop_here.map_or(0.0, |stop| stop.hold_secs);
@@ -280,30 +284,31 @@ impl Timing {
         own.max(if is_end { self.hold_secs } else { 0.0 })
     }
 
-    /// Returns the neighbouring stops or ends between which `t` lies, in the direction of the pass;
-    /// never equal.
+    /// Returns the two neighbouring stops or ends between which `t` lies, in the direction of the
+    /// pass. They are never equal.
     fn segment(&self, t: f64, stops: &[TransitionStop]) -> (f64, f64) {
-        // Negate where the pass runs down, so that t always increases.
+        // If the pass runs downwards, all t are negated, so that t always increases.
         let sign = (self.to - self.from).signum();
         let [from, to, t] = [self.from, self.to, t].map(|t| sign * t);
         let inside = stops.iter().map(|stop| sign * stop.t);
         let inside = inside.filter(|&s| from < s && s < to);
-        // A stop belongs to the segment that it begins.
+        // A stop belongs to the segment that begins there.
         let before = inside.clone().filter(|&s| s <= t).fold(from, f64::max);
         let after = inside.filter(|&s| s > t).fold(to, f64::min);
         (sign * before, sign * after)
     }
 }
 
-/// A segment of a pass, in the direction of playing.
+/// Segment of a pass; `from` and `to` are the values of t at its beginning and end, in the
+/// direction of the pass.
 #[derive(Clone, Copy, Debug)]
 struct TimedSegment {
     from: f64,
     to: f64,
-    /// Duration in seconds.
+    /// Duration of the segment in seconds, without the pause.
     secs: f64,
     /// Pause in seconds at the end of the segment.
-    rest: f64,
+    pause_secs: f64,
     easing: EasingFunction,
 }
 
@@ -329,7 +334,7 @@ mod tests {
         assert_eq!([at(-1.0), at(0.0), at(1.0)], [0.0; 3]);
         assert_eq!(at(2.0), 0.5);
         assert_eq!([at(3.0), at(4.0), at(99.0)], [1.0; 3]);
-        assert_eq!(timing.pass_secs(&[]), 4.0);
+        assert_eq!(timing.film_secs(&[]), 4.0);
     }
 
     #[test]
@@ -364,8 +369,8 @@ mod tests {
             to: 0.0,
             ..timing
         };
-        // Backwards, the curve still applies from the beginning of the segment in playing
-        // direction.
+        // In the backward pass, the curve still applies from the beginning of the segment in the
+        // direction of playing.
         assert!(down.t_at(0.25, &stops) > 0.9);
         assert_eq!(down.t_at(0.75, &stops), 0.25);
     }
@@ -380,11 +385,11 @@ mod tests {
             ..Timing::default()
         };
         let mut stops = vec![
-            TransitionStop::at(1.0).resting(1.0),
+            TransitionStop::at(1.0).with_pause(1.0),
             TransitionStop::at(0.0),
         ];
         let at = |secs, stops: &[TransitionStop]| timing.t_at(secs, stops);
-        assert_eq!(timing.pass_secs(&stops), 0.5 + 2.0 + 1.0 + 2.0 + 0.5);
+        assert_eq!(timing.film_secs(&stops), 0.5 + 2.0 + 1.0 + 2.0 + 0.5);
         assert_eq!(at(1.5, &stops), 0.5);
         assert_eq!(
             [at(2.5, &stops), at(3.0, &stops), at(3.5, &stops)],
@@ -395,7 +400,7 @@ mod tests {
         assert_eq!(timing.secs_at(1.5, &stops), 4.5);
         assert_eq!(timing.secs_at(7.0, &stops), 5.5);
         stops[0].duration_secs = Some(8.0);
-        assert_eq!(timing.pass_secs(&stops), 0.5 + 2.0 + 1.0 + 8.0 + 0.5);
+        assert_eq!(timing.film_secs(&stops), 0.5 + 2.0 + 1.0 + 8.0 + 0.5);
         assert_eq!(at(7.5, &stops), 1.5);
         assert_eq!([0.5, 1.5].map(|t| timing.speed_at(t, &stops)), [0.5, 0.125]);
         let down = Timing {
@@ -403,7 +408,7 @@ mod tests {
             to: 0.0,
             ..timing
         };
-        assert_eq!(down.pass_secs(&stops), timing.pass_secs(&stops));
+        assert_eq!(down.film_secs(&stops), timing.film_secs(&stops));
         assert_eq!(down.t_at(4.5, &stops), 1.5);
         assert_eq!(down.t_at(9.0, &stops), 1.0);
         stops[0].hold_secs = -1.0;

@@ -12,17 +12,17 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub(super) enum AnyWarp {
     /// Nothing moves.
-    Still(IdentityWarp),
+    Identity(IdentityWarp),
     /// Only boundary points move.
     Paths(Arc<BoundaryPaths>),
     /// Rigid parts of solids, or of the whole frame.
     Rigid(Arap),
-    /// Rigid parts of solids, some with a timing of their own.
+    /// Rigid parts of solids, some of which have their own timing.
     Staggered(StaggeredArap),
     /// Rigid parts of the frame, relative to a common rigid motion.
-    Turned(RigidElasticWarp<Arap>),
-    /// Rigid parts between blends of many designs.
-    Along(AlongBlend),
+    RigidElastic(RigidElasticWarp<Arap>),
+    /// Rigid parts that move from one blend of many designs to another.
+    Blend(AlongBlend),
     /// Lines, scattered points or lattices, evaluated on a grid of the plane.
     Plane(Arc<dyn Warp>),
 }
@@ -31,37 +31,37 @@ impl AnyWarp {
     /// Returns the warp as a trait object.
     pub fn as_warp(&self) -> &dyn Warp {
         match self {
-            Self::Still(still) => still,
+            Self::Identity(still) => still,
             Self::Paths(paths) => paths.as_ref(),
             Self::Rigid(arap) => arap,
             Self::Staggered(warp) => warp,
-            Self::Turned(turned) => turned,
-            Self::Along(warp) => warp,
+            Self::RigidElastic(turned) => turned,
+            Self::Blend(warp) => warp,
             Self::Plane(warp) => warp.as_ref(),
         }
     }
 
     /// Returns the warp as shared data, for a recording to own.
-    pub fn shared(&self) -> Arc<dyn Warp> {
+    pub fn to_shared(&self) -> Arc<dyn Warp> {
         match self {
-            Self::Still(still) => Arc::new(*still),
+            Self::Identity(still) => Arc::new(*still),
             Self::Paths(paths) => Arc::clone(paths) as Arc<dyn Warp>,
             Self::Rigid(arap) => Arc::new(arap.clone()),
             Self::Staggered(warp) => Arc::new(warp.clone()),
-            Self::Turned(turned) => Arc::new(turned.clone()),
-            Self::Along(warp) => Arc::new(warp.clone()),
+            Self::RigidElastic(turned) => Arc::new(turned.clone()),
+            Self::Blend(warp) => Arc::new(warp.clone()),
             Self::Plane(warp) => Arc::clone(warp),
         }
     }
 
-    /// Returns the interpolation of rigid parts, without part timings and relative to the common
-    /// motion, if there are any.
+    /// Returns the interpolation of rigid parts, without part timings; `None` for other warps. If
+    /// there is a common rigid motion, the interpolation is relative to it.
     pub fn arap(&self) -> Option<&Arap> {
         match self {
             Self::Rigid(arap) => Some(arap),
             Self::Staggered(warp) => Some(warp.arap()),
-            Self::Turned(turned) => Some(turned.at_rest()),
-            Self::Still(_) | Self::Paths(_) | Self::Along(_) | Self::Plane(_) => None,
+            Self::RigidElastic(turned) => Some(turned.rest_warp()),
+            Self::Identity(_) | Self::Paths(_) | Self::Blend(_) | Self::Plane(_) => None,
         }
     }
 }
@@ -72,10 +72,10 @@ pub(super) struct BuiltWarp {
     pub warp: AnyWarp,
     /// The match of the outlines, if outlines were matched.
     pub matched: Option<RegionMatch>,
-    /// The solved motion of the match, for documents to cache.
+    /// The solved motion of the match, which documents cache.
     pub solution: Option<Arc<KeyedSolution>>,
     /// Automatic pins of a plane warp, if the user has set none.
-    pub automatic: Vec<PointPair>,
+    pub automatic_pins: Vec<PointPair>,
     /// Deviations from the request.
     pub notes: Vec<TransitionNote>,
 }
@@ -86,7 +86,7 @@ impl From<AnyWarp> for BuiltWarp {
             warp,
             matched: None,
             solution: None,
-            automatic: Vec::new(),
+            automatic_pins: Vec::new(),
             notes: Vec::new(),
         }
     }

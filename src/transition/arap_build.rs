@@ -1,5 +1,5 @@
-//! Builds interpolations of meshes that are not too large, and the options for building them before
-//! subdivision.
+//! Builds rigid interpolations after checking the size of their mesh, and returns the options with
+//! which they are built before subdivision.
 
 use super::error::BuildError;
 use crate::compatible::CompatibleMesh;
@@ -21,7 +21,7 @@ pub(super) fn build_arap(
     Ok(Arap::of_outlines(mesh, options, time_windows, progress)?)
 }
 
-/// Checks that a mesh is not too large after subdivision.
+/// Checks that a mesh, once subdivided as requested, does not have too many faces.
 ///
 /// # Errors
 /// [`BuildError::TooMuch`] if it is.
@@ -34,11 +34,13 @@ pub(super) fn check_size(
     Ok(WorkloadKind::Faces.check(mesh.faces().len().saturating_mul(face_factor), progress)?)
 }
 
-/// Returns the options with which a match is searched and solved: without subdivision, since the
-/// finer mesh moves almost identically but takes several times as long; and with the default anchor
-/// path, since the requested anchor may be a vertex of the subdivided mesh, and the position of the
-/// whole does not affect motion within it.
-pub(super) fn unsubdivided(requested: &ArapOptions) -> ArapOptions {
+/// Returns the options with which matches are searched and solved.
+///
+/// They request no subdivision, since a finer mesh moves almost identically but takes several times
+/// as long. They have the default path of the whole design, since a requested anchor may be a
+/// vertex of the subdivided mesh, and the position of the whole does not affect the motion within
+/// it.
+pub(super) fn without_subdivision(requested: &ArapOptions) -> ArapOptions {
     ArapOptions {
         subdivisions: 0,
         path: ArapPath::default(),

@@ -1,7 +1,7 @@
-//! The path from one blend of many designs to another, as a transition.
+//! Turns the path from one blend of many designs to another into a transition.
 //!
-//! Blends themselves are computed in the `space` module; as a transition they are played, measured
-//! and exported like two designs.
+//! Blends themselves are computed in the `space` module. As a transition, a path between two of
+//! them can be played, measured and exported like a transition of two designs.
 
 use super::any_warp::AnyWarp;
 use super::method::TransitionMethod;
@@ -12,7 +12,7 @@ use crate::geometry::Bounds;
 use crate::warp::{AlongBlend, IdentityWarp, WarpKind};
 use std::sync::Arc;
 
-/// Two blends, and a box around everything visible between them.
+/// The two blends at the ends of a path, and a box around everything visible between them.
 #[derive(Clone, Debug)]
 pub(crate) struct BlendEnds {
     pub designs: [Arc<Design>; 2],
@@ -27,7 +27,7 @@ impl Transition {
         Self::from_blend(
             ends,
             TransitionMethod::RIGID_PARTS,
-            AnyWarp::Along(warp),
+            AnyWarp::Blend(warp),
             Content::Solid(solid),
         )
     }
@@ -37,7 +37,7 @@ impl Transition {
         let still = IdentityWarp::new(fields.first_pair().grid().bounds());
         let cell = TransitionMethod::new(WarpKind::None, ContentKind::Field)
             .unwrap_or_else(|_| unreachable!("it is in the table"));
-        Self::from_blend(ends, cell, AnyWarp::Still(still), Content::Field(fields))
+        Self::from_blend(ends, cell, AnyWarp::Identity(still), Content::Field(fields))
     }
 
     /// Creates a transition without notes, match or cached data.

@@ -1,8 +1,8 @@
 //! Transitions of boundaries without an interior: matched, but not triangulated.
 //!
-//! Two meshes with identical boundary loops, index by index, bring their match along; all other
-//! forms are matched as outlines. The first match is used: folds of the interior do not matter,
-//! since there is no interior.
+//! Two meshes whose boundary loops consist of the same vertex indices are matched by these indices;
+//! all other designs are matched as outlines. The first match is used without searching for a
+//! better one: it cannot fold the interior, since there is none.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::drawing_pair::DrawingPair;
@@ -20,11 +20,11 @@ use crate::work::progress::{Progress, ProgressSpan, checkpoint};
 use std::iter::repeat_n;
 use std::sync::Arc;
 
-/// Builds the paths of the boundaries, and the visible content.
+/// Builds the warp that moves the boundaries, and the content that is shown.
 ///
 /// # Errors
 /// If outlines cannot be matched, the paths cannot be built, or the work is cancelled.
-pub(super) fn paths(
+pub(super) fn build_boundary_paths(
     spec: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,
@@ -50,7 +50,7 @@ pub(super) fn paths(
                 .collect(),
             places: [&placer.placement().in_source, &placer.placement().in_target],
         };
-        piece_coating::coating(drawings, matched, &loops, &[])
+        piece_coating::paint_layer_stack(drawings, matched, &loops, &[])
     });
     let solid = SolidContent {
         loops: paths.loops(),
@@ -64,7 +64,7 @@ pub(super) fn paths(
     Ok((built, solid))
 }
 
-/// The pairs of rings of each part, and, if they were matched, the drawings and their match.
+/// For each part, its pairs of rings; and, if outlines were matched, the drawings and their match.
 type MatchedBoundaries = (Vec<Vec<RingPair>>, Option<(DrawingPair, RegionMatch)>);
 
 /// Matches the outlines of two designs.
@@ -75,14 +75,14 @@ fn match_outlines(
 ) -> Result<MatchedBoundaries, BuildError> {
     let drawings = spec.drawings(bar_width, progress)?;
     let (designs, requested) = (drawings.outlines.each_ref(), &spec.options.matching);
-    let prepared = MatchPlan::new(designs, &drawings.looks, requested, progress)?;
-    let matched = prepared.matched(&requested.options(), progress)?;
+    let prepared = MatchPlan::new(designs, &drawings.appearances, requested, progress)?;
+    let matched = prepared.match_all_groups(&requested.options(), progress)?;
     let parts = matched.pieces.iter().map(rings).collect();
     Ok((parts, Some((drawings, matched))))
 }
 
-/// Returns the pairs of rings of a piece. Seed shapes, which a match needs for triangulation,
-/// become points.
+/// Returns the pairs of rings of a piece. The small seed shapes that stand for unmatched rings in
+/// the other design become points; only a triangulation needs their extent.
 fn rings(piece: &PieceMatch) -> Vec<RingPair> {
     let Some(outer_ring) = piece.rings.first() else {
         return Vec::new();
@@ -114,7 +114,7 @@ fn centroid_of_points(ring: &[DVec2]) -> DVec2 {
 /// Returns the boundary loops of two meshes as parts, if the loops are identical and have the same
 /// orientation.
 fn shared_loops(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<RingPair>>> {
-    // Identical indices mean that the meshes were made to correspond.
+    // Identical indices mean that the meshes were made to correspond vertex by vertex.
     let loops = source.boundary_loops();
     if loops != target.boundary_loops() {
         return None;
@@ -145,7 +145,8 @@ fn shared_loops(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<
 /// Groups each hole with the smallest outer ring that contains it in the source. Outer rings may be
 /// clockwise, because a mesh may list its faces clockwise.
 fn parts(rings: Vec<RingPair>, areas: &[[f64; 2]]) -> Vec<Vec<RingPair>> {
-    // Outer rings enclose more area than their holes, so the sum has their sign.
+    // Outer rings enclose more area than their holes, so the sum of all areas has the sign of outer
+    // rings.
     let orientation: f64 = areas.iter().map(|[a, _]| a).sum();
     let (mut outer, mut holes) = (Vec::new(), Vec::new());
     for (ring, [area, _]) in rings.into_iter().zip(areas) {

@@ -1,4 +1,5 @@
-//! Builds a transition from two designs. Everything that can fail fails here.
+//! Builds a transition from two designs. All errors occur here; playing a built transition cannot
+//! fail.
 
 use super::any_warp::BuiltWarp;
 use super::boundary_paths;
@@ -16,7 +17,7 @@ use crate::geometry::Bounds;
 use crate::warp::{Arap, Placement, Warp, WarpKind};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::{
-    Cancelled, Progress, ProgressSpan, Silent, WholeProgress, check_cancelled, checkpoint,
+    Cancelled, OverallProgress, Progress, ProgressSpan, Silent, check_cancelled, checkpoint,
 };
 use std::sync::Arc;
 
@@ -37,7 +38,8 @@ impl Transition {
         Self::build(&spec, &Silent)
     }
 
-    /// Builds a transition as specified. Imports nothing and decides everything.
+    /// Builds a transition as specified. The designs are already imported and placed in the common
+    /// frame.
     ///
     /// # Errors
     /// [`BuildError::Between`] names the designs and says why they cannot be combined, or that the
@@ -54,7 +56,8 @@ fn build_named(
     progress: &dyn Progress,
 ) -> Result<TransitionData, BuildError> {
     build_data(spec, progress).map_err(|error| match progress.is_cancelled() {
-        // A cancellation does not concern a particular design.
+        // A cancellation has nothing to do with the designs, so it is not prefixed with their
+        // names.
         true => error,
         false => error.with_names(&spec.source, &spec.target),
     })
@@ -65,11 +68,12 @@ fn build_data(
     spec: &TransitionSpec,
     progress: &dyn Progress,
 ) -> Result<TransitionData, BuildError> {
-    // First, because it is cheap; the window disables buttons by the same check.
+    // This check comes first because it is cheap. The window uses it to disable buttons.
     TransitionSpec::available(spec.method, &spec.source, &spec.target)?;
-    let progress = &WholeProgress::new(progress).patient(spec.patient);
+    let progress = &OverallProgress::new(progress).patient(spec.patient);
     if spec.method.warp() == WarpKind::Arap {
-        // Each subdivision quadruples the faces; ten of them are too many even for one face.
+        // Each subdivision quadruples the number of faces; ten subdivisions give too many even for
+        // one face.
         let children = 4_usize.saturating_pow(spec.options.arap.subdivisions);
         WorkloadKind::Faces.check(children, progress)?;
     }
@@ -98,7 +102,9 @@ fn build_data(
         bar_width,
         recording: RecordingSlot::default(),
     };
-    Ok(data.coated(&spec.options.coats).timed(&spec.options.parts))
+    Ok(data
+        .with_paint_layers(&spec.options.coats)
+        .with_part_times(&spec.options.parts))
 }
 
 /// Builds the warp of solid designs, their content, and the box around all frames.
@@ -108,7 +114,7 @@ fn solids(
     progress: &dyn Progress,
 ) -> Result<BuiltParts, BuildError> {
     let (built, solid) = match spec.method.warp() {
-        WarpKind::Paths => boundary_paths::paths(spec, bar_width, progress)?,
+        WarpKind::Paths => boundary_paths::build_boundary_paths(spec, bar_width, progress)?,
         _ => solids::rigid_parts(spec, bar_width, progress)?,
     };
     let bar_margin = if solid.bars.is_empty() {
@@ -145,7 +151,7 @@ fn fields(
     let span = |from, to| ProgressSpan::new(progress, from, to);
     let whole = super::distance_fields::whole_fields(spec, grid, bar_width, &span(0.0, 0.4))?;
     // The margin of the grid is included, because carried fields are evaluated there too.
-    let mut built = plane::warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
+    let mut built = plane::build_plane_warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
     let placer = built.warp.as_warp().placer();
     let (painted, note) = super::distance_fields::painted_fields(
         spec,
@@ -184,19 +190,19 @@ fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<BuiltParts,
     let pair = PicturePair::new(&source, &target, spec.options.colours)?;
     // The mesh extends beyond the visible area, so that its border is never seen.
     let frame = bounds.padded(0.02 * bounds.diameter());
-    let built = plane::warp(spec, &frame, 0.0, progress)?;
+    let built = plane::build_plane_warp(spec, &frame, 0.0, progress)?;
     Ok((built, Content::Colours(pair), bounds))
 }
 
-/// Returns the box around `ends` and a few frames: a part that swings may leave the box of the
-/// ends.
+/// Returns the box around `ends` and several frames between them, because a part that swings may
+/// leave the box around the ends.
 fn swept(
     ends: Bounds,
     warp: &dyn Warp,
     visible_box: impl Fn(&Placement, f64) -> Option<Bounds>,
     progress: &dyn Progress,
 ) -> Result<Bounds, Cancelled> {
-    /// Number of intervals between the sampled frames (heuristic).
+    /// Number of equal intervals of t between the sampled frames (heuristic).
     const SAMPLES: u32 = 8;
     let mut placer = warp.placer();
     let mut bounds = ends;
@@ -211,14 +217,14 @@ fn swept(
     Ok(bounds)
 }
 
-/// Returns the rectangle of the distance fields without their margin: whole pictures and pages,
-/// meshes, and trusses with the thickness of their bars.
+/// Returns the rectangle that the distance fields cover, without their margin: the box around all
+/// designs, including whole pictures and pages and the thickness of bars.
 pub(crate) fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
     let of = |design: &Design| match design.form {
         DesignForm::Truss(_) => design.extent.padded(0.5 * bar_width),
         _ => design.extent.union(&extent(design)),
     };
-    let boxes = spec.all().map(|design| of(design));
+    let boxes = spec.all_designs().map(|design| of(design));
     boxes
         .reduce(|a, b| a.union(&b))
         .unwrap_or_else(|| unreachable!("there are two designs"))

@@ -1,7 +1,8 @@
-//! A cached match of two designs, as text in a document, and the key that identifies its inputs.
+//! The cached match of two designs, stored as text in a document, and the key that identifies the
+//! inputs of the match.
 
 use crate::geometry::{DVec2, Regions};
-use crate::transition::arap_build::unsubdivided;
+use crate::transition::arap_build::without_subdivision;
 use crate::transition::drawing_pair::DrawingPair;
 use crate::transition::options::TransitionOptions;
 use fnv::FnvHasher;
@@ -9,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::hash::Hasher;
 use std::sync::Arc;
 
-/// Coordinates are equal up to this fraction of the designs' diameter (tolerance: importing on
-/// another machine may round the last digits differently).
+/// Step to which the key rounds coordinates, as a fraction of the designs' diameter (tolerance:
+/// importing on another machine may round the last digits differently).
 const COORDINATE_TOLERANCE: f64 = 1e-7;
 
 /// The match and the solved motion of two designs, as text for a document. Any text is allowed;
@@ -21,10 +22,10 @@ const COORDINATE_TOLERANCE: f64 = 1e-7;
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CachedMatch {
-    /// Hash of the outlines and options for which it was computed.
+    /// Key of the outlines and options for which the match was computed.
     #[serde(rename = "for")]
     pub(in crate::transition) of: String,
-    /// The match and motion, packed and encoded.
+    /// The match and its motion, compressed and encoded as text; empty if nothing is cached.
     pub(in crate::transition) film: SharedText,
 }
 
@@ -58,7 +59,7 @@ impl CachedMatch {
         self.film.0.is_empty()
     }
 
-    /// Returns whether it was computed for the inputs with this key.
+    /// Returns whether a match is cached and was computed for the inputs with this key.
     pub(in crate::transition) fn is_for(&self, key: &str) -> bool {
         !self.is_none() && self.of == key
     }
@@ -80,10 +81,10 @@ pub(in crate::transition) fn cache_key(
         &options.matching,
         options.quality,
         &options.triangulation,
-        unsubdivided(&options.arap),
+        without_subdivision(&options.arap),
         SOLVER_VERSION,
     );
-    // Options are always serialisable; otherwise, all would share one key.
+    // Serialisation of the options does not fail. If it did, all options would share one key.
     hasher.write(&serde_json::to_vec(&inputs).unwrap_or_default());
     hasher.write(options.guard.to_string().as_bytes());
     let bounds = outlines.each_ref().map(Regions::bounds);
@@ -92,8 +93,8 @@ pub(in crate::transition) fn cache_key(
     for ring in outlines.iter().flat_map(Regions::rings) {
         hasher.write_usize(ring.points().len());
         for &point in ring.points() {
-            // Offset by an irrational fraction, because coordinates often lie on a grid, whose
-            // points must not be at the boundary of two steps.
+            // Coordinates often lie on a grid. The offset keeps grid points away from the
+            // boundaries between two steps.
             let from_corner = (point - bounds.min) / step + DVec2::splat(0.381_966);
             hasher.write_i64(from_corner.x.floor() as i64);
             hasher.write_i64(from_corner.y.floor() as i64);
@@ -101,7 +102,7 @@ pub(in crate::transition) fn cache_key(
     }
     // Nothing is added for drawings in one colour, so that results cached before colours existed
     // stay valid.
-    for look in drawings.looks.0.iter().flatten() {
+    for look in drawings.appearances.0.iter().flatten() {
         hasher.write_usize(look.paint_layer);
         let paint = look
             .paint

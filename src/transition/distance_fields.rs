@@ -1,11 +1,12 @@
-//! The distance fields of two designs.
+//! Computes the distance fields of two designs: those of the whole designs, and those of each
+//! paint.
 
 use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
 use super::note::TransitionNote;
 use super::options::{FieldOptions, PaintRule};
 use super::paint_layer_options::PaintLayerOptions;
-use super::piece_coating::coats;
+use super::piece_coating::placed_paint_layers;
 use super::spec::{TransitionSpec, outline};
 use super::transients::layers::PieceLayers;
 use crate::content::{FieldPair, PaintLayerStack, PaintedFields};
@@ -40,12 +41,12 @@ pub(super) fn whole_fields(
     Ok(FieldPair::new(source, target, spec.options.field.blend)?)
 }
 
-/// Distance fields of each paint, if the designs have several, and a note if they could not be
-/// computed as requested.
+/// Distance fields of each paint, if the designs are shown in their own paint, and a note if these
+/// fields could not be computed.
 type PaintedFieldsResult = (Option<PaintedFields>, Option<TransitionNote>);
 
 /// Computes the distance fields of each paint, if the drawings are shown in their own paint. Parts
-/// are paired as for rigid parts; gradients move with the vertices of the frame.
+/// are paired as for rigid parts. Gradients move with the vertices of `frame`.
 ///
 /// # Errors
 /// If outlines or fields cannot be computed, or the work is cancelled. Drawings with too many
@@ -69,10 +70,10 @@ pub(super) fn painted_fields(
         Err(error) => return Err(error),
     };
     let outlines = drawings.outlines.each_ref();
-    // Fields need no match, so an impossible requested pairing is no reason to fail.
-    let pairs = paired_parts(outlines, &drawings.looks, &spec.options.matching)
-        .or_else(|_| paired_parts(outlines, &drawings.looks, &MatchSettings::default()))?;
-    let layers = PieceLayers::of_parts(pairs.iter().copied(), &drawings.looks);
+    // Fields need no match, so an impossible requested pairing is replaced by the default pairing.
+    let pairs = paired_parts(outlines, &drawings.appearances, &spec.options.matching)
+        .or_else(|_| paired_parts(outlines, &drawings.appearances, &MatchSettings::default()))?;
+    let layers = PieceLayers::of_parts(pairs.iter().copied(), &drawings.appearances);
     let count = layers.layers.len();
     if WorkloadKind::Cells
         .check(count * grid.cells(), progress)
@@ -95,18 +96,19 @@ pub(super) fn painted_fields(
     let all_vertices: Vec<u32> = (0..frame.in_frame.len() as u32).collect();
     let places: [&[_]; 2] = [&frame.in_source, &frame.in_target];
     let coating = PaintLayerStack {
-        layers: coats(&drawings, &layers, |_| all_vertices.clone(), places),
+        layers: placed_paint_layers(&drawings, &layers, |_| all_vertices.clone(), places),
         of_loops: Vec::new(),
         of_holes: Vec::new(),
         unmatched_loops: Vec::new(),
-        fades: false,
+        fades_unmatched: false,
         reorder_t: PaintLayerOptions::default().reorder_at,
     };
     let painted = PaintedFields::new(coating, fields, grid, spec.options.field.blend)?;
     Ok((Some(painted), None))
 }
 
-/// Returns the parts of one design that belong to these pairs of parts.
+/// Returns the outlines of those parts of one design that occur in `pieces`, pairs of parts; `None`
+/// if there are none.
 fn parts_of(drawings: &DrawingPair, pieces: &[[Option<usize>; 2]], side: Side) -> Option<Regions> {
     let mut parts: Vec<usize> = pieces.iter().filter_map(|piece| piece[side]).collect();
     parts.sort_unstable();
@@ -114,7 +116,7 @@ fn parts_of(drawings: &DrawingPair, pieces: &[[Option<usize>; 2]], side: Side) -
     drawings.outlines[side].subset(&parts)
 }
 
-/// Computes the distance field of a paint layer; `None` if all of it is thinner than the grid
+/// Computes the distance field of a paint layer; `None` if the whole layer is thinner than the grid
 /// cells.
 ///
 /// # Errors
@@ -133,7 +135,8 @@ fn layer_field(
     }
 }
 
-/// Computes a distance field as the options request: exact, or from pixels.
+/// Computes a distance field as the options request: from the exact outlines, or from the pixels of
+/// a binary image.
 ///
 /// # Errors
 /// [`FieldError`] if the grid is unsuitable or the work is cancelled.
@@ -150,7 +153,7 @@ pub(crate) fn distance_field(
     }
 }
 
-/// Adds the design to an error.
+/// Adds to an error in which design it occurred; a cancellation stays as it is.
 fn error_of_design(side: Side, error: FieldError) -> BuildError {
     match error {
         FieldError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),

@@ -1,17 +1,17 @@
-//! Two designs in the form in which they are matched: all parts of all paint layers, with their
+//! Prepares two designs for matching: the outlines of all parts of all paint layers, with their
 //! appearance.
 
 use crate::colour::{Gradient, Paint, StrokeStyle};
-use crate::correspondence::{PartLook, PartLooks};
+use crate::correspondence::{PartAppearance, PartAppearances};
 use crate::design::PaintLayer;
 use crate::geometry::Regions;
 
-/// Two designs in the form in which they are matched.
+/// Two designs prepared for matching.
 pub(super) struct DrawingPair {
     /// Outlines of all parts of all paint layers.
     pub outlines: [Regions; 2],
     /// Appearance of each part; empty if neither design is shown in its own paint.
-    pub looks: PartLooks,
+    pub appearances: PartAppearances,
     /// Ink of each paint layer, the lowest first; empty for designs without paint.
     pub inks: [Vec<LayerInk>; 2],
 }
@@ -25,7 +25,8 @@ pub(super) struct LayerInk {
 }
 
 impl DrawingPair {
-    /// Combines paint layers, the lowest first; `None` if one design has none.
+    /// Combines the paint layers of each design, the lowest first; `None` if a design has no
+    /// layers.
     pub(super) fn of(layers: [Vec<PaintLayer>; 2]) -> Option<Self> {
         let [source, target] = &layers;
         let outlines = [stacked_outlines(source)?, stacked_outlines(target)?];
@@ -36,32 +37,32 @@ impl DrawingPair {
         };
         Some(Self {
             outlines,
-            looks: PartLooks(layers.each_ref().map(|layers| part_appearances(layers))),
+            appearances: PartAppearances(layers.each_ref().map(|layers| part_appearances(layers))),
             inks: layers.map(|layers| layers.iter().map(ink).collect()),
         })
     }
 
     /// Combines the outlines of designs that are shown in one colour.
-    pub(super) fn plain(outlines: [Regions; 2]) -> Self {
+    pub(super) fn in_one_colour(outlines: [Regions; 2]) -> Self {
         Self {
             outlines,
-            looks: PartLooks::default(),
+            appearances: PartAppearances::default(),
             inks: Default::default(),
         }
     }
 }
 
-/// Returns the outlines of all layers as one list of parts.
+/// Returns the outlines of all layers as one list of parts, the lowest layer first.
 fn stacked_outlines(layers: &[PaintLayer]) -> Option<Regions> {
     Regions::stacked(layers.iter().map(|layer| layer.regions.clone()))
 }
 
-/// Returns the appearance of each part of each layer.
-fn part_appearances(layers: &[PaintLayer]) -> Vec<PartLook> {
+/// Returns the appearance of each part, in the order of [`stacked_outlines`].
+fn part_appearances(layers: &[PaintLayer]) -> Vec<PartAppearance> {
     let top_index = layers.len().saturating_sub(1).max(1) as f64;
     let layers = layers.iter().enumerate();
     let looks = layers.flat_map(|(k, layer)| {
-        let look = PartLook {
+        let look = PartAppearance {
             paint_layer: k,
             height: k as f64 / top_index,
             paint: layer.paint,
@@ -80,8 +81,8 @@ const AUTOMATIC_NAMES: [&str; 12] = [
     "group", "g",
 ];
 
-/// Returns the name if the author chose it. Automatic names, which contain numbers or the kind of
-/// shape, become empty: they have no meaning in another drawing.
+/// Returns `name` if the author chose it. Automatic names contain digits or are the kind of a
+/// shape. They become empty, because they have no meaning in another drawing.
 fn author_name(name: &str) -> String {
     let is_counted = name.contains(|c: char| c.is_ascii_digit());
     let is_kind = AUTOMATIC_NAMES.contains(&name.to_ascii_lowercase().as_str());

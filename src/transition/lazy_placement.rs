@@ -1,22 +1,22 @@
 //! A placement that is only computed when it is read.
 //!
-//! Frames played by the graphics card are seldom read by the CPU, and placing a million vertices is
-//! as expensive whether they are read or not.
+//! The CPU seldom reads the vertices of frames that the graphics card plays, and placing a million
+//! vertices takes time even if they are not read.
 //!
-//! Guaranteed: every reader gets the placement at the last t that was set, from any number of
-//! threads; nothing is allocated, whether it is read or not.
+//! Guaranteed: every reader, on any thread, gets the placement at the last t that was set. Neither
+//! setting t nor reading allocates memory.
 
 use crate::warp::{Placement, Placer};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// A placer and the t of the placement to return.
+/// A placer and the t at which its placement is to be returned.
 #[derive(Debug)]
 pub(super) struct LazyPlacement {
     t: f64,
     /// The placer while its placement is up to date.
-    placed: OnceLock<Placer>,
+    current: OnceLock<Placer>,
     /// The placer while its placement is out of date.
-    waiting: Mutex<Option<Placer>>,
+    outdated: Mutex<Option<Placer>>,
 }
 
 impl LazyPlacement {
@@ -24,8 +24,8 @@ impl LazyPlacement {
     pub(super) fn new(placer: Placer, t: f64) -> Self {
         Self {
             t,
-            placed: OnceLock::new(),
-            waiting: Mutex::new(Some(placer)),
+            current: OnceLock::new(),
+            outdated: Mutex::new(Some(placer)),
         }
     }
 
@@ -37,8 +37,8 @@ impl LazyPlacement {
     /// Sets t, which invalidates the placement.
     pub(super) fn set_time(&mut self, t: f64) {
         self.t = t;
-        if let Some(placer) = self.placed.take() {
-            let waiting = self.waiting.get_mut();
+        if let Some(placer) = self.current.take() {
+            let waiting = self.outdated.get_mut();
             *waiting.unwrap_or_else(PoisonError::into_inner) = Some(placer);
         }
     }
@@ -46,8 +46,8 @@ impl LazyPlacement {
     /// Returns the placement at t. `make_placer` is only called if an earlier evaluation panicked
     /// and its placer was lost.
     pub(super) fn placement(&self, make_placer: impl FnOnce() -> Placer) -> &Placement {
-        let placer = self.placed.get_or_init(|| {
-            let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let placer = self.current.get_or_init(|| {
+            let mut waiting = self.outdated.lock().unwrap_or_else(PoisonError::into_inner);
             let placer = waiting.take();
             drop(waiting);
             let mut placer = placer.unwrap_or_else(make_placer);
@@ -65,7 +65,7 @@ mod tests {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// A vertex at (t, 0), with a count of how often it was placed.
+    /// Returns a placement of one vertex at (t, 0), and the number of times that it was placed.
     fn counted() -> (LazyPlacement, Arc<AtomicUsize>) {
         let count = Arc::new(AtomicUsize::new(0));
         let counter = Arc::clone(&count);

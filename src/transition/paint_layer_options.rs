@@ -9,12 +9,12 @@ use serde::{Deserialize, Serialize};
 pub struct PaintLayerOptions {
     /// Whether unmatched parts fade in or out, in addition to growing or shrinking.
     pub fade: bool,
-    /// t, from 0 to 1, at which layers switch from the stacking order of the source to that of the
-    /// target.
+    /// Blend parameter t, from 0 to 1, at which layers switch from the stacking order of the source
+    /// to that of the target.
     pub reorder_at: f64,
 }
 
-/// A time outside [0, 1] at which layers cannot change their order.
+/// Error: the requested t at which layers change their order is outside [0, 1]. Holds that t.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("layers cannot change their order at t = {0}; give a number from 0 to 1")]
 pub struct PaintLayerOptionsError(f64);

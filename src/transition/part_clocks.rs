@@ -1,4 +1,4 @@
-//! Applies part timings to a transition.
+//! Applies part timings, the time windows of individual parts, to a transition.
 
 use super::any_warp::AnyWarp;
 use super::note::TransitionNote;
@@ -11,8 +11,8 @@ use crate::warp::{Arap, PartClock, StaggeredArap};
 use std::collections::BTreeMap;
 
 impl TransitionData {
-    /// Replaces the part timings. Other methods than rigid parts get a note instead.
-    pub(super) fn timed(mut self, times: &[PartTime]) -> Self {
+    /// Replaces the part timings. With a method other than rigid parts, a note is added instead.
+    pub(super) fn with_part_times(mut self, times: &[PartTime]) -> Self {
         self.built_warp
             .notes
             .retain(|note| *note != TransitionNote::PartTimesIgnored);
@@ -29,7 +29,8 @@ impl TransitionData {
         let Content::Solid(solid) = &mut self.content else {
             return self;
         };
-        // An existing recording has other timings, unless there are none before and after.
+        // An existing recording stays valid only if there are no timings before and after the
+        // change.
         if !times.is_empty() || matches!(self.built_warp.warp, AnyWarp::Staggered(_)) {
             self.recording = RecordingSlot::default();
         }
@@ -47,7 +48,7 @@ impl TransitionData {
     }
 }
 
-/// Returns the distinct clocks in use, and for each part the index of its own.
+/// Returns the distinct clocks in use, and for each part the index of its clock among them.
 fn used_clocks(
     clocks: &[PartClock],
     of_parts: &[Option<usize>],
@@ -68,7 +69,8 @@ fn used_clocks(
     (distinct, of_parts)
 }
 
-/// Returns, for each connected part of the mesh, the index of its timing; the last one wins.
+/// Returns, for each connected part of the mesh, the index of its timing. If several timings apply
+/// to a part, the last one wins.
 fn clock_of_parts(
     arap: &Arap,
     matched: Option<&RegionMatch>,
@@ -99,8 +101,9 @@ fn clock_of_parts(
     of_parts
 }
 
-/// Returns the connected part that contains the point of a timing, or else the nearest one. Of
-/// several that contain it, the uppermost: the parts of a design are painted in ascending order.
+/// Returns the connected part that contains the point of a timing, or else the part nearest to it.
+/// If several parts contain the point, returns the uppermost one, which has the highest index
+/// because parts are painted in ascending order.
 fn part_at(
     arap: &Arap,
     of_vertices: &[u32],
@@ -132,15 +135,15 @@ impl SolidContent {
     /// Removes all clocks.
     fn take_clocks(&mut self) {
         self.part_clocks = None;
-        // Paint layers without paint exist only for the clocks.
+        // Layers without paint were added only for the clocks.
         self.paint_layers = self
             .paint_layers
             .take()
             .filter(|layers| !has_no_paint(layers));
     }
 
-    /// Assigns a clock to each loop, hole and vertex. Parts in one colour also become paint layers,
-    /// since their colour follows their clock.
+    /// Assigns a clock to each loop, hole and vertex. A design in one colour also gets a paint
+    /// layer, since the colour of its parts follows their clocks.
     fn put_clocks(&mut self, arap: &Arap, clocks: &[PartClock], of_parts: &[Option<usize>]) {
         let of_vertices = arap.mesh().components();
         let clock_of = |v: u32| of_parts[of_vertices[v as usize] as usize].unwrap_or(clocks.len());
@@ -167,7 +170,7 @@ impl SolidContent {
     }
 }
 
-/// Returns whether all layers are without paint.
+/// Returns whether no layer has a paint or a stroke.
 fn has_no_paint(layers: &PaintLayerStack) -> bool {
     let is_plain =
         |layer: &PlacedPaintLayer| layer.paints == [None; 2] && layer.strokes == [None; 2];

@@ -7,15 +7,15 @@ use super::transients::layers::PieceLayers;
 use super::transition::TransitionData;
 use crate::compatible::CompatibleMesh;
 use crate::content::{AnchoredGradient, LayerShading, PaintLayerStack, PlacedPaintLayer};
-use crate::correspondence::{PartLooks, PieceMatch, RegionMatch};
+use crate::correspondence::{PartAppearances, PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side};
 
 impl TransitionData {
     /// Applies options for paint layers.
-    pub(super) fn coated(mut self, options: &PaintLayerOptions) -> Self {
+    pub(super) fn with_paint_layers(mut self, options: &PaintLayerOptions) -> Self {
         if let Some(layers) = self.content.paint_layers_mut() {
             layers.reorder_t = options.reorder_at;
-            layers.fades = options.fade;
+            layers.fades_unmatched = options.fade;
         }
         self
     }
@@ -47,16 +47,16 @@ impl<'a> PieceBoundaryLoops<'a> {
 }
 
 /// Returns the paint layers of a transition; `None` for designs in one colour.
-pub(super) fn coating(
+pub(super) fn paint_layer_stack(
     drawings: &DrawingPair,
     matched: &RegionMatch,
     loops: &PieceBoundaryLoops,
     holes: &[PieceHole],
 ) -> Option<PaintLayerStack> {
-    if drawings.looks == PartLooks::default() {
+    if drawings.appearances == PartAppearances::default() {
         return None;
     }
-    let layers = PieceLayers::of(matched, &drawings.looks);
+    let layers = PieceLayers::of(matched, &drawings.appearances);
     let pieces = loops.pieces.iter();
     let of_loops: Vec<usize> = pieces.map(|&piece| layers.of_piece(piece)).collect();
     let loop_vertices = |layer: usize| {
@@ -66,7 +66,7 @@ pub(super) fn coating(
         vertices.collect()
     };
     Some(PaintLayerStack {
-        layers: coats(drawings, &layers, loop_vertices, loops.places),
+        layers: placed_paint_layers(drawings, &layers, loop_vertices, loops.places),
         of_holes: holes
             .iter()
             .map(|(piece, _)| layers.of_piece(*piece))
@@ -77,7 +77,7 @@ pub(super) fn coating(
             .map(|&piece| unmatched_side(matched.pieces.get(piece)?))
             .collect(),
         of_loops,
-        fades: false,
+        fades_unmatched: false,
         reorder_t: PaintLayerOptions::default().reorder_at,
     })
 }
@@ -93,7 +93,7 @@ fn unmatched_side(piece: &PieceMatch) -> Option<Side> {
 
 /// Returns the paint of each layer. Gradients move with the vertices that `vertices_along` returns
 /// for a layer; `places` are the positions of all vertices in the designs.
-pub(super) fn coats(
+pub(super) fn placed_paint_layers(
     drawings: &DrawingPair,
     layers: &PieceLayers,
     vertices_along: impl Fn(usize) -> Vec<u32>,

@@ -38,7 +38,7 @@ const FRAME_MARGIN: f64 = 0.25;
 ///
 /// # Errors
 /// If features cannot be determined, the warp cannot be built, or the work is cancelled.
-pub(super) fn warp(
+pub(super) fn build_plane_warp(
     spec: &TransitionSpec,
     frame: &Bounds,
     bar_width: f64,
@@ -46,7 +46,7 @@ pub(super) fn warp(
 ) -> Result<BuiltWarp, BuildError> {
     let kind = spec.method.warp();
     if kind == WarpKind::None {
-        return Ok(AnyWarp::Still(IdentityWarp::new(*frame)).into());
+        return Ok(AnyWarp::Identity(IdentityWarp::new(*frame)).into());
     }
     let features = PlaneFeatures::of(spec, bar_width, &ProgressSpan::new(progress, 0.0, 0.4))?;
     let progress = &ProgressSpan::new(progress, 0.4, 1.0);
@@ -62,7 +62,7 @@ pub(super) fn warp(
         build_grid_warp(&spec, &frame, &features_for_warp)
     })?;
     Ok(BuiltWarp {
-        automatic: features.automatic(),
+        automatic_pins: features.automatic(),
         notes: features.notes.clone(),
         ..AnyWarp::Plane(warp?).into()
     })
@@ -172,7 +172,7 @@ fn rigid(
     // Pins set by the user are displayed already.
     pins.retain(|_| features.are_automatic);
     Ok(BuiltWarp {
-        automatic: pins,
+        automatic_pins: pins,
         notes,
         ..warp.into()
     })
@@ -227,7 +227,7 @@ fn about_outlines(
         FeatureTravel::Straight => None,
     };
     let (matched, frame) = match &rigid {
-        Some(rigid) => (&rigid.match_at_rest(matched), rigid.frame_at_rest(frame)),
+        Some(rigid) => (&rigid.match_to_rest(matched), rigid.frame_to_rest(frame)),
         None => (matched, *frame),
     };
     // An outline must lie within the frame to become an edge of its mesh.
@@ -244,7 +244,7 @@ fn about_outlines(
     };
     let arap = build_arap(&mesh, &options.arap, &[], progress)?;
     Ok(Ok(match rigid {
-        Some(rigid) => AnyWarp::Turned(RigidElasticWarp::new(rigid, arap)),
+        Some(rigid) => AnyWarp::RigidElastic(RigidElasticWarp::new(rigid, arap)),
         None => AnyWarp::Rigid(arap),
     }))
 }

@@ -1,4 +1,5 @@
-//! The proof that the motion of a transition neither folds nor collides at any t.
+//! Checks a transition at every t: whether a face folds, or an outline crosses itself or another
+//! one.
 
 #[cfg(doc)]
 use super::options::CollisionAvoidance;
@@ -11,20 +12,23 @@ use crate::work::progress::{Progress, ProgressSpan};
 use serde::Serialize;
 use std::fmt;
 
-/// Fraction of the progress when the motion is recorded (heuristic).
+/// Progress reported once the motion has been recorded, in [0, 1] (heuristic).
 const RECORDING_PROGRESS: f64 = 0.5;
 
-/// The result of checking a transition at every t, and what the check covers.
+/// Result of checking a transition for folded faces and crossing outlines at every t, and what the
+/// check covers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TransitionProof {
-    /// The result for the recorded motion.
+    /// Result of the check of the recorded motion.
     pub proof: RecordingProof,
     /// Number of faces that were checked; 0 for boundary paths.
     pub faces: usize,
-    /// Largest error of the recording; see [`Recording::error`].
+    /// Largest distance between a vertex in the recording and in the solved motion, as a fraction
+    /// of the diameter of the designs; see [`Recording::error`].
     pub film_error: f64,
-    /// Number of unmatched holes, and of parts that swell; the check does not cover these.
+    /// Number of unmatched holes plus the number of swelling parts, which grow in thickness within
+    /// their outline. The check does not cover these.
     pub left_out: usize,
     /// Largest distance by which a point is moved aside to avoid collisions, in diameters of the
     /// designs; `None` if nothing is moved. See [`CollisionAvoidance`].
@@ -63,7 +67,8 @@ impl Transition {
     }
 }
 
-/// Returns the boundary loops that are drawn exactly where their vertices are.
+/// Returns the boundary loops that are drawn through the positions of their vertices: all loops
+/// except those of swelling parts.
 fn drawn_loops(solid: &SolidContent) -> Vec<DrawnLoop> {
     let swells = |k: usize| {
         solid
@@ -83,7 +88,9 @@ fn drawn_loops(solid: &SolidContent) -> Vec<DrawnLoop> {
         let clock = solid.part_clocks.as_ref();
         let clock = clock.map_or(PartClock::WHOLE, |clocks| clocks.clocks[clocks.of_loops[k]]);
         seed_shape.map_or([0.0, 1.0], |seed_shape| {
-            seed_shape.window.visible_interval(|t| clock.film_time(t))
+            seed_shape
+                .window
+                .visible_interval(|t| clock.transition_time(t))
         })
     };
     let loops = solid.loops.iter().enumerate();
@@ -98,20 +105,19 @@ fn drawn_loops(solid: &SolidContent) -> Vec<DrawnLoop> {
 }
 
 impl TransitionProof {
-    /// Returns whether no face folds and no outlines meet at any t, as far as the check covers
-    /// them.
+    /// Returns whether no checked face folds and no checked outlines meet at any t.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.proof.holds()
     }
 
-    /// Returns whether the check covers everything.
+    /// Returns whether the check covers all faces and outlines at every t.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         self.left_out == 0 && self.proof.touching == 0
     }
 
-    /// Returns the first t at which the check fails.
+    /// Returns the first t at which the check fails, or `None` if it holds.
     #[must_use]
     pub fn first_failure_time(&self) -> Option<f64> {
         let fold = self.proof.fold.map(|fold| fold.t);

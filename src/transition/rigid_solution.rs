@@ -50,7 +50,7 @@ pub(super) fn solve_best(
     let designs = drawings.outlines.each_ref();
     checkpoint(progress, "matching", 0.0)?;
     let requested = &spec.options.matching;
-    let mut prepared = MatchPlan::new(designs, &drawings.looks, requested, progress)?;
+    let mut prepared = MatchPlan::new(designs, &drawings.appearances, requested, progress)?;
     let separation = separate(&mut prepared, spec, progress)?;
     let notes = match spec.options.quality {
         BuildQuality::Best => {
@@ -59,7 +59,7 @@ pub(super) fn solve_best(
         BuildQuality::Draft => None,
     };
     let matched = separation.matched;
-    let layers = PieceLayers::of(&matched, &drawings.looks);
+    let layers = PieceLayers::of(&matched, &drawings.appearances);
     let arap = stiffen_folds(separation.arap, progress)?;
     // Stiffening changed the motion slightly, so the schedule is based on the result.
     let schedule_for = |holes: &[PieceHole]| {

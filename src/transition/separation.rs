@@ -1,12 +1,13 @@
-//! Matches every piece so that the pieces do not pass through each other.
+//! Matches the pieces, the connected parts of the match, such that they do not pass through each
+//! other.
 //!
 //! Each piece is matched on its own. If matched pieces then collide, some of them are unpaired: the
-//! source part disappears and the target part appears. So are pieces that cannot be triangulated.
-//! Collisions are first resolved with the requested matches, which are cheap, and then again with
-//! the best match of each piece. In between, large unmatched parts are assigned to neighbouring
-//! groups, if that distorts less than letting them disappear.
+//! source part disappears and the target part appears. Pieces that cannot be triangulated are
+//! unpaired too. Collisions are first resolved with the requested matches, which are cheap, and
+//! then again with the best match of each piece. In between, large unmatched parts are assigned to
+//! neighbouring groups of parts, if this causes less misfit than letting them appear or disappear.
 
-use super::arap_build::{check_size, unsubdivided};
+use super::arap_build::{check_size, without_subdivision};
 use super::collisions::{piece_weights, pieces_to_release};
 use super::error::BuildError;
 use super::options::BuildQuality;
@@ -28,44 +29,45 @@ use std::collections::BTreeMap;
 /// can cause new collisions).
 const MAX_ROUNDS: u32 = 3;
 
-/// Fraction of the progress when collisions of the requested matches are resolved (heuristic).
+/// Progress reported once the collisions of the requested matches are resolved, in [0, 1]
+/// (heuristic).
 const DRAFT_PROGRESS: f64 = 0.1;
-/// Fraction of the progress when unmatched parts are assigned to neighbouring groups (heuristic).
+/// Progress reported once unmatched parts are assigned to neighbouring groups, in [0, 1]
+/// (heuristic).
 const JOIN_PROGRESS: f64 = 0.2;
 
-/// Fraction of a round's progress when the pieces are matched (heuristic).
+/// Progress within a round, reported once its pieces are matched, in [0, 1] (heuristic).
 const MATCH_PROGRESS: f64 = 0.9;
 
-/// Distortion that an unmatched part counts as, compared with a matched part of its size
-/// (heuristic).
+/// Misfit that an unmatched piece counts as in the mean misfit of all pieces (heuristic).
 const UNMATCHED_DISTORTION: f64 = 30.0;
 
-/// Smallest reduction of the unmatched share of both designs for which assigning unmatched parts to
-/// other groups is accepted (heuristic: about half a large part).
+/// Assigning unmatched parts to other groups is accepted only if it reduces the unmatched share of
+/// the designs' area by more than this (heuristic: about half a large part).
 const MIN_SAVING: f64 = 0.05;
 
-/// The matches of all pieces without collisions, and their motion.
+/// The matches of all pieces, with collisions resolved as far as possible, and their motion.
 pub(super) struct Separation {
     pub(super) matched: RegionMatch,
     pub(super) arap: Arap,
     /// The matched and triangulated pieces.
     pub(super) pieces: Vec<MatchCandidate>,
-    /// The pieces of each group, for reuse.
+    /// The pieces of each group, which a later search reuses.
     groups: ChosenGroups,
 }
 
 impl Separation {
-    /// Returns the unmatched share of both designs, from 0 to 1.
+    /// Returns the share of the designs' area that is unmatched, from 0 to 1.
     fn unmatched_share(&self) -> f64 {
         let pieces = self.matched.pieces.iter().zip(piece_weights(&self.matched));
-        let unmatched = pieces.filter(|(piece, _)| !piece.is_in_both());
+        let unmatched = pieces.filter(|(piece, _)| !piece.is_matched());
         unmatched.map(|(_, weight)| weight).sum()
     }
 
     /// Returns the mean of the logarithms of the pieces' misfits, weighted by their share of the
     /// designs; unmatched pieces count as [`UNMATCHED_DISTORTION`].
-    fn misfit(&self) -> f64 {
-        let misfit = |piece: &MatchCandidate| match piece.matched.is_in_both() {
+    fn mean_misfit(&self) -> f64 {
+        let misfit = |piece: &MatchCandidate| match piece.matched.is_matched() {
             true => piece.misfit(),
             false => UNMATCHED_DISTORTION,
         };
@@ -88,7 +90,7 @@ pub(super) fn separate(
     if spec.options.quality == BuildQuality::Draft {
         return unpair_until_separate(prepared, spec, &requested_matches, progress);
     }
-    // Unpairing with cheap matches first avoids half of the search for best matches.
+    // Unpairing pieces with cheap matches first avoids half of the search for the best matches.
     let [drafting, joining, searching] = [
         (0.0, DRAFT_PROGRESS),
         (DRAFT_PROGRESS, JOIN_PROGRESS),
@@ -96,26 +98,26 @@ pub(super) fn separate(
     ]
     .map(|(from, to)| ProgressSpan::new(progress, from, to));
     let mut drafts = unpair_until_separate(prepared, spec, &requested_matches, &drafting)?;
-    if let Some(mut joined) = prepared.shared_out(&joining) {
-        // A failed attempt is no better: a result exists already.
+    if let Some(mut joined) = prepared.with_large_parts_assigned(&joining) {
+        // A failed attempt is ignored, since a result exists already.
         let candidate = unpair_until_separate(&mut joined, spec, &requested_matches, &joining).ok();
         check_cancelled(&joining)?;
         let is_better = |candidate: &Separation| {
             drafts.unmatched_share() - candidate.unmatched_share() > MIN_SAVING
-                && candidate.misfit() < drafts.misfit()
+                && candidate.mean_misfit() < drafts.mean_misfit()
         };
         if let Some(candidate) = candidate.filter(is_better) {
             (*prepared, drafts) = (joined, candidate);
         }
     }
     let best = |group: &GroupSearch, progress: &dyn Progress| {
-        let drafts = drafts.groups.get(&group.prepared.groups()[group.index]);
+        let drafts = drafts.groups.get(&group.plan.groups()[group.index]);
         best_of_group(group, drafts, progress)
     };
     unpair_until_separate(prepared, spec, &best, &searching)
 }
 
-/// Chooses the matches of the pieces of a group.
+/// Function that chooses the matches of the pieces of a group.
 type PieceChooser<'a> =
     dyn Fn(&GroupSearch, &dyn Progress) -> Result<Vec<PieceResult>, BuildError> + Sync + 'a;
 
@@ -141,7 +143,7 @@ fn unpair_until_separate(
     let mut chosen_groups = ChosenGroups::new();
     let (mut round, mut repairs) = (0, 0);
     loop {
-        // Most motions need one round; each further one gets half of the remaining progress.
+        // Most motions need one round; every round gets half of the remaining progress.
         let done = |rounds: u32| 1.0 - 0.5_f64.powi(rounds as i32);
         let progress = &ProgressSpan::new(progress, done(round), done(round + 1));
         let [matching, solving] = [(0.0, MATCH_PROGRESS), (MATCH_PROGRESS, 1.0)]
@@ -154,19 +156,19 @@ fn unpair_until_separate(
             .cloned()
             .zip(groups.clone())
             .collect();
-        if prepared.let_go(&matched, &failed_pieces(&groups, repairs), progress) {
+        if prepared.unpair(&matched, &failed_pieces(&groups, repairs), progress) {
             repairs += 1;
             continue;
         }
         let candidates = require_meshes(groups.concat())?;
         let mesh = merged_meshes(candidates.iter().map(|best| &best.mesh));
         check_size(&mesh, &spec.options.arap, progress)?;
-        let coarse = unsubdivided(&spec.options.arap);
+        let coarse = without_subdivision(&spec.options.arap);
         let arap = Arap::of_outlines(&mesh, &coarse, &lives(&matched), &solving)?;
-        let layers = PieceLayers::of(&matched, prepared.looks());
+        let layers = PieceLayers::of(&matched, prepared.appearances());
         let holes = timed(&matched.pieces, &arap, &layers, progress)?;
         let unpaired = pieces_to_release(&matched, &arap, &holes, &layers, progress)?;
-        if round == MAX_ROUNDS || !prepared.let_go(&matched, &unpaired, progress) {
+        if round == MAX_ROUNDS || !prepared.unpair(&matched, &unpaired, progress) {
             return Ok(Separation {
                 matched,
                 arap,
@@ -178,7 +180,7 @@ fn unpair_until_separate(
     }
 }
 
-/// The groups of parts whose pieces have been chosen.
+/// For each group of parts that has been matched: its pieces.
 type ChosenGroups = BTreeMap<PartGroup, Vec<PieceResult>>;
 
 /// Chooses the pieces of each group that is not in `chosen_groups`.
@@ -198,14 +200,15 @@ fn choose_pieces(
         Some(pieces) => Ok(pieces.clone()),
         None => {
             let group = GroupSearch {
-                prepared,
+                plan: prepared,
                 index: k,
                 spec,
             };
             choice(&group, &shares.part(k))
         }
     });
-    // Collected first, so that the reported error does not depend on the order of threads.
+    // All results are collected first, so that the reported error does not depend on the order of
+    // threads.
     let chosen: Vec<Result<Vec<PieceResult>, BuildError>> = chosen.collect();
     chosen.into_iter().collect()
 }
@@ -221,8 +224,10 @@ fn combined_match(groups: &[Vec<PieceResult>]) -> RegionMatch {
     }
 }
 
-/// Returns the pieces to unpair because they cannot be triangulated. After the first time, all
-/// pieces of such a group are unpaired, since pieces that are split again may fail again.
+/// Returns the indices of the pieces to unpair because they cannot be triangulated.
+///
+/// From the second repair on, all pieces of a group with such a piece are unpaired, because its
+/// parts may fail again when they are grouped anew.
 fn failed_pieces(groups: &[Vec<PieceResult>], repairs: u32) -> Vec<usize> {
     let mut first_piece = 0;
     let mut failing = Vec::new();

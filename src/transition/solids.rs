@@ -68,7 +68,7 @@ pub(super) fn rigid_parts(
     if let Some((solution, drawings)) = solution.zip(drawings) {
         let loops = PieceBoundaryLoops::of_mesh(arap.mesh());
         solid.paint_layers =
-            piece_coating::coating(&drawings, &solution.matched, &loops, &solution.holes);
+            piece_coating::paint_layer_stack(&drawings, &solution.matched, &loops, &solution.holes);
         solid.holes = solution
             .holes
             .iter()

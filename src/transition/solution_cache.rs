@@ -9,7 +9,7 @@ use super::cached_match::{CachedMatch, SharedText};
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::PieceMatch;
 use crate::geometry::DVec2;
-use crate::transition::arap_build::{check_size, unsubdivided};
+use crate::transition::arap_build::{check_size, without_subdivision};
 use crate::transition::error::BuildError;
 use crate::transition::note::TransitionNote;
 use crate::transition::options::TransitionOptions;
@@ -151,7 +151,7 @@ impl SolutionRecord {
             return Ok(None);
         }
         check_size(&mesh, &options.arap, progress)?;
-        let options = unsubdivided(&options.arap);
+        let options = without_subdivision(&options.arap);
         let parameters = OutlineParameters {
             time_windows: &self.lives,
             stiffness: &self.stiffness,
@@ -236,7 +236,7 @@ mod tests {
     }
 
     fn built(spec: &TransitionSpec) -> Transition {
-        Transition::build(spec, &Silent).expect("a film")
+        Transition::build(spec, &Silent).expect("a transition")
     }
 
     fn rings(transition: &Transition) -> Vec<Vec<Vec<DVec2>>> {

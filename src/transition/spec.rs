@@ -79,7 +79,7 @@ impl TransitionSpec {
     }
 
     /// Returns all designs in the frame.
-    pub(super) fn all(&self) -> impl Iterator<Item = &Arc<Design>> {
+    pub(super) fn all_designs(&self) -> impl Iterator<Item = &Arc<Design>> {
         [&self.source, &self.target].into_iter().chain(&self.others)
     }
 
@@ -107,7 +107,7 @@ impl TransitionSpec {
             outline(&self.source, bar_width, progress)?,
             outline(&self.target, bar_width, progress)?,
         ];
-        self.allow(&outlines, progress)?;
+        self.check_workload(&outlines, progress)?;
         // Parts that touch in a point are valid drawings but cannot be triangulated.
         Ok(outlines.map(|outline| outline.with_contacts_separated()))
     }
@@ -125,12 +125,14 @@ impl TransitionSpec {
         let designs = [&self.source, &self.target];
         let is_painted = designs.iter().any(|design| !design.paint_layers.is_empty());
         if self.options.paint == PaintRule::One || !is_painted {
-            return Ok(DrawingPair::plain(self.outlines(bar_width, progress)?));
+            return Ok(DrawingPair::in_one_colour(
+                self.outlines(bar_width, progress)?,
+            ));
         }
         let [source, target] =
             designs.map(|design| separated_paint_layers(design, bar_width, progress));
         let drawings = DrawingPair::of([source?, target?]).ok_or(RegionsError::Empty)?;
-        self.allow(&drawings.outlines, progress)?;
+        self.check_workload(&drawings.outlines, progress)?;
         Ok(drawings)
     }
 
@@ -138,7 +140,7 @@ impl TransitionSpec {
     ///
     /// # Errors
     /// [`BuildError::TooMuch`] if they have too many parts, holes or points.
-    pub(super) fn allow(
+    pub(super) fn check_workload(
         &self,
         outlines: &[Regions; 2],
         progress: &dyn Progress,
@@ -169,7 +171,7 @@ impl TransitionSpec {
             Some(design) => Err(BuildError::Unavailable(format!(
                 "{} has no colours: open two pictures ({}), or choose fields or solids",
                 design.name,
-                Format::listed(Format::PICTURES)
+                Format::or_list_of_names(Format::PICTURES)
             ))),
         }
     }
@@ -184,7 +186,7 @@ pub(crate) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
     if !(fraction > 0.0 && fraction <= 1.0) {
         return Err(BuildError::BarWidth(fraction));
     }
-    let diameters = spec.all().map(|design| extent(design).diameter());
+    let diameters = spec.all_designs().map(|design| extent(design).diameter());
     Ok(fraction * diameters.fold(0.0, f64::max))
 }
 

@@ -1,11 +1,12 @@
-//! Removes folds from a motion by stiffening faces, where that is possible.
+//! Removes folds from a rigid interpolation by stiffening the folded faces, as far as possible.
 //!
-//! A face that follows its local map exactly never folds; it folds where its neighbours pull it
-//! elsewhere. Folded faces are therefore stiffened repeatedly until none folds or it no longer
-//! helps. Both ends stay exact, since there every face equals its local map.
+//! A face that follows its local map exactly never folds; it folds because its neighbours pull it
+//! away from that map. Folded faces are therefore stiffened repeatedly, until no face folds or the
+//! maximum number of rounds is reached. Both ends of the motion stay exact, since there every face
+//! follows its local map.
 //!
-//! The motion is sampled at [`STEPS`] steps; folds between two steps are missed. Not guaranteed:
-//! where large areas fold, stiffness only moves the fold elsewhere.
+//! The motion is sampled in [`STEPS`] steps; folds between two samples are missed. Not guaranteed:
+//! that all folds are removed. Where large areas fold, stiffness only moves the fold elsewhere.
 
 use super::error::BuildError;
 use crate::geometry::orient2d;
@@ -13,12 +14,13 @@ use crate::warp::{Arap, Warp};
 use crate::work::progress::{Progress, check_cancelled};
 use rayon::prelude::*;
 
-/// Number of even time steps at which folds are detected (resource limit).
+/// Number of equal steps of t into which the motion is divided to detect folds (resource limit).
 const STEPS: u32 = 64;
 
-/// Maximum number of times that stiffness is raised (resource limit).
+/// Maximum number of rounds in which the stiffness of folded faces is raised (resource limit).
 const MAX_ROUNDS: u32 = 8;
-/// Factor by which the stiffness of a folded face is raised each time (heuristic).
+/// Factor by which the stiffness of a folded face is multiplied in each round, once for every
+/// sample at which it folds (heuristic).
 const STIFFNESS_FACTOR: f64 = 4.0;
 
 /// Maximum number of faces for which folds are detected (resource limit: a round takes 0.4 s per

@@ -116,13 +116,13 @@ impl Transition {
     /// in the coordinates of the common frame.
     #[must_use]
     pub fn with_part_times(&self, times: &[PartTime]) -> Self {
-        Self::from(self.0.as_ref().clone().timed(times))
+        Self::from(self.0.as_ref().clone().with_part_times(times))
     }
 
     /// Returns the same transition with these options for its paint layers.
     #[must_use]
     pub fn with_paint_layers(&self, options: &PaintLayerOptions) -> Self {
-        Self::from(self.0.as_ref().clone().coated(options))
+        Self::from(self.0.as_ref().clone().with_paint_layers(options))
     }
 
     /// Returns the method: warp and content.
@@ -151,7 +151,7 @@ impl Transition {
 
     /// Returns the warp as shared data, for a recording to own.
     pub(super) fn shared_warp(&self) -> Arc<dyn Warp> {
-        self.0.built_warp.warp.shared()
+        self.0.built_warp.warp.to_shared()
     }
 
     /// Returns the place where the recording is stored once it has been made.
@@ -219,7 +219,7 @@ impl Transition {
     /// lines, their starting points. Empty if the user has set pins or lines.
     #[must_use]
     pub fn automatic_pins(&self) -> &[PointPair] {
-        &self.0.built_warp.automatic
+        &self.0.built_warp.automatic_pins
     }
 
     /// Returns the pins and lines that the warp misses at `t`; `None` if it meets all of them.
@@ -233,7 +233,7 @@ impl Transition {
     #[must_use]
     pub fn compatible(&self) -> Option<&CompatibleMesh> {
         match (self.content(), &self.0.built_warp.warp) {
-            (Content::Solid(_), AnyWarp::Along(warp)) => Some(warp.mesh()),
+            (Content::Solid(_), AnyWarp::Blend(warp)) => Some(warp.mesh()),
             (Content::Solid(_), _) => self.arap().map(Arap::mesh),
             (Content::Field(_) | Content::Colours(_), _) => None,
         }

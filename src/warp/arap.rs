@@ -7,14 +7,16 @@
 //!
 //! E_t(V) = Σ_T tr((J_T(V) − M_T(t)) W_T (J_T(V) − M_T(t))ᵀ).
 //!
-//! It is minimal where K U = Σ (M(t) − M_linear(t)) W g, with U the deviation from the straight
-//! paths (1−t) P + t Q and g the gradients of the hat functions. K does not depend on t and is
-//! factored once; a frame takes one pass over the faces and one back-substitution with two
-//! right-hand sides. The symmetric energy ½E(A→B, t) + ½E(B→A, 1−t) also has a single matrix.
+//! It is minimal where K U = Σ (M(t) − M_linear(t)) W g. Here U is the deviation of the vertices
+//! from the straight paths (1−t) P + t Q between their positions P and Q in the designs,
+//! M_linear(t) = (1−t) M(0) + t M(1), g are the gradients of the hat functions, and K is the
+//! stiffness matrix of the energy. K does not depend on t and is factored once; a frame takes one
+//! pass over the faces and one back-substitution with two right-hand sides. The symmetric energy
+//! ½E(A→B, t) + ½E(B→A, 1−t) also has a single matrix.
 //!
-//! Guaranteed: at t = 0 and t = 1 the designs, bit for bit. A rigid target moves rigidly. With
-//! the symmetric energy, exchanging the designs reverses the motion. Not guaranteed: that no face
-//! folds in between; see [`crate::measure`].
+//! Guaranteed: at t = 0 and t = 1 the vertices are exactly those of the designs. A rigid target
+//! moves rigidly. With the symmetric energy, exchanging the designs reverses the motion. Not
+//! guaranteed: that no face folds in between; see [`crate::measure`].
 //!
 //! - `options`: options, validation and errors
 //! - `angles`: consistent rotation angles of all faces
@@ -99,13 +101,14 @@ use straight_sides::OutlineConstraints;
 #[derive(Clone, Debug)]
 pub struct Arap(Arc<FactoredArap>);
 
-/// Parameters of a mesh of outlines that are computed, not chosen by the user.
+/// Parameters for the interpolation of a triangulation of outlines, computed by the program rather
+/// than chosen by the user.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct OutlineParameters<'a> {
-    /// Time window of each connected part that is a point in one of the designs; `None` for other
-    /// parts and beyond the end of the list.
+    /// For each connected part that is a point in one of the designs, its time window; `None` for
+    /// other parts. Parts beyond the end of the list have none.
     pub time_windows: &'a [Option<TimeWindow>],
-    /// Factor of each face's weight; 1 beyond the end of the list.
+    /// For each face, the factor of its weight; 1 for faces beyond the end of the list.
     pub stiffness: &'a [f64],
 }
 
@@ -127,11 +130,12 @@ impl Arap {
     /// Builds the interpolation of a triangulation of outlines.
     ///
     /// In contrast to [`Self::build`], boundary edges are elements of the energy, and sides that
-    /// are straight and equally divided in both designs stay straight. Connected parts that are
-    /// points in one of the designs have a time window in `time_windows`, in which they change
-    /// their size; other parts, and parts beyond the end of the list, have none. The position and
-    /// rotation of the design as a whole are determined by the other parts. Waiting parts move with
-    /// the whole design, except with the linear homotopy, where they stay where they are points.
+    /// are straight and equally divided in both designs stay straight. `time_windows` holds the
+    /// time window of each connected part that is a point in one of the designs (a transient part);
+    /// the part changes its size within that window. Other parts, and parts beyond the end of the
+    /// list, have none. Only the other parts determine the position and rotation of the whole
+    /// design. Before and after its window, a transient part moves with the whole design; with the
+    /// linear homotopy, it rests at its position in the nearer design instead.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -204,7 +208,7 @@ impl Arap {
         let children = 4_usize.saturating_pow(options.subdivisions);
         let coarse = parameters.stiffness.iter();
         let stiffness: Vec<f64> = coarse.flat_map(|&by| repeat_n(by, children)).collect();
-        // Checked after subdivision, because an anchor may be one of the new vertices.
+        // The anchor is checked after subdivision, because it may be one of the new vertices.
         options.path.check(mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
         let options = ArapOptions {
@@ -329,19 +333,21 @@ impl Arap {
 
     /// Returns the rotation of the whole design from source to target, in radians.
     ///
-    /// Its whole turns are those of the first part.
+    /// Among all angles that differ by whole turns, this is the one nearest to the mean rotation of
+    /// the first part.
     pub(crate) fn rotation(&self) -> f64 {
         self.0.maps.whole_angle
     }
 
-    /// Returns the map of a face from source to target, with its consistent angle.
+    /// Returns the map of a face from source to target; its angle is consistent across shared
+    /// edges.
     pub(crate) fn local_map(&self, face: usize) -> PolarDecomposition {
         self.0.maps.faces[face].map
     }
 
     /// Returns the interpolation from target to source.
     ///
-    /// Rotations are reversed, with their whole turns, rather than chosen anew.
+    /// Rotations are the reversed ones, including their whole turns; they are not chosen anew.
     ///
     /// # Errors
     /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
@@ -388,7 +394,8 @@ impl Arap {
         }))
     }
 
-    /// Returns the same interpolation with other time windows of transient parts, without guard.
+    /// Returns the same interpolation with other time windows of transient parts and without a
+    /// guard.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -416,7 +423,8 @@ impl Arap {
         Some(guard.farthest() / self.mesh().diameter())
     }
 
-    /// Returns the times between which the guard's displacements are smooth.
+    /// Returns the times at which the guard's displacements are given; between them they are
+    /// smooth. Empty without a guard.
     pub(super) fn guard_times(&self) -> &[f64] {
         self.guard().map(Guard::times).unwrap_or_default()
     }
@@ -428,8 +436,8 @@ impl Arap {
 
     /// Returns the same interpolation with the weight of each face multiplied by `by`.
     ///
-    /// The factors are positive and 1 beyond the end of the list. A stiff face follows its local
-    /// map more closely than its neighbours do.
+    /// The factors are positive; faces beyond the end of the list have the factor 1. A face with a
+    /// large factor follows its local map more closely than its neighbours do.
     ///
     /// # Errors
     /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
@@ -450,14 +458,14 @@ impl Arap {
         )
     }
 
-    /// Returns the factor of each face's weight; 1 beyond the end of the list.
+    /// Returns the factor of each face's weight; it is 1 for faces beyond the end of the list.
     pub(crate) fn stiffness(&self) -> &[f64] {
         &self.0.maps.stiffness
     }
 
     /// Returns the time window of each connected part that is a point in one of the designs.
     ///
-    /// It is `None` for other parts and beyond the end of the list.
+    /// The entry is `None` for other parts. Parts beyond the end of the list have no time window.
     #[must_use]
     pub fn time_windows(&self) -> &[Option<TimeWindow>] {
         self.0.translations.time_windows()
@@ -471,8 +479,8 @@ impl Arap {
         self.0.translations.carried_position(ends, share, t)
     }
 
-    /// Returns the positions in source and target that the motion of the whole carries to `place`
-    /// at `t`.
+    /// Returns the position in the source and the position in the target that the motion of the
+    /// whole design carries to `place` at `t`.
     pub(crate) fn uncarried_ends(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         self.0.translations.uncarried_ends(place, t)
     }

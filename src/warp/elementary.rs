@@ -13,11 +13,11 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
-/// 1.5 · 2⁵². Adding and subtracting it rounds to an integer, which appears in the low bits of
-/// the sum.
+/// 1.5 · 2⁵². Adding and then subtracting it rounds a number to an integer; after the addition, the
+/// low bits of the sum hold that integer.
 const ROUNDING_OFFSET: f64 = 6_755_399_441_055_744.0;
 
-/// 2⁵², whose last bit has the value 1.
+/// 2⁵²; at this magnitude the last bit of an `f64` has the value 1.
 const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
 
 /// π/2 as a sum of four numbers (Cody–Waite reduction).
@@ -103,7 +103,7 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
     // Restores the digits that rounding removed from 1 − x²/2.
     let lost = (1.0 - one) - half;
     let cos = one + (lost + square * square * polynomial(square, &COSINE));
-    // Odd quadrants swap sine and cosine; two of the four negate each.
+    // Odd quadrants swap sine and cosine. Each of the two is negative in two of the four quadrants.
     let swap = 0_u64.wrapping_sub(quadrant & 1);
     let (sin, cos) = (sin.to_bits(), cos.to_bits());
     let exchange = (sin ^ cos) & swap;
@@ -127,8 +127,8 @@ pub(super) fn exp(x: f64) -> f64 {
 
 /// Evaluates the series of [`LOGARITHM`] in pairs (Estrin 1960).
 ///
-/// Horner's rule would wait for each product. The additional rounding error is a thirtieth of a
-/// unit in the last place.
+/// With Horner's rule, each step would wait for the previous product. The additional rounding error
+/// is a thirtieth of a unit in the last place.
 #[inline(always)]
 fn logarithm_series(x: f64) -> f64 {
     let a = &LOGARITHM;

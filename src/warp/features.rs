@@ -1,7 +1,8 @@
 //! Point features of the scattered-point and lattice warps.
 //!
-//! Every feature moves on the straight line from its source to its target position. Line pairs
-//! are sampled as points, so that a user who switches from the line warp keeps them.
+//! Every feature moves on the straight line from its source to its target position. Line pairs are
+//! replaced by sample points, so that lines drawn for the line warp also control these warps. The
+//! line warp shares the check for finite coordinates.
 
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
@@ -10,12 +11,12 @@ use crate::geometry::{Bounds, DVec2};
 /// (heuristic).
 pub const LINE_SAMPLES: usize = 5;
 
-/// Maximum number of features, where a line counts as [`LINE_SAMPLES`] (resource limit: every
-/// frame solves a dense system of this size).
+/// Maximum number of features, where a line counts as [`LINE_SAMPLES`] (resource limit: the
+/// scattered-point warp solves a dense system of this size for every frame).
 pub const MAX_FEATURES: usize = 512;
 
-/// Limit of a feature's distance from the frame centre, in frame diameters, and of |t|
-/// (tolerance: squared coordinates must not overflow).
+/// Largest distance of a feature's coordinates from the frame's centre, in frame diameters, and
+/// largest |t|; larger values are clamped (tolerance: squared coordinates must not overflow).
 const MAX_DISTANCE: f64 = 1e6;
 
 /// Reason why features are rejected.
@@ -91,7 +92,7 @@ impl WarpFeatures {
     ///
     /// The source displacement is exactly zero at t = 0, the target displacement at t = 1.
     pub(super) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone {
-        // Without this clamp (1 − t) p + t q could be infinite.
+        // Without the clamp, the interpolated position could be infinite.
         let t = if t.is_nan() {
             0.0
         } else {

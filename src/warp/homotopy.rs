@@ -2,8 +2,8 @@
 //!
 //! "The paper" below is "Design-Space Representation through Blended Transitions"; these are its
 //! eqs. 3 to 5 and two more. All paths start at I and end at M. Reversed, each is the path of the
-//! inverse map, M_BA(1−t) · M = M_AB(t), except for [`Homotopy::LinearAfterPolar`]. Angles are
-//! given, not recomputed, so θ may exceed π for a shape that turns further.
+//! inverse map, M_BA(1−t) · M = M_AB(t), except for [`Homotopy::LinearAfterPolar`]. The angle θ is
+//! an input and is not computed from M, so that it may exceed π for a shape that turns further.
 //!
 //! [`Homotopy::at`] is the reference form for one matrix; the solver evaluates the same formulas
 //! for several faces at once.
@@ -24,8 +24,8 @@ pub enum Homotopy {
     /// R(tθ) exp(t log S) (paper, eq. 5): det M(t) = (det M)^t is positive for every t, which suits
     /// extrapolation.
     Exponential,
-    /// ((1−t) I + t R(θ)) ((1−t) I + t S): the linear path after polar decomposition; only
-    /// reproduces the paper's figure 7b.
+    /// ((1−t) I + t R(θ)) ((1−t) I + t S): the linear path after polar decomposition. It exists
+    /// only to reproduce the paper's figure 7b.
     LinearAfterPolar,
     /// R(tθ) √((1−t) I + t S²) on [0, 1], and the exponential path outside. Squared lengths change
     /// linearly, so no angle is distorted more than at the worse end. The ARAP warp flattens these
@@ -99,7 +99,7 @@ mod tests {
     use crate::geometry::DVec2;
     use proptest::prelude::*;
 
-    /// Local maps with angles beyond half turns.
+    /// Generates local maps, including angles beyond half a turn.
     fn any_map() -> impl Strategy<Value = PolarDecomposition> {
         (-10.0f64..10.0, -2.0f64..2.0, 0.1f64..5.0, 0.1f64..5.0).prop_map(|(angle, phi, a, b)| {
             let v = DMat2::from_angle(phi);
@@ -108,7 +108,7 @@ mod tests {
         })
     }
 
-    /// The inverse map with the angle −θ: M⁻¹ = S⁻¹ R(−θ) = R(−θ) (R(θ) S⁻¹ R(−θ)).
+    /// Returns the inverse map with the angle −θ: M⁻¹ = S⁻¹ R(−θ) = R(−θ) (R(θ) S⁻¹ R(−θ)).
     fn inverse(map: &PolarDecomposition) -> PolarDecomposition {
         let turn = DMat2::from_angle(map.angle);
         PolarDecomposition {

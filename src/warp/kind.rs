@@ -87,7 +87,7 @@ pub struct WarpLabels {
     pub solid: CellSupport,
     /// Texts for distance fields.
     pub field: CellSupport,
-    /// Texts for two pictures.
+    /// Texts for a morph of two pictures.
     pub colours: CellSupport,
 }
 
@@ -99,7 +99,7 @@ pub type CellSupport = Result<CellLabels, &'static str>;
 pub struct CellLabels {
     /// Name in running text, in lower case.
     pub name: &'static str,
-    /// Label of the button that selects the method; no two methods share one.
+    /// Label of the button that selects the method, unique among all methods.
     pub button: &'static str,
     /// Row title in a table of measurements.
     pub report: &'static str,

@@ -1,23 +1,25 @@
 //! Lattice warp: multilevel cubic B-splines, optionally without folds.
 //!
-//! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel B-splines" (1997). At t the
-//! features lie at (1−t) p + t q. Two maps lead from there to the source and to the target. Each
-//! is a sequence of displacement layers on increasingly fine lattices, and each layer moves the
-//! features closer to their positions in the design.
+//! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel B-splines" (1997). At time t,
+//! a feature with position p in the source and q in the target lies at (1−t) p + t q. Two maps lead
+//! from there to the source and to the target. Each map is a sequence of displacement layers on
+//! increasingly fine lattices; each layer moves the features closer to their positions in the
+//! design.
 //!
 //! In fold-free mode the layers are **composed** and each control point moves by at most 0.48 of
 //! the lattice spacing per axis. This makes every layer, and hence the composition, injective
 //! (Choi, Lee 2000). Otherwise the layers are summed as published, and the map may fold even if
 //! each layer respects the bound.
 //!
-//! Guaranteed: a frame cannot fail. At t = 0 each point shows its own source point and at t = 1
-//! its own target point, bit for bit. Exchanging the designs reverses the motion. In fold-free mode
-//! the map never folds, for any features. Not guaranteed: that every feature is interpolated;
-//! [`Lattice::residuals`] returns the errors. Features that meet on the way are always missed.
+//! Guaranteed: evaluating a frame cannot fail. At t = 0 the map to the source is exactly the
+//! identity; at t = 1 the map to the target is. Exchanging the designs reverses the motion. In
+//! fold-free mode the map never folds, for any features. Not guaranteed: that every feature is
+//! mapped exactly to its position; [`Lattice::residuals`] returns the errors. If two features
+//! coincide at some t but not in a design, the map to that design must miss at least one of them.
 //!
-//! Lattices extend beyond the frame by the length of its longer side, where displacements fade
-//! to zero. The influence of features outside the frame fades from half of that length onwards
-//! and vanishes at the full length.
+//! The influence of a feature outside the frame fades from a distance of half the frame's longer
+//! side onwards and vanishes at a distance of the full side. The lattices cover all points that are
+//! displaced.
 //!
 //! - `options`: resolution, tolerance and their validation
 //! - `control_grid`: sparse storage of control points
@@ -41,12 +43,12 @@ use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use layer_stack::{LatticeDomain, LayerStack};
 
-/// Error in tolerances above which a missed feature is reported (tolerance: with the default
-/// options a thousandth of the frame, which is barely visible).
+/// Multiple of the permitted error above which a feature is reported as missed: with the default
+/// options, a thousandth of the frame's diameter, which is barely visible (heuristic).
 const REPORTED_ERROR: f64 = 10.0;
 
-/// Number of points per parallel work item (resource limit: scheduling overhead; a point may pass
-/// through a hundred layers).
+/// Number of points per parallel work item (resource limit: small enough to balance the load, since
+/// a point may pass through dozens of layers, and large enough to hide the scheduling overhead).
 const CHUNK: usize = 256;
 
 /// Plane warp controlled by point pairs, with multilevel B-spline lattices.
@@ -70,7 +72,7 @@ const CHUNK: usize = 256;
 pub struct Lattice {
     features: WarpFeatures,
     domain: LatticeDomain,
-    /// Maps to the source and to the target at the most recent t.
+    /// Maps from the frame to the source and to the target, built for the most recent t.
     stacks: [LayerStack; 2],
 }
 
@@ -97,16 +99,17 @@ impl Lattice {
         })
     }
 
-    /// Returns the tolerance as a length in plane units.
+    /// Returns the permitted error of a feature, in plane units.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.domain.tolerance
     }
 
-    /// Returns each feature's distance at t from its source and its target position, in plane
-    /// units.
+    /// For each feature, returns the distances between its images under both maps at t and its
+    /// positions in source and target, in plane units.
     ///
-    /// Points come first, then the samples of each line. The maps are built anew for this.
+    /// Point pairs come first, then the sample points of each line. Both maps are built for this,
+    /// which costs as much as a frame.
     #[must_use]
     pub fn residuals(&self, t: f64) -> Vec<[f64; 2]> {
         let mut at_t = self.clone();

@@ -1,24 +1,27 @@
 //! Line warp: field morphing by pairs of line segments.
 //!
-//! Beier, Neely, "Feature-based image metamorphosis" (1992). Let PQ be a line in the frame and
-//! P′Q′ the corresponding line in a design. A frame point X at u along and v across PQ (§3.1)
-//! shows the design point P′ + u P′Q′ + v n′, with u relative to the length and v an absolute,
-//! signed distance. For several lines (§3.2) the displacements D are averaged:
+//! Beier, Neely, "Feature-based image metamorphosis" (1992). Let PQ be a line in the frame and P′Q′
+//! the corresponding line in a design, with the unit normal n′. A frame point X at u along and v
+//! across PQ (§3.1) shows the design point P′ + u P′Q′ + v n′, where u is a fraction of the length
+//! of PQ and v a signed distance. For several lines (§3.2) the displacements D = P′ + u P′Q′ + v n′
+//! − X are averaged:
 //!
 //! X′ = X + Σ w D / Σ w,  w = (lengthᵖ / (a + dist))ᵇ,
 //!
-//! where dist is the distance to the segment. At t the frame's lines lie between those of the
-//! two designs (§3.3), and each design is sampled with its own map.
+//! where length is that of PQ, dist the distance of X from the segment PQ, and a, b and p are
+//! options. At time t the lines in the frame are interpolated between those of the two designs
+//! (§3.3), and each design is sampled with its own map.
 //!
-//! Two extensions of the paper: A pin is a line without direction. It translates its
-//! neighbourhood and weighs as much as a line of a tenth of the frame's diameter. A line that
-//! shrinks below a thousandth of the length of its counterpart turns gradually into such a
-//! point, because the paper's formula divides by the length.
+//! There are two extensions of the paper. A pin is a line without direction: it translates its
+//! neighbourhood and weighs as much as a line whose length is a tenth of the frame's diameter. A
+//! line that becomes shorter than a thousandth of its counterpart gradually turns into a pin,
+//! because the paper's formula divides by the length.
 //!
-//! Guaranteed: at t = 0 each point shows its own source point and at t = 1 its own target point.
-//! A single pair of equally long lines gives a rigid motion. Exchanging the designs reverses the
-//! motion. Finite features give finite points. Not guaranteed: absence of folds. Lines that cross
-//! in only one design always fold, and so may nearby lines that rotate against each other.
+//! Guaranteed: at t = 0 the map to the source is exactly the identity; at t = 1 the map to the
+//! target is. A single pair of lines that keeps its length gives a rigid motion. Exchanging the
+//! designs reverses the motion. Finite features give finite points. Not guaranteed: absence of
+//! folds. Two lines that cross each other in only one design always cause a fold, and neighbouring
+//! lines that rotate in opposite directions may cause one.
 //!
 //! - `options`: the paper's constants and their validation
 //! - `moving_line`: interpolation of a line at t
@@ -49,11 +52,11 @@ use pulp::Arch;
 use scaled_plane::ScaledPlane;
 
 /// Length of a line that weighs as much as a pin, in frame diameters: about the length of a line
-/// drawn along a feature (heuristic).
+/// that users draw along a feature (heuristic).
 const PIN_LENGTH: f64 = 0.1;
 
-/// Number of points per parallel work item, about 0.1 ms of work (resource limit: scheduling
-/// overhead).
+/// Number of points per parallel work item (resource limit: about 0.1 ms of work, which hides the
+/// scheduling overhead).
 const CHUNK: usize = 1024;
 
 /// Plane warp controlled by line pairs and point pairs.
@@ -96,7 +99,7 @@ struct LinesAtTime {
 impl LineWarp {
     /// Creates a warp from lines and pins in frame coordinates.
     ///
-    /// Without any lines or pins it is the identity.
+    /// Without any lines or pins the warp is the identity.
     ///
     /// # Errors
     /// [`LinesError`] if a coordinate is not finite or an option is out of range.
@@ -146,12 +149,13 @@ impl LinesAtTime {
         }
     }
 
-    /// Replaces the lines. Lines whose interpolation overflowed are left out.
+    /// Replaces `lines` by those of `features`. Lines whose interpolated coordinates are not finite
+    /// are left out.
     fn fill(&mut self, features: impl Iterator<Item = LineFeature> + Clone) {
         let features = features.filter(LineFeature::is_finite);
         self.plane = ScaledPlane::around(features.clone());
         let (plane, a) = (self.plane, self.constants.a * self.plane.per_unit);
-        // The kernel's weights are finite only for a in this range.
+        // The kernel's weights are finite only if a is in this range.
         self.a = a.clamp(MIN_A, MAX_A);
         self.lines.clear();
         let lines = features.map(|feature| FieldLine::new(&plane.feature(&feature), a));

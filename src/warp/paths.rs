@@ -7,11 +7,11 @@
 //! and its parts move with the design ([`super::part_path`]). It also leaves whole turns free:
 //! the ones nearest to the best-fit rotation of the designs are chosen.
 //!
-//! Guaranteed: at t = 0 and t = 1 the designs, bit for bit. Vertices are finite for |t| up to
-//! 1e75 and any polygons. On intrinsic paths a rotated and translated copy moves rigidly, and a
-//! scaled copy stays similar. Exchanging the designs reverses the motion. Not guaranteed: that
-//! polygons do not cross themselves or each other. For a rotation by π two directions are
-//! equally good, and rounding decides.
+//! Guaranteed: at t = 0 and t = 1 the vertices are exactly those of the designs. Vertices are
+//! finite for |t| up to 1e75 and any polygons. On intrinsic paths a rotated and translated copy
+//! moves rigidly, and a scaled copy stays similar. Exchanging the designs reverses the motion. Not
+//! guaranteed: that polygons do not cross themselves or each other. For a rotation by π two
+//! directions are equally good, and rounding decides.
 //!
 //! - `options`: input types, options and validation
 //! - `turning`: continuous edge angles along a ring
@@ -60,7 +60,7 @@ pub struct BoundaryPaths(Arc<BoundaryPathData>);
 struct BoundaryPathData {
     source: Vec<DVec2>,
     target: Vec<DVec2>,
-    /// Range of vertices of each ring.
+    /// For each ring, the range of its vertex indices.
     rings: Vec<Range<u32>>,
     /// Intrinsic paths, or `None` if the paths are straight.
     intrinsic: Option<IntrinsicPaths>,
@@ -70,11 +70,11 @@ impl BoundaryPaths {
     /// Creates the paths of parts, each an outer ring followed by its holes.
     ///
     /// The vertices of the placement are those of all rings in order. The cost is linear in the
-    /// number of vertices, plus the vertices of the outer ring for each hole.
+    /// number of vertices, plus one pass over the outer ring for each hole.
     ///
     /// # Errors
-    /// [`PathsError`] with the first ring that has no vertices, different numbers of vertices in
-    /// the two designs, or a coordinate out of range.
+    /// [`PathsError`] if there are no rings, or for the first ring that has no vertices, different
+    /// numbers of vertices in the two designs, or a coordinate out of range.
     pub fn new(parts: &[Vec<RingPair>], options: PathOptions) -> Result<Self, PathsError> {
         check(parts)?;
         let all = |of: fn(&RingPair) -> &Vec<DVec2>| -> Vec<DVec2> {

@@ -27,7 +27,8 @@ pub trait PlaneWarp: Clone + Debug + Send + Sync + 'static {
         in_target: &mut [DVec2],
     );
 
-    /// Returns the features that the maps miss at t by more than their tolerance.
+    /// Returns a summary of the features that the maps miss at t by more than their tolerance, or
+    /// `None` if there are none.
     fn missed_features(&self, _t: f64) -> Option<MissedFeatures> {
         None
     }
@@ -97,7 +98,7 @@ impl PlaneGrid {
     }
 }
 
-/// Plane warp sampled on a grid, which makes it a [`Warp`].
+/// A [`Warp`] that samples a plane warp at the corners of a grid.
 #[derive(Debug)]
 pub struct GridWarp<W> {
     warp: W,

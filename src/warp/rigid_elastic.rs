@@ -5,10 +5,10 @@
 //! rotation, and only the remaining displacement is warped. A rotating shape therefore keeps
 //! its size, whereas features on straight lines would shrink it.
 //!
-//! Guaranteed: at t = 0 each point shows its own source point and at t = 1 its own target point,
-//! bit for bit. Exchanging the designs reverses the motion up to rounding, except that a rotation
-//! by π is counter-clockwise in both directions. Features that differ by a rigid motion move
-//! rigidly.
+//! Guaranteed for plane warps: at t = 0 the map to the source is exactly the identity; at t = 1 the
+//! map to the target is. Exchanging the designs reverses the motion up to rounding, except that a
+//! rotation by π is counter-clockwise in both directions. Features that differ by a rigid motion
+//! move rigidly.
 
 use super::rigid_motion::{CommonRigidMotion, conjugate};
 use super::{MissedFeatures, Placement, Placer, PlaneWarp, Warp};
@@ -21,7 +21,7 @@ use std::sync::Arc;
 pub struct RigidElasticPlaneWarp<W> {
     rigid: CommonRigidMotion,
     elastic: W,
-    /// Frame points of the current frame in rest coordinates.
+    /// Points of the current frame in rest coordinates; the memory is reused.
     rest: Vec<DVec2>,
 }
 
@@ -42,14 +42,14 @@ impl<W> RigidElasticPlaneWarp<W> {
         let points: Vec<PointPair> = points
             .iter()
             .map(|pair| {
-                let [source, target] = rigid.at_rest(pair.source, pair.target);
+                let [source, target] = rigid.to_rest(pair.source, pair.target);
                 PointPair { source, target }
             })
             .collect();
         let lines: Vec<LinePair> = lines
             .iter()
             .map(|line| {
-                let [a, b] = [0, 1].map(|k| rigid.at_rest(line.source[k], line.target[k]));
+                let [a, b] = [0, 1].map(|k| rigid.to_rest(line.source[k], line.target[k]));
                 LinePair {
                     source: [a[0], b[0]],
                     target: [a[1], b[1]],
@@ -58,7 +58,7 @@ impl<W> RigidElasticPlaneWarp<W> {
             .collect();
         Ok(Self {
             rigid,
-            elastic: elastic(&rigid.frame_at_rest(frame), &points, &lines)?,
+            elastic: elastic(&rigid.frame_to_rest(frame), &points, &lines)?,
             rest: Vec::new(),
         })
     }
@@ -105,24 +105,27 @@ impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
 #[derive(Clone, Debug)]
 pub struct RigidElasticWarp<W> {
     rigid: CommonRigidMotion,
-    at_rest: W,
+    rest_warp: W,
 }
 
 impl<W: Warp> RigidElasticWarp<W> {
     /// Composes the warp `at_rest` with the motion `rigid`.
     pub const fn new(rigid: CommonRigidMotion, at_rest: W) -> Self {
-        Self { rigid, at_rest }
+        Self {
+            rigid,
+            rest_warp: at_rest,
+        }
     }
 
     /// Returns the warp in rest coordinates.
-    pub const fn at_rest(&self) -> &W {
-        &self.at_rest
+    pub const fn rest_warp(&self) -> &W {
+        &self.rest_warp
     }
 }
 
 impl<W: Warp> Warp for RigidElasticWarp<W> {
     fn placer(&self) -> Placer {
-        let mut at_rest = self.at_rest.placer();
+        let mut at_rest = self.rest_warp.placer();
         let rest = at_rest.placement();
         let [source, target] = self.rigid.maps_from_rest();
         let placement = Placement {

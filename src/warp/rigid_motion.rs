@@ -1,9 +1,9 @@
 //! The rigid motion common to all features, split off before a plane warp is built.
 //!
-//! It is the rotation about the features' centroids that fits their target positions best in
-//! the least-squares sense (two-dimensional Procrustes problem). The remaining, elastic
-//! displacement is expressed "at rest": in coordinates in which both designs are centred and
-//! rotated to the halfway angle.
+//! The motion moves the centroid of the source features to that of the target features and rotates
+//! about it, such that the source features fit the target features best in the least-squares sense
+//! (two-dimensional Procrustes problem). The remaining, elastic displacement is expressed "at
+//! rest": in coordinates in which both designs are centred and rotated to the halfway angle.
 //!
 //! Guaranteed: exchanging the designs inverts the motion up to rounding, except that a rotation
 //! by π is counter-clockwise in both directions.
@@ -46,14 +46,14 @@ pub struct CommonRigidMotion {
     pub(super) turn: f64,
 }
 
-/// Number of steps for the swept bounds.
+/// Number of steps in which the motion is sampled for the swept bounds.
 ///
 /// Derived: a step covers at most 12°, and the arc between two samples bulges by at most half
 /// a percent of the corner's distance from the centre.
 const SWEEP_STEPS: u32 = 16;
 
-/// Relative size of the summed rotation below which it has no direction (tolerance: rounding of
-/// a sum that cancels).
+/// Length of the summed rotation vectors, relative to the sum of their lengths, below which the sum
+/// has no direction (tolerance: rounding of a sum that cancels).
 const NO_TURN: f64 = 1e-9;
 
 /// Difference from π in radians below which a rotation counts as π (tolerance: rounding must
@@ -114,32 +114,34 @@ impl CommonRigidMotion {
         self.turn
     }
 
-    /// Returns the rotation from the frame at `t` to rest coordinates, as a unit complex
-    /// number, and the centre in the frame.
+    /// Returns the rotation from the frame at `t` to rest coordinates, as a unit complex number,
+    /// and the position in the frame of the centroid at `t`.
     pub(super) fn at(&self, t: f64) -> (DVec2, DVec2) {
-        // Rest is the halfway angle: +½ turn away at t = 0, −½ turn at t = 1.
+        // Rest coordinates have the halfway angle: they are rotated by +½ `turn` at t = 0 and by −½
+        // `turn` at t = 1.
         let back = DVec2::from_angle((0.5 - t) * self.turn);
         (back, self.centres[0] * (1.0 - t) + self.centres[1] * t)
     }
 
     /// Returns the boundary match with all points in rest coordinates.
     #[must_use]
-    pub fn match_at_rest(&self, matched: &RegionMatch) -> RegionMatch {
+    pub fn match_to_rest(&self, matched: &RegionMatch) -> RegionMatch {
         let mut matched = matched.clone();
         for ring in matched.pieces.iter_mut().flat_map(|piece| &mut piece.rings) {
             for (p, q) in ring.source.iter_mut().zip(&mut ring.target) {
-                [*p, *q] = self.at_rest(*p, *q);
+                [*p, *q] = self.to_rest(*p, *q);
             }
         }
         matched
     }
 
-    /// Returns a frame of the same size, centred on `frame` in rest coordinates.
+    /// Returns a frame of the same size in rest coordinates, around the mean of the frame's centre
+    /// in source and target.
     ///
     /// The size is unchanged because options are relative to the frame's size.
     #[must_use]
-    pub fn frame_at_rest(&self, frame: &Bounds) -> Bounds {
-        let [a, b] = self.at_rest(frame.centre(), frame.centre());
+    pub fn frame_to_rest(&self, frame: &Bounds) -> Bounds {
+        let [a, b] = self.to_rest(frame.centre(), frame.centre());
         let half = 0.5 * frame.size();
         Bounds {
             min: a.midpoint(b) - half,
@@ -147,7 +149,8 @@ impl CommonRigidMotion {
         }
     }
 
-    /// Returns the bounding box of the frame of both designs during the motion.
+    /// Returns the bounding box of the area that the frames of both designs sweep during the
+    /// motion.
     ///
     /// The motion is sampled, so the box may be too small by about half a percent.
     #[must_use]
@@ -157,7 +160,7 @@ impl CommonRigidMotion {
             let t = f64::from(k) / f64::from(SWEEP_STEPS);
             let (back, centre) = self.at(t);
             for corner in frame.corners() {
-                for rest in self.at_rest(corner, corner) {
+                for rest in self.to_rest(corner, corner) {
                     swept = swept.union(&Bounds::at(conjugate(back).rotate(rest) + centre));
                 }
             }
@@ -177,7 +180,7 @@ impl CommonRigidMotion {
     ///
     /// Both are centred on the origin; the source is rotated forwards by half the turn and the
     /// target backwards by half.
-    pub(super) fn at_rest(&self, source: DVec2, target: DVec2) -> [DVec2; 2] {
+    pub(super) fn to_rest(&self, source: DVec2, target: DVec2) -> [DVec2; 2] {
         let half = DVec2::from_angle(0.5 * self.turn);
         [
             half.rotate(source - self.centres[0]),

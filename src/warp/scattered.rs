@@ -1,16 +1,20 @@
 //! Scattered-point warp: interpolation of pins with radial basis functions.
 //!
 //! Ruprecht, Müller, "Image warping with scattered data interpolation" (1995); thin plates after
-//! Duchon (1977) and Bookstein, "Principal warps" (1989). At t the features lie at (1−t) p + t q.
-//! Two maps lead from there to the source and to the target. Each adds an affine function and
-//! Σ cᵢ φ(|x − xᵢ|) to the identity, such that every feature is mapped to its own position. Both
-//! maps have the same centres, so a frame needs one factorisation.
+//! Duchon (1977) and Bookstein, "Principal warps" (1989). At time t, a feature with position p in
+//! the source and q in the target lies at (1−t) p + t q. Two maps lead from there to the source and
+//! to the target. Each map adds an affine function and Σ cᵢ φ(|x − xᵢ|) to the identity, where φ is
+//! a radial function and xᵢ are the feature positions at t (centres), such that every feature is
+//! mapped to its position in the design. Both maps have the same centres, so a frame needs one
+//! factorisation.
 //!
-//! Guaranteed: a frame cannot fail. At t = 0 each point shows its own source point and at t = 1
-//! its own target point, bit for bit. Without smoothing the map interpolates all features, unless
-//! that requires a slope above 20; features that meet on the way are separated continuously
-//! (`centres`). Exchanging the designs reverses the motion. No feature gives the identity, one
-//! feature a translation, two a similarity.
+//! Guaranteed: evaluating a frame cannot fail. At t = 0 the map to the source is exactly the
+//! identity; at t = 1 the map to the target is. Without smoothing, every feature is mapped to its
+//! position, unless two features are so close together that this would require a slope above 20. In
+//! that case their displacements approach each other, continuously in t, and agree when the
+//! features meet (`centres`). Exchanging the designs reverses the motion. Without features the map
+//! is the identity, with one feature a translation, and with two a similarity.
+//!
 //! Not guaranteed: absence of folds; [`super::Lattice`] guarantees that.
 //!
 //! - `options`: choice and parameters of the radial function
@@ -34,7 +38,7 @@ use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use system::RadialSolver;
 
-/// Number of points per parallel work item (resource limit: scheduling overhead).
+/// Number of points per parallel work item (resource limit: hides the scheduling overhead).
 const CHUNK: usize = 1024;
 
 /// Plane warp controlled by point pairs, with radial basis functions.

@@ -1,16 +1,16 @@
 //! Rigid interpolation in which each connected part has its own timing.
 //!
-//! At t a part is shown where the unstaggered interpolation has it at the time that the part's
-//! [`PartClock`] returns. Each part thus follows its usual path and only starts later or arrives
-//! earlier; the ends of the motion are unchanged. Parts share no vertices, so a frame still takes
-//! a single solve, however many clocks there are. An anchor vertex is fixed according to the
-//! clock of its own part.
+//! The [`PartClock`] of a part maps the frame time t to another time, and the part is shown at its
+//! position in the unstaggered interpolation at that time. Each part thus follows its usual path
+//! and only starts later or arrives earlier; the ends of the motion are unchanged. Parts share no
+//! vertices, so a frame still takes a single solve, however many clocks there are. An anchor vertex
+//! is fixed according to the clock of its own part.
 
 use super::{Arap, Placer, Warp};
 use crate::time::{EasingFunction, NamedEasing};
 use std::sync::Arc;
 
-/// Time window and easing with which one part moves.
+/// Time window and easing of the motion of one part.
 ///
 /// The part waits until `from`, moves with `easing`, and has arrived at `to`. Outside [0, 1] it
 /// extrapolates like the other parts.
@@ -50,8 +50,8 @@ impl PartClock {
     }
 
     /// Returns the frame time at which the part reaches `time` in [0, 1], the inverse of
-    /// [`Self::at`].
-    pub(crate) fn film_time(&self, time: f64) -> f64 {
+    /// [`Self::part_time`].
+    pub(crate) fn transition_time(&self, time: f64) -> f64 {
         self.from + (self.to - self.from) * self.easing.inverse(time)
     }
 
@@ -71,9 +71,9 @@ impl PartClock {
 pub struct StaggeredArap {
     arap: Arap,
     clocks: Arc<[PartClock]>,
-    /// Index of the clock of each connected part.
+    /// For each connected part, the index of its clock in `clocks`.
     clock_of_part: Arc<[u32]>,
-    /// Index of the connected part of each vertex.
+    /// For each vertex, the index of its connected part.
     part_of_vertex: Arc<[u32]>,
 }
 
@@ -117,7 +117,7 @@ impl StaggeredArap {
         &self.arap
     }
 
-    /// Applies the same clocks to another interpolation of the same parts.
+    /// Returns the motion with the same clocks for another interpolation of the same parts.
     #[must_use]
     pub(crate) fn with_arap(&self, arap: Arap) -> Self {
         Self {
@@ -161,8 +161,8 @@ impl Warp for StaggeredArap {
                 .into_iter()
                 .flat_map(|window| [window.from, window.to]);
             let part_times = window_ends.chain(self.arap.guard_times().iter().copied());
-            // The part's own break times occur when its clock shows them.
-            let when = move |time: f64| clock.film_time(time);
+            // A break time of the part occurs in the frame in which the part's clock reaches it.
+            let when = move |time: f64| clock.transition_time(time);
             [clock.from, clock.to]
                 .into_iter()
                 .chain(part_times.map(when))

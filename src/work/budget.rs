@@ -7,56 +7,57 @@
 
 use crate::work::progress::Progress;
 
-/// Kind of input whose amount determines time or memory.
+/// Kind of input whose amount determines how long a job takes or how much memory it needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WorkloadKind {
-    /// Outline points of both designs, for matching and triangulation.
+    /// Outline points of both designs together; they are matched and triangulated.
     Points,
-    /// Outer outlines of both designs, for matching and triangulation.
+    /// Outer outlines of both designs together; they are matched and triangulated.
     Pieces,
-    /// Holes of both designs, for matching and triangulation.
+    /// Holes of both designs together; they are matched and triangulated.
     Holes,
-    /// Bars of a truss, for computing its outline.
+    /// Bars of a truss whose outline is computed.
     Bars,
-    /// Pairs of bars that cross without a node, for triangulating a truss.
+    /// Pairs of bars that cross without a node at the crossing, in a truss that is triangulated.
     CrossingBars,
     /// Grid cells of distance fields.
     Cells,
-    /// Faces of a mesh, for solving its motion.
+    /// Faces of a mesh whose motion is solved.
     Faces,
     /// Pixels of all blended pictures together.
     Pixels,
 }
 
 impl WorkloadKind {
-    /// Returns the largest amount that starts without confirmation.
+    /// Returns the largest amount of this input with which a job starts without confirmation.
     #[must_use]
     pub const fn limit(self) -> usize {
         match self {
-            // A coastline matched to a square takes 2.5 s with 2,000 points, 4.0 s with 5,000
+            // Matching a coastline with a square takes 2.5 s with 2,000 points and 4.0 s with 5,000
             // (`check coast.json square.json`).
             Self::Points => 12_000,
-            // The draft of 300 pieces per design takes 2.9 s, of 600 4.9 s, of 2,000 23 s.
+            // A draft transition takes 2.9 s with 300 pieces per design, 4.9 s with 600, 23 s with
+            // 2,000.
             Self::Pieces => 1_500,
-            // The draft of 100 holes per design takes 1.3 s, of 200 7.8 s.
+            // A draft transition takes 1.3 s with 100 holes per design and 7.8 s with 200.
             Self::Holes => 300,
             // 20,000 bars that each overlap 240 others take more than 15 s.
             Self::Bars => 5_000,
-            // 200 nodes all joined to each other have 60 million crossings, which take 2 GB;
-            // 4 million are found in one second.
+            // 200 nodes that are all joined to each other have 60 million crossings, which take 2
+            // GB. Finding 4 million takes one second.
             Self::CrossingBars => 4_000_000,
-            // 8192 × 8192 cells take more than 40 s; this is a seventh of them.
+            // 8192 × 8192 cells take more than 40 s; the limit is a seventh of them.
             Self::Cells => 3072 * 3072,
-            // Two sheets of two million faces take 1.8 GiB and 4 s of one core; until their
-            // motion is recorded each frame takes 0.3 s.
+            // Two sheets of two million faces take 1.8 GiB and 4 s on one core. Until their motion
+            // is recorded, each frame takes 0.3 s.
             Self::Faces => 2_200_000,
-            // A pixel prepared for blending takes 26 bytes: 2 GiB together.
+            // A pixel prepared for blending takes 26 bytes; this many take 2 GiB.
             Self::Pixels => 82_000_000,
         }
     }
 
-    /// Returns the plural noun for messages.
+    /// Returns the plural noun for this input, for messages.
     const fn noun(self) -> &'static str {
         match self {
             Self::Points => "outline points",
@@ -84,7 +85,7 @@ impl WorkloadKind {
         }
     }
 
-    /// Checks whether a job with this amount may start.
+    /// Checks whether a job with `count` of this input may start.
     ///
     /// # Errors
     /// [`WorkloadTooLarge`] if the amount exceeds the limit, unless [`Progress::is_patient`].
@@ -112,6 +113,6 @@ impl WorkloadKind {
 pub struct WorkloadTooLarge {
     /// Kind of input that exceeds its limit.
     pub kind: WorkloadKind,
-    /// Amount of it; a lower bound if counting stopped early.
+    /// Amount of that input; a lower bound if counting stopped early.
     pub count: usize,
 }

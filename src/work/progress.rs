@@ -1,7 +1,7 @@
 //! Progress reports and cancellation of long computations.
 //!
-//! Every slow operation of the core (import, matching, triangulation, factorisation, export)
-//! takes a [`Progress`]. It reports often enough for a progress bar, with fractions that never
+//! Every slow operation of the core (import, matching, triangulation, factorisation, export) takes
+//! a [`Progress`]. The operation reports often enough for a progress bar, with fractions that never
 //! decrease, and stops within half a second of being cancelled: loops of more than a few
 //! milliseconds call [`check_cancelled`], and long calls into a library run through
 //! [`run_cancellable`]. Fractions are not proportional to time.
@@ -21,9 +21,9 @@ pub trait Progress: Sync {
     /// Returns `true` once the work has been cancelled.
     fn is_cancelled(&self) -> bool;
 
-    /// Returns whether jobs beyond the limits of [`crate::work::budget`] may start.
+    /// Returns whether jobs that exceed the limits of [`crate::work::budget`] may start.
     ///
-    /// `false` where a user is waiting and has not yet confirmed such a job.
+    /// `false` if a user is waiting and has not yet confirmed such a job.
     fn is_patient(&self) -> bool {
         true
     }
@@ -81,7 +81,8 @@ pub fn check_cancelled(progress: &dyn Progress) -> Result<(), Cancelled> {
 /// Interval at which [`run_cancellable`] checks for cancellation (heuristic).
 const CANCEL_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Runs an uninterruptible call on its own thread and waits for it, or for cancellation.
+/// Runs a call that cannot be interrupted, on a thread of its own. Returns when the call ends or is
+/// cancelled.
 ///
 /// A cancelled call keeps running in the background until it ends, and its result is dropped.
 /// If the caller is a rayon thread, parallel work inside the call gets its own thread pool:
@@ -129,9 +130,10 @@ fn in_own_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     }
 }
 
-/// Fraction in [0, 1] that several threads can only increase.
+/// Fraction in [0, 1] that any thread can raise and none can lower.
 ///
-/// Stored as bits, because the bit patterns of non-negative floats are ordered like the numbers.
+/// Stored as the bits of an `f64`: bit patterns of non-negative floats are ordered like the
+/// numbers.
 #[derive(Debug, Default)]
 struct MonotoneFraction(AtomicU64);
 
@@ -148,17 +150,17 @@ impl MonotoneFraction {
     }
 }
 
-/// The whole of a computation: passes on reports as a fraction that never decreases.
-pub struct WholeProgress<'a> {
+/// Progress of a whole computation. Passes reports on, with a fraction that never decreases.
+pub struct OverallProgress<'a> {
     inner: &'a dyn Progress,
-    /// Largest fraction reported so far. It stays locked while it is passed on, so that reports
-    /// of two threads arrive in increasing order.
+    /// Largest fraction reported so far. The lock is held while a report is passed on, so that the
+    /// reports of two threads arrive in increasing order.
     reported: Mutex<f64>,
     patient: bool,
 }
 
-impl<'a> WholeProgress<'a> {
-    /// Starts at 0 and takes over whether long jobs may start.
+impl<'a> OverallProgress<'a> {
+    /// Passes reports on to `inner`, from fraction 0. Long jobs may start if `inner` permits them.
     pub fn new(inner: &'a dyn Progress) -> Self {
         Self {
             inner,
@@ -175,7 +177,7 @@ impl<'a> WholeProgress<'a> {
     }
 }
 
-impl Progress for WholeProgress<'_> {
+impl Progress for OverallProgress<'_> {
     fn report(&self, stage: &'static str, fraction: f64) {
         let mut reported = self.reported.lock().unwrap_or_else(PoisonError::into_inner);
         *reported = reported.max(fraction.clamp(0.0, 1.0));
@@ -191,7 +193,8 @@ impl Progress for WholeProgress<'_> {
     }
 }
 
-/// A step of a computation that advances it from one fraction to another.
+/// Progress of one step of a computation. The step's fractions from 0 to 1 become fractions of the
+/// whole, between two given values.
 #[derive(Clone, Copy)]
 pub struct ProgressSpan<'a> {
     inner: &'a dyn Progress,
@@ -200,7 +203,7 @@ pub struct ProgressSpan<'a> {
 }
 
 impl<'a> ProgressSpan<'a> {
-    /// Creates the step between two fractions of `inner`.
+    /// Creates the progress of a step that advances `inner` from the fraction `from` to `to`.
     ///
     /// ```
     /// use morphospace::work::progress::{Progress, ProgressSpan, Silent};
@@ -214,8 +217,8 @@ impl<'a> ProgressSpan<'a> {
 
 impl Progress for ProgressSpan<'_> {
     fn report(&self, stage: &'static str, fraction: f64) {
-        let whole = self.from + fraction.clamp(0.0, 1.0) * (self.to - self.from);
-        self.inner.report(stage, whole);
+        let overall = self.from + fraction.clamp(0.0, 1.0) * (self.to - self.from);
+        self.inner.report(stage, overall);
     }
 
     fn is_cancelled(&self) -> bool {
@@ -227,9 +230,9 @@ impl Progress for ProgressSpan<'_> {
     }
 }
 
-/// Equal parts of a computation, done in any order or in parallel.
+/// Progress of a computation in equal parts, which may run in any order or in parallel.
 ///
-/// The fraction of the whole is the mean of the parts' fractions.
+/// The fraction reported for the whole is the mean of the parts' fractions.
 pub struct ProgressShares<'a> {
     inner: &'a dyn Progress,
     parts: Vec<MonotoneFraction>,
@@ -305,7 +308,7 @@ mod tests {
     #[test]
     fn nested_parts_make_one_fraction_that_never_decreases() {
         let recorded = RecordedProgress::default();
-        let whole = WholeProgress::new(&recorded);
+        let whole = OverallProgress::new(&recorded);
         ProgressSpan::new(&whole, 0.0, 0.5).report("first", 1.0);
         let second_half = ProgressSpan::new(&whole, 0.5, 1.0);
         let parts = ProgressShares::new(&second_half, 2);

@@ -27,7 +27,7 @@ fn wait_until(
 
 /// Returns the window with autosaving to a folder enabled.
 fn with_autosave(mut window: HeadlessWindow, folder: &Path) -> HeadlessWindow {
-    let autosave = Autosave::enter(folder).expect("a folder");
+    let autosave = Autosave::start_in(folder).expect("a folder");
     window.0.insert_resource(autosave);
     window
 }

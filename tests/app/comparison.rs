@@ -49,7 +49,7 @@ fn the_second_method_is_shown_at_the_same_t_as_the_stage() {
         let midpoint = 0.5 * (mesh.source()[k] + mesh.target()[k]);
         assert!(p.distance(midpoint) < 1e-6 * size, "{p} is not {midpoint}");
     }
-    window.send(Intent::SetComparisonMethod(ComparisonMethod::Cell(
+    window.send(Intent::SetComparisonMethod(ComparisonMethod::Method(
         TransitionMethod::FIELD_BLEND,
     )));
     wait_for_comparison(&mut window);

@@ -35,7 +35,8 @@ impl HeadlessWindow {
         Self(app)
     }
 
-    /// Includes panels and cameras; only the GPU and the operating system's window are missing.
+    /// Creates a window with panels and cameras; only the GPU and the operating system's window are
+    /// missing. [`Self::new`] also leaves out egui and rendering.
     pub fn with_panels() -> Self {
         let mut app = App::new();
         let render_creation = RenderCreation::Automatic(Box::new(WgpuSettings {

@@ -20,7 +20,9 @@ fn wait_for_map(window: &mut HeadlessWindow) {
     for _ in 0..20_000 {
         window.update();
         let view = map_view(window);
-        let is_drawn = view.pictures().is_some_and(|made| made.thumbnails().is_some());
+        let is_drawn = view
+            .pictures()
+            .is_some_and(|made| made.thumbnails().is_some());
         if !view.is_busy() && (is_drawn || view.problem().is_some()) {
             return;
         }

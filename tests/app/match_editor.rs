@@ -139,8 +139,8 @@ fn points_keep_their_letters_when_one_is_pinned() {
         .iter()
         .filter(|(_, p)| before.iter().any(|(_, q)| p.distance(*q) < 0.5))
         .collect();
-    // At least five corners of the L stay. Labelled points between corners move, since pinning
-    // changes their spacing along the outline.
+    // At least the five other corners of the L are still labelled. Labelled points between
+    // corners may move when the match changes.
     assert!(unmoved.len() >= 5, "{before:?} {after:?}");
     for (letter, p) in unmoved {
         let nearest = before
@@ -344,7 +344,7 @@ fn two_clicks_pair_parts_and_remove_unpairs_them() {
     assert!(disappears(&window));
     // The boundary of an unmatched part cannot be pinned; a click there selects the part.
     let corner = window.sheet().sides.as_ref().expect("outlines")[Side::Source].parts[0][0][0];
-    window.act(EditorAction::Tool(EditorTool::Pins));
+    window.act(EditorAction::SelectTool(EditorTool::Pins));
     window.act(EditorAction::Click(pointer_at(
         Side::Source,
         corner.x,
@@ -383,7 +383,7 @@ fn a_click_on_painted_parts_selects_the_visible_one() {
     window.send(Intent::Open(files));
     window.wait();
     window.type_char(KeyCode::KeyE, "e");
-    window.act(EditorAction::Tool(EditorTool::Parts));
+    window.act(EditorAction::SelectTool(EditorTool::Parts));
     assert_eq!(window.sheet().pieces.len(), 3);
     // The label of each part lies where no other part covers it.
     for piece in 0..3 {
@@ -411,7 +411,7 @@ fn a_click_on_painted_parts_selects_the_visible_one() {
     let linked: Vec<_> = linked_pieces.map(|piece| piece.parts).collect();
     assert_eq!(linked.len(), 2, "{linked:?}");
     assert!(linked.contains(&[Some(1), Some(2)]) && linked.contains(&[Some(2), Some(1)]));
-    // If all shapes are painted in one colour, they are one part.
+    // If all shapes are painted in one colour, the background and the discs are one part.
     let mut project = window.session().project().cloned().expect("a project");
     project.options.paint = PaintRule::One;
     window.send(Intent::ReplaceSettings(Box::new(project)));

@@ -26,7 +26,7 @@ fn confirmations(window: &HeadlessWindow) -> Vec<String> {
     let notices = window.0.world().resource::<Notices>().list();
     let done = notices
         .iter()
-        .filter(|notice| notice.kind == NoticeKind::Done);
+        .filter(|notice| notice.kind == NoticeKind::Confirmation);
     done.map(|notice| notice.text.clone()).collect()
 }
 

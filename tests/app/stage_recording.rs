@@ -59,7 +59,9 @@ fn the_transition_on_the_stage_is_recorded_and_proved() {
 #[test]
 fn a_recording_above_the_memory_limit_is_refused_with_the_reason() {
     let mut window = HeadlessWindow::new();
-    window.0.insert_resource(StageRecording::within(Some(0)));
+    window
+        .0
+        .insert_resource(StageRecording::with_memory_limit(Some(0)));
     window.send(Intent::OpenGallery("triangle-polar".to_owned()));
     window.wait();
     wait_for_recording(&mut window);

@@ -1,4 +1,4 @@
-//! Runs the built program in a temporary folder.
+//! A temporary folder with small designs, in which tests run the built program.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 /// OBJ text of a unit square.
 pub const SOURCE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
-/// OBJ text of a quadrilateral with the same faces, turned by 90°.
+/// OBJ text of a quadrilateral with the faces of [`SOURCE`], rotated by about 90°.
 pub const TARGET: &str = "v 0 0 0\nv 0 2 0\nv -2 2 0\nv -1 0.2 0\nf 1 2 3\nf 1 3 4\n";
 
 /// A temporary folder with two meshes and two drawings, in which the program runs.
@@ -32,7 +32,7 @@ impl CliFixture {
         fixture
     }
 
-    /// Writes a file.
+    /// Writes a text file into the folder.
     pub fn write(&self, name: &str, text: &str) {
         fs::write(self.path(name), text).expect("written");
     }
@@ -41,7 +41,8 @@ impl CliFixture {
         self.0.path().join(name)
     }
 
-    /// A command with the arguments of a line, split at spaces.
+    /// Returns a command that runs the program in the folder; its arguments are the words of
+    /// `line`.
     pub fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_morphospace"));
         command.current_dir(self.0.path());
@@ -53,14 +54,15 @@ impl CliFixture {
         self.command(line).output().expect("the program starts")
     }
 
-    /// Runs a command that must succeed, and returns its stdout.
+    /// Runs the program, asserts that it succeeds, and returns its stdout.
     pub fn succeeds(&self, line: &str) -> String {
         let output = self.run(line);
         assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
         String::from_utf8(output.stdout).expect("text")
     }
 
-    /// Runs a command that must exit with a code and print a text to stderr, and nothing to stdout.
+    /// Runs the program and asserts that it exits with `code`, that its stderr contains `text`, and
+    /// that its stdout is empty.
     pub fn fails(&self, code: i32, line: &str, text: &str) {
         let output = self.run(line);
         let messages = stderr(&output);
@@ -70,7 +72,7 @@ impl CliFixture {
         assert!(output.stdout.is_empty(), "{line} wrote data");
     }
 
-    /// Sorted names of the entries of a folder.
+    /// Sorted names of the files and folders in a subfolder; `.` is the folder itself.
     pub fn file_names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).expect("listed");
         let name = |entry: fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
@@ -80,7 +82,7 @@ impl CliFixture {
     }
 }
 
-/// Text on the standard error stream.
+/// Text that the program wrote to its standard error stream.
 pub fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }

@@ -1,4 +1,5 @@
-//! Runs the built program from the command line: each command on small inputs, notes and errors.
+//! Runs the built program from the command line with small inputs. Tests the output of each
+//! command, notes, errors and exit codes, a closed pipe, and a missing display.
 //!
 //! Needs no graphics card and no display.
 
@@ -99,7 +100,8 @@ fn a_new_project_may_store_its_match() {
     assert!(is_matched(&plain.1) && !is_matched(&with_match.1));
     assert_eq!(with_match.1["seconds"]["match"].to_string(), "0.0");
     assert_eq!(plain.1["distortion"], with_match.1["distortion"]);
-    // `auto` stores the method that it chose: crossed bars tear as fields, so it is rigid parts.
+    // `--method auto` stores the method that it chose. The field blend of crossed bars breaks into
+    // pieces, so it chooses rigid parts.
     for (name, d) in [
         ("horizontal", "M0 40H100V60H0Z"),
         ("vertical", "M40 0H60V100H40Z"),
@@ -111,7 +113,7 @@ fn a_new_project_may_store_its_match() {
     let text = fs::read_to_string(cli.path("auto.morph")).expect("text");
     assert!(text.contains("warp = \"arap\"") && text.contains("content = \"solid\""));
     assert!(!text.contains("[found]"), "{text}");
-    // A field blend needs no match.
+    // A field blend needs no match, so none is stored.
     cli.succeeds("new a.svg b.svg --out field.morph --film --method field");
     let text = fs::read_to_string(cli.path("field.morph")).expect("text");
     assert!(!text.contains("[found]"));
@@ -155,7 +157,7 @@ fn a_map_path_is_rendered_and_saved_places_are_exported() {
         "catalogue path.morph --out saved --sort size",
         "kept, stars",
     );
-    // The path blends all designs, and a comparison shows two.
+    // A path blends all designs, but a comparison needs exactly two.
     cli.fails(
         2,
         "render path.morph --compare --out c.png",
@@ -214,7 +216,8 @@ fn several_designs_are_one_film() {
     cli.succeeds("render three.morph --frames 5 --size 40x30 --out f-#.png");
     let [first, middle, last] =
         ["f-0.png", "f-2.png", "f-4.png"].map(|name| read_image(&cli.path(name)));
-    // The same design in the colours of both ends, and the other design at the middle.
+    // The first and the last frame show the same design in different colours, the middle frame
+    // shows the other design.
     assert_ne!(first, last);
     assert_ne!(first, middle);
     cli.succeeds("render a.svg b.svg a.svg --sheet 5 --out sheet.png");
@@ -408,7 +411,7 @@ fn a_closed_pipe_ends_the_program_quietly() {
     assert_eq!(stderr(&output), "");
 }
 
-/// Needs a build that has a window.
+/// Without a display the window cannot open; a build without the `app` feature has no window.
 #[test]
 #[cfg(all(feature = "app", target_os = "linux"))]
 fn without_a_display_the_program_explains_what_works() {

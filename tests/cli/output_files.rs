@@ -1,4 +1,5 @@
-//! Every output format of `render`, at small sizes: images, sheets, numbered frames and films.
+//! Every output format of `render`, at small sizes: images, sheets, numbered frames and films. Also
+//! the number of frames and the flags that override a preset.
 
 use std::fs;
 use std::io::BufReader;
@@ -132,7 +133,8 @@ fn an_apng_has_its_frames() {
     assert_eq!(reader.info().size(), (40, 30));
 }
 
-/// Width, height and frame count as `ffprobe` prints them; `None` if it is not installed.
+/// Width, height and number of frames of a film, as `ffprobe` prints them; `None` if `ffprobe` is
+/// not installed.
 fn probe(path: &Path) -> Option<String> {
     let output = Command::new("ffprobe")
         .args("-v error -count_frames -select_streams v:0".split(' '))

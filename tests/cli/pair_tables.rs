@@ -1,4 +1,5 @@
-//! `check --pairs`: a report with one row for each pair of a table, including failed pairs.
+//! `check --pairs`: the report has a row for each pair of a table, or one per direction with
+//! `--both`, including failed pairs. Also the refusal of invalid tables.
 
 use std::collections::HashMap;
 use std::fs;
@@ -6,7 +7,7 @@ use std::path::Path;
 
 use crate::cli_fixture::{CliFixture, read_image, stderr};
 
-/// Rows of a report, as maps from column name to value.
+/// Reads the rows of a report; each is a map from column name to value.
 fn read_report(path: &Path) -> Vec<HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(path).expect("a report");
     let rows = reader.deserialize();

@@ -1,6 +1,8 @@
-//! Full and read-only disks, file-size limits and closed pipes.
+//! Full and read-only disks, file-size limits, missing permissions, and outputs that are folders,
+//! devices or pipes.
 //!
-//! Each gives a one-line message with a remedy, and leaves the earlier file unchanged.
+//! Each gives a one-line message with a remedy, and leaves the earlier file unchanged. A full
+//! stdout is reported in the same way; a closed stdout is ignored.
 
 use std::fs;
 use std::process::{Command, Output, Stdio};
@@ -8,10 +10,10 @@ use std::process::{Command, Output, Stdio};
 use crate::cli_fixture::{CliFixture, read_image, stderr};
 use crate::with_fixture_files;
 
-/// Content of the output file before the program runs.
+/// Content that the output file has before the program runs.
 const EARLIER: &str = "the earlier content";
 
-/// One command for each kind of output; the file name is the last word.
+/// Arguments of a command for each kind of output; the last word is the name of the output file.
 const COMMANDS: [&str; 8] = [
     "render a.obj b.obj --at 0.5 --size 640x480 --out x.png",
     "render a.obj b.obj --sheet 60 --out x.svg",
@@ -27,7 +29,7 @@ fn output_name(line: &str) -> &str {
     line.rsplit(' ').next().expect("a name")
 }
 
-/// A fixture with a table of pairs and an earlier output file.
+/// A fixture with a table of pairs, and with an earlier output file called `name`.
 fn with_earlier_file(name: &str) -> CliFixture {
     let cli = CliFixture::new();
     cli.write("pairs.csv", "source,target\na.obj,b.obj\n");
@@ -35,7 +37,8 @@ fn with_earlier_file(name: &str) -> CliFixture {
     cli
 }
 
-/// Runs a command by a shell script, in which the command is `"$@"`.
+/// Runs the shell script `script`, in which `"$@"` stands for the program with the arguments in
+/// `line`.
 fn in_shell(cli: &CliFixture, script: &str, line: &str) -> Output {
     let program = cli.command(line);
     let mut shell = Command::new("sh");
@@ -45,7 +48,8 @@ fn in_shell(cli: &CliFixture, script: &str, line: &str) -> Output {
     shell.output().expect("a shell")
 }
 
-/// Checks for failure with a one-line message that contains a text and a file name.
+/// Asserts that the program failed with a one-line message that contains `text` and the file name
+/// `name`.
 fn assert_one_line_error(output: &Output, text: &str, name: &str) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(1), "{message}");
@@ -64,12 +68,12 @@ fn assert_one_line_error(output: &Output, text: &str, name: &str) {
 fn a_file_size_limit_leaves_the_earlier_file() {
     for line in COMMANDS {
         let name = output_name(line);
-        // A file may have no byte, or one block.
+        // Files may not grow at all, or up to one block.
         for blocks in [0, 1] {
             let cli = with_earlier_file(name);
             let limit = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
             let output = in_shell(&cli, &limit, line);
-            // A small project fits into one block.
+            // The output may fit into one block, as a small project does.
             if blocks > 0 && output.status.success() {
                 continue;
             }
@@ -87,10 +91,11 @@ fn a_file_size_limit_leaves_the_earlier_file() {
     }
 }
 
-/// Runs a command on a temporary RAM disk with the given size and mount mode.
+/// Runs the program on a temporary RAM disk of the given size, mounted with `mode` (`rw` or `ro`).
 ///
-/// The disk disappears with the command, so the shell prints its final content to stdout: first
-/// the earlier file, then all names. Returns `None` where the system allows no user mounts.
+/// The disk disappears after the command, so the shell prints the content of the output file and
+/// then the names of all files to stdout. Returns `None` if the system does not allow users to
+/// mount disks.
 fn on_disk(cli: &CliFixture, kilobytes: u32, mode: &str, line: &str) -> Option<Output> {
     let name = output_name(line);
     fs::create_dir_all(cli.path("disk")).expect("made");
@@ -112,7 +117,7 @@ fn on_disk(cli: &CliFixture, kilobytes: u32, mode: &str, line: &str) -> Option<O
     Some(output)
 }
 
-/// Reports a skipped test.
+/// Prints that a test was skipped, and why.
 #[expect(clippy::print_stderr, reason = "a skipped test is reported")]
 fn report_skipped(output: &Output) {
     let message = stderr(output);
@@ -123,13 +128,15 @@ fn report_skipped(output: &Output) {
 
 #[test]
 fn a_full_disk_is_reported_and_leaves_the_earlier_file() {
-    // Also the real ffmpeg, if installed: its message about a full disk must be recognised.
+    // If ffmpeg is installed, it is tested too: the program must recognise ffmpeg's message about a
+    // full disk.
     let ffmpeg = Command::new("ffmpeg").arg("-version").output();
     let film = "render a.obj b.obj --frames 60 --size 320x240 --out x.mp4";
     for line in COMMANDS.into_iter().chain(ffmpeg.map(|_| film)) {
         let name = output_name(line);
         let cli = with_earlier_file(name);
-        // The designs and the earlier file take one page of 4 kB each, and so would the new file.
+        // The inputs and the earlier file take 24 kB: a page of 4 kB each. The disk has room for
+        // no, one or two more pages.
         for kilobytes in [24, 28, 32] {
             let Some(output) = on_disk(&cli, kilobytes, "rw", line) else {
                 return;
@@ -137,7 +144,7 @@ fn a_full_disk_is_reported_and_leaves_the_earlier_file() {
             if output.status.success() {
                 continue;
             }
-            // No file name: a report also has a partial report and a sheet that may not fit.
+            // The message may name another file: a partial report or a sheet may not fit either.
             assert_one_line_error(&output, "the disk is full; free some space", "");
             let disk = String::from_utf8_lossy(&output.stdout);
             assert!(disk.starts_with(EARLIER), "{line}: {disk}");
@@ -172,7 +179,7 @@ fn a_folder_without_write_permission_is_reported() {
         set_mode(0o555);
         let line = line.replace(&format!(" {name}"), &format!(" read-only/{name}"));
         let line = line.replace(" r.csv", " read-only/r.csv");
-        // Root may write anywhere; as an unmapped user in a new namespace it may not.
+        // Root may write anywhere, so the program runs as an unmapped user in a new namespace.
         let output = in_shell(&cli, "exec unshare -U \"$@\"", &line);
         set_mode(0o755);
         if stderr(&output).starts_with("unshare") {
@@ -251,7 +258,7 @@ fn a_full_stdout_is_reported_in_one_line_and_a_closed_one_is_ignored() {
         let message = stderr(&output);
         assert!(!message.contains("panicked"), "{line}: {message}");
     }
-    // Messages that cannot be written do not make a command fail.
+    // A command succeeds even if its messages cannot be written.
     let output = in_shell(&cli, "exec \"$@\" 2> /dev/full", "gallery");
     assert!(output.status.success());
 }

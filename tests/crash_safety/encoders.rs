@@ -1,4 +1,6 @@
-//! Encoders that fail or falsely report success leave the earlier film unchanged.
+//! Failures of the video encoder, simulated by a fake ffmpeg. An encoder that fails, falsely
+//! reports success or writes an invalid film leaves the earlier film unchanged, and the error
+//! quotes its message. A complete film replaces the earlier one.
 //!
 //! Encoders that hang are tested in `signals`.
 
@@ -7,13 +9,14 @@ use std::fs;
 use crate::cli_fixture::{CliFixture, stderr};
 use crate::{command_with_fake, fake_ffmpeg, with_fixture_files};
 
-/// Content of the film before the program runs.
+/// Content that the film file has before the program runs.
 const EARLIER: &[u8] = b"an earlier good film";
 
-/// Arguments that encode four frames.
+/// Arguments of the program that encode a film of four frames.
 const FILM: &str = "render a.obj b.obj --frames 4 --play once --size 64x48 --out film.mp4";
 
-/// A minimal MP4: the sample-size table that gives the number of frames, and bytes for them.
+/// Bytes of a minimal MP4 file: the sample-size table, which contains the number of frames, and
+/// dummy data for the frames.
 fn mp4(frames: u32) -> Vec<u8> {
     let mp4_box = |kind: &[u8], content: &[u8]| {
         let size = content.len() as u32 + 8;
@@ -28,9 +31,9 @@ fn mp4(frames: u32) -> Vec<u8> {
     [mp4_box(b"ftyp", b"isom"), track, media].concat()
 }
 
-/// The message of the program when `ffmpeg` is this script and its film must be rejected.
+/// Runs the program with a shell script as its ffmpeg; returns the error message of the program.
 ///
-/// Checks that the message is one line and that the earlier film is unchanged.
+/// Asserts that the program fails with a one-line message and leaves the earlier film unchanged.
 fn error_with_encoder(script: &str) -> String {
     let cli = CliFixture::new();
     fs::write(cli.path("film.mp4"), EARLIER).expect("written");
@@ -115,7 +118,7 @@ fn a_complete_film_replaces_the_earlier_one() {
     let cli = CliFixture::new();
     fs::write(cli.path("film.mp4"), EARLIER).expect("written");
     fs::write(cli.path("whole"), mp4(4)).expect("written");
-    // Text on stderr alone is not a failure.
+    // The encoder succeeds although it writes to stderr.
     let script = "case \"$*\" in *null*) exit 0;; esac\n\
         cat > /dev/null; cat whole > \"$out\"; echo 'deprecated' >&2";
     fake_ffmpeg(&cli, script);

@@ -1,4 +1,4 @@
-//! Earlier output files survive: signals, kills, failing encoders and full disks.
+//! Earlier output files survive signals, kills, failing encoders and full disks.
 //!
 //! Each test runs the built program and then checks that a previous file is unchanged, or that
 //! a complete new one has replaced it, and that no temporary file is left.
@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 
 use cli_fixture::CliFixture;
 
-/// Sorted names: the given ones and the fixture's own files.
+/// Sorted list of the given file names and those of the fixture's own files.
 fn with_fixture_files(names: &[&str]) -> Vec<String> {
     let fixture_files = ["a.obj", "a.svg", "b.obj", "b.svg"];
     let mut all: Vec<_> = fixture_files
@@ -31,18 +31,19 @@ fn with_fixture_files(names: &[&str]) -> Vec<String> {
     all
 }
 
-/// Writes a shell script as the program `bin/ffmpeg`; `$out` is the output file.
+/// Installs a shell script as `bin/ffmpeg` in the fixture's folder. In the script, `$out` is the
+/// output file.
 fn fake_ffmpeg(cli: &CliFixture, script: &str) {
     fs::create_dir_all(cli.path("bin")).expect("made");
-    // Written by a child process: processes that other tests start meanwhile inherit files that
-    // are open for writing here, and such a file cannot be executed.
+    // A child process writes the file. If this process wrote it, processes that other tests start
+    // at the same time would inherit the open file, and a file open for writing cannot be executed.
     let mut writer = Command::new("sh")
         .args(["-c", "cat > bin/ffmpeg && chmod +x bin/ffmpeg"])
         .current_dir(cli.path("."))
         .stdin(Stdio::piped())
         .spawn()
         .expect("a shell");
-    // The last argument is the output file, with the prefix `file:`.
+    // The last argument of ffmpeg is the output file with the prefix `file:`.
     let text = format!("#!/bin/sh\nfor out; do :; done\nout=${{out#file:}}\n{script}\n");
     let mut stdin = writer.stdin.take().expect("a pipe");
     stdin.write_all(text.as_bytes()).expect("written");
@@ -50,7 +51,7 @@ fn fake_ffmpeg(cli: &CliFixture, script: &str) {
     assert!(writer.wait().expect("it ends").success());
 }
 
-/// A command whose search path starts with the fake ffmpeg.
+/// Returns a command for the program that runs the fake ffmpeg instead of an installed one.
 fn command_with_fake(cli: &CliFixture, line: &str) -> Command {
     let mut command = cli.command(line);
     let path = format!("{}:/usr/bin:/bin", cli.path("bin").display());
@@ -58,7 +59,7 @@ fn command_with_fake(cli: &CliFixture, line: &str) -> Command {
     command
 }
 
-/// Waits until a condition holds, for at most a minute.
+/// Waits until `has_happened` returns true; panics with the name `event` after a minute.
 fn wait_until(event: &str, mut has_happened: impl FnMut() -> bool) {
     let start = Instant::now();
     while !has_happened() {
@@ -70,36 +71,37 @@ fn wait_until(event: &str, mut has_happened: impl FnMut() -> bool) {
     }
 }
 
-/// Sends a signal to a process, if it still runs.
+/// Sends a signal to the process with the id `process`, if it still runs.
 fn send(signal: &str, process: u32) {
     let line = ["-s", signal, &process.to_string()];
     let sent = Command::new("kill")
         .args(line)
         .stderr(Stdio::null())
         .status();
-    // `kill` fails for a process that has ended; that is no error here.
+    // `kill` fails if the process has already ended, which is not an error here.
     sent.expect("kill runs");
 }
 
-/// Whether a process runs; a zombie does not.
+/// Whether the process with this id runs; zombies do not count.
 fn is_alive(process: &str) -> bool {
     let stat = fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
     let state = stat.rsplit_once(") ").map(|(_, rest)| rest);
     state.is_some_and(|state| !state.starts_with('Z'))
 }
 
-/// Starts a command and captures its standard error stream.
+/// Starts a command without stdout and with a captured stderr.
 fn start(command: Command) -> Child {
     let mut command = with_default_signals(&command);
     let command = command.stdout(Stdio::null()).stderr(Stdio::piped());
     command.spawn().expect("the program starts")
 }
 
-/// The same command with default signal handling, killed when the test ends.
+/// Returns the same command with default signal handling; on Linux, the process is killed when the
+/// test ends.
 ///
-/// Child processes inherit ignored signals (`nohup`, background jobs of a shell), and the program
-/// would then not react to them. Without the kill, a failed test would leave a program running for
-/// hours.
+/// If the tests run under `nohup` or as a background job, child processes inherit ignored signals,
+/// and the program would not react to them. Without the kill, a failed test would leave a program
+/// running for hours.
 fn with_default_signals(command: &Command) -> Command {
     let wrapper: &[&str] = if cfg!(target_os = "linux") {
         &[
@@ -128,7 +130,7 @@ fn with_default_signals(command: &Command) -> Command {
     wrapped
 }
 
-/// Names of the temporary files in the fixture's folder.
+/// Names of the program's temporary files in the fixture's folder.
 fn partial_files(cli: &CliFixture) -> Vec<String> {
     let mut names = cli.file_names(".");
     names.retain(|name| name.ends_with(".part"));

@@ -6,17 +6,17 @@ use std::path::Path;
 use crate::cli_fixture::{CliFixture, stderr};
 use crate::{send, start, wait_until, with_default_signals, with_fixture_files};
 
-/// Content of the report before the program runs.
+/// Content that the report has before the program runs.
 const EARLIER: &str = "the report of last week";
 
-/// Number of pairs, more than are checked before the interruption.
+/// Number of pairs in the table, more than the program checks before it is interrupted.
 const PAIRS: usize = 5_000;
 
-/// Arguments that check the table.
+/// Arguments of the program that check the table.
 const CHECK_TABLE: &str =
     "check --pairs pairs.csv --samples 3 --json --out report.csv --sheet sheet.svg";
 
-/// A fixture with a table of [`PAIRS`] pairs and an earlier report.
+/// A fixture with a table of [`PAIRS`] equal pairs, and with an earlier report.
 fn with_table() -> CliFixture {
     let cli = CliFixture::new();
     let rows: String = (0..PAIRS).map(|i| format!("{i},a.obj,b.obj\n")).collect();
@@ -25,7 +25,7 @@ fn with_table() -> CliFixture {
     cli
 }
 
-/// Rows of a report, each as long as its header.
+/// Reads the rows of a report; panics if a row has fewer or more fields than the header.
 fn read_rows(path: &Path) -> Vec<csv::StringRecord> {
     let mut reader = csv::Reader::from_path(path).expect("a report");
     reader
@@ -71,7 +71,7 @@ fn an_interrupted_table_keeps_its_finished_rows() {
         assert_eq!(summary["pairs"], PAIRS);
         assert_eq!(summary["failures"], 0);
         assert_eq!(summary["unfinished"], PAIRS - rows.len());
-        // The incomplete report does not replace the earlier one.
+        // The incomplete report has another name, so the earlier report is unchanged.
         let content = fs::read_to_string(cli.path("report.csv")).expect("read");
         assert_eq!(content, EARLIER);
         let names = [
@@ -118,7 +118,7 @@ fn a_terminal_shows_the_progress_of_a_table() {
     let rows = "a.obj,b.obj\n".repeat(40);
     cli.write("pairs.csv", &format!("source,target\n{rows}"));
     let program = cli.command("").get_program().to_owned();
-    // `script` runs the command in a terminal and prints the output of the terminal.
+    // The program `script` runs the command in a terminal and prints the terminal's output.
     let mut script = std::process::Command::new("script");
     let line = format!("'{}' {CHECK_TABLE}", program.display());
     script.args(["-qec", &line, "/dev/null"]);
@@ -140,7 +140,8 @@ fn a_terminal_shows_the_progress_of_a_table() {
 #[test]
 fn an_interruption_before_the_first_row_leaves_no_report() {
     let cli = with_table();
-    // Interrupted after the program handles signals, and most likely before the first pair is done.
+    // The program is interrupted once it handles signals and most likely before the first pair is
+    // finished.
     let child = start(cli.command(&format!("{CHECK_TABLE} --cells 4096 --method field")));
     wait_until("start of the work", || {
         cli.path("report.partial.csv").exists()

@@ -1,4 +1,5 @@
-//! The program is interrupted or killed at any time: earlier files stay, and nothing partial.
+//! Interrupting or killing the program at any time: earlier files stay, and no partial files do.
+//! Temporary files of killed processes are removed by the next run.
 
 use std::fs;
 use std::time::Duration;
@@ -9,13 +10,13 @@ use crate::{
     with_fixture_files,
 };
 
-/// Content of a file before the program runs.
+/// Content that an output file has before the program runs.
 const EARLIER: &str = "the earlier content";
 
-/// Signals that ask a program to end and let it clean up.
+/// Signals that ask a program to end and that it can handle in order to clean up.
 const END_SIGNALS: [&str; 3] = ["INT", "TERM", "HUP"];
 
-/// A film that takes longer than any test waits; the file name is missing.
+/// Arguments that render a film for longer than any test waits; a test appends the file name.
 const LONG_FILM: &str = "render a.obj b.obj --frames 100000 --size 320x240 --out";
 
 #[test]
@@ -26,7 +27,8 @@ fn interrupting_a_film_leaves_only_the_earlier_one() {
             cli.write(name, EARLIER);
             let mut child = start(cli.command(&format!("{LONG_FILM} {name}")));
             wait_until("temporary file", || partial_files(&cli).len() == 1);
-            // When a terminal closes, both it and its shell send the signal.
+            // When a terminal closes, the terminal and its shell each send the signal, so that the
+            // program receives it twice.
             send(signal, child.id());
             send(signal, child.id());
             wait_until("exit", || child.try_wait().expect("a child").is_some());
@@ -46,9 +48,9 @@ fn interrupting_a_film_leaves_only_the_earlier_one() {
 
 #[test]
 fn interrupting_the_program_ends_a_hanging_encoder() {
-    // Writes part of a file, reads no frames and never ends.
+    // An encoder that writes part of a file, reads no frames and never ends.
     const HANGS: &str = "printf half > \"$out\"\necho $$ > pid\nexec sleep 1000";
-    // The same after reading all frames: the program then waits for the encoder to exit.
+    // An encoder that first reads all frames, so that the program waits for it to exit.
     let at_end = format!("cat > /dev/null\n{HANGS}");
     for (script, frames) in [(HANGS, 100_000), (&at_end, 3)] {
         for signal in END_SIGNALS {
@@ -74,7 +76,7 @@ fn interrupting_the_program_ends_a_hanging_encoder() {
     }
 }
 
-/// Commands that finish quickly, each with the last characters of its complete output.
+/// Arguments of quick commands, each with the characters that end its complete output file.
 const QUICK_COMMANDS: [(&str, &str); 4] = [
     (
         "render a.obj b.obj --at 0.5 --size 64x48 --out x.png",
@@ -94,7 +96,8 @@ fn an_interrupted_command_leaves_the_earlier_or_the_complete_file() {
         cli.write(name, EARLIER);
         for attempt in 0..24 {
             let child = start(cli.command(line));
-            // From before the program handles signals until after it has ended.
+            // The attempts send signals from before the program handles them until after it has
+            // ended.
             std::thread::sleep(Duration::from_millis(3 * attempt));
             send(END_SIGNALS[attempt as usize % 3], child.id());
             let output = child.wait_with_output().expect("it ends");
@@ -201,7 +204,7 @@ fn a_rerun_after_kills_leaves_only_results() {
         }
         cli.succeeds(line);
         let mut names = cli.file_names(".");
-        // Partial reports with finished rows are results, too.
+        // Partial reports count as results, since they contain finished rows.
         names.retain(|name| !name.starts_with("x.partial"));
         assert_eq!(names, with_fixture_files(&["pairs.csv", name]), "{line}");
     }

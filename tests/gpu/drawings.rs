@@ -1,4 +1,4 @@
-//! Coloured drawings on GPU and CPU: paint layers, strokes, gradients and transparency.
+//! Compares coloured drawings on GPU and CPU: paint layers, strokes, gradients and transparency.
 
 use image::RgbaImage;
 use morphospace::content::ContentKind;
@@ -13,13 +13,14 @@ use std::sync::Arc;
 use crate::offscreen::{OffscreenRenderer, RenderedScene};
 use crate::pictures::Difference;
 
-/// Allowed difference (tolerance: the GPU antialiases edges with four samples per pixel).
+/// Maximum difference between the images of GPU and CPU (tolerance: the GPU antialiases edges with
+/// only four samples per pixel).
 const EDGE_TOLERANCE: Difference = Difference {
     mean: 0.25,
     different_fraction: 0.02,
 };
 
-/// Names of the compared pairs of drawings.
+/// Names of the source and target drawing of each compared transition, from `tests/drawings`.
 const PAIRS: [(&str, &str); 3] = [
     ("sunset", "poster"),
     ("lighthouse", "badge"),
@@ -37,7 +38,7 @@ fn build(names: [&str; 2], cell: TransitionMethod) -> Transition {
     Transition::build(&spec, &Silent).expect("a transition")
 }
 
-/// Renders a scene on GPU and CPU.
+/// Renders a scene on the GPU and on the CPU.
 fn render_both(
     renderer: &mut OffscreenRenderer,
     scene: &RenderedScene,
@@ -64,7 +65,7 @@ pub fn drawings_match(renderer: &mut OffscreenRenderer) {
     }
 }
 
-/// One field per paint, without a warp and carried by one.
+/// Compares blends of one distance field per paint layer: without a warp, and moved by a warp.
 pub fn painted_fields_match(renderer: &mut OffscreenRenderer) {
     for warp in [WarpKind::None, WarpKind::Scattered] {
         compare(renderer, ["sunset", "poster"], (warp, ContentKind::Field));

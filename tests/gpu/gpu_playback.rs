@@ -1,4 +1,5 @@
-//! Recordings played on the GPU against frames solved on the CPU.
+//! Compares recordings played on the GPU with frames solved on the CPU. Also tests when the CPU
+//! takes over, and that recordings and transitions can be replaced at any time.
 
 use bevy::render::render_resource::WgpuLimits;
 use morphospace::recording::RecordingOptions;
@@ -8,18 +9,19 @@ use morphospace::work::progress::Silent;
 use crate::offscreen::{OffscreenRenderer, RenderedScene};
 use crate::transitions::{field, perforated, solid, spiral, truss};
 
-/// Maximum fraction of different pixels between played and solved images (tolerance: single
+/// Maximum fraction of pixels that may differ between played and solved images (tolerance: single
 /// precision moves edges by a thousandth of a pixel).
 const MAX_PLAYED_DIFFERENCE: f64 = 1e-4;
 
-/// Records a transition and returns it.
+/// Records a transition and returns the transition with its recording.
 fn recorded(transition: Transition) -> Transition {
     let film = transition.record(&RecordingOptions::default(), &Silent);
     film.expect("a recording");
     transition
 }
 
-/// Maximum distance of played vertices from solved ones, relative to the diameter of the designs.
+/// Maximum distance between the played vertex positions `at` and the solved ones at t, relative to
+/// the diameter of the transition.
 fn deviation(played: &Transition, solved: &Transition, at: &[glam::DVec2], t: f64) -> f64 {
     let frame = solved.frame(t);
     let pairs = frame.placement().in_frame.iter().zip(at);
@@ -31,7 +33,7 @@ pub fn gpu_playback_matches_solved_frames(renderer: &mut OffscreenRenderer) {
     let scenes: [(&str, &dyn Fn() -> Transition); 3] = [
         ("played", &|| solid(0.0)),
         ("played-far", &|| solid(1e6)),
-        // Six full turns need at least two intervals.
+        // The spiral makes six full turns, which need at least two intervals of the recording.
         ("played-spiral", &|| spiral(40.0)),
     ];
     for (name, make) in scenes {
@@ -50,7 +52,7 @@ pub fn gpu_playback_matches_solved_frames(renderer: &mut OffscreenRenderer) {
         );
         renderer.place(&played, 0.9);
         renderer.wait_for_gpu_playback();
-        // All interval ends, and jumps back and forth between them.
+        // The ends of all intervals in order, then jumps back and forth between intervals.
         let interval_ends = (0..=intervals).map(|k| k as f64 / intervals as f64);
         let times = interval_ends.chain([0.35, 0.6, 0.0, 0.501, 0.499]);
         for t in times {
@@ -75,7 +77,7 @@ pub fn gpu_playback_matches_solved_frames(renderer: &mut OffscreenRenderer) {
     }
 }
 
-/// No mesh is written while t changes within the recording; outside it frames are solved.
+/// The GPU plays without new meshes while t is in [0, 1]; for other t, frames are solved.
 pub fn gpu_playback_writes_no_meshes(renderer: &mut OffscreenRenderer) {
     let mut scene = RenderedScene::new("unwritten", recorded(spiral(15.0)));
     scene.show.wireframe = true;
@@ -103,7 +105,7 @@ pub fn gpu_playback_writes_no_meshes(renderer: &mut OffscreenRenderer) {
         assert!(fraction <= MAX_PLAYED_DIFFERENCE, "{t}: {fraction}");
     }
     assert!(renderer.take_written_count() > 0);
-    // The warp grid is not recorded: while it is visible, frames are solved.
+    // The recording has no warp grid, so frames are solved while the grid is visible.
     renderer.seek(0.25);
     assert!(renderer.is_gpu_played());
     renderer.change_visibility(|show| show.grid = true);
@@ -112,7 +114,7 @@ pub fn gpu_playback_writes_no_meshes(renderer: &mut OffscreenRenderer) {
     renderer.clear();
 }
 
-/// The wireframe follows the faces.
+/// Compares played wireframes with solved ones, with and without filled faces.
 pub fn gpu_playback_of_wireframes_matches_solved_frames(renderer: &mut OffscreenRenderer) {
     let [mut played, mut solved] = [recorded(spiral(15.0)), spiral(15.0)].map(|transition| {
         let mut scene = RenderedScene::new("wires", transition);
@@ -138,8 +140,8 @@ pub fn gpu_playback_of_wireframes_matches_solved_frames(renderer: &mut Offscreen
     }
 }
 
-/// On a GPU whose vertex shaders can read only the storage buffers that Bevy itself needs, the CPU
-/// plays the recording, with the same result. (With none at all, Bevy's software renderer draws
+/// If vertex shaders can read no more storage buffers than Bevy itself needs, the CPU plays the
+/// recording, with the same result. (Without any storage buffers Bevy's software renderer draws
 /// nothing.)
 pub fn without_storage_buffers_the_cpu_plays(_: &mut OffscreenRenderer) {
     let mut renderer = OffscreenRenderer::open(Some(WgpuLimits {
@@ -157,8 +159,8 @@ pub fn without_storage_buffers_the_cpu_plays(_: &mut OffscreenRenderer) {
     renderer.compare(&scene, 0.35);
 }
 
-/// A transition may be removed while its recording is uploaded or on the GPU; the next one is not
-/// affected.
+/// Removing a transition while its recording is being uploaded or played does not affect the
+/// transition that follows.
 pub fn recordings_are_released_with_their_transitions(renderer: &mut OffscreenRenderer) {
     let [long, short] = [recorded(spiral(15.0)), solid(0.0)];
     renderer.place(&RenderedScene::new("first", long.clone()), 0.5);
@@ -166,7 +168,7 @@ pub fn recordings_are_released_with_their_transitions(renderer: &mut OffscreenRe
     renderer.clear();
     renderer.place(&RenderedScene::new("second", long.clone()), 0.5);
     renderer.wait_for_gpu_playback();
-    // The replacement on the same entity is not recorded yet.
+    // The transition that replaces it on the same entity is not recorded yet.
     renderer.replace(&short);
     for k in 0..20 {
         renderer.seek(f64::from(k) / 20.0);
@@ -182,8 +184,8 @@ pub fn recordings_are_released_with_their_transitions(renderer: &mut OffscreenRe
     crate::assert_images_match("second", &scene, 0.35, &image, &solved_cpu);
 }
 
-/// A transition replaces another from one frame to the next: no frame is empty, even if the new one
-/// needs shaders that are not compiled yet.
+/// When a transition replaces another, no frame is empty, even if the new transition needs shaders
+/// that are not compiled yet.
 pub fn replacing_a_transition_leaves_no_empty_frame(_: &mut OffscreenRenderer) {
     let mut renderer = OffscreenRenderer::open_like_a_window().expect("the same adapter");
     let first = RenderedScene::new("replaced", solid(0.0));
@@ -195,7 +197,7 @@ pub fn replacing_a_transition_leaves_no_empty_frame(_: &mut OffscreenRenderer) {
     for (name, make) in others {
         let other = make();
         let scene = RenderedScene {
-            // The view contains both transitions.
+            // The view is large enough for both transitions.
             view: first.view.union(&other.bounds()),
             ..RenderedScene::new("replaced", first.transition.clone())
         };

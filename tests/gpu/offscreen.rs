@@ -1,4 +1,4 @@
-//! Renders scenes of the stage on the GPU without a window, for tests and benchmarks.
+//! Renders transitions on the GPU without a window, for tests and benchmarks.
 
 use std::collections::BTreeMap;
 use std::panic::catch_unwind;
@@ -26,7 +26,7 @@ use morphospace::stage::{
 };
 use morphospace::transition::{Transition, TransitionStyle};
 
-/// A transition with its style and the part of the plane that an image shows.
+/// A transition with its style, and the size of an image and the region of the plane that it shows.
 pub struct RenderedScene {
     pub name: &'static str,
     pub transition: Transition,
@@ -36,7 +36,8 @@ pub struct RenderedScene {
     /// Width and height of the image in pixels.
     pub size: [u32; 2],
     pub view: Bounds,
-    /// Maximum number of pixels that may be more than one pixel off the contour.
+    /// Maximum number of misplaced pixels: those whose side of the contour differs between GPU and
+    /// CPU although they are more than one pixel away from it.
     pub max_misplaced_pixels: usize,
 }
 
@@ -60,22 +61,23 @@ impl RenderedScene {
 /// A Bevy app that renders without a window.
 pub struct OffscreenRenderer {
     app: App,
-    /// The entity on the stage.
+    /// Entity of the scene on the stage; `None` if the stage is empty.
     staged: Option<Entity>,
-    /// Folder for images of the tests, from `MORPHOSPACE_PICTURES`.
+    /// Folder to which tests save images, from `MORPHOSPACE_PICTURES`.
     image_folder: Option<PathBuf>,
-    /// Number of captures so far.
+    /// Number of images captured so far.
     capture_count: u64,
 }
 
 impl OffscreenRenderer {
-    /// Opens a graphics adapter, restricted to the given limits; `None` if there is none.
+    /// Opens a graphics adapter, restricted to the given limits; `None` if the machine has no
+    /// adapter.
     pub fn open(limits: Option<WgpuLimits>) -> Option<Self> {
-        // Shaders are compiled before the first frame, so that no image lacks a part.
+        // Shaders are compiled before the first frame, so that every part of the scene is drawn.
         Self::open_with(limits, true)
     }
 
-    /// Opens an adapter that compiles shaders while frames are drawn, as the window does.
+    /// Opens a graphics adapter, and compiles shaders while frames are drawn, as the window does.
     pub fn open_like_a_window() -> Option<Self> {
         Self::open_with(None, false)
     }
@@ -105,7 +107,7 @@ impl OffscreenRenderer {
         })
     }
 
-    /// Renders a scene at `t`.
+    /// Renders one image of a scene at `t`; the stage must be empty, and is empty afterwards.
     pub fn render(&mut self, scene: &RenderedScene, t: f64) -> Result<RgbaImage, String> {
         assert!(self.staged.is_none(), "something else is on the stage");
         self.place(scene, t);
@@ -128,7 +130,7 @@ impl OffscreenRenderer {
         self.staged = Some(entity.id());
     }
 
-    /// Captures the stage with the size and view of a scene.
+    /// Captures an image of the stage with the size and the view of `scene`.
     pub fn capture(&mut self, scene: &RenderedScene) -> Result<RgbaImage, String> {
         let world = self.app.world_mut();
         world
@@ -151,26 +153,26 @@ impl OffscreenRenderer {
         self.app.world_mut().entity_mut(staged)
     }
 
-    /// Sets t of the scene on the stage and draws a frame.
+    /// Changes t of the scene on the stage, and draws a frame.
     pub fn seek(&mut self, t: f64) {
         self.staged().get_mut::<Blend>().expect("a blend").t = t;
         self.frame();
     }
 
-    /// Changes the visible parts of the scene on the stage.
+    /// Changes which parts of the scene on the stage are visible.
     pub fn change_visibility(&mut self, change: impl FnOnce(&mut StageVisibility)) {
         let mut staged = self.staged();
         change(&mut staged.get_mut::<StageStyle>().expect("a style").show);
     }
 
-    /// Replaces the transition on the stage and draws a frame.
+    /// Replaces the transition of the scene on the stage, and draws a frame.
     pub fn replace(&mut self, transition: &Transition) {
         self.staged().insert(StageTransition(transition.clone()));
         self.frame();
     }
 
     /// Captures consecutive frames as a window would show them, without waiting for shaders or
-    /// recordings: one frame with an action, and `frames` frames after it.
+    /// recordings: the frame that `action` draws, and `frames` frames after it.
     pub fn capture_frames(
         &mut self,
         scene: &RenderedScene,
@@ -187,7 +189,7 @@ impl OffscreenRenderer {
         let image = world.resource_mut::<Assets<Image>>().add(image);
         let target = RenderTarget::Image(image.clone().into());
         let camera = world.spawn((StageCamera, target)).id();
-        // Shaders are compiled for the new camera.
+        // Wait until the shaders for the new camera are compiled.
         let start = Instant::now();
         for frame in 0.. {
             self.frame();
@@ -227,7 +229,7 @@ impl OffscreenRenderer {
         images.collect()
     }
 
-    /// Moves t back and forth until the GPU plays the recording.
+    /// Draws frames with alternating t until the GPU plays the recording.
     pub fn wait_for_gpu_playback(&mut self) {
         let start = Instant::now();
         for k in 0.. {
@@ -242,25 +244,25 @@ impl OffscreenRenderer {
         }
     }
 
-    /// Whether the GPU evaluated the recording in the last frame.
+    /// Whether the GPU evaluated the recording for the last frame.
     pub fn is_gpu_played(&self) -> bool {
         self.frame_times().is_gpu_played
     }
 
-    /// Draws one frame and waits for the GPU: without a window nothing limits the frame rate, and
-    /// unfinished frames would pile up.
+    /// Draws one frame and waits until the GPU has finished it. Without a window nothing limits the
+    /// frame rate, so unfinished frames would pile up.
     fn frame(&mut self) {
         self.app.update();
         let device = self.app.world().resource::<RenderDevice>();
         device.poll(PollType::wait_indefinitely()).expect("a GPU");
     }
 
-    /// CPU times of the last frames.
+    /// CPU times of the most recent frames.
     pub fn frame_times(&self) -> &FrameTimes {
         self.app.world().resource::<FrameTimes>()
     }
 
-    /// Discards the frame times so far.
+    /// Discards all frame times measured so far.
     #[allow(dead_code, reason = "used by benches/stage.rs")]
     pub fn reset_frame_times(&mut self) {
         *self.app.world_mut().resource_mut::<FrameTimes>() = FrameTimes::default();
@@ -272,26 +274,26 @@ impl OffscreenRenderer {
         format!("{}, {} {}", info.name, info.driver, info.driver_info)
     }
 
-    /// Applies a function to the current positions of the vertices.
+    /// Calls a function with the current vertex positions of the scene on the stage.
     pub fn read_vertices<T>(&mut self, function: impl FnOnce(&[DVec2]) -> T) -> T {
         let staged = self.staged();
         let morph = staged.get::<Morph>().expect("a morph");
         function(&morph.frame().placement().in_frame)
     }
 
-    /// Number of mesh assets written since the last call.
+    /// Returns the number of times that mesh assets were modified since the last call.
     pub fn take_written_count(&mut self) -> usize {
         let mut written = self.app.world_mut().resource_mut::<WrittenMeshes>();
         std::mem::take(&mut written.0)
     }
 
-    /// Hides the scene on the stage and returns its entity, so that another can be rendered.
+    /// Hides the scene on the stage and returns its entity, so that another scene can be rendered.
     pub fn hide(&mut self) -> Entity {
         self.staged().insert(Visibility::Hidden);
         self.staged.take().expect("a scene on the stage")
     }
 
-    /// Shows a hidden scene again.
+    /// Puts a scene hidden by [`Self::hide`] on the stage again.
     pub fn unhide(&mut self, entity: Entity) {
         self.staged = Some(entity);
         self.staged().insert(Visibility::Inherited);
@@ -304,7 +306,7 @@ impl OffscreenRenderer {
         }
     }
 
-    /// Updates until a capture is delivered.
+    /// Draws frames until the requested image of the stage is delivered.
     fn wait_for_capture(&mut self) -> StageCaptured {
         let start = Instant::now();
         while start.elapsed() < Duration::from_secs(120) {
@@ -327,7 +329,7 @@ impl OffscreenRenderer {
     }
 }
 
-/// The Bevy app; `is_synchronous` compiles shaders before drawing.
+/// Builds the Bevy app; if `is_synchronous`, shaders are compiled before they are first drawn with.
 fn build_app(renderer: RenderResources, is_synchronous: bool) -> App {
     let mut app = App::new();
     let plugins = DefaultPlugins
@@ -358,7 +360,7 @@ fn build_app(renderer: RenderResources, is_synchronous: bool) -> App {
 #[derive(Resource, Default)]
 struct CapturedFrames(BTreeMap<usize, Image>);
 
-/// Number of mesh assets written since the last reading.
+/// Number of times that mesh assets were modified since the number was last taken.
 #[derive(Resource, Default)]
 struct WrittenMeshes(usize);
 

@@ -1,4 +1,5 @@
-//! Bitmap pictures: pixels of the stage on the GPU against those of the core on the CPU.
+//! Compares blends of bitmap pictures: the pixels that the stage draws on the GPU with those that
+//! the core library computes on the CPU.
 
 use image::{Rgba, RgbaImage};
 use morphospace::content::PictureRaster;
@@ -9,34 +10,35 @@ use morphospace::transition::Transition;
 use crate::offscreen::{OffscreenRenderer, RenderedScene};
 use crate::transitions::{faded, from_gallery};
 
-/// Difference of two images with premultiplied alpha.
+/// Measures of the difference between two images, compared with premultiplied alpha.
 #[derive(Clone, Copy, Debug)]
 pub struct Difference {
-    /// Mean over pixels and channels, of 255.
+    /// Mean difference over all pixels and channels, on a scale of 0 to 255.
     pub mean: f64,
-    /// Fraction of pixels with a channel that differs by more than [`CHANNEL_TOLERANCE`].
+    /// Fraction of the pixels in which a channel differs by more than [`CHANNEL_TOLERANCE`].
     pub different_fraction: f64,
 }
 
-/// Difference of a channel, of 255, that is ignored (tolerance: rounding of filtered colours).
+/// Difference of a channel, on a scale of 0 to 255, up to which pixels count as equal (tolerance:
+/// rounding of filtered colours).
 const CHANNEL_TOLERANCE: u8 = 4;
 
-/// Allowed difference at one pixel per pixel of the picture (tolerance: GPUs interpolate between
-/// texels with 8-bit weights, and where a warp shrinks the picture they blend in its next smaller
-/// mipmap level, which the core does not).
+/// Maximum difference between the images of GPU and CPU if one screen pixel shows one pixel of the
+/// picture (tolerance: GPUs interpolate between texels with 8-bit weights and, where a warp shrinks
+/// the picture, between two mipmap levels; the core reads one level).
 const ORIGINAL_SIZE: Difference = Difference {
     mean: 0.15,
     different_fraction: 0.0015,
 };
 
-/// Allowed difference at other zooms (tolerance: the GPU interpolates between two mipmap levels,
-/// the core reads one).
+/// Maximum difference between the images of GPU and CPU at other zooms (tolerance: the GPU
+/// interpolates between two mipmap levels; the core reads one).
 const ZOOMED: Difference = Difference {
     mean: 0.25,
     different_fraction: 0.01,
 };
 
-/// Compared values of t.
+/// Values of t at which the images are compared.
 const TIMES: [f64; 4] = [0.0, 0.3, 0.5, 1.0];
 
 /// Gallery projects with pictures, one for each kind of warp.
@@ -80,7 +82,7 @@ impl Difference {
     }
 }
 
-/// Renders a scene on GPU and CPU.
+/// Renders a scene on the GPU and on the CPU.
 fn render_both(renderer: &mut OffscreenRenderer, scene: &RenderedScene, t: f64) -> [RgbaImage; 2] {
     let gpu = renderer.render(scene, t).expect("a picture");
     let [width, height] = scene.size;

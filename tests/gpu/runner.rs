@@ -1,4 +1,5 @@
-//! A test runner with the output of Rust's own, which counts tests as ignored without a GPU.
+//! A test runner that prints results like Rust's own, and counts all tests as ignored if there is
+//! no GPU.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
@@ -6,8 +7,8 @@ use std::process::ExitCode;
 use crate::GpuTest;
 use crate::offscreen::OffscreenRenderer;
 
-/// Runs the tests whose name contains the first argument, and prints results like Rust's own
-/// runner.
+/// Runs the tests whose names contain the first command-line argument that is not a flag (all tests
+/// without one), and prints the results like Rust's own runner. `--list` only lists the tests.
 #[expect(clippy::print_stdout, reason = "a test runner reports on stdout")]
 pub fn run(tests: &[GpuTest]) -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -22,7 +22,7 @@ fn build(spec: &TransitionSpec) -> Transition {
     Transition::build(spec, &Silent).expect("a transition")
 }
 
-/// A strip that bends into a quarter of a ring, moved from the origin by an offset.
+/// A strip that bends into a quarter of a ring; `offset` is added to all coordinates.
 pub fn solid(offset: f64) -> Transition {
     strip(24, offset, |p| {
         let angle = FRAC_PI_2 * p.x / 6.0;
@@ -30,7 +30,7 @@ pub fn solid(offset: f64) -> Transition {
     })
 }
 
-/// A strip that is wound up by an angle in radians.
+/// A strip that winds up into a spiral by `turn` radians.
 pub fn spiral(turn: f64) -> Transition {
     strip(96, 0.0, |p| {
         let angle = turn * p.x / 24.0;
@@ -38,7 +38,8 @@ pub fn spiral(turn: f64) -> Transition {
     })
 }
 
-/// A triangulated strip that is mapped by `bent`.
+/// A triangulated strip of `columns` columns, whose target is its image under the map `bent`;
+/// `offset` is added to all coordinates.
 fn strip(columns: u32, offset: f64, bent: impl Fn(DVec2) -> DVec2) -> Transition {
     let mesh = |map: &dyn Fn(DVec2) -> DVec2| {
         let rows = 4;
@@ -58,7 +59,7 @@ fn strip(columns: u32, offset: f64, bent: impl Fn(DVec2) -> DVec2) -> Transition
     build(&TransitionSpec::new(source, target))
 }
 
-/// A plate with four holes that close while it becomes an L without holes.
+/// A plate that becomes an L; the four holes of the plate close on the way.
 pub fn perforated() -> Transition {
     let block = |x: f64, y: f64, w: f64, h: f64| {
         let corners = [(x, y), (x + w, y), (x + w, y + h), (x, y + h)];
@@ -84,7 +85,7 @@ pub fn perforated() -> Transition {
     build(&spec)
 }
 
-/// A girder whose upper chord rises into an arch.
+/// A truss girder whose upper chord rises into an arch.
 pub fn truss() -> Transition {
     let panels = 6;
     let truss = |rise: f64| {
@@ -119,8 +120,8 @@ fn ring(centre: DVec2, radius: f64, squash: f64) -> Vec<DVec2> {
         .collect()
 }
 
-/// Field blends of a ring that splits into two ellipses: log space with two values of ε, and real
-/// space.
+/// Field blends from a ring to two ellipses, with their names: two blends of logarithms of
+/// distances with different ε, and one of the distances themselves.
 pub fn field() -> Vec<(&'static str, Transition)> {
     let regions = |rings: &[Vec<DVec2>]| {
         design(DesignForm::Outline(
@@ -152,13 +153,13 @@ pub fn field() -> Vec<(&'static str, Transition)> {
     blends.map(transition).into()
 }
 
-/// The transition of a gallery project.
+/// Transition of a gallery project.
 pub fn from_gallery(name: &str) -> Transition {
     let spec = gallery::load(name).and_then(|loaded| loaded.spec());
     build(&spec.expect("a bundled project"))
 }
 
-/// The transition of a gallery project whose pictures are cut to discs with a soft edge.
+/// Transition of a gallery project, whose pictures are cut to discs with soft edges.
 pub fn faded(name: &str) -> Transition {
     let spec = gallery::load(name).and_then(|loaded| loaded.spec());
     let mut spec = spec.expect("a bundled project");
@@ -169,7 +170,7 @@ pub fn faded(name: &str) -> Transition {
     build(&spec)
 }
 
-/// A picture cut to a disc with a soft edge.
+/// The picture, cut to a disc with a soft edge.
 fn disc(picture: &Picture) -> Picture {
     let (width, height) = picture.pixels().dimensions();
     let picture_centre = DVec2::new(f64::from(width), f64::from(height)) / 2.0;

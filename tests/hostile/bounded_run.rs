@@ -1,4 +1,5 @@
-//! Runs the built program in a temporary folder, with limits on memory and time.
+//! A temporary folder in which tests run the built program with limits on memory and time, and
+//! assertions about its errors.
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,16 +9,18 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-/// Maximum address space, in KiB, for opening any file (resource limit: 1 GiB).
+/// Maximum address space of the program, in KiB (resource limit: 1 GiB suffices for opening any
+/// file).
 const MAX_KIB: u64 = 1 << 20;
 
-/// Maximum running time: five times the two seconds that are promised, since machines may be busy.
+/// Maximum running time of the program: five times its target of two seconds, since machines may
+/// be busy.
 const TIME_LIMIT: Duration = Duration::from_secs(10);
 
-/// A temporary folder with one valid design, `square.json`, in which the program runs.
+/// A temporary folder in which the program runs; it contains a valid design, `square.json`.
 pub struct BoundedFixture(TempDir);
 
-/// Exit status and output of the program.
+/// Exit code and output of one run of the program; the code is `None` if a signal ended the run.
 #[derive(Debug)]
 pub struct ProgramOutput {
     pub code: Option<i32>,
@@ -40,12 +43,12 @@ impl BoundedFixture {
         fs::write(self.path(name), bytes).expect("written");
     }
 
-    /// Runs the program; fails if it takes longer than [`TIME_LIMIT`].
+    /// Runs the program; panics if it takes longer than [`TIME_LIMIT`].
     pub fn run(&self, arguments: &[&str]) -> ProgramOutput {
         ProgramOutput::new(wait(self.command(arguments), arguments, TIME_LIMIT))
     }
 
-    /// Runs the program with nine times the limit, for work that is slow without optimisation.
+    /// Runs the program with nine times [`TIME_LIMIT`], for work that is slow without optimisation.
     pub fn run_long(&self, arguments: &[&str]) -> ProgramOutput {
         ProgramOutput::new(wait(self.command(arguments), arguments, 9 * TIME_LIMIT))
     }
@@ -53,7 +56,7 @@ impl BoundedFixture {
     fn command(&self, arguments: &[&str]) -> Child {
         let program = env!("CARGO_BIN_EXE_morphospace");
         let mut command = match cfg!(unix) {
-            // The shell sets the memory limit and then becomes the program.
+            // The shell sets the memory limit and then replaces itself by the program.
             true => {
                 let mut shell = Command::new("sh");
                 let limited = format!("ulimit -v {MAX_KIB}; exec \"$0\" \"$@\"");
@@ -65,8 +68,8 @@ impl BoundedFixture {
         command
             .args(arguments)
             .current_dir(self.0.path())
-            // The limit is on addresses: the arenas and stacks of many threads would reserve
-            // addresses without using memory.
+            // The limit counts reserved addresses, and the arenas and stacks of many threads would
+            // reserve addresses that they do not use.
             .env("MALLOC_ARENA_MAX", "2")
             .env("RAYON_NUM_THREADS", "2")
             .stdin(Stdio::null())
@@ -75,14 +78,15 @@ impl BoundedFixture {
         command.spawn().expect("the program starts")
     }
 
-    /// Asserts that `check` and `render` refuse a file with a one-line error that contains its name
-    /// and a reason.
+    /// Asserts that `check` and `render` refuse the pair of `file` and the square, with a one-line
+    /// error that contains the name of the file and the reason.
     #[track_caller]
     pub fn assert_refused(&self, file: &str, reason: &str) {
         self.assert_inputs_refused(&[file, "square.json"], file, reason);
     }
 
-    /// Asserts the same for a list of inputs.
+    /// Asserts that `check` and `render` refuse the inputs, with a one-line error that contains the
+    /// name `file` and the reason.
     #[track_caller]
     pub fn assert_inputs_refused(&self, inputs: &[&str], file: &str, reason: &str) {
         let render = ["render", "--at", "0.5", "--size", "8x8", "--out", "x.png"];
@@ -109,7 +113,7 @@ impl ProgramOutput {
         }
     }
 
-    /// Asserts that stderr is one short line without control characters, and not a panic.
+    /// Asserts that stderr is one short line without control characters, and no panic message.
     #[track_caller]
     pub fn assert_one_line_error(&self) {
         let line = self.stderr.strip_suffix('\n').unwrap_or("");
@@ -120,16 +124,17 @@ impl ProgramOutput {
     }
 }
 
-/// The first control or text-direction character, which a terminal would act on.
+/// First character of a line that would control a terminal or change the direction of its text.
 pub fn terminal_control(line: &str) -> Option<char> {
     let is_direction = |c| ('\u{202a}'..='\u{202e}').contains(&c);
     line.chars().find(|&c| c.is_control() || is_direction(c))
 }
 
-/// Waits for a process and returns its output; kills it and fails after the limit.
+/// Waits for a process and returns its output. After the time limit it kills the process and
+/// panics.
 fn wait(mut child: Child, arguments: &[&str], limit: Duration) -> Output {
     let start = Instant::now();
-    // The output fits into the buffer of a pipe, so it can be read after the end.
+    // The output fits into the buffer of a pipe, so it is read after the process has ended.
     let exit_status =
         |child: &mut Child| -> Option<ExitStatus> { child.try_wait().expect("a child") };
     while exit_status(&mut child).is_none() {

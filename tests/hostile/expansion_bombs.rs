@@ -1,4 +1,5 @@
-//! Small files that would expand to huge documents: refused before memory or time is used.
+//! Small files that expand to huge documents, and huge JSON files. They are refused before they
+//! take much memory or time; drawings that are merely slow are simplified.
 
 use crate::bounded_run::BoundedFixture;
 
@@ -28,7 +29,7 @@ fn svg_files_that_expand_beyond_the_limits_are_refused() {
     fixture.assert_refused("signs.svg", "more than 2000000 elements");
 }
 
-/// SVG elements: overlapping squares in two alternating colours, about a hundred on each spot.
+/// SVG elements of `count` overlapping squares in two alternating colours.
 fn overlapping_squares(count: usize) -> String {
     let square = |k: usize| {
         let (x, y) = (k * 37 % 901, k * 101 % 907);

@@ -1,12 +1,13 @@
-//! Coordinates beyond the supported range are refused in every file format; large ones within it
-//! are accepted.
+//! Numbers outside the supported range: coordinates in every file format, and settings in project
+//! files. They are refused; a design far from the origin is accepted if it is large enough for the
+//! precision of its coordinates.
 
 use crate::bounded_run::BoundedFixture;
 
-/// Part of the error for a coordinate that is too large.
+/// Part of the error message for a coordinate that is too large.
 const TOO_LARGE: &str = "has a coordinate that is not a number between -1e18 and 1e18";
 
-/// Part of the error for a design that is too small.
+/// Part of the error message for a design that is too small.
 const TOO_SMALL: &str = "less than the minimum of 1e-18";
 
 #[test]

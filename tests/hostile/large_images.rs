@@ -1,10 +1,11 @@
-//! Image files of few bytes and many pixels.
+//! Image files with few bytes and many pixels: the largest supported size is read, larger ones are
+//! refused.
 
 use png::{BitDepth, ColorType, Encoder};
 
 use crate::bounded_run::BoundedFixture;
 
-/// A PNG of a white page with a black square, with one bit per pixel.
+/// PNG file of a white page with a black rectangle, with one bit per pixel.
 fn page(width: u32, height: u32) -> Vec<u8> {
     let row = |y: u32| {
         let is_in_rows = (height / 4..height / 2).contains(&y);

@@ -1,8 +1,9 @@
-//! Hostile input: files and arguments made to break the program, each given to a child process.
+//! Hostile input: files and arguments that are made to break the program. Each is given to the
+//! program in a child process.
 //!
-//! The program must end by itself with the right exit status and within its limits of memory and
-//! time. Its error is one line that names the file and contains no terminal control characters.
-//! All files are generated here; valid designs that are only slow are not tested here.
+//! The program must end by itself with the right exit code and within limits on memory and time.
+//! Its error must be one line that names the file and contains no terminal control characters. The
+//! tests generate all files.
 
 mod bounded_run;
 mod expansion_bombs;

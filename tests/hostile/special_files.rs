@@ -1,4 +1,4 @@
-//! Paths to devices, pipes, folders and files that are too large.
+//! Paths to devices, pipes, folders and files that are too large are refused.
 
 use std::fs::File;
 
@@ -44,7 +44,7 @@ fn folders_and_huge_files_are_refused() {
     fixture.assert_inputs_refused(&["."], ".", "choose a file in it");
     for file in ["large.json", "large.morph"] {
         let large = File::create(fixture.path(file)).expect("made");
-        // A sparse file takes no space on the disk.
+        // The file is sparse, so its 1 TiB takes no space on the disk.
         large.set_len(1 << 40).expect("grown");
     }
     let reason = format!("larger than the limit of {} MiB", MAX_FILE_BYTES >> 20);

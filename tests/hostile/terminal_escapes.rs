@@ -1,17 +1,18 @@
-//! Text from files and arguments is shown in messages without control characters.
+//! Messages quote text from files and arguments on one line and without control characters. Also
+//! coloured output, and errors that name inputs which do not fit together.
 
 use crate::bounded_run::{BoundedFixture, terminal_control};
 
-/// Escape sequences that would colour and clear a terminal and reverse its text.
+/// Text with control characters that would colour a terminal red, clear it and reverse its text.
 const RED: &str = "\u{1b}[31mred\n\u{9b}2J\u{202e}";
 
-/// Escape sequences as written in JSON and TOML.
+/// Text with control characters, as escaped in JSON and TOML files.
 const JSON_RED: &str = r"\u001b]0;owned\u0007\n\u009b2J";
 
-/// Escape sequences as written in XML.
+/// Text with control characters, as escaped in XML files.
 const XML_RED: &str = "red&#10;&#x9b;2J&#x202e;";
 
-/// Names and contents of hostile files, each with a part of the expected error.
+/// Name and content of each hostile file, and a part of the expected error message.
 fn hostile_files() -> Vec<(&'static str, String, &'static str)> {
     let svg = |body: &str| {
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\">{body}</svg>")
@@ -146,7 +147,8 @@ fn escape_sequences_in_arguments_are_shown_harmlessly() {
     }
 }
 
-/// Runs a command line in a terminal and returns the terminal's output.
+/// Runs a command line in a terminal and returns the output of the terminal. `no_colour` is the
+/// value of the environment variable `NO_COLOR`.
 #[cfg(target_os = "linux")]
 fn on_a_terminal(line: &str, no_colour: Option<&str>) -> String {
     let mut script = std::process::Command::new("script");

@@ -1,4 +1,4 @@
-//! Plays exported animations in Chromium and takes screenshots of single frames.
+//! Plays exported vector animations in Chromium and takes screenshots of single frames.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -7,14 +7,15 @@ use std::time::{Duration, Instant};
 use image::{RgbaImage, imageops};
 use morphospace::export::PixelSize;
 
-/// Maximum width of a screenshot, in pixels (resource limit: Chromium leaves parts of much larger
-/// pages blank).
+/// Maximum width of a screenshot of frames in a row, in pixels (resource limit: Chromium leaves
+/// parts of much wider pages blank).
 const MAX_ROW_PX: u32 = 9600;
 
-/// Maximum time for one screenshot (resource limit: the largest ones take half a minute).
+/// Maximum time that Chromium may take for one screenshot (resource limit: the largest take half a
+/// minute).
 const TIME_LIMIT: Duration = Duration::from_secs(180);
 
-/// Formats of vector animation.
+/// Formats in which vector animations are exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VectorFormat {
     Svg,
@@ -33,7 +34,7 @@ impl VectorFormat {
         }
     }
 
-    /// File extension.
+    /// File extension of the format, without a dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Svg => "svg",
@@ -43,12 +44,12 @@ impl VectorFormat {
     }
 }
 
-/// Number of frames of a size in one screenshot.
+/// Number of frames of a given size that fit side by side into one screenshot.
 pub fn frames_per_sheet(size: PixelSize) -> usize {
     (MAX_ROW_PX / size.width()).max(1) as usize
 }
 
-/// An exported animation.
+/// An exported animation: the text of its file, with its format, frame rate and frame size.
 pub struct AnimationFile<'t> {
     pub kind: VectorFormat,
     pub text: &'t str,
@@ -56,10 +57,10 @@ pub struct AnimationFile<'t> {
     pub size: PixelSize,
 }
 
-/// The installed programs that play animations.
+/// Programs on this machine that play animations.
 pub struct AnimationPlayers {
     chromium: Option<PathBuf>,
-    /// Text of the script of lottie-web.
+    /// JavaScript text of lottie-web; `None` if `MORPHOSPACE_LOTTIE` is not set.
     lottie: Option<String>,
 }
 
@@ -83,7 +84,7 @@ impl AnimationPlayers {
         }
     }
 
-    /// Why a format cannot be played.
+    /// Reason why [`Self::play`] returned no screenshots for a format.
     pub fn missing(&self, kind: VectorFormat) -> &'static str {
         match (&self.chromium, kind) {
             (None, _) => "no Chromium on the path, nor in MORPHOSPACE_CHROMIUM",
@@ -94,8 +95,8 @@ impl AnimationPlayers {
         }
     }
 
-    /// Screenshots of some frames, given as pairs of frame number and t; the background is
-    /// transparent. `None` if there is no player or it fails.
+    /// Takes screenshots of the given frames (pairs of frame number and t) on a transparent
+    /// background; `folder` receives temporary files. `None` if the player is missing or fails.
     pub fn play(
         &self,
         film: &AnimationFile,
@@ -128,7 +129,7 @@ impl AnimationPlayers {
             frames.len() as u32 * width
         );
         std::fs::write(folder.join("sheet.html"), page).expect("written");
-        // A little higher than the frames, because the window also has borders.
+        // The window is higher than the frames, because it also has borders.
         let window = [frames.len() as u32 * width, height + 200];
         let row = screenshot(chromium, folder, window)?;
         let left_edges = (0..frames.len() as u32).map(|k| k * width);
@@ -137,7 +138,7 @@ impl AnimationPlayers {
     }
 }
 
-/// Screenshot of `sheet.html` in a folder by Chromium.
+/// Takes a screenshot of the page `sheet.html` in `folder` with Chromium.
 fn screenshot(chromium: &Path, folder: &Path, [width, height]: [u32; 2]) -> Option<RgbaImage> {
     let [sheet, picture] = ["sheet.html", "sheet.png"].map(|name| folder.join(name));
     let mut player = Command::new(chromium)
@@ -168,7 +169,7 @@ fn screenshot(chromium: &Path, folder: &Path, [width, height]: [u32; 2]) -> Opti
         .stderr(Stdio::null())
         .spawn()
         .ok()?;
-    // Chromium does not end by itself if its page crashes.
+    // Chromium does not end by itself if the page crashes.
     let start = Instant::now();
     let status = loop {
         match player.try_wait().ok()? {
@@ -186,13 +187,13 @@ fn screenshot(chromium: &Path, folder: &Path, [width, height]: [u32; 2]) -> Opti
     Some(image::open(picture).ok()?.to_rgba8())
 }
 
-/// A JavaScript string literal that cannot end its script element.
+/// JavaScript string literal of a text, escaped so that the text cannot end the script element.
 fn script_string(text: &str) -> String {
     let json = serde_json::to_string(text).expect("text");
     json.replace('<', "\\u003c")
 }
 
-/// HTML with a paused animated SVG for each frame.
+/// HTML of a row with the animated SVG, paused at each of the frames.
 fn svg_frames(text: &str, frames: &[(f64, f64)], fps: f64) -> String {
     let secs: Vec<f64> = frames.iter().map(|frame| frame.0 / fps).collect();
     format!(
@@ -210,13 +211,13 @@ fn svg_frames(text: &str, frames: &[(f64, f64)], fps: f64) -> String {
     )
 }
 
-/// HTML with the exported page at each frame.
+/// HTML of a row with the exported page `film.html` at the t of each frame.
 fn page_frames(frames: &[(f64, f64)]) -> String {
     let frame = |(_, t): &(f64, f64)| format!("<iframe src=\"film.html#t={t}&bare\"></iframe>");
     frames.iter().map(frame).collect()
 }
 
-/// HTML with a still of the Lottie animation for each frame.
+/// HTML of a row with a still image of the Lottie animation for each frame.
 fn lottie_frames(text: &str, frames: &[(f64, f64)], script: &str) -> String {
     let numbers: Vec<f64> = frames.iter().map(|frame| frame.0).collect();
     let script = script.replace("</script", "<\\/script");

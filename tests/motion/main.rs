@@ -1,10 +1,14 @@
-//! Exported vector animations, played in a browser, match the program's own frames.
+//! Compares exported vector animations, played in a browser, with the frames that the program
+//! renders itself. Also checks the size of exported HTML pages.
 //!
-//! Chromium (`MORPHOSPACE_CHROMIUM`, or on the path) plays the animated SVG and the HTML page, and,
-//! with the script of lottie-web (`MORPHOSPACE_LOTTIE`, a `lottie.js`), the Lottie file. Where a
-//! player is missing, the test reports it and compares nothing. `MORPHOSPACE_MOTION` lists the
-//! gallery projects to compare, or is `all`; `MORPHOSPACE_MOTION_OUT` names a folder in which the
-//! files and images are saved.
+//! Chromium plays the animated SVG, the HTML page and, with the script of lottie-web, the Lottie
+//! file. If a player is missing, the test reports it and does not compare that format. Environment
+//! variables:
+//!
+//! - `MORPHOSPACE_CHROMIUM`: path of Chromium; by default it is searched on `PATH`
+//! - `MORPHOSPACE_LOTTIE`: path of lottie-web's script, `lottie.js`
+//! - `MORPHOSPACE_MOTION`: names of the gallery projects to compare, or `all`
+//! - `MORPHOSPACE_MOTION_OUT`: folder in which the exported files and the images are saved
 
 mod browser;
 
@@ -20,32 +24,35 @@ use morphospace::work::progress::Silent;
 
 use browser::{AnimationFile, AnimationPlayers, VectorFormat};
 
-/// Number of compared frames of a film.
+/// Number of frames of each film that are compared.
 const COMPARED_FRAMES: usize = 25;
 
-/// Length of the longer side of a frame, in pixels: a film for slides.
+/// Length of the longer side of a compared frame, in pixels: the size of a film for slides.
 const SIDE_PX: u32 = 1920;
 
-/// Length of the longer side of a frame with bars, in pixels.
+/// Length of the longer side of a compared frame that shows the bars of a truss, in pixels.
 ///
-/// Bars consist mostly of antialiased edge pixels, which differ between renderers. At [`SIDE_PX`]
-/// they alone would lower the overlap below [`MIN_OVERLAP`].
+/// Bars consist mostly of antialiased edge pixels, which differ between renderers. In frames of
+/// [`SIDE_PX`] these pixels alone would lower the overlap below [`MIN_OVERLAP`].
 const BARS_PX: u32 = 3840;
 
-/// Default length of the longer side of an exported page, in pixels; file sizes are checked at it.
+/// Default length of the longer side of an exported HTML page, in pixels. The size of the file is
+/// checked for this length.
 const DEFAULT_PX: u32 = 960;
 
-/// Projects that are compared by default: a coloured drawing, parts that appear, a truss, a field,
-/// and a hole that closes.
+/// Gallery projects that are compared by default: a coloured drawing, parts that appear, a truss, a
+/// distance field, and a hole that closes.
 const DEFAULT_PROJECTS: &str = "day-to-night words bracket-to-davit letters spectacles";
 
-/// Minimum overlap of a frame with the program's own (tolerance: antialiasing differs).
+/// Minimum [`overlap`] of a frame in the browser with the program's own (tolerance: antialiasing
+/// differs).
 const MIN_OVERLAP: f64 = 0.995;
 
-/// Maximum mean difference of a colour channel, of 255 (tolerance: rounding of colours differs).
+/// Maximum [`colour_difference`] between a frame in the browser and the program's own (tolerance:
+/// rounding of colours differs).
 const MAX_COLOUR_DIFFERENCE: f64 = 4.0;
 
-/// Maximum size of a page of default size, in kB.
+/// Maximum size of the file of an HTML page whose longer side is [`DEFAULT_PX`], in kB.
 const MAX_PAGE_KB: f64 = 300.0;
 
 /// Intersection over union of the opaque areas of two images.
@@ -60,7 +67,8 @@ fn overlap(a: &RgbaImage, b: &RgbaImage) -> f64 {
     if either > 0.0 { both / either } else { 1.0 }
 }
 
-/// Mean over the pixels that are opaque in both images of the largest channel difference.
+/// Largest difference of a colour channel (0 to 255) in a pixel, averaged over the pixels that are
+/// opaque in both images.
 fn colour_difference(a: &RgbaImage, b: &RgbaImage) -> f64 {
     let both = a.pixels().zip(b.pixels());
     let both: Vec<_> = both
@@ -73,17 +81,18 @@ fn colour_difference(a: &RgbaImage, b: &RgbaImage) -> f64 {
     differences.sum::<f64>() / both.len().max(1) as f64
 }
 
-/// A film of a project, as a vector animation and as the program's own frames.
+/// A film of a project: its vector animation, and the camera that renders the program's own frames.
 struct ComparedFilm {
     camera: Camera,
     film: FilmSpec,
     animation: VectorAnimation,
-    /// Numbers of the compared frames.
+    /// Indices in `film` of the compared frames.
     frames: Vec<usize>,
 }
 
 impl ComparedFilm {
-    /// `None` for bitmap images, which have no outlines.
+    /// Records the film of a project, with frames whose longer side is `side_px`; `None` for blends
+    /// of bitmap images, which have no outlines.
     fn new(loaded: &LoadedProject, side_px: impl Fn(&Transition) -> u32) -> Option<Self> {
         let transition = loaded.segments()[0].build(&Silent);
         let transition = transition.expect("a transition");
@@ -118,7 +127,7 @@ impl ComparedFilm {
         })
     }
 
-    /// The text of the exported file.
+    /// Text of the file that is exported in a format.
     fn text(&self, kind: VectorFormat, title: &str) -> String {
         match kind {
             VectorFormat::Svg => self.animation.svg(),
@@ -127,9 +136,10 @@ impl ComparedFilm {
         }
     }
 
-    /// Minimum overlap with the program's own frames, its t, and the maximum colour difference.
+    /// Compares the frames that `play` returns with the program's own. Returns the minimum overlap,
+    /// the t of that minimum, and the maximum colour difference.
     ///
-    /// `None` without a player. Saves both images of each frame if `save_folder` is given.
+    /// `None` if `play` has no player. Saves both images of each frame to `save_folder`, if given.
     fn compare(
         &self,
         play: impl Fn(&[(f64, f64)]) -> Option<Vec<RgbaImage>>,
@@ -160,12 +170,13 @@ impl ComparedFilm {
     }
 }
 
-/// Prints a line that the test runner does not capture.
+/// Prints a line to stderr, past the test runner's capture of output.
 fn print_uncaptured(line: &str) {
     writeln!(std::io::stderr(), "{line}").expect("standard error");
 }
 
-/// Plays one format of a project; returns a message if it differs too much.
+/// Plays a film in one format; returns a message if a frame differs too much from the program's
+/// own.
 fn play_and_compare(
     shot: &ComparedFilm,
     kind: VectorFormat,
@@ -204,7 +215,7 @@ fn play_and_compare(
     (overlap < MIN_OVERLAP || colour > MAX_COLOUR_DIFFERENCE).then_some(line)
 }
 
-/// Length of the longer side of the frames of a transition, in pixels.
+/// Length of the longer side of the compared frames of a transition, in pixels.
 fn side_px(transition: &Transition) -> u32 {
     let figure = transition.frame(0.0);
     let has_bars = !figure.figure().bars.is_empty();

@@ -1,6 +1,6 @@
-//! Random polygons with holes, and checks of the transition between two of them.
+//! Random polygons with holes, and checks of the transition between two such polygons.
 //!
-//! Shared by the tests and the fuzzer (`fuzz/`).
+//! Used by the tests and by the fuzzer in `fuzz/`.
 
 mod shapes;
 mod transition_check;
@@ -8,7 +8,8 @@ mod transition_check;
 pub use shapes::{Rings, SeededRandom, polygon};
 pub use transition_check::{FilmDefects, check_transition};
 
-/// Checks the transition between the two polygons of a seed, with 0 to 5 holes each.
+/// Checks the transition between the two random polygons that a seed determines; each has at most
+/// five holes.
 ///
 /// # Errors
 /// Those of [`check_transition`].

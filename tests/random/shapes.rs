@@ -1,12 +1,13 @@
-//! Random polygons: three kinds of outlines, with round or spiky holes that touch nothing.
+//! Random polygons with three kinds of outlines, and with round or spiky holes that do not touch
+//! each other or the outline.
 
 use morphospace::geometry::DVec2;
 use std::f64::consts::TAU;
 
-/// Outlines and holes, filled by the non-zero rule.
+/// Outlines and holes of a design, to be filled by the non-zero rule.
 pub type Rings = Vec<Vec<DVec2>>;
 
-/// Random generator with the same numbers for a seed on every machine (splitmix64: G. Steele,
+/// Random generator that gives the same numbers for a seed on every machine (splitmix64: G. Steele,
 /// D. Lea, C. Flood, 2014).
 pub struct SeededRandom(u64);
 
@@ -22,19 +23,19 @@ impl SeededRandom {
         b ^ (b >> 31)
     }
 
-    /// Returns a number in [from, to).
+    /// Returns a random number in [from, to).
     pub fn within(&mut self, from: f64, to: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         from + (to - from) * unit
     }
 
-    /// Returns an integer from 0 to `count` − 1.
+    /// Returns a random integer from 0 to `count` − 1.
     pub fn below(&mut self, count: usize) -> usize {
         (self.next() % count as u64) as usize
     }
 }
 
-/// A polygon with at most `holes` holes: fewer if there is no room.
+/// Returns a random polygon with `holes` holes, or with fewer if there is no room for them.
 pub fn polygon(random: &mut SeededRandom, holes: usize) -> Rings {
     let outline = match random.below(3) {
         0 => star_shaped(random, DVec2::ZERO, 1.0),
@@ -42,7 +43,8 @@ pub fn polygon(random: &mut SeededRandom, holes: usize) -> Rings {
         _ => blocks(random),
     };
     let mut rings = vec![outline];
-    // Most random centres are outside or too near to a boundary.
+    // Most random centres lie outside the outline or too near to a boundary, so 40 are tried for
+    // each hole.
     for _ in 0..40 * holes {
         if rings.len() > holes {
             break;
@@ -59,14 +61,15 @@ pub fn polygon(random: &mut SeededRandom, holes: usize) -> Rings {
     rings
 }
 
-/// A star-shaped ring within `radius` of a centre: anything from a blob to a spiky star.
+/// A random star-shaped ring around `centre`, anything from a blob to a spiky star; its corners are
+/// at most `radius` away from the centre.
 fn star_shaped(random: &mut SeededRandom, centre: DVec2, radius: f64) -> Vec<DVec2> {
     let corners = 3 + random.below(30);
     let min_share = random.within(0.3, 1.0);
     let turn = random.within(0.0, TAU);
     (0..corners)
         .map(|i| {
-            // The jitter is below 1, so that no two corners have the same angle.
+            // The random offset is below 1, so no two corners have the same angle.
             let turn_share = (i as f64 + random.within(0.0, 0.8)) / corners as f64;
             let reach = radius * random.within(min_share, 1.0);
             centre + reach * DVec2::from_angle(turn + TAU * turn_share)
@@ -74,7 +77,7 @@ fn star_shaped(random: &mut SeededRandom, centre: DVec2, radius: f64) -> Vec<DVe
         .collect()
 }
 
-/// A ring with long limbs around a centre, like a starfish.
+/// A random ring with two to six long limbs, like a starfish around the origin.
 fn limbs(random: &mut SeededRandom) -> Vec<DVec2> {
     let limbs = 2 + random.below(5);
     let mut ring = Vec::new();
@@ -93,7 +96,7 @@ fn limbs(random: &mut SeededRandom) -> Vec<DVec2> {
     ring
 }
 
-/// The outline of adjacent columns of different heights, with right angles only.
+/// A random ring around adjacent columns of different heights, with right angles only.
 fn blocks(random: &mut SeededRandom) -> Vec<DVec2> {
     let columns = 2 + random.below(6);
     let width = 2.0 / columns as f64;
@@ -107,7 +110,7 @@ fn blocks(random: &mut SeededRandom) -> Vec<DVec2> {
     below.into_iter().chain(above.into_iter().rev()).collect()
 }
 
-/// Distance from a point to the nearest boundary; 0 outside the polygon.
+/// Distance from the point `p` to the nearest boundary; 0 if the point is outside the polygon.
 fn room(rings: &[Vec<DVec2>], p: DVec2) -> f64 {
     let sides = || {
         rings.iter().flat_map(|ring| {

@@ -1,4 +1,5 @@
-//! Checks of the transition between two polygons that must hold for every input.
+//! Checks that the transition between two polygons must pass for every input, and counts of defects
+//! that it may have.
 
 use super::Rings;
 use morphospace::geometry::orient2d;
@@ -6,7 +7,7 @@ use morphospace::measure::film_report;
 use morphospace::work::progress::Silent;
 use morphospace::{Design, Transition};
 
-/// Defects that a valid transition may still have.
+/// Counts of defects that a valid transition may have.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FilmDefects {
     /// Maximum number of folded faces in a sampled frame.
@@ -15,20 +16,22 @@ pub struct FilmDefects {
     pub crossings: usize,
 }
 
-/// Number of sampled frames.
+/// Number of frames, evenly spaced from t = 0 to t = 1, that are checked.
 const SAMPLES: usize = 17;
 
-/// Maximum relative deviation of the area at t = 0 and t = 1 (tolerance: a closed hole leaves a
-/// tiny ring).
+/// Maximum relative deviation of the area at t = 0 or t = 1 from the area of the design (tolerance:
+/// a closed hole leaves a tiny ring).
 const END_TOLERANCE: f64 = 1e-4;
 
-/// Builds the transition by rigid parts and checks it; returns its defects.
+/// Builds the transition by rigid parts from `source` to `target` and checks it; returns its
+/// defects.
 ///
-/// Rings without area are not valid designs and count as free of defects.
+/// If the rings have no area and are no valid design, the result is free of defects.
 ///
 /// # Errors
-/// A description, if two valid designs have no transition, a face is not positive at an end, a
-/// point is not finite, or the area at an end is not that of the design.
+/// A description, if the transition between two valid designs cannot be built, a face is not
+/// positively oriented in both designs, a vertex is not finite, or the area at t = 0 or 1 is not
+/// that of the design.
 pub fn check_transition(source: Rings, target: Rings) -> Result<FilmDefects, String> {
     let source = Design::from_rings("source", source);
     let target = Design::from_rings("target", target);
@@ -42,7 +45,7 @@ pub fn check_transition(source: Rings, target: Rings) -> Result<FilmDefects, Str
     let report = film_report(&transition, SAMPLES, &Silent).map_err(|e| e.to_string())?;
     for (i, area) in [(0, areas[0]), (SAMPLES - 1, areas[1])] {
         let deviation = (report.samples[i].area / area - 1.0).abs();
-        // NaN would pass the comparison alone.
+        // A comparison with NaN is false, so NaN is tested separately.
         if deviation.is_nan() || deviation > END_TOLERANCE {
             return Err(format!("frame {i}: the area is off by {deviation}"));
         }
@@ -53,7 +56,7 @@ pub fn check_transition(source: Rings, target: Rings) -> Result<FilmDefects, Str
     })
 }
 
-/// Checks that every face is positive in both designs.
+/// Checks that every face is positively oriented in both designs.
 fn check_positive_faces(transition: &Transition) -> Result<(), String> {
     let mesh = transition.compatible().ok_or("no mesh")?;
     for points in [mesh.source(), mesh.target()] {

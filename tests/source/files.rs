@@ -1,14 +1,14 @@
-//! The source files of the crate.
+//! Lists the Rust source files of the crate.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folder of the crate's source.
+/// Path of the folder `src` of this crate.
 pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
 }
 
-/// Every Rust file below a folder, sorted.
+/// Paths of all Rust files below a folder, sorted.
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];

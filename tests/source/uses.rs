@@ -1,8 +1,7 @@
-//! The crate's own source code, parsed: modules, their imports, and which file uses which.
+//! Parses the crate's own source code: modules, their imports, and which file uses which.
 //!
-//! Every path in the code is followed through imports and re-exports to the file that defines
-//! the item it names. Method calls are not followed, because `x.f()` names no file. Test code
-//! is left out.
+//! Every path in the code is followed through imports and re-exports to the file that defines the
+//! item. Method calls are not followed, because `x.f()` names no file. Test code is left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -11,18 +10,19 @@ use std::path::{Path, PathBuf};
 use syn::punctuated::Punctuated;
 use syn::visit::{self, Visit};
 
-/// Segments of a path.
+/// Segments of a path such as `crate::geometry::Ring`.
 pub type Names = Vec<String>;
 
-/// For each file, the files that it uses, each with one path that shows it.
+/// For each file: the files that it uses, each with a path in the code that refers to it.
 pub type Uses<'a> = BTreeMap<&'a Path, BTreeMap<&'a Path, String>>;
 
-/// A module: its file, the items it defines and its imports.
+/// A module: its file, the names of the items that it defines, its imports, and the paths in its
+/// code.
 #[derive(Default)]
 pub struct Module {
     file: PathBuf,
     defined: BTreeSet<String>,
-    /// Imported names and the paths they stand for.
+    /// For each imported name: the path that it stands for.
     imported: BTreeMap<String, Names>,
     /// Paths of glob imports, without `::*`.
     globs: Vec<Names>,
@@ -30,11 +30,11 @@ pub struct Module {
     named: Vec<Names>,
 }
 
-/// All modules of a crate, by path.
+/// All modules of a crate by their paths; the path of the crate root is empty.
 #[derive(Default)]
 pub struct Crate(pub BTreeMap<Names, Module>);
 
-/// Whether an item is compiled for tests only.
+/// Whether attributes mark an item as compiled for tests only, by `#[cfg(test)]`.
 pub fn is_test(attributes: &[syn::Attribute]) -> bool {
     let is_cfg_test = |attribute: &syn::Attribute| {
         attribute.path().is_ident("cfg")
@@ -44,14 +44,14 @@ pub fn is_test(attributes: &[syn::Attribute]) -> bool {
 }
 
 impl Crate {
-    /// Parses the crate whose `lib.rs` lies in `root`.
+    /// Parses the crate whose `lib.rs` is in the folder `root`.
     pub fn read(root: &Path) -> Self {
         let mut found = Self::default();
         found.add_file(Vec::new(), &root.join("lib.rs"), root);
         found
     }
 
-    /// Parses a module; `folder` holds its children.
+    /// Parses the module `name` in `file` and its children, whose files are in `folder`.
     fn add_file(&mut self, name: Names, file: &Path, folder: &Path) {
         let text = fs::read_to_string(file).expect("a source file");
         let parsed = syn::parse_file(&text).expect("Rust");
@@ -85,12 +85,12 @@ impl Crate {
         self.add_file(name, &folder.with_extension("rs"), &folder);
     }
 
-    /// Returns the file that defines the item at `path`, as seen from `module`; `None` for
-    /// items of other crates and for modules.
+    /// Returns the file that defines the item that `path` names in `module`; `None` for items of
+    /// other crates and for modules. `depth` counts the steps of the search so far.
     fn file_of(&self, module: &[String], path: &[String], depth: usize) -> Option<&Path> {
         let at = self.0.get(module)?;
         let (first, rest) = path.split_first()?;
-        // Glob imports may be circular.
+        // Glob imports may be circular, so the number of steps is bounded.
         if depth > 20 {
             return None;
         }
@@ -112,7 +112,8 @@ impl Crate {
         }
         if let Some(target) = at.imported.get(first) {
             let path = [target.as_slice(), rest].concat();
-            // Next to a module of the same name, `use image::…` means the crate.
+            // `use image::{self, …}` imports the crate `image` under its own name; its items are
+            // not in this crate.
             return (path.first() != Some(first) || target.len() > 1)
                 .then(|| self.file_of(module, &path, depth + 1))?;
         }
@@ -122,7 +123,7 @@ impl Crate {
         })
     }
 
-    /// Returns which file uses which.
+    /// Returns which files each file uses.
     pub fn uses(&self) -> Uses<'_> {
         let mut uses = Uses::new();
         for (name, module) in &self.0 {
@@ -140,7 +141,7 @@ impl Crate {
     }
 }
 
-/// Whether an import is of this crate.
+/// Whether the path of an import begins in this crate.
 fn is_inside(path: &[String]) -> bool {
     matches!(path[0].as_str(), "crate" | "self" | "super")
 }

@@ -1,17 +1,17 @@
-//! Designs loaded by the asset server.
+//! Designs that the asset server loads and reloads, and failures to read them.
 
 use super::{has, update_until};
 use bevy::prelude::*;
 use morphospace::stage::{Blend, BlendWeights, BuildFailed, Morph, MorphDesigns, MorphPlugin};
 
-/// SVG text of a triangle of the given width.
+/// SVG text of a triangle that is `width` wide.
 fn triangle_svg(width: u32) -> String {
     format!(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 99 9'><path d='M0 0H{width}L0 9Z'/></svg>"
     )
 }
 
-/// An app with a temporary asset folder that holds these drawings.
+/// An app whose asset folder is a temporary folder with the given files (name and SVG text).
 fn app_with_assets(drawings: &[(&str, String)]) -> (App, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, drawing) in drawings {
@@ -27,14 +27,14 @@ fn app_with_assets(drawings: &[(&str, String)]) -> (App, tempfile::TempDir) {
     (app, folder)
 }
 
-/// A component with handles of the named designs.
+/// Starts to load the named designs; returns a component with their handles.
 fn load(app: &App, names: &[&str]) -> MorphDesigns {
     let server = app.world().resource::<AssetServer>();
     let paths = names.iter().map(|name| (*name).to_owned());
     MorphDesigns(paths.map(|path| server.load(path)).collect())
 }
 
-/// Width of the drawing in the current frame.
+/// Width of the entity's drawing in its current frame.
 fn width(world: &World, entity: Entity) -> f64 {
     let frame = world.get::<Morph>(entity).expect("a morph").frame();
     let vertices = frame.placement().in_frame.iter();
@@ -65,7 +65,7 @@ fn designs_are_loaded_as_assets_and_reloaded() {
     std::fs::write(folder.path().join("b.svg"), triangle_svg(60)).expect("a file");
     app.world().resource::<AssetServer>().reload("b.svg");
     update_until(&mut app, |world| (width(world, pair) - 60.0).abs() < 1e-9);
-    // If a design cannot be read any more, the previous one stays.
+    // If a reloaded design cannot be read, the previous version stays.
     std::fs::write(folder.path().join("b.svg"), "no drawing").expect("a file");
     #[derive(Resource, Default)]
     struct AssetFailures(Vec<(Entity, String)>);
@@ -76,7 +76,7 @@ fn designs_are_loaded_as_assets_and_reloaded() {
         },
     );
     app.world().resource::<AssetServer>().reload("b.svg");
-    // A failure may be reported twice, since the asset server retries by itself.
+    // A failure may be reported several times, since the asset server retries by itself.
     let has_failed = |world: &World, entity| {
         let failures = &world.resource::<AssetFailures>().0;
         failures.iter().any(|&(failed, _)| failed == entity)

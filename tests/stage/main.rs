@@ -1,4 +1,5 @@
-//! Tests of the stage's Bevy systems, without a window or a renderer.
+//! Tests of the Bevy systems that build, solve and draw transitions, without a window or a
+//! renderer.
 
 mod design_assets;
 mod mesh_families;
@@ -23,7 +24,7 @@ use morphospace::transition::{Transition, TransitionMethod, TransitionSpec, Tran
 use morphospace::warp::WarpKind;
 use morphospace::work::progress::Silent;
 
-/// A horizontal strip of unit squares, each split into two triangles, mapped by `place`.
+/// Image under `map` of a horizontal strip of unit squares, each split into two triangles.
 fn strip(squares: u32, map: impl Fn(DVec2) -> DVec2) -> TriangleMesh {
     let column = |i: u32| [0.0, 1.0].map(|y| map(DVec2::new(f64::from(i), y)));
     let positions = (0..=squares).flat_map(column).collect();
@@ -34,17 +35,17 @@ fn strip(squares: u32, map: impl Fn(DVec2) -> DVec2) -> TriangleMesh {
     TriangleMesh::new(positions, faces.collect()).expect("a legal mesh")
 }
 
-/// The strip of four squares.
+/// A straight strip of four squares.
 fn straight() -> TriangleMesh {
     strip(4, |p| p)
 }
 
-/// The strip rotated by 90°.
+/// The strip of four squares, rotated by 90°.
 fn rotated() -> TriangleMesh {
     strip(4, |p| DVec2::new(-p.y, p.x))
 }
 
-/// The strip to the rotated strip, both moved by an offset.
+/// Transition from the strip of four squares to the rotated strip, both translated by `offset`.
 fn transition(offset: DVec2, cell: TransitionMethod) -> Transition {
     let design = |mesh: TriangleMesh| Arc::new(Design::new("strip", mesh));
     let source = design(strip(4, |p| p + offset));
@@ -67,21 +68,21 @@ fn field() -> TransitionMethod {
     TransitionMethod::new(WarpKind::None, ContentKind::Field).expect("a cell")
 }
 
-/// An app that builds and solves transitions, and draws nothing.
+/// An app that builds and solves transitions but writes no meshes.
 fn bare_app() -> App {
     let mut app = App::new();
     app.add_plugins((MinimalPlugins, MorphPlugin));
     app
 }
 
-/// An app that also writes the meshes of the stage; no renderer draws them.
+/// An app that also writes the meshes to be drawn, although no renderer draws them.
 fn drawing_app() -> App {
     let mut app = App::new();
     app.add_plugins((MinimalPlugins, AssetPlugin::default(), MorphPlugin));
     app
 }
 
-/// Updates until a condition holds.
+/// Updates the app until a condition holds; panics after a minute.
 fn update_until(app: &mut App, is_done: impl Fn(&World) -> bool) {
     let start = Instant::now();
     while !is_done(app.world()) {
@@ -90,12 +91,13 @@ fn update_until(app: &mut App, is_done: impl Fn(&World) -> bool) {
     }
 }
 
-/// A condition: the entity has the component.
+/// Returns the condition that the entity has the component `C`.
 fn has<C: Component>(entity: Entity) -> impl Fn(&World) -> bool {
     move |world| world.get::<C>(entity).is_some()
 }
 
-/// Spawns the strip and the rotated strip, and waits until they are built.
+/// Spawns an entity that blends the strip and the rotated strip, and waits until its transition is
+/// built.
 fn spawn_pair(app: &mut App, t: f64) -> Entity {
     let pair = (SourceMesh(straight()), TargetMesh(rotated()), Blend { t });
     let entity = app.world_mut().spawn(pair).id();
@@ -103,13 +105,13 @@ fn spawn_pair(app: &mut App, t: f64) -> Entity {
     entity
 }
 
-/// Positions of the vertices in the current frame.
+/// Positions of the entity's vertices in its current frame.
 fn vertices(app: &App, entity: Entity) -> Vec<DVec2> {
     let morph = app.world().get::<Morph>(entity).expect("a morph");
     morph.frame().placement().in_frame.clone()
 }
 
-/// Meshes of the drawn parts of an entity.
+/// Mesh and visibility of each drawn part of the entity (fill, wireframe and so on).
 fn meshes_of(app: &App, entity: Entity) -> Vec<(Handle<Mesh>, Visibility)> {
     let world = app.world();
     let children = world.get::<Children>(entity).map(|c| c.to_vec());
@@ -124,7 +126,7 @@ fn meshes_of(app: &App, entity: Entity) -> Vec<(Handle<Mesh>, Visibility)> {
         .collect()
 }
 
-/// Positions in a mesh asset.
+/// Vertex positions of a mesh asset.
 fn positions(app: &App, mesh: &Handle<Mesh>) -> Vec<[f32; 3]> {
     let meshes = app.world().resource::<Assets<Mesh>>();
     let mesh = meshes.get(mesh).expect("a mesh");
@@ -145,7 +147,7 @@ fn two_meshes_with_a_blend_are_interpolated() {
             assert!((*p - *q).length() < 1e-12, "{p} is not {q} at {t}");
         }
     }
-    // At t = ½ a rigid target has rotated by half of its angle, 45°.
+    // The target is a rotation by 90°, so at t = ½ the strip has rotated by 45°.
     app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 0.5;
     app.update();
     let vertices = vertices(&app, entity);
@@ -253,7 +255,7 @@ fn boundaries_without_faces_are_filled() {
         let twice = faces.map(|&[a, b, c]| (at(b) - at(a)).perp_dot(at(c) - at(a)));
         0.5 * twice.sum::<f32>()
     };
-    // The target is a rotation, so the area is constant.
+    // The target is a rotation of the source, so the area is constant.
     let midway_area = area(&app);
     assert!(midway_area > 0.0);
     app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 1.0;
@@ -339,7 +341,8 @@ fn meshes_are_written_only_when_the_frame_changes() {
     for _ in 0..3 {
         app.update();
     }
-    // Only the fill is written: the wireframe is hidden, and the outlines of the ends are static.
+    // Only the fill is written: the wireframe is hidden, and the outlines of source and target do
+    // not change.
     assert_eq!(app.world().resource::<ModifiedMeshes>().0, 1);
 }
 
@@ -376,7 +379,7 @@ fn a_hidden_wireframe_is_updated_when_it_is_shown() {
     show(&mut app, true);
     let (mesh, visibility) = wireframe(&app).expect("wires");
     assert_eq!(visibility, Visibility::Inherited);
-    // The first edge of the first face, rotated by 90°.
+    // The first edge of the first face has rotated by 90°.
     let [a, b] = [positions(&app, &mesh)[0], positions(&app, &mesh)[1]];
     assert!((b[0] - a[0]).abs() < 1e-6 && (b[1] - a[1] - 1.0).abs() < 1e-6);
 }
@@ -475,7 +478,7 @@ fn systems_after_solving_see_the_frame_of_the_same_update() {
     }
     let seen = &app.world().resource::<SeenFrames>().0;
     assert_eq!(*seen, [(0.125, 0.125), (0.25, 0.25), (0.375, 0.375)]);
-    // A transition that is added is built in the same update.
+    // A transition that is inserted is solved in the same update.
     let staged = StageTransition(transition(DVec2::ZERO, arap()));
     app.world_mut().entity_mut(entity).insert(staged);
     app.update();

@@ -1,4 +1,4 @@
-//! Several meshes with the same faces, blended by weights.
+//! Blends of several meshes with the same faces by weights.
 
 use super::{bare_app, drawing_app, rotated, straight, strip, update_until, vertices};
 use bevy::prelude::*;
@@ -24,17 +24,17 @@ fn several_meshes_are_blended_by_their_weights() {
     assert_eq!(set_weights(&mut app, &[0.0, 0.0, 1.0]), wide.positions());
     let mixed = set_weights(&mut app, &[0.25, 0.5, 0.25]);
     assert!(mixed.iter().all(|p| p.is_finite()) && mixed != wide.positions());
-    // Invalid weights are ignored.
+    // Invalid weights are ignored: the previous blend stays.
     assert_eq!(set_weights(&mut app, &[1.0]), mixed);
     assert_eq!(set_weights(&mut app, &[f64::NAN, 0.5, 0.5]), mixed);
     assert_eq!(
         set_weights(&mut app, &[0.0, 1.0, 0.0]),
         rotated().positions()
     );
-    // A family is drawn by the same parts as a pair.
+    // A mesh family is drawn, like a pair of meshes.
     let parts = app.world().get::<Children>(entity).map(|parts| parts.len());
     assert!(parts.is_some_and(|parts| parts > 0));
-    // Another family replaces the first.
+    // Inserting another family replaces the first.
     app.world_mut()
         .entity_mut(entity)
         .insert(MeshFamily(vec![rotated(), straight()]))

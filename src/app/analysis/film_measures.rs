@@ -17,12 +17,12 @@ use crate::measure::{FilmReport, Remedy, Verdict, film_report};
 use crate::project::Project;
 use crate::transition::Transition;
 use crate::warp::WarpKind;
-use crate::work::progress::{Cancelled, Progress, ProgressSpan, WholeProgress};
+use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan};
 
 /// Number of t at which a film is sampled for the check and the graphs: both ends and 63 between
 /// them, including halves and quarters. More samples would find shorter defects and take longer
 /// (heuristic).
-pub const STEPS: usize = 65;
+pub const FILM_SAMPLES: usize = 65;
 
 /// Work is shown, and cancelled by Esc, only after this time; anything shorter is over before Esc
 /// could be meant for it (heuristic).
@@ -91,7 +91,7 @@ impl StageMeasures {
             // Replacing `self` also cancels the job for the old transition.
             let mut memo = std::mem::take(&mut self.memo);
             if let (Some(old), Some(measures)) = (&self.transition, self.measures.take()) {
-                memo.keep(old, measures);
+                memo.insert(old, measures);
             }
             let measures = transition.and_then(|transition| memo.take(transition));
             *self = Self {
@@ -113,7 +113,7 @@ impl StageMeasures {
 
     /// Collects the result; returns whether there was one.
     fn collect_result(&mut self) -> bool {
-        let Some(answer) = BackgroundJob::take(&mut self.job) else {
+        let Some(answer) = BackgroundJob::take_result(&mut self.job) else {
             return false;
         };
         self.is_done = true;
@@ -130,10 +130,10 @@ fn measure_film(
     transition: &Transition,
     progress: &dyn Progress,
 ) -> Result<FilmMeasures, Cancelled> {
-    let progress = &WholeProgress::new(progress);
+    let progress = &OverallProgress::new(progress);
     let [sampling, checking] = [(0.0, SAMPLING_SHARE), (SAMPLING_SHARE, 1.0)]
         .map(|(from, to)| ProgressSpan::new(progress, from, to));
-    let film = film_report(transition, STEPS, &sampling)?;
+    let film = film_report(transition, FILM_SAMPLES, &sampling)?;
     let verdict = Verdict::of_film(transition, &film, &checking)?;
     Ok(FilmMeasures { film, verdict })
 }

@@ -11,7 +11,7 @@ use crate::app::session::state::Session;
 use crate::measure::{FilmRating, build_best_method};
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::TransitionMethod;
-use crate::work::progress::{Progress, WholeProgress};
+use crate::work::progress::{OverallProgress, Progress};
 
 /// The chosen method and the rating of its film; pictures have no rating.
 type MethodChoice = (TransitionMethod, Option<FilmRating>);
@@ -75,7 +75,7 @@ impl MethodSearch {
 
 /// Builds and rates the suitable methods; returns the best one.
 fn search(loaded: &LoadedProject, progress: &dyn Progress) -> Result<MethodChoice, ProjectError> {
-    let progress = &WholeProgress::new(progress);
+    let progress = &OverallProgress::new(progress);
     let (transition, rating) = build_best_method(&loaded.spec()?, progress)?;
     Ok((transition.method(), rating))
 }
@@ -105,7 +105,7 @@ pub fn apply(
                 project.content = Some(method.content());
             });
             let rating = rating.map_or(String::new(), |rating| format!(" ({rating})"));
-            notices.done(format!("Best method: {}{rating}", method.name()));
+            notices.confirm(format!("Best method: {}{rating}", method.name()));
         }
         Some(Err(error)) => notices.problem(NoticeTopic::Transition, error.to_string()),
         None => {}

@@ -8,7 +8,7 @@ use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
 use crate::app::analysis::is_same;
 use crate::app::analysis::transition_memo::TransitionMemo;
-use crate::app::jobs::allocator::give_back;
+use crate::app::jobs::allocator::return_free_memory;
 use crate::app::jobs::job::{BackgroundJob, JobError};
 use crate::app::session::state::Session;
 use crate::recording::{RecordingError, RecordingOptions};
@@ -29,7 +29,7 @@ pub struct StageRecording {
 impl StageRecording {
     /// Records with a memory limit in MiB; `None` is the default limit.
     #[must_use]
-    pub fn within(mebibytes: Option<usize>) -> Self {
+    pub fn with_memory_limit(mebibytes: Option<usize>) -> Self {
         let defaults = RecordingOptions::default();
         let max_bytes = mebibytes.map_or(defaults.max_bytes, |mib| mib.saturating_mul(1 << 20));
         Self {
@@ -43,14 +43,14 @@ impl StageRecording {
 
     /// Why the transition on the stage cannot be recorded, if so.
     #[must_use]
-    pub fn refused(&self) -> Option<&RecordingError> {
+    pub fn recording_error(&self) -> Option<&RecordingError> {
         self.error.as_ref()
     }
 
     /// Properties proved for the film on the stage; `None` until then, and for methods without a
     /// mesh.
     #[must_use]
-    pub fn proved(&self) -> Option<&TransitionProof> {
+    pub fn proof(&self) -> Option<&TransitionProof> {
         self.proof.as_ref()
     }
 
@@ -71,7 +71,7 @@ impl StageRecording {
         // Dropping the job cancels it.
         self.job = None;
         if let Some((transition, proved)) = self.transition.take().zip(self.proof.take()) {
-            self.memo.keep(&transition, proved);
+            self.memo.insert(&transition, proved);
         }
     }
 
@@ -104,12 +104,12 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
                 let recorded = transition.record(&options, progress);
                 let proved = recorded.and_then(|_| transition.prove(&options, progress));
                 // The previous transition has been freed by now.
-                give_back();
+                return_free_memory();
                 proved
             })
         });
     }
-    if let Some(answer) = BackgroundJob::take(&mut now.job) {
+    if let Some(answer) = BackgroundJob::take_result(&mut now.job) {
         // The reason for a missing recording is shown next to the frame times.
         (now.proof, now.error) = match answer {
             Ok(proved) => (proved, None),

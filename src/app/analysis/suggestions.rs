@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
-use crate::app::analysis::film_measures::{STEPS, StageMeasures};
+use crate::app::analysis::film_measures::{FILM_SAMPLES, StageMeasures};
 use crate::app::analysis::is_same;
 use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
@@ -62,7 +62,7 @@ pub enum SuggestedChange {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
     /// The change.
-    pub what: SuggestedChange,
+    pub change: SuggestedChange,
     /// Rating of the resulting film.
     pub rating: FilmRating,
 }
@@ -156,7 +156,7 @@ impl Suggestion {
     fn compare(&self, other: &Self) -> Ordering {
         let fewer = |a: &Self, b: &Self| a.rating.has_fewer_defects_than(&b.rating);
         let cost = |suggestion: &Self| {
-            let changes = suggestion.what.changes_the_target();
+            let changes = suggestion.change.changes_the_target();
             suggestion.rating.overshoot() + if changes { CHANGED_TARGET_PENALTY } else { 0.0 }
         };
         match (fewer(self, other), fewer(other, self)) {
@@ -292,11 +292,14 @@ fn try_all(
         let Ok(built) = built else {
             continue;
         };
-        let report = film_report(&built, STEPS, progress).map_err(BuildError::from)?;
+        let report = film_report(&built, FILM_SAMPLES, progress).map_err(BuildError::from)?;
         let Some(rating) = rating(&built, &report) else {
             continue;
         };
-        let suggestion = Suggestion { what, rating };
+        let suggestion = Suggestion {
+            change: what,
+            rating,
+        };
         if suggestion.helps(now) {
             flawless += usize::from(rating.is_flawless());
             // Sending fails once the search has been cancelled.
@@ -359,7 +362,7 @@ pub fn apply(
             continue;
         };
         if let Some(suggestion) = suggestions.suggestions().get(index) {
-            session.change(gesture.id(), |project| suggestion.what.apply(project));
+            session.change(gesture.id(), |project| suggestion.change.apply(project));
         }
     }
 }

@@ -15,7 +15,7 @@ impl<T> Default for TransitionMemo<T> {
 
 impl<T> TransitionMemo<T> {
     /// Stores a result for as long as the transition exists.
-    pub fn keep(&mut self, of: &Transition, result: T) {
+    pub fn insert(&mut self, of: &Transition, result: T) {
         self.0.retain(|(id, _)| !id.is_dropped());
         self.0.push((of.id(), result));
     }
@@ -49,7 +49,7 @@ mod tests {
     fn a_result_is_returned_once() {
         let [one, other] = [transition(), transition()];
         let mut memo = TransitionMemo::default();
-        memo.keep(&one, 1);
+        memo.insert(&one, 1);
         assert_eq!(memo.take(&other), None);
         assert_eq!(memo.take(&one.clone()), Some(1));
         assert_eq!(memo.take(&one), None);
@@ -59,7 +59,7 @@ mod tests {
     fn the_cache_keeps_no_transition_alive() {
         let mut memo = TransitionMemo::default();
         for _ in 0..3 {
-            memo.keep(&transition(), ());
+            memo.insert(&transition(), ());
         }
         // The last entry lost its transition after it was stored; the next insertion removes it.
         assert_eq!(memo.0.len(), 1);

@@ -13,7 +13,7 @@ use crate::app::output_files::CaptureFolder;
 use crate::export::{PixelSize, rasterise, to_svg};
 
 /// Takes over image intents while the map is shown.
-pub fn take(
+pub fn capture_blend(
     mut intents: MessageReader<Intent>,
     inputs: StageImageInputs,
     text_selected: Res<TextSelected>,
@@ -51,8 +51,8 @@ pub fn take(
         let background = (!inputs.preferences.capture_transparent).then_some(style.ground);
         let drawing = pictures.drawing(size, &style, background);
         match intent {
-            Intent::CopySvg => clipboard.text(to_svg(&drawing), &mut notices),
-            Intent::CopyImage => clipboard.picture(&rasterise(&drawing), &mut notices),
+            Intent::CopySvg => clipboard.copy_text(to_svg(&drawing), &mut notices),
+            Intent::CopyImage => clipboard.copy_image(&rasterise(&drawing), &mut notices),
             _ => {
                 let name = format!("{}-blend", inputs.session.file_stem());
                 captures.write(&folder, &name, rasterise(&drawing).into());

@@ -27,7 +27,7 @@ impl SystemClipboard {
     }
 
     /// Copies an image and reports it.
-    pub fn picture(&mut self, image: &RgbaImage, notices: &mut Notices) {
+    pub fn copy_image(&mut self, image: &RgbaImage, notices: &mut Notices) {
         let data = ImageData {
             width: image.width() as usize,
             height: image.height() as usize,
@@ -41,7 +41,7 @@ impl SystemClipboard {
     }
 
     /// Copies an SVG document as text and reports it.
-    pub fn text(&mut self, text: String, notices: &mut Notices) {
+    pub fn copy_text(&mut self, text: String, notices: &mut Notices) {
         report(
             self.with_clipboard(|clipboard| clipboard.set_text(text)),
             "SVG copied",
@@ -55,14 +55,14 @@ fn report(result: Result<(), Error>, done: &str, notices: &mut Notices) {
     match result {
         Ok(()) => {
             notices.resolve(NoticeTopic::Picture);
-            notices.done(format!("{done} to the clipboard"));
+            notices.confirm(format!("{done} to the clipboard"));
         }
         Err(error) => notices.problem(NoticeTopic::Picture, format!("Could not copy: {error}")),
     }
 }
 
 /// Copies the stage as an SVG document.
-pub fn copy_shapes(
+pub fn copy_svg(
     mut intents: MessageReader<Intent>,
     mut clipboard: NonSendMut<SystemClipboard>,
     mut notices: ResMut<Notices>,
@@ -88,5 +88,5 @@ pub fn copy_shapes(
         ground: (!inputs.preferences.capture_transparent).then_some(style.ground),
         captions: None,
     };
-    clipboard.text(camera.svg(inputs.playback.t()), &mut notices);
+    clipboard.copy_text(camera.svg(inputs.playback.t()), &mut notices);
 }

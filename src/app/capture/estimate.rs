@@ -69,7 +69,7 @@ pub fn follow(
             })
         });
     }
-    if let Some(answer) = BackgroundJob::take(&mut now.job) {
+    if let Some(answer) = BackgroundJob::take_result(&mut now.job) {
         // A failed estimate is not reported; the export itself reports the reason.
         now.cost = answer.ok();
         estimate.set_changed();

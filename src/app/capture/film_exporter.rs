@@ -52,7 +52,7 @@ impl Drop for FilmExporter {
     fn drop(&mut self) {
         self.cancel();
         let started = Instant::now();
-        while BackgroundJob::take(&mut self.job).is_none()
+        while BackgroundJob::take_result(&mut self.job).is_none()
             && self.job.is_some()
             && started.elapsed() < EXIT_WAIT
         {
@@ -78,7 +78,7 @@ pub fn apply(
             // cancelled.
             Intent::CancelExport => exporter.cancel(),
             Intent::ExportFilm | Intent::ExportMethodSheet if exporter.job.is_some() => {
-                notices.done("An export is already running. Wait for it, or cancel it first");
+                notices.confirm("An export is already running. Wait for it, or cancel it first");
             }
             Intent::ExportMethodSheet => {
                 notices.resolve(NoticeTopic::Film);
@@ -108,11 +108,11 @@ pub fn apply(
 
 /// Reports the result of an export.
 pub fn report(mut exporter: ResMut<FilmExporter>, mut notices: ResMut<Notices>) {
-    match BackgroundJob::take(&mut exporter.job) {
+    match BackgroundJob::take_result(&mut exporter.job) {
         None => {}
         Some(Ok(path)) => notices.file_written(path),
         Some(Err(JobError::Failed(FilmExportError::Cancelled))) => {
-            notices.done(FilmExportError::Cancelled.to_string());
+            notices.confirm(FilmExportError::Cancelled.to_string());
         }
         Some(Err(error)) => notices.problem(NoticeTopic::Film, error.to_string()),
     }

@@ -58,7 +58,7 @@ pub enum SaveImageError {
 }
 
 /// Requests an image of the stage or the window.
-pub fn ask(
+pub fn request_images(
     mut intents: MessageReader<Intent>,
     mut captures: ResMut<ImageCaptures>,
     mut requests: MessageWriter<CaptureStage>,
@@ -133,7 +133,7 @@ fn window_captured(
 
 impl ImageCaptures {
     /// Whether an image is still being rendered, which takes frames.
-    pub fn is_awaited(&self) -> bool {
+    pub fn is_rendering(&self) -> bool {
         !self.awaited.is_empty()
     }
 
@@ -182,7 +182,7 @@ pub fn receive(
             (Ok(image), ImageDestination::File(name)) => {
                 captures.write(&folder, &name, image.clone().into())
             }
-            (Ok(image), ImageDestination::Clipboard) => clipboard.picture(image, &mut notices),
+            (Ok(image), ImageDestination::Clipboard) => clipboard.copy_image(image, &mut notices),
             (Err(error), _) => notices.problem(NoticeTopic::Picture, error.clone()),
         }
     }

@@ -64,7 +64,7 @@ pub fn export(
             Ok(to.join("catalogue.png"))
         }));
     }
-    match BackgroundJob::take(&mut export_job.bypass_change_detection().0) {
+    match BackgroundJob::take_result(&mut export_job.bypass_change_detection().0) {
         None => {}
         Some(Ok(sheet)) => notices.file_written(sheet),
         Some(Err(error)) => notices.problem(NoticeTopic::Picture, error.to_string()),

@@ -98,7 +98,7 @@ impl Comparison {
 
     /// Collects the result; returns whether there was one.
     fn collect_result(&mut self) -> bool {
-        let Some(answer) = BackgroundJob::take(&mut self.job) else {
+        let Some(answer) = BackgroundJob::take_result(&mut self.job) else {
             return false;
         };
         (self.transition, self.problem) = match answer {
@@ -156,7 +156,7 @@ pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
 
 /// Sets a project to this method.
 fn set_method(method: ComparisonMethod, project: &mut Project) {
-    let cell = method.cell();
+    let cell = method.method();
     (project.warp, project.content) = (Some(cell.warp()), Some(cell.content()));
     match method {
         ComparisonMethod::Straight => {
@@ -164,11 +164,11 @@ fn set_method(method: ComparisonMethod, project: &mut Project) {
             project.options.arap.homotopy = Homotopy::Linear;
             project.options.arap.extra_turns.clear();
         }
-        ComparisonMethod::Cell(TransitionMethod::RIGID_PARTS)
+        ComparisonMethod::Method(TransitionMethod::RIGID_PARTS)
             if project.options.arap.homotopy == Homotopy::Linear =>
         {
             project.options.arap.homotopy = Homotopy::Polar;
         }
-        ComparisonMethod::Cell(_) => {}
+        ComparisonMethod::Method(_) => {}
     }
 }

@@ -91,11 +91,11 @@ impl MatchEditor {
     ) {
         match act {
             EditorAction::Toggle => self.is_open = !self.is_open && session.has_match_editor(),
-            EditorAction::Tool(tool) => {
+            EditorAction::SelectTool(tool) => {
                 self.tool = *tool;
                 self.first_part = None;
             }
-            EditorAction::Snap(on) => self.snaps = *on,
+            EditorAction::SetSnapping(on) => self.snaps = *on,
             EditorAction::ShowTriangles(on) => self.triangles = *on,
             EditorAction::Hover(touch) => self.hover(*touch, sheet),
             EditorAction::Press(touch) => self.press(*touch, sheet),
@@ -115,7 +115,7 @@ impl MatchEditor {
                 self.selected = None;
             }
             EditorAction::ShowFilm(on) => self.panes.film = *on,
-            EditorAction::LinkPanes(on) => self.panes.set_together(*on),
+            EditorAction::LinkPanes(on) => self.panes.set_linked(*on),
             EditorAction::Pan(pane, delta) => self.panes.pan(*pane, *delta),
             EditorAction::Zoom { pane, at, factor } => self.panes.zoom_at(*pane, *at, *factor),
         }
@@ -131,7 +131,7 @@ impl MatchEditor {
         self.part = touch.filter(|_| !is_pinning).and_then(|touch| {
             Some((
                 touch.side,
-                sheet.part(touch.side, touch.position, touch.pick_radius)?,
+                sheet.part_at(touch.side, touch.position, touch.pick_radius)?,
             ))
         });
     }
@@ -178,16 +178,17 @@ impl MatchEditor {
             EditorGrab::View => self.panes.pan(EditorPane::Design(side), delta),
             EditorGrab::Pin(k) => {
                 self.selected = Some(EditorHandle::Pin(k));
-                if let (Some(pin), Some(to)) =
-                    (matching.pins.get_mut(k), sheet.landing(touch, self.snaps))
-                {
+                if let (Some(pin), Some(to)) = (
+                    matching.pins.get_mut(k),
+                    sheet.pin_position(touch, self.snaps),
+                ) {
                     pin[side] = sheet.to_design(side, to);
                 }
             }
             EditorGrab::Cut(k, end) => {
                 if let (Some(cut), Some(foot)) = (
                     matching.cuts.get_mut(k),
-                    sheet.on_boundary(side, touch.position),
+                    sheet.nearest_boundary_point(side, touch.position),
                 ) {
                     let to = sheet.to_design(side, foot.point);
                     match end {
@@ -231,16 +232,16 @@ impl MatchEditor {
     fn add_pin(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
         self.selected = None;
         let is_near = sheet
-            .on_boundary(touch.side, touch.position)
+            .nearest_boundary_point(touch.side, touch.position)
             .is_some_and(|foot| foot.distance <= touch.pick_radius);
-        let landing = sheet.landing(touch, self.snaps);
+        let landing = sheet.pin_position(touch, self.snaps);
         let Some(here) = landing.filter(|_| is_near || sheet.has_free_pins()) else {
             return self.start_pairing(touch, sheet, matching);
         };
         let partner = if sheet.has_free_pins() {
             Some(here)
         } else {
-            sheet.partner(touch.side, here)
+            sheet.matched_point(touch.side, here)
         };
         let Some(there) = partner else {
             match sheet.is_unmatched_part(touch) {
@@ -263,7 +264,7 @@ impl MatchEditor {
         matching: &mut MatchSettings,
     ) {
         let is_part = sheet
-            .part(touch.side, touch.position, touch.pick_radius)
+            .part_at(touch.side, touch.position, touch.pick_radius)
             .is_some();
         if sheet.pieces.len() > 1 && is_part {
             self.tool = EditorTool::Parts;
@@ -273,7 +274,7 @@ impl MatchEditor {
 
     /// Selects the first part of a pair, or completes the pair.
     fn pair(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
-        let Some(part) = sheet.part(touch.side, touch.position, touch.pick_radius) else {
+        let Some(part) = sheet.part_at(touch.side, touch.position, touch.pick_radius) else {
             match self.first_part.take() {
                 // A click on empty space of the other design: the part has no partner.
                 Some((side, part, at)) if side != touch.side => {
@@ -293,7 +294,7 @@ impl MatchEditor {
             Some((side, _, first)) if side != touch.side => {
                 let link = sheet.to_designs(&SourceTarget::with_side(side, first, touch.position));
                 let parts =
-                    Side::BOTH.map(|side| sheet.part(side, sheet.to_frame(&link, side), 0.0));
+                    Side::BOTH.map(|side| sheet.part_at(side, sheet.to_frame(&link, side), 0.0));
                 unlink(sheet, matching, parts);
                 matching.links.push(link);
             }
@@ -311,7 +312,7 @@ impl MatchEditor {
             (self.selected, self.hovered) = (None, None);
         } else if self.tool == EditorTool::Parts {
             let mut parts = [None; 2];
-            parts[touch.side] = sheet.part(touch.side, touch.position, touch.pick_radius);
+            parts[touch.side] = sheet.part_at(touch.side, touch.position, touch.pick_radius);
             unlink(sheet, matching, parts);
             self.first_part = None;
         }
@@ -385,20 +386,20 @@ fn unlink(sheet: &MatchSheet, matching: &mut MatchSettings, parts: [Option<usize
     matching.links.retain(|link| {
         Side::BOTH.into_iter().all(|side| {
             let part = parts[side];
-            part.is_none() || sheet.part(side, sheet.to_frame(link, side), 0.0) != part
+            part.is_none() || sheet.part_at(side, sheet.to_frame(link, side), 0.0) != part
         })
     });
     matching.lone.retain(|unmatched| {
         let side = unmatched.side;
         let at = sheet.frame_from_design[side].apply(unmatched.at);
-        parts[side].is_none() || sheet.part(side, at, 0.0) != parts[side]
+        parts[side].is_none() || sheet.part_at(side, at, 0.0) != parts[side]
     });
 }
 
 impl MatchSheet {
     /// Whether there is a part without a partner here.
     fn is_unmatched_part(&self, touch: EditorPointer) -> bool {
-        let part = self.part(touch.side, touch.position, touch.pick_radius);
+        let part = self.part_at(touch.side, touch.position, touch.pick_radius);
         let is_of_part = |piece: &SheetPiece| piece.parts[touch.side] == part;
         let mut unmatched = self
             .pieces

@@ -101,7 +101,7 @@ impl Default for MatchEditor {
 impl MatchEditor {
     /// Whether a handle is hovered or selected.
     #[must_use]
-    pub fn is_lit(&self, handle: EditorHandle) -> bool {
+    pub fn is_highlighted(&self, handle: EditorHandle) -> bool {
         [self.hovered, self.selected].contains(&Some(handle))
     }
 
@@ -113,7 +113,7 @@ impl MatchEditor {
 
     /// Handles Esc: drops an incomplete pair of parts, or closes the editor; returns `false` if
     /// neither applies.
-    pub fn back(&mut self) -> bool {
+    pub fn handle_escape(&mut self) -> bool {
         if self.first_part.take().is_some() {
             return true;
         }

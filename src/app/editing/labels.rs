@@ -7,7 +7,7 @@ use crate::correspondence::PointPair;
 
 /// Maximum distance, as a fraction of the designs' size, at which a point counts as the same as
 /// before: a new pin shifts matched points slightly along the outline (heuristic).
-pub const SAME: f64 = 0.02;
+pub const SAME_POINT_DISTANCE: f64 = 0.02;
 
 /// Letter indices of `points`, 0 for a. A point within `reach` of an earlier one keeps its letter;
 /// the others get the first letters that are free.
@@ -40,20 +40,21 @@ pub fn stable_letters(
     // Letters just used for other points are not reused, to avoid confusion.
     let was_used = |letter: &usize| before.iter().any(|(_, other)| other == letter);
     let mut free = (0..).filter(|letter| !was_used(letter));
-    let own = letters.into_iter();
-    own.map(|letter| letter.or_else(|| free.next()).unwrap_or_default())
+    let letters = letters.into_iter();
+    letters
+        .map(|letter| letter.or_else(|| free.next()).unwrap_or_default())
         .collect()
 }
 
 /// Label of a point: a to z, then a2, b2 …
 #[must_use]
-pub fn of_point(number: usize) -> String {
+pub fn point_label(number: usize) -> String {
     letter(number, b'a')
 }
 
 /// Label of a part: A to Z, then A2, B2 …
 #[must_use]
-pub fn of_part(number: usize) -> String {
+pub fn part_label(number: usize) -> String {
     letter(number, b'A')
 }
 
@@ -98,7 +99,7 @@ mod tests {
 
     #[test]
     fn there_are_letters_beyond_z() {
-        assert_eq!([0, 25, 26, 53].map(of_point), ["a", "z", "a2", "b3"]);
-        assert_eq!(of_part(1), "B");
+        assert_eq!([0, 25, 26, 53].map(point_label), ["a", "z", "a2", "b3"]);
+        assert_eq!(part_label(1), "B");
     }
 }

@@ -43,7 +43,7 @@ pub struct EditorPanes {
     /// Whether the film is shown next to the designs.
     pub film: bool,
     /// Whether all panes pan and zoom together.
-    pub together: bool,
+    pub are_linked: bool,
     views: [PaneView; 3],
     moved_last: EditorPane,
 }
@@ -52,7 +52,7 @@ impl Default for EditorPanes {
     fn default() -> Self {
         Self {
             film: true,
-            together: true,
+            are_linked: true,
             views: [PaneView::default(); 3],
             moved_last: EditorPane::Film,
         }
@@ -72,8 +72,8 @@ impl EditorPanes {
     }
 
     /// Links all panes, adopting the view moved last, or unlinks them.
-    pub fn set_together(&mut self, together: bool) {
-        self.together = together;
+    pub fn set_linked(&mut self, together: bool) {
+        self.are_linked = together;
         if together {
             self.views = [self.view(self.moved_last); 3];
         }
@@ -97,7 +97,7 @@ impl EditorPanes {
     /// Views affected by moving a pane: all of them if they are linked.
     fn moved(&mut self, pane: EditorPane) -> &mut [PaneView] {
         self.moved_last = pane;
-        if self.together {
+        if self.are_linked {
             &mut self.views
         } else {
             std::slice::from_mut(&mut self.views[index(pane)])
@@ -136,12 +136,12 @@ mod tests {
     #[test]
     fn panes_move_linked_or_separately() {
         let mut panes = EditorPanes {
-            together: false,
+            are_linked: false,
             ..EditorPanes::default()
         };
         panes.pan(SOURCE, Vec2::X);
         assert_eq!(panes.view(EditorPane::Film), PaneView::default());
-        panes.set_together(true);
+        panes.set_linked(true);
         assert_eq!(panes.view(EditorPane::Film).pan, Vec2::X);
         panes.fit();
         assert_eq!(panes.view(SOURCE), PaneView::default());

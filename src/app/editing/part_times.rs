@@ -47,7 +47,12 @@ pub fn time_of_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Option<usiz
 
 /// Sets the time window of one piece and leaves other pieces unchanged. The whole film is the
 /// default and needs no entry.
-pub fn set(sheet: &MatchSheet, times: &mut Vec<PartTime>, piece: usize, clock: PartClock) {
+pub fn set_part_time(
+    sheet: &MatchSheet,
+    times: &mut Vec<PartTime>,
+    piece: usize,
+    clock: PartClock,
+) {
     let time_of_piece = time_of_pieces(sheet, times);
     let pieces_of_time = pieces_of_times(sheet, times);
     let is_removed = |k: usize| pieces_of_time[k].contains(&piece);
@@ -71,7 +76,7 @@ pub fn set(sheet: &MatchSheet, times: &mut Vec<PartTime>, piece: usize, clock: P
 
 /// Time windows that let all pieces start one after the other.
 #[must_use]
-pub fn staggered(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime> {
+pub fn staggered_times(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime> {
     let middle = |k: usize| sheet.pieces[k].label_at[identifying_side(sheet, k)];
     let count = sheet.pieces.len();
     let sum: DVec2 = (0..count).map(middle).sum();
@@ -224,10 +229,10 @@ mod tests {
     #[test]
     fn each_half_of_a_split_part_has_its_own_time() {
         let (sheet, mut times) = (sheet(), Vec::new());
-        set(&sheet, &mut times, 1, LATE);
+        set_part_time(&sheet, &mut times, 1, LATE);
         assert_eq!(time_of_pieces(&sheet, &times), [None, Some(0), None]);
         assert_eq!(times[0].side, Side::Target);
-        set(&sheet, &mut times, 1, PartClock::WHOLE);
+        set_part_time(&sheet, &mut times, 1, PartClock::WHOLE);
         assert!(times.is_empty());
     }
 
@@ -239,7 +244,7 @@ mod tests {
         assert_eq!(time_of_pieces(&sheet, &[time]), [Some(0), Some(0), None]);
         // The other half keeps the window that was set for both.
         let mut times = vec![time];
-        set(&sheet, &mut times, 1, PartClock::WHOLE);
+        set_part_time(&sheet, &mut times, 1, PartClock::WHOLE);
         assert_eq!(time_of_pieces(&sheet, &times), [Some(0), None, None]);
         assert_eq!(times[0].clock(), LATE);
     }
@@ -247,7 +252,7 @@ mod tests {
     #[test]
     fn parts_start_in_order_and_the_last_ends_with_the_film() {
         let sheet = sheet();
-        let times = staggered(&sheet, StaggerOrder::LeftToRight);
+        let times = staggered_times(&sheet, StaggerOrder::LeftToRight);
         let time_of_piece = time_of_pieces(&sheet, &times).into_iter();
         let clocks: Vec<PartClock> = time_of_piece
             .map(|k| times[k.expect("a time")].clock())
@@ -255,7 +260,7 @@ mod tests {
         let starts: Vec<f64> = clocks.iter().map(|clock| clock.from).collect();
         assert_eq!(starts, [0.0, 0.25, 0.5]);
         assert_eq!(clocks[2].to, 1.0);
-        let first = staggered(&sheet, StaggerOrder::FromTheMiddle)[0];
+        let first = staggered_times(&sheet, StaggerOrder::FromTheMiddle)[0];
         assert_eq!(time_of_pieces(&sheet, &[first])[1], Some(0));
     }
 
@@ -264,10 +269,10 @@ mod tests {
         let loaded = crate::project::gallery::load("day-to-night").expect("a project");
         let film = loaded.segments()[0].build(&Silent).expect("a film");
         let designs = [0, 1].map(|k| &*loaded.designs[k]);
-        let by = loaded.frame_similarities().expect("places");
+        let similarities = loaded.frame_similarities().expect("places");
         let sheet = MatchSheet::new(
             designs,
-            by,
+            similarities,
             PaintRule::Own,
             &MatchSettings::default(),
             film.matched(),
@@ -276,7 +281,7 @@ mod tests {
         assert!(count > 8);
         for piece in 0..count {
             let mut times = Vec::new();
-            set(&sheet, &mut times, piece, LATE);
+            set_part_time(&sheet, &mut times, piece, LATE);
             let mut expected = vec![None; count];
             expected[piece] = Some(0);
             assert_eq!(time_of_pieces(&sheet, &times), expected, "{piece}");

@@ -9,7 +9,7 @@ use crate::geometry::{DVec2, Side, SourceTarget};
 impl MatchSheet {
     /// Position of a handle in one design; `None` if it exists only in the other.
     #[must_use]
-    pub fn place(&self, handle: EditorHandle, side: Side) -> Option<DVec2> {
+    pub fn handle_position(&self, handle: EditorHandle, side: Side) -> Option<DVec2> {
         match handle {
             EditorHandle::Pin(k) => self.pins.get(k).map(|pin| pin[side]),
             EditorHandle::Feature(k) => self.features.get(k).map(|pair| pair[side]),
@@ -26,7 +26,7 @@ impl MatchSheet {
 
     /// The cut to draw: the requested one while it is dragged, otherwise the actual one.
     #[must_use]
-    pub fn drawn(&self, cut: &SheetCut, grab: Option<EditorGrab>) -> RingCut {
+    pub fn cut_to_draw(&self, cut: &SheetCut, grab: Option<EditorGrab>) -> RingCut {
         let is_dragged =
             matches!(grab, Some(EditorGrab::Cut(k, _)) if cut.requested_index == Some(k));
         cut.requested.filter(|_| is_dragged).unwrap_or(cut.cut)
@@ -54,7 +54,9 @@ impl MatchSheet {
     #[must_use]
     pub fn handle_at(&self, touch: EditorPointer) -> Option<EditorHandle> {
         let in_reach = self.handles().filter_map(|handle| {
-            let distance = self.place(handle, touch.side)?.distance(touch.position);
+            let distance = self
+                .handle_position(handle, touch.side)?
+                .distance(touch.position);
             (distance <= touch.pick_radius).then_some((distance, handle))
         });
         // Of equals, `min_by` returns the first, which is topmost.
@@ -66,16 +68,16 @@ impl MatchSheet {
     /// Where a new or moved pin lands: on a corner or the boundary, or exactly here if pins may lie
     /// anywhere.
     #[must_use]
-    pub fn landing(&self, touch: EditorPointer, snaps: bool) -> Option<DVec2> {
+    pub fn pin_position(&self, touch: EditorPointer, snaps: bool) -> Option<DVec2> {
         if self.shows_pictures() {
             return Some(touch.position);
         }
         // A corner wins over the boundary it lies on.
         let corner = (snaps && !touch.ignores_snapping)
-            .then(|| self.corner(touch.side, touch.position, touch.pick_radius))
+            .then(|| self.corner_near(touch.side, touch.position, touch.pick_radius))
             .flatten();
         let on_boundary = || {
-            let foot = self.on_boundary(touch.side, touch.position)?;
+            let foot = self.nearest_boundary_point(touch.side, touch.position)?;
             let snaps_to_boundary = !self.has_free_pins()
                 || foot.distance <= touch.pick_radius && snaps && !touch.ignores_snapping;
             Some(if snaps_to_boundary {
@@ -93,9 +95,9 @@ impl MatchSheet {
         if self.has_free_pins() {
             return None;
         }
-        let foot = self.on_boundary(touch.side, touch.position)?;
-        let here = (foot.distance <= touch.pick_radius).then_some(foot.point)?;
-        let there = self.partner(touch.side, here)?;
-        Some(SourceTarget::with_side(touch.side, here, there).to_array())
+        let foot = self.nearest_boundary_point(touch.side, touch.position)?;
+        let point = (foot.distance <= touch.pick_radius).then_some(foot.point)?;
+        let partner = self.matched_point(touch.side, point)?;
+        Some(SourceTarget::with_side(touch.side, point, partner).to_array())
     }
 }

@@ -53,7 +53,7 @@ pub fn encloses<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> bool 
 }
 
 /// Intervals of x in which the horizontal line at `y` lies inside the rings, from left to right.
-pub fn spans<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> Vec<[f64; 2]> {
+pub fn inside_intervals<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> Vec<[f64; 2]> {
     let mut xs: Vec<f64> = crossings(rings, y).collect();
     xs.sort_by(f64::total_cmp);
     // Closed rings cross a line an even number of times: in, out, in, out.
@@ -79,9 +79,9 @@ pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2>
     let widest = |shares: &[f64]| {
         let free_intervals = shares.iter().flat_map(|share| {
             let y = low + share * (high - low);
-            let mut remaining = spans(rings.iter().copied(), y);
+            let mut remaining = inside_intervals(rings.iter().copied(), y);
             for cover in above {
-                for covered in spans(cover.iter().map(Vec::as_slice), y) {
+                for covered in inside_intervals(cover.iter().map(Vec::as_slice), y) {
                     remaining = subtract(remaining, covered);
                 }
             }
@@ -112,20 +112,20 @@ pub fn corners(points: &[DVec2]) -> Vec<DVec2> {
     (0..n)
         .filter(|&k| {
             let (before, here, after) = (points[(k + n - 1) % n], points[k], points[(k + 1) % n]);
-            turn(here - before, after - here).abs() > MIN_CORNER_TURN
+            turning_angle(here - before, after - here).abs() > MIN_CORNER_TURN
         })
         .map(|k| points[k])
         .collect()
 }
 
 /// Angle from one direction to another, in (−π, π]; 0 if either is zero.
-pub fn turn(from: DVec2, to: DVec2) -> f64 {
+pub fn turning_angle(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }
 
 /// Arc-length position of each vertex as a fraction of the ring, from 0 at the first, and the total
 /// length.
-pub fn places(points: &[DVec2]) -> (Vec<f64>, f64) {
+pub fn arc_length_positions(points: &[DVec2]) -> (Vec<f64>, f64) {
     let mut places = Vec::with_capacity(points.len());
     let mut length = 0.0;
     for (k, p) in points.iter().enumerate() {
@@ -189,7 +189,7 @@ mod tests {
         assert!(encloses(rings(), DVec2::new(0.25, 1.0)));
         assert!(!encloses(rings(), DVec2::new(0.75, 1.0)));
         assert!(!encloses(rings(), DVec2::new(3.0, 1.0)));
-        assert_eq!(spans(rings(), 1.0), [[0.0, 0.5], [1.0, 2.0]]);
+        assert_eq!(inside_intervals(rings(), 1.0), [[0.0, 0.5], [1.0, 2.0]]);
         let at = label_point(&[&ring, &hole], &[]).expect("a place");
         assert!(encloses(rings(), at));
     }
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn places_and_points_are_each_others_way_back() {
         let ring = square();
-        let (places, length) = places(&ring);
+        let (places, length) = arc_length_positions(&ring);
         assert_eq!(length, 8.0);
         assert_eq!(places, [0.0, 0.25, 0.5, 0.75]);
         assert_eq!(point_at(&ring, &places, 0.375), DVec2::new(2.0, 1.0));

@@ -53,7 +53,7 @@ impl MatchSheet {
         let transition = session.transition();
         let matched = transition.and_then(Transition::matched);
         let mut sheet = Self {
-            faulty: session
+            faulty_pins: session
                 .problem()
                 .map_or_else(Vec::new, TransitionProblem::pins),
             // The content is that of the newest settings, so that tools change with the method at

@@ -23,7 +23,7 @@ const TURN_REACH: f64 = 0.03;
 const BASE_SCORE: f64 = 0.02;
 
 /// Selects points of the matched rings, keeping a distance from pins and from each other.
-pub fn chosen(rings: &[SheetRing], pins: &[PointPair]) -> Vec<PointPair> {
+pub fn choose_sample_points(rings: &[SheetRing], pins: &[PointPair]) -> Vec<PointPair> {
     let lengths: Vec<f64> = rings.iter().map(SheetRing::length).collect();
     let total: f64 = lengths.iter().sum();
     let mut features = Vec::new();
@@ -41,12 +41,15 @@ pub fn chosen(rings: &[SheetRing], pins: &[PointPair]) -> Vec<PointPair> {
 /// pins.
 fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair> {
     let scores = scores(ring);
-    let mut occupied: Vec<f64> = pins.iter().filter_map(|pin| ring.place_of(pin)).collect();
+    let mut occupied: Vec<f64> = pins
+        .iter()
+        .filter_map(|pin| ring.position_of(pin))
+        .collect();
     // Half the gap between points if all were evenly spaced, as a fraction of the ring.
     let min_gap = 0.5 / (count + occupied.len()) as f64;
     let mut vertices = Vec::new();
     for _ in 0..count {
-        let weighted = ring.places.iter().enumerate().map(|(k, place)| {
+        let weighted = ring.positions.iter().enumerate().map(|(k, place)| {
             let near = occupied.iter().map(|other| ring_distance(*place, *other));
             let distance = near.fold(1.0, f64::min);
             let value = if distance < min_gap {
@@ -65,7 +68,7 @@ fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<Poi
         if value <= 0.0 {
             break;
         }
-        occupied.push(ring.places[k]);
+        occupied.push(ring.positions[k]);
         vertices.push(k);
     }
     vertices.sort_unstable();
@@ -84,12 +87,15 @@ fn ring_distance(a: f64, b: f64) -> f64 {
 
 /// Corner score of each vertex, summed over both sides.
 fn scores(ring: &SheetRing) -> Vec<f64> {
-    let mut scores = vec![BASE_SCORE; ring.places.len()];
+    let mut scores = vec![BASE_SCORE; ring.positions.len()];
     for points in &ring.sides {
-        let (places, _) = polyline::places(points);
+        let (places, _) = polyline::arc_length_positions(points);
         for (k, score) in scores.iter_mut().enumerate() {
             let step = |by: f64| -> DVec2 { polyline::point_at(points, &places, places[k] + by) };
-            let turn = polyline::turn(points[k] - step(-TURN_REACH), step(TURN_REACH) - points[k]);
+            let turn = polyline::turning_angle(
+                points[k] - step(-TURN_REACH),
+                step(TURN_REACH) - points[k],
+            );
             // A reversal turns by π, so both sides together score 1.
             *score += turn.abs() / std::f64::consts::TAU;
         }
@@ -135,7 +141,7 @@ mod tests {
 
     #[test]
     fn one_ring_shows_about_a_dozen_points() {
-        let points = chosen(&[ring()], &[]);
+        let points = choose_sample_points(&[ring()], &[]);
         assert!((8..=16).contains(&points.len()), "{}", points.len());
     }
 }

@@ -31,7 +31,7 @@ pub struct MatchSheet {
     /// Pins of the project, in frame coordinates.
     pub pins: Vec<PointPair>,
     /// Indices of the pins that caused the match to fail.
-    pub faulty: Vec<usize>,
+    pub faulty_pins: Vec<usize>,
     /// Automatically matched points that are shown.
     pub features: Vec<PointPair>,
     /// Letter index of each of them, 0 for a.
@@ -123,7 +123,7 @@ impl MatchSheet {
         let sides = [source, target];
         Self {
             // Automatic points keep away from pins, which matter more.
-            features: sample_points::chosen(&rings, &placed.pins),
+            features: sample_points::choose_sample_points(&rings, &placed.pins),
             pieces: label_pieces(pieces, &sides, &placed),
             cuts: cuts(pieces, &placed.cuts, diameter),
             sides: Some(sides),
@@ -132,7 +132,7 @@ impl MatchSheet {
             lines: placed.lines,
             content: None,
             links: placed.links,
-            faulty: Vec::new(),
+            faulty_pins: Vec::new(),
             letters: Vec::new(),
             missing_points: Vec::new(),
             frame_from_design: similarities,
@@ -144,14 +144,18 @@ impl MatchSheet {
     pub fn assign_letters(&mut self, before: Option<&Self>) {
         let sizes = self.sides.iter().flatten();
         let largest = sizes.map(|side| side.bounds.diameter()).fold(0.0, f64::max);
-        let shown: Vec<(PointPair, usize)> = before.map_or_else(Vec::new, |before| {
+        let previous: Vec<(PointPair, usize)> = before.map_or_else(Vec::new, |before| {
             let letters = before.letters.iter().copied();
             before.features.iter().copied().zip(letters).collect()
         });
         let missing_before = before.map_or(&[][..], |before| &before.missing_points);
-        let lettered = [&shown[..], missing_before].concat();
-        self.letters = labels::stable_letters(&self.features, &lettered, labels::SAME * largest);
-        let missing = shown.into_iter();
+        let lettered = [&previous[..], missing_before].concat();
+        self.letters = labels::stable_letters(
+            &self.features,
+            &lettered,
+            labels::SAME_POINT_DISTANCE * largest,
+        );
+        let missing = previous.into_iter();
         let missing = missing.filter(|(_, letter)| !self.letters.contains(letter));
         self.missing_points = missing.collect();
     }
@@ -173,14 +177,18 @@ impl MatchSheet {
 
     /// Nearest point on the boundary of one design.
     #[must_use]
-    pub fn on_boundary(&self, side: Side, p: DVec2) -> Option<polyline::NearestRingPoint> {
+    pub fn nearest_boundary_point(
+        &self,
+        side: Side,
+        p: DVec2,
+    ) -> Option<polyline::NearestRingPoint> {
         let parts = &self.sides.as_ref()?[side].parts;
         polyline::nearest(parts.iter().flatten().map(Vec::as_slice), p)
     }
 
     /// Nearest corner within `reach`.
     #[must_use]
-    pub fn corner(&self, side: Side, p: DVec2, reach: f64) -> Option<DVec2> {
+    pub fn corner_near(&self, side: Side, p: DVec2, reach: f64) -> Option<DVec2> {
         let corners = &self.sides.as_ref()?[side].corners;
         let near = corners.iter().filter(|corner| corner.distance(p) <= reach);
         near.min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
@@ -189,7 +197,7 @@ impl MatchSheet {
 
     /// The point in the other design matched with a boundary point; `None` if there is no match.
     #[must_use]
-    pub fn partner(&self, side: Side, p: DVec2) -> Option<DVec2> {
+    pub fn matched_point(&self, side: Side, p: DVec2) -> Option<DVec2> {
         let rings = self.rings.iter().map(|ring| ring.sides[side].as_slice());
         let foot = polyline::nearest(rings, p)?;
         let ring = &self.rings[foot.ring];
@@ -200,7 +208,7 @@ impl MatchSheet {
 
     /// The topmost part containing a point, or else the nearest one within `reach`.
     #[must_use]
-    pub fn part(&self, side: Side, p: DVec2, reach: f64) -> Option<usize> {
+    pub fn part_at(&self, side: Side, p: DVec2, reach: f64) -> Option<usize> {
         let parts = &self.sides.as_ref()?[side].parts;
         // Containing wins over near: a part may lie in the hole of another.
         uppermost(parts, p).or_else(|| {
@@ -315,7 +323,7 @@ fn label_pieces(
             label_position(piece, side, &above)
         });
         SheetPiece {
-            name: labels::of_part(k),
+            name: labels::part_label(k),
             fate,
             label_at: at,
             is_linked: is_user_set(&parts),

@@ -14,14 +14,15 @@ pub struct SheetRing {
     /// Vertices in the source and in the target.
     pub sides: [Vec<DVec2>; 2],
     /// Arc-length position of each vertex, 0 to 1, common to both designs.
-    pub places: Vec<f64>,
+    pub positions: Vec<f64>,
 }
 
 impl SheetRing {
     /// Creates a ring and computes its arc-length positions.
     #[must_use]
     pub fn new(piece: usize, kind: RingKind, sides: [Vec<DVec2>; 2]) -> Self {
-        let [(source, _), (target, _)] = [0, 1].map(|k: usize| polyline::places(&sides[k]));
+        let [(source, _), (target, _)] =
+            [0, 1].map(|k: usize| polyline::arc_length_positions(&sides[k]));
         // A ring that closes or opens is a point in one design, where all positions are 0.
         let places = match kind {
             RingKind::Closes => source,
@@ -35,24 +36,24 @@ impl SheetRing {
             piece,
             kind,
             sides,
-            places,
+            positions: places,
         }
     }
 
     /// Mean of its lengths in both designs.
     #[must_use]
     pub fn length(&self) -> f64 {
-        let [a, b] = [0, 1].map(|k: usize| polyline::places(&self.sides[k]).1);
+        let [a, b] = [0, 1].map(|k: usize| polyline::arc_length_positions(&self.sides[k]).1);
         0.5 * (a + b)
     }
 
     /// Arc-length position of a pin, if it lies on the ring.
     #[must_use]
-    pub fn place_of(&self, pin: &PointPair) -> Option<f64> {
+    pub fn position_of(&self, pin: &PointPair) -> Option<f64> {
         let foot = polyline::nearest([self.sides[0].as_slice()].into_iter(), pin.source)?;
         // Pins lie on the boundary up to rounding in the design's own coordinates; a thousandth of
         // the ring is far less than a user can aim at (tolerance).
         let is_on = foot.distance <= 1e-3 * self.length();
-        is_on.then(|| self.places[foot.edge])
+        is_on.then(|| self.positions[foot.edge])
     }
 }

@@ -62,7 +62,7 @@ pub fn read_drops(
     presentation: Res<Presentation>,
     mut intents: MessageWriter<Intent>,
 ) {
-    if presentation.is_on() {
+    if presentation.is_active() {
         // Nothing is opened or asked during a talk.
         drops.clear();
     }
@@ -82,7 +82,7 @@ pub fn read_drops(
 }
 
 /// Closes the question once it is answered.
-pub fn decide(
+pub fn close_drop_question(
     mut intents: MessageReader<Intent>,
     mut dropped: ResMut<DroppedDesign>,
     question: Res<UnsavedQuestion>,

@@ -124,7 +124,7 @@ fn project_file_name(stem: &str) -> String {
 }
 
 /// Turns the chosen files into intents; an empty choice means that the dialog was cancelled.
-pub fn choose(
+pub fn apply_choice(
     mut intents: MessageReader<Intent>,
     mut dialog: ResMut<FileDialogRequest>,
     mut question: ResMut<UnsavedQuestion>,

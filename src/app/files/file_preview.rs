@@ -78,7 +78,7 @@ pub fn follow(
             picture: None,
         };
     }
-    if let Some(answer) = BackgroundJob::take(&mut now.job) {
+    if let Some(answer) = BackgroundJob::take_result(&mut now.job) {
         now.picture = Some(answer.map(Arc::new).map_err(|error| error.to_string()));
         preview.set_changed();
     } else if dialog.purpose().is_none() && now.path.is_some() {

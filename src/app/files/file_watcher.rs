@@ -1,8 +1,8 @@
 //! Reloads designs whose files another program changes while they are open.
 //!
-//! A thread polls the files: this lets the window stay idle and works on network drives, which send no
-//! change events. A file is reloaded once it has stayed the same from one poll to the next, because
-//! saving takes a while.
+//! A thread polls the files: this lets the window stay idle and works on network drives, which send
+//! no change events. A file is reloaded once it has stayed the same from one poll to the next,
+//! because saving takes a while.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};

@@ -118,7 +118,7 @@ pub fn advance(
         StripTask::Draw(name) => {
             let strip = strip(&name, progress)?;
             // A strip that cannot be cached is drawn again at the next start.
-            cache.keep(&name, &strip).ok();
+            cache.store(&name, &strip).ok();
             Ok(HashMap::from([(name, strip)]))
         }
     });

@@ -73,25 +73,25 @@ mod tests {
 
     #[test]
     fn names_complete_to_entries_of_the_folder() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let here = folder.path();
-        std::fs::create_dir(here.join("Drawings")).expect("a folder");
+        let temporary = tempfile::tempdir().expect("a folder");
+        let folder = temporary.path();
+        std::fs::create_dir(folder.join("Drawings")).expect("a folder");
         for name in ["drum.svg", "Drum.txt", ".dress.svg", "cat.png"] {
-            std::fs::write(here.join(name), "").expect("a file");
+            std::fs::write(folder.join(name), "").expect("a file");
         }
         let names = |typed: &str| -> Vec<String> {
-            let completions = completions(typed, here, &["svg", "png"]);
+            let completions = completions(typed, folder, &["svg", "png"]);
             let relative = completions
                 .iter()
-                .filter_map(|path| path.strip_prefix(here).ok());
+                .filter_map(|path| path.strip_prefix(folder).ok());
             relative.map(|path| path.display().to_string()).collect()
         };
         assert_eq!(names("dr"), ["Drawings", "drum.svg"]);
         assert_eq!(names(""), ["Drawings", "cat.png", "drum.svg"]);
         assert_eq!(names(".d"), [".dress.svg"]);
         assert_eq!(names("nowhere/x"), Vec::<String>::new());
-        let inside = text(&here.join("Drawings"));
-        assert!(completions(&inside, here, &["svg"]).is_empty());
-        assert_eq!(expand_path("cat.png", here), here.join("cat.png"));
+        let inside = text(&folder.join("Drawings"));
+        assert!(completions(&inside, folder, &["svg"]).is_empty());
+        assert_eq!(expand_path("cat.png", folder), folder.join("cat.png"));
     }
 }

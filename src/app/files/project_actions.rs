@@ -15,7 +15,7 @@ use crate::app::files::invitation::{Invitation, START_PROJECT};
 use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
 use crate::app::notices::{NoticeTopic, Notices};
-use crate::app::playback::player::{Playback, SAME_T};
+use crate::app::playback::player::{Playback, STOP_TOLERANCE_T};
 use crate::app::presentation::presenter::Presentation;
 use crate::app::session::load::{LoadRequest, TransitionProblem};
 use crate::app::session::origin::absolute;
@@ -128,7 +128,7 @@ pub fn edit(
                 Some((warp, content)) => {
                     session.change(mark, |project| set_method(project, warp, content));
                 }
-                None => notices.done("These designs support only one method"),
+                None => notices.confirm("These designs support only one method"),
             },
             Intent::AddStop => {
                 let added = add_stop(&mut session, playback.t(), mark);
@@ -164,7 +164,7 @@ pub fn edit(
 fn report_result(result: Result<bool, SaveError>, nothing: &str, notices: &mut Notices) {
     match result {
         Ok(true) => {}
-        Ok(false) => notices.done(nothing),
+        Ok(false) => notices.confirm(nothing),
         Err(error) => notices.problem(NoticeTopic::Saving, error.to_string()),
     }
 }
@@ -228,7 +228,7 @@ fn next_method(session: &Session) -> Option<(WarpKind, ContentKind)> {
         .take(methods.len() - 1);
     after
         .copied()
-        .find(|(warp, content)| session.available(*warp, *content).is_ok())
+        .find(|(warp, content)| session.check_method(*warp, *content).is_ok())
 }
 
 /// Adds a stop at `t`; returns `false` if there is one already.
@@ -236,11 +236,13 @@ fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
     let mut is_added = false;
     session.change(mark, |project| {
         // Stops are sorted by t.
-        let index = project.stops.partition_point(|stop| stop.t < t - SAME_T);
+        let index = project
+            .stops
+            .partition_point(|stop| stop.t < t - STOP_TOLERANCE_T);
         if project
             .stops
             .iter()
-            .all(|stop| (stop.t - t).abs() >= SAME_T)
+            .all(|stop| (stop.t - t).abs() >= STOP_TOLERANCE_T)
         {
             project.stops.insert(index, TransitionStop::at(t));
             is_added = true;
@@ -267,7 +269,7 @@ pub fn save(
         match saved {
             Ok(path) => {
                 notices.resolve(NoticeTopic::Saving);
-                notices.done(format!("Saved {}", path.display()));
+                notices.confirm(format!("Saved {}", path.display()));
                 waiting = question.take_if_resolved(UnsavedKind::Changes);
             }
             Err(error) => {
@@ -336,9 +338,9 @@ pub fn poll(
             let chosen = state.to_play.0.take();
             let is_chosen = chosen.is_some()
                 && chosen.as_deref() == session.gallery_name()
-                && !session.is_rescued();
+                && !session.is_recovered();
             let plays = session.has_new_designs() || is_chosen;
-            *state.is_to_play = plays && !presentation.is_on();
+            *state.is_to_play = plays && !presentation.is_active();
         }
     }
     // Not before the requested film is there, if only as a draft, and not if the user has already

@@ -10,9 +10,9 @@ pub enum EditorAction {
     /// Open the editor in place of the stage, or close it.
     Toggle,
     /// Select the tool that a click applies.
-    Tool(EditorTool),
+    SelectTool(EditorTool),
     /// Whether pins snap to corners.
-    Snap(bool),
+    SetSnapping(bool),
     /// Whether the triangles of the mesh are shown.
     ShowTriangles(bool),
     /// The pointer hovers here; `None` when it leaves the designs.

@@ -47,7 +47,7 @@ pub enum Intent {
     /// Reset the playback speed to 1.
     NormalSpeed,
     /// Set the playback speed, a factor on the film's own timing.
-    Speed(f64),
+    SetSpeed(f64),
     /// Cycle through once, loop and ping-pong.
     CyclePlayMode,
     /// Add a stop at the current t.
@@ -126,7 +126,7 @@ pub enum Intent {
         is_all: bool,
     },
     /// Blacken the screen during a talk, or show the drawing again.
-    Black,
+    ToggleBlackScreen,
     /// Show or hide the speaker's window during a talk.
     ToggleSpeaker,
     /// Show or hide captions during a talk.
@@ -244,7 +244,7 @@ impl Intent {
                 | Self::Slower
                 | Self::NormalSpeed
                 | Self::Present { .. }
-                | Self::Black
+                | Self::ToggleBlackScreen
                 | Self::ToggleSpeaker
                 | Self::ToggleCaptions
                 | Self::ToggleFullscreen

@@ -61,7 +61,7 @@ pub struct KeyModifiers {
 
 impl KeyModifiers {
     /// Updates the modifiers from a key event; ignores other keys.
-    pub fn note(&mut self, input: &KeyboardInput) {
+    pub fn update(&mut self, input: &KeyboardInput) {
         let is_down = input.state.is_pressed();
         match input.key_code {
             KeyCode::ShiftLeft | KeyCode::ShiftRight => self.shift = is_down,

@@ -114,7 +114,7 @@ fn stops() -> Vec<KeyTableRow> {
 }
 
 fn talk() -> Vec<KeyTableRow> {
-    use Intent::{Black, Present, ToggleCaptions, ToggleSpeaker};
+    use Intent::{Present, ToggleBlackScreen, ToggleCaptions, ToggleSpeaker};
     let present = Present { is_all: false };
     group(
         "Talk",
@@ -125,7 +125,10 @@ fn talk() -> Vec<KeyTableRow> {
             ),
             (
                 "Black screen on and off",
-                vec![key(Letter('b'), Black), key(Sign('.'), Black)],
+                vec![
+                    key(Letter('b'), ToggleBlackScreen),
+                    key(Sign('.'), ToggleBlackScreen),
+                ],
             ),
             (
                 "Captions on and off",

@@ -65,7 +65,7 @@ pub struct FilmExportOptions {
     /// Frames per second.
     pub fps: u32,
     /// First and last t, where they differ from those of the film on the stage.
-    pub span: [Option<f64>; 2],
+    pub range: [Option<f64>; 2],
     /// Behaviour at the end of the film.
     pub ending: FilmEnding,
     /// Whether the background is transparent, if the file type supports it.
@@ -78,7 +78,7 @@ impl Default for FilmExportOptions {
         Self {
             layout: PictureLayout::default(),
             fps: 25,
-            span: [None; 2],
+            range: [None; 2],
             ending: FilmEnding::default(),
             is_transparent: false,
         }
@@ -89,18 +89,18 @@ impl FilmExportOptions {
     /// First and last t of the export. Drops values that are neither an end nor a stop of the
     /// project: another project may be open by now, or a stop may have been removed.
     #[must_use]
-    pub fn places(&self, whole_film: &Timing, stops: &[TransitionStop]) -> [Option<f64>; 2] {
+    pub fn valid_range(&self, whole_film: &Timing, stops: &[TransitionStop]) -> [Option<f64>; 2] {
         let exists = |t: &f64| {
             let ends = [whole_film.from, whole_film.to];
             ends.contains(t) || stops.iter().any(|stop| stop.t == *t)
         };
-        self.span.map(|at| at.filter(exists))
+        self.range.map(|at| at.filter(exists))
     }
 
     /// Timing of the exported film; a section runs at the same speed as in the whole film.
     #[must_use]
     pub fn timing(&self, whole_film: &Timing, stops: &[TransitionStop]) -> Timing {
-        let [from, to] = self.places(whole_film, stops);
+        let [from, to] = self.valid_range(whole_film, stops);
         let (from, to) = (from.unwrap_or(whole_film.from), to.unwrap_or(whole_film.to));
         let fraction = (to - from).abs() / (whole_film.to - whole_film.from).abs();
         Timing {
@@ -198,20 +198,20 @@ pub enum ComparisonMethod {
     /// Every vertex of the shared mesh moves on a straight line.
     Straight,
     /// A cell of the table of methods (warp × content).
-    Cell(TransitionMethod),
+    Method(TransitionMethod),
 }
 
 impl ComparisonMethod {
     /// All methods, in the order of the list.
     pub fn all() -> impl Iterator<Item = Self> {
-        std::iter::once(Self::Straight).chain(TransitionMethod::all().map(Self::Cell))
+        std::iter::once(Self::Straight).chain(TransitionMethod::all().map(Self::Method))
     }
 
     /// Default method to compare with: cross-dissolve for pictures, straight lines for shapes.
     #[must_use]
     pub fn default_for(content: Option<ContentKind>) -> Self {
         if content == Some(ContentKind::Colours) {
-            Self::Cell(TransitionMethod::CROSS_DISSOLVE)
+            Self::Method(TransitionMethod::CROSS_DISSOLVE)
         } else {
             Self::Straight
         }
@@ -219,10 +219,10 @@ impl ComparisonMethod {
 
     /// The cell of the method table that builds this comparison.
     #[must_use]
-    pub fn cell(self) -> TransitionMethod {
+    pub fn method(self) -> TransitionMethod {
         match self {
             Self::Straight => TransitionMethod::RIGID_PARTS,
-            Self::Cell(method) => method,
+            Self::Method(method) => method,
         }
     }
 
@@ -231,7 +231,7 @@ impl ComparisonMethod {
     pub fn name(self) -> &'static str {
         match self {
             Self::Straight => "straight lines",
-            Self::Cell(method) => method.name(),
+            Self::Method(method) => method.name(),
         }
     }
 }

@@ -7,7 +7,7 @@
 /// it from a background job.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 #[expect(unsafe_code, reason = "a function of the C library; it takes a number")]
-pub fn give_back() {
+pub fn return_free_memory() {
     // SAFETY: `malloc_trim(3)` may be called by any thread at any time and touches no memory in
     // use.
     unsafe {
@@ -25,7 +25,7 @@ pub fn give_back() {
     unsafe_code,
     reason = "a function of the C library; it takes two numbers"
 )]
-pub fn share_arenas() {
+pub fn limit_arenas() {
     // SAFETY: it changes a limit that applies to arenas created from now on
     // (`mallopt(3)`) and touches no memory in use.
     let is_set = unsafe { libc::mallopt(libc::M_ARENA_MAX, 2) } == 1;
@@ -34,8 +34,8 @@ pub fn share_arenas() {
 
 /// Does nothing: this platform's allocator has no such limit.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
-pub fn share_arenas() {}
+pub fn limit_arenas() {}
 
 /// Does nothing: this platform's allocator returns freed memory by itself.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
-pub fn give_back() {}
+pub fn return_free_memory() {}

@@ -126,7 +126,7 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
     ///
     /// # Errors
     /// As [`poll`](Self::poll).
-    pub fn take(job: &mut Option<Self>) -> Option<Result<T, JobError<E>>> {
+    pub fn take_result(job: &mut Option<Self>) -> Option<Result<T, JobError<E>>> {
         let result = job.as_ref()?.poll()?;
         *job = None;
         Some(result)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use image::{Rgba, RgbaImage};
 
 use crate::app::jobs::job::BackgroundJob;
-use crate::app::map::thumbnails::REACH;
+use crate::app::map::thumbnails::MAP_HALF_SIDE;
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
 use crate::measure::{MapLandscape, MapMeasure};
@@ -64,14 +64,14 @@ impl MapContours {
 
     /// Takes the next finer samples and redraws the image in the colour `ink` where needed; returns
     /// whether the image is new.
-    pub fn work(
+    pub fn update(
         &mut self,
         space: &DesignSpace,
         map: &WeightMap,
         shown: ShownMeasure,
         ink: Rgb,
     ) -> bool {
-        if let Some(Ok(landscape)) = BackgroundJob::take(&mut self.sampling) {
+        if let Some(Ok(landscape)) = BackgroundJob::take_result(&mut self.sampling) {
             self.landscape = Some(landscape);
         }
         let sampled = self.landscape.as_ref().map_or(0, MapLandscape::side);
@@ -79,11 +79,11 @@ impl MapContours {
         if let Some(side) = next.filter(|_| self.sampling.is_none()) {
             let (space, map) = (space.clone(), map.clone());
             self.sampling = Some(BackgroundJob::start("measuring the map", move |progress| {
-                MapLandscape::measure(&space, &map, side, REACH, progress)
+                MapLandscape::measure(&space, &map, side, MAP_HALF_SIDE, progress)
             }));
         }
         let mut is_new = false;
-        if let Some(image) = BackgroundJob::take(&mut self.drawing) {
+        if let Some(image) = BackgroundJob::take_result(&mut self.drawing) {
             self.picture = image.ok();
             is_new = true;
         }
@@ -105,9 +105,9 @@ impl MapContours {
 
 /// Draws the contours of `shown` and the hatching; straight alpha on a transparent background.
 fn draw(landscape: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
-    let px = 2.0 * REACH / f64::from(SIDE_PX);
+    let px = 2.0 * MAP_HALF_SIDE / f64::from(SIDE_PX);
     let map_point = |x: u32, y: u32| {
-        let [across, down] = [x, y].map(|k| (f64::from(k) + 0.5) * px - REACH);
+        let [across, down] = [x, y].map(|k| (f64::from(k) + 0.5) * px - MAP_HALF_SIDE);
         DVec2::new(across, -down)
     };
     let range = shown.and_then(|measure| Some((measure, landscape.range(measure)?)));
@@ -125,17 +125,18 @@ fn draw(landscape: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
                 let value = landscape.value(measure, at)?;
                 Some((value - min) / (max - min) * CONTOURS)
             };
-            let here = height(at)?;
+            let centre_height = height(at)?;
             // Change of the height from one pixel to the next, by forward differences.
             let slope = DVec2::new(
-                height(at + DVec2::X * px)? - here,
-                height(at + DVec2::Y * px)? - here,
+                height(at + DVec2::X * px)? - centre_height,
+                height(at + DVec2::Y * px)? - centre_height,
             );
             // Distance to the nearest contour, in pixels.
-            let distance_px = (here - here.round()).abs() / slope.length().max(1e-9);
+            let distance_px =
+                (centre_height - centre_height.round()).abs() / slope.length().max(1e-9);
             // Antialiased lines on top of a shade that grows with the value.
             let line = (1.3 - distance_px).clamp(0.0, 1.0);
-            Some(0.22 * here / CONTOURS + 0.4 * line)
+            Some(0.22 * centre_height / CONTOURS + 0.4 * line)
         });
         let Rgb([r, g, b]) = ink;
         Rgba([r, g, b, (shade.unwrap_or(0.0).min(1.0) * 255.0) as u8])

@@ -5,19 +5,19 @@ use bevy::prelude::{MessageReader, Res, ResMut};
 use crate::app::input::gesture::Gesture;
 use crate::app::input::intent::Intent;
 use crate::app::map::map_view::MapView;
-use crate::app::map::thumbnails::REACH;
+use crate::app::map::thumbnails::MAP_HALF_SIDE;
 use crate::app::notices::Notices;
 use crate::app::session::state::Session;
 use crate::geometry::DVec2;
-use crate::project::{MAX_PLACES, MapSettings, SavedPlace};
+use crate::project::{MAX_PLACES, MapSettings, SavedBlend};
 use crate::space::{MapPath, Waypoint, simplify_polyline};
 
 /// Distance within which a new stop snaps to a design or another stop (heuristic).
-const SNAP_DISTANCE: f64 = 0.05 * REACH;
+const SNAP_DISTANCE: f64 = 0.05 * MAP_HALF_SIDE;
 
 /// Maximum deviation of the simplified path from a line drawn by hand (heuristic: removes the
 /// trembling of a hand).
-const PATH_TOLERANCE: f64 = 0.015 * REACH;
+const PATH_TOLERANCE: f64 = 0.015 * MAP_HALF_SIDE;
 
 /// Applies the intents that concern the map.
 pub fn apply(
@@ -39,8 +39,10 @@ pub fn apply(
                     path.places.truncate(MAX_PLACES);
                     session.change_whole(gesture.id(), |project| project.set_path(path));
                 }
-                Some(_) => notices.done("The marker did not move, so no path was recorded"),
-                None => notices.done("Recording a path: move the marker, then press W to finish"),
+                Some(_) => notices.confirm("The marker did not move, so no path was recorded"),
+                None => {
+                    notices.confirm("Recording a path: move the marker, then press W to finish")
+                }
             },
             Intent::ExtendPath(through) => {
                 let path = session
@@ -147,10 +149,10 @@ fn blend_name(at: DVec2, view: &MapView) -> String {
 }
 
 /// Saved blend at the marker.
-fn saved_blend(view: &MapView) -> SavedPlace {
-    SavedPlace {
+fn saved_blend(view: &MapView) -> SavedBlend {
+    SavedBlend {
         name: blend_name(view.marker(), view),
-        ..SavedPlace::new(view.marker())
+        ..SavedBlend::new(view.marker())
     }
 }
 

@@ -13,7 +13,7 @@ use crate::app::input::editor_action::EditorAction;
 use crate::app::input::intent::Intent;
 use crate::app::jobs::job::{BackgroundJob, JobError};
 use crate::app::map::pictures::MapPictures;
-use crate::app::map::thumbnails::REACH;
+use crate::app::map::thumbnails::MAP_HALF_SIDE;
 use crate::app::session::state::Session;
 use crate::export::PixelSize;
 use crate::geometry::DVec2;
@@ -108,7 +108,7 @@ impl MapView {
     /// the stop key adds a stop to the path.
     #[must_use]
     pub fn map_intent(&self, intent: &Intent) -> Option<Intent> {
-        let by = match intent {
+        let direction = match intent {
             _ if !self.is_shown => return None,
             Intent::Step(n) => DVec2::new(f64::from(*n), 0.0),
             Intent::JumpToNextStop => DVec2::Y,
@@ -121,12 +121,14 @@ impl MapView {
             Intent::NormalSpeed if self.is_drawing_path => return Some(Intent::RemoveLastPathStop),
             _ => return None,
         };
-        Some(Intent::MoveMarker(self.marker + by * MARKER_STEP * REACH))
+        Some(Intent::MoveMarker(
+            self.marker + direction * MARKER_STEP * MAP_HALF_SIDE,
+        ))
     }
 
     /// Moves the marker, clamped to the map.
     pub fn move_marker(&mut self, to: DVec2) {
-        self.marker = to.clamp(DVec2::splat(-REACH), DVec2::splat(REACH));
+        self.marker = to.clamp(DVec2::splat(-MAP_HALF_SIDE), DVec2::splat(MAP_HALF_SIDE));
         if let Some(recorded) = &mut self.recorded {
             recorded.push(self.marker);
         }
@@ -164,7 +166,7 @@ impl MapView {
     }
 
     /// Builds the map of the open project and its images; returns whether something is new.
-    pub fn work(&mut self, session: &Session, is_new: bool) -> bool {
+    pub fn update(&mut self, session: &Session, is_new: bool) -> bool {
         let mut is_changed = self.collect_space();
         if !self.is_shown {
             return is_changed;
@@ -181,16 +183,16 @@ impl MapView {
         if let (Some(pictures), Some(loaded)) = (&mut self.pictures, &self.loaded) {
             let is_final = self.job.is_none();
             let saved_places = &loaded.project.map.kept;
-            is_changed |= pictures.work(session.style(), saved_places, self.measure, is_final);
+            is_changed |= pictures.update(session.style(), saved_places, self.measure, is_final);
         }
         is_changed
     }
 
     /// Draws the blend under the marker unless the current image shows it; returns whether it drew.
-    pub fn look(&mut self, size: PixelSize, style: TransitionStyle) -> bool {
+    pub fn draw_blend(&mut self, size: PixelSize, style: TransitionStyle) -> bool {
         let (marker, start) = (self.marker, Instant::now());
         let pictures = self.pictures.as_mut();
-        let is_new = pictures.is_some_and(|pictures| pictures.look(marker, size, style));
+        let is_new = pictures.is_some_and(|pictures| pictures.draw_blend(marker, size, style));
         if is_new {
             self.times.record(start.elapsed());
         }
@@ -199,7 +201,7 @@ impl MapView {
 
     /// Durations of the last moves of the marker, up to the new image of the blend.
     #[must_use]
-    pub fn times(&self) -> &DurationHistory {
+    pub fn draw_times(&self) -> &DurationHistory {
         &self.times
     }
 
@@ -262,7 +264,7 @@ impl MapView {
 
     /// Collects a space that was built; returns whether there was a result.
     fn collect_space(&mut self) -> bool {
-        match BackgroundJob::take(&mut self.job) {
+        match BackgroundJob::take_result(&mut self.job) {
             None => return false,
             Some(Ok(space)) => {
                 self.adopt_space(space);

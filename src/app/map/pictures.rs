@@ -13,7 +13,7 @@ use crate::design::DesignForm;
 use crate::export::{Drawing, PixelSize, PixelSizeError, PlaneView, rasterise, text_colour_on};
 use crate::geometry::DVec2;
 use crate::measure::MapMeasure;
-use crate::project::SavedPlace;
+use crate::project::SavedBlend;
 use crate::space::{DesignSpace, SpaceFrame, WeightMap};
 use crate::transition::TransitionStyle;
 
@@ -122,7 +122,7 @@ impl MapPictures {
     }
 
     /// Draws thumbnails of saved blends that lack one; returns whether it drew any.
-    fn draw_saved_blends(&mut self, places: &[SavedPlace], style: &TransitionStyle) -> bool {
+    fn draw_saved_blends(&mut self, places: &[SavedBlend], style: &TransitionStyle) -> bool {
         let Ok(size) = PixelSize::new(SAVED_BLEND_PX, SAVED_BLEND_PX) else {
             return false;
         };
@@ -167,7 +167,7 @@ impl MapPictures {
     }
 
     /// Draws the blend at a place unless the current image shows it; returns whether it drew.
-    pub fn look(&mut self, marker: DVec2, size: PixelSize, style: TransitionStyle) -> bool {
+    pub fn draw_blend(&mut self, marker: DVec2, size: PixelSize, style: TransitionStyle) -> bool {
         let mut weights = vec![0.0; self.space.designs().len()];
         self.map.weights(marker, &mut weights);
         let key = (weights, size, style);
@@ -188,10 +188,10 @@ impl MapPictures {
 
     /// Draws whatever is missing or outdated: thumbnails, saved blends and, if no better map is
     /// still being built (`is_final`), contours. Returns whether something is new.
-    pub fn work(
+    pub fn update(
         &mut self,
         style: TransitionStyle,
-        saved_places: &[SavedPlace],
+        saved_places: &[SavedBlend],
         shown: Option<MapMeasure>,
         is_final: bool,
     ) -> bool {
@@ -200,14 +200,14 @@ impl MapPictures {
         // Thumbnails first, measures afterwards.
         if is_final && self.thumbnails.is_some() && self.drawing.is_none() {
             let ink = text_colour_on(Some(style.ground));
-            is_new |= self.contours.work(&self.space, &self.map, shown, ink);
+            is_new |= self.contours.update(&self.space, &self.map, shown, ink);
         }
         is_new
     }
 
     /// Starts or finishes drawing the thumbnails; returns whether they are new.
     fn update_thumbnails(&mut self, style: TransitionStyle) -> bool {
-        if let Some(thumbnails) = BackgroundJob::take(&mut self.drawing) {
+        if let Some(thumbnails) = BackgroundJob::take_result(&mut self.drawing) {
             // If thumbnails fail, the map still shows the designs' places and the marker.
             self.thumbnails = thumbnails.ok();
             return true;

@@ -11,7 +11,7 @@ use crate::transition::TransitionStyle;
 
 /// Half the side of the map. The designs lie within 1 of its centre; the rest is margin
 /// (heuristic).
-pub const REACH: f64 = 1.2;
+pub const MAP_HALF_SIDE: f64 = 1.2;
 
 /// Number of blend thumbnails along each side of the map (heuristic).
 const CELLS: u32 = 9;
@@ -22,7 +22,7 @@ const SIDE_PX: u32 = 1056;
 /// Size of a design's thumbnail relative to that of a blend (heuristic).
 const DESIGN_SCALE: f64 = 1.3;
 
-/// Images of the whole map, from −[`REACH`] to [`REACH`] along each axis; straight alpha on a
+/// Images of the whole map, from −[`MAP_HALF_SIDE`] to [`MAP_HALF_SIDE`] along each axis; straight alpha on a
 /// transparent background.
 #[derive(Clone, Debug)]
 pub struct MapThumbnails {
@@ -44,8 +44,8 @@ pub fn draw_thumbnails(
     style: &TransitionStyle,
 ) -> Result<MapThumbnails, PixelSizeError> {
     let size = PixelSize::new(SIDE_PX, SIDE_PX)?;
-    let cell = 2.0 * REACH / f64::from(CELLS);
-    let px = f64::from(SIDE_PX) / (2.0 * REACH);
+    let cell = 2.0 * MAP_HALF_SIDE / f64::from(CELLS);
+    let px = f64::from(SIDE_PX) / (2.0 * MAP_HALF_SIDE);
     let mut frame = space.frame();
     let mut weights = vec![0.0; space.designs().len()];
     let mut picture = |places: &[DVec2], scale: f64| {
@@ -54,7 +54,7 @@ pub fn draw_thumbnails(
             map.weights(place, &mut weights);
             frame.seek(&weights);
             let side = DVec2::splat(0.86 * scale * cell * px);
-            let middle = DVec2::new(place.x + REACH, REACH - place.y) * px;
+            let middle = DVec2::new(place.x + MAP_HALF_SIDE, MAP_HALF_SIDE - place.y) * px;
             let bounds = square(space.bounds());
             let view = PlaneView::fit_cell(bounds, size, middle - 0.5 * side, side);
             drawing.push_blend(&frame, style, &view);
@@ -63,7 +63,7 @@ pub fn draw_thumbnails(
     };
     let grid_points = (0..CELLS * CELLS).map(|index| {
         let [column, row] =
-            [index % CELLS, index / CELLS].map(|k| (f64::from(k) + 0.5) * cell - REACH);
+            [index % CELLS, index / CELLS].map(|k| (f64::from(k) + 0.5) * cell - MAP_HALF_SIDE);
         DVec2::new(column, row)
     });
     // No blend is drawn under a design's thumbnail or its name.

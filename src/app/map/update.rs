@@ -26,7 +26,7 @@ pub fn follow(
     let is_new = session.is_changed() || view.is_changed();
     // Change detection is set by hand: this system runs each frame but seldom changes anything.
     let map = view.bypass_change_detection();
-    let mut is_changed = map.work(&session, is_new);
+    let mut is_changed = map.update(&session, is_new);
     is_changed |= map.follow_playback(playback.t());
     if map.is_shown {
         let scale = window.single().map_or(1.0, Window::scale_factor);
@@ -34,7 +34,7 @@ pub fn follow(
         let size_px = area_px * (MAX_SIDE_PX / area_px.max_element()).min(1.0);
         let size_px = size_px.max(Vec2::ONE).as_uvec2();
         if let Ok(size) = PixelSize::new(size_px.x, size_px.y) {
-            is_changed |= map.look(size, session.style());
+            is_changed |= map.draw_blend(size, session.style());
         }
     }
     if is_changed {

@@ -58,8 +58,8 @@ impl Autosave {
     ///
     /// # Errors
     /// The folder cannot be created or written to.
-    pub fn enter(folder: &Path) -> io::Result<Self> {
-        let (slot, abandoned) = AutosaveSlot::enter(folder)?;
+    pub fn start_in(folder: &Path) -> io::Result<Self> {
+        let (slot, abandoned) = AutosaveSlot::lock_free_slot(folder)?;
         let mut autosave = Self::default();
         (autosave.slot, autosave.abandoned) = (Some(slot), abandoned);
         Ok(autosave)
@@ -67,8 +67,8 @@ impl Autosave {
 
     /// Scratch folder of this window for long-running exports.
     #[must_use]
-    pub fn workshop(&self) -> ScratchFolder {
-        ScratchFolder(self.slot.as_ref().map(AutosaveSlot::workshop))
+    pub fn scratch_folder(&self) -> ScratchFolder {
+        ScratchFolder(self.slot.as_ref().map(AutosaveSlot::scratch_folder))
     }
 
     /// The newest autosave to recover: its title and its age.
@@ -76,9 +76,9 @@ impl Autosave {
     pub fn recoverable(&self) -> Option<(&str, Option<Duration>)> {
         let abandoned = self.abandoned.first()?;
         let age = abandoned
-            .when
+            .written_at
             .and_then(|when| SystemTime::now().duration_since(when).ok());
-        Some((&abandoned.kept.title, age))
+        Some((&abandoned.project.title, age))
     }
 
     /// Whether changes are not autosaved yet.
@@ -94,7 +94,7 @@ impl Drop for Autosave {
     fn drop(&mut self) {
         let started = Instant::now();
         while self.job.is_some()
-            && BackgroundJob::take(&mut self.job).is_none()
+            && BackgroundJob::take_result(&mut self.job).is_none()
             && started.elapsed() < MIN_INTERVAL
         {
             std::thread::sleep(MIN_INTERVAL / 200);
@@ -104,7 +104,7 @@ impl Drop for Autosave {
 }
 
 /// Applies the user's answer to the offer to recover a project.
-pub fn rescue(
+pub fn answer_recovery(
     mut intents: MessageReader<Intent>,
     mut autosave: ResMut<Autosave>,
     mut session: ResMut<Session>,
@@ -126,11 +126,11 @@ pub fn rescue(
             RecoveryAnswer::Later => autosave.abandoned.clear(),
             RecoveryAnswer::Discard => autosave.abandoned.remove(0).slot.clear(),
             RecoveryAnswer::Restore if session.is_dirty() => {
-                notices.done("Save or undo your changes first, then recover the project");
+                notices.confirm("Save or undo your changes first, then recover the project");
             }
             RecoveryAnswer::Restore => {
                 let abandoned = autosave.abandoned.remove(0);
-                session.open(LoadRequest::Recovered(Box::new(abandoned.kept)));
+                session.open(LoadRequest::Recovered(Box::new(abandoned.project)));
                 // Keeps the lock: the autosave is still the only copy of these changes.
                 autosave.opening_slot = Some(abandoned.slot);
             }
@@ -146,7 +146,7 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
     let Some(slot) = &autosave.slot else {
         return;
     };
-    if let Some(Err(error)) = BackgroundJob::take(&mut autosave.job) {
+    if let Some(Err(error)) = BackgroundJob::take_result(&mut autosave.job) {
         // Tried again later.
         autosave.is_behind = session.is_dirty();
         if !std::mem::replace(&mut autosave.is_reported, true) {
@@ -186,10 +186,10 @@ impl Autosave {
     fn take_over_recovered_slot(&mut self, session: &Session) {
         if session.is_opening() {
             // Still unknown whether it can be opened.
-        } else if session.is_rescued() {
+        } else if session.is_recovered() {
             if let Some(slot) = self.opening_slot.take() {
-                let own = self.slot.replace(slot);
-                self.initial_slot = self.initial_slot.take().or(own);
+                let previous = self.slot.replace(slot);
+                self.initial_slot = self.initial_slot.take().or(previous);
                 (self.slot_is_ours, self.is_resolved, self.written) = (true, false, None);
             }
         } else {

@@ -26,9 +26,9 @@ pub struct AutosaveSlot {
 #[derive(Debug)]
 pub struct AbandonedProject {
     /// The project.
-    pub kept: UnsavedProject,
+    pub project: UnsavedProject,
     /// When it was written.
-    pub when: Option<SystemTime>,
+    pub written_at: Option<SystemTime>,
     /// Its slot.
     pub slot: AutosaveSlot,
 }
@@ -52,7 +52,7 @@ impl AutosaveSlot {
     ///
     /// # Errors
     /// The folder cannot be created or written to, or all slots are in use.
-    pub fn enter(folder: &Path) -> io::Result<(Self, Vec<AbandonedProject>)> {
+    pub fn lock_free_slot(folder: &Path) -> io::Result<(Self, Vec<AbandonedProject>)> {
         fs::create_dir_all(folder)?;
         let mut free = None;
         let mut abandoned = Vec::new();
@@ -68,25 +68,25 @@ impl AutosaveSlot {
                 continue;
             };
             // Exports of the window that ended will not be finished.
-            fs::remove_dir_all(slot.workshop()).ok();
+            fs::remove_dir_all(slot.scratch_folder()).ok();
             match UnsavedProject::read(&slot.path) {
                 Ok(project) => abandoned.push(AbandonedProject {
-                    when: fs::metadata(&slot.path).and_then(|m| m.modified()).ok(),
-                    kept: project,
+                    written_at: fs::metadata(&slot.path).and_then(|m| m.modified()).ok(),
+                    project: project,
                     slot,
                 }),
                 // A file that is no valid autosave is overwritten.
                 Err(_) => free = free.or(Some(slot)),
             }
         }
-        abandoned.sort_by_key(|abandoned| std::cmp::Reverse(abandoned.when));
+        abandoned.sort_by_key(|abandoned| std::cmp::Reverse(abandoned.written_at));
         let free = free.ok_or_else(|| io::Error::other("too many windows are open"))?;
         Ok((free, abandoned))
     }
 
     /// Folder for unfinished exports of the window.
     #[must_use]
-    pub fn workshop(&self) -> PathBuf {
+    pub fn scratch_folder(&self) -> PathBuf {
         self.path.with_extension("making")
     }
 
@@ -99,7 +99,7 @@ impl AutosaveSlot {
 impl Drop for AutosaveSlot {
     fn drop(&mut self) {
         // Only if it is empty, that is, no export is in progress.
-        fs::remove_dir(self.workshop()).ok();
+        fs::remove_dir(self.scratch_folder()).ok();
     }
 }
 
@@ -115,19 +115,19 @@ mod tests {
         let name = gallery::list()?.remove(0).name;
         let loaded = gallery::load(&name)?;
         let unsaved = UnsavedProject::new("a".to_owned(), &ProjectOrigin::Gallery(name), &loaded)?;
-        let (first, abandoned) = AutosaveSlot::enter(folder.path())?;
+        let (first, abandoned) = AutosaveSlot::lock_free_slot(folder.path())?;
         assert!(abandoned.is_empty());
         unsaved.write(&first.path)?;
-        let (second, abandoned) = AutosaveSlot::enter(folder.path())?;
+        let (second, abandoned) = AutosaveSlot::lock_free_slot(folder.path())?;
         assert!(abandoned.is_empty() && first.path != second.path);
         drop((first, second));
-        let (third, abandoned) = AutosaveSlot::enter(folder.path())?;
+        let (third, abandoned) = AutosaveSlot::lock_free_slot(folder.path())?;
         assert_eq!(abandoned.len(), 1);
-        assert_eq!(abandoned[0].kept, unsaved);
+        assert_eq!(abandoned[0].project, unsaved);
         assert_ne!(third.path, abandoned[0].slot.path);
         abandoned[0].slot.clear();
         drop((third, abandoned));
-        assert!(AutosaveSlot::enter(folder.path())?.1.is_empty());
+        assert!(AutosaveSlot::lock_free_slot(folder.path())?.1.is_empty());
         Ok(())
     }
 }

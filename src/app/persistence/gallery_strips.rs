@@ -52,7 +52,7 @@ impl StripCacheFolder {
 impl GalleryStripCache {
     /// Cache of this program version in the user's cache folder.
     #[must_use]
-    pub fn usual() -> Self {
+    pub fn in_user_cache() -> Self {
         let root = dirs::cache_dir().map(|cache| cache.join("morphospace").join("strips"));
         let cache_folder = root.zip(version());
         Self {
@@ -80,7 +80,7 @@ impl GalleryStripCache {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn keep(&self, name: &str, strip: &RgbaImage) -> io::Result<()> {
+    pub fn store(&self, name: &str, strip: &RgbaImage) -> io::Result<()> {
         let Some(cache_folder) = &self.cache_folder else {
             return Ok(());
         };
@@ -140,7 +140,7 @@ mod tests {
         let cache = cache_in(&folder);
         assert!(cache.read(SIZE).is_empty());
         let strip = RgbaImage::from_fn(SIZE.0, SIZE.1, |x, y| Rgba([x as u8, y as u8, 7, 128]));
-        cache.keep("gears", &strip)?;
+        cache.store("gears", &strip)?;
         assert_eq!(cache.read(SIZE), HashMap::from([("gears".into(), strip)]));
         assert!(!other.exists(), "strips of other versions are deleted");
         assert!(foreign.exists(), "other folders are kept");
@@ -151,7 +151,7 @@ mod tests {
     fn invalid_strips_are_left_out() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
         let cache = cache_in(&folder);
-        cache.keep("small", &RgbaImage::new(1, 1))?;
+        cache.store("small", &RgbaImage::new(1, 1))?;
         let version_folder = folder.path().join("0123456789abcdef");
         fs::write(version_folder.join("broken.png"), "not a picture")?;
         assert!(cache.read(SIZE).is_empty());
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn without_a_folder_nothing_is_cached() -> io::Result<()> {
         let cache = GalleryStripCache::default();
-        cache.keep("gears", &RgbaImage::new(SIZE.0, SIZE.1))?;
+        cache.store("gears", &RgbaImage::new(SIZE.0, SIZE.1))?;
         assert!(cache.read(SIZE).is_empty());
         Ok(())
     }

@@ -44,7 +44,7 @@ pub struct RecentFiles {
 impl RecentFiles {
     /// Path of the list's file; `None` if the system has no folder for it.
     #[must_use]
-    pub fn usual_path() -> Option<PathBuf> {
+    pub fn default_path() -> Option<PathBuf> {
         let state = dirs::state_dir().or_else(dirs::data_local_dir);
         state.map(|state| state.join("morphospace").join("recent.toml"))
     }
@@ -94,7 +94,7 @@ impl StoredRecentFiles {
 
     /// Entries, the newest first.
     #[must_use]
-    pub fn opened(&self) -> &[RecentEntry] {
+    pub fn entries(&self) -> &[RecentEntry] {
         &self.recent.opened
     }
 
@@ -135,7 +135,7 @@ pub fn follow(session: Res<Session>, mut recent: ResMut<StoredRecentFiles>) {
         (None, None) => session.files(),
     };
     let is_known = recent
-        .opened()
+        .entries()
         .first()
         .is_some_and(|last| last.files == files);
     if files.is_empty() || is_known {
@@ -172,17 +172,17 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("state").join("recent.toml");
         let mut stored = StoredRecentFiles::of_file(Some(path.clone()));
-        let here = RecentEntry {
+        let existing = RecentEntry {
             files: vec![folder.path().to_owned()],
         };
         stored.add(opened("gone")).expect("a file");
-        stored.add(here.clone()).expect("a file");
-        assert_eq!(stored.opened().len(), 2);
+        stored.add(existing.clone()).expect("a file");
+        assert_eq!(stored.entries().len(), 2);
         assert_eq!(
-            StoredRecentFiles::of_file(Some(path.clone())).opened(),
-            [here]
+            StoredRecentFiles::of_file(Some(path.clone())).entries(),
+            [existing]
         );
         std::fs::write(&path, "opened = 3").expect("a file");
-        assert!(StoredRecentFiles::of_file(Some(path)).opened().is_empty());
+        assert!(StoredRecentFiles::of_file(Some(path)).entries().is_empty());
     }
 }

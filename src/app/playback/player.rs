@@ -12,7 +12,7 @@ use crate::app::session::state::Session;
 use crate::transition::{EasingFunction, PlayMode, Timing, TransitionStop};
 
 /// Two t closer than this are the same stop (tolerance: the finest step on screen is 0.001).
-pub const SAME_T: f64 = 1e-6;
+pub const STOP_TOLERANCE_T: f64 = 1e-6;
 
 /// Distance in t from a design within which two films of the same designs look the same
 /// (heuristic).
@@ -134,7 +134,7 @@ impl Playback {
             self.motion = PlaybackMotion::Still;
             return;
         }
-        let film_secs = timing.pass_secs(stops);
+        let film_secs = timing.film_secs(stops);
         let secs = timing.secs_at(self.t, stops);
         // Where the film starts, in seconds, and where it ends, in t, in the current direction.
         let (start, end) = if self.backwards {
@@ -142,7 +142,7 @@ impl Playback {
         } else {
             (0.0, timing.to)
         };
-        let is_at_end = (self.t - end).abs() < SAME_T;
+        let is_at_end = (self.t - end).abs() < STOP_TOLERANCE_T;
         // Ping-pong has no end: the film turns round by itself.
         let secs = if is_at_end && timing.play != PlayMode::PingPong {
             start
@@ -248,7 +248,7 @@ impl Playback {
 
     /// Moves along the film to time `raw`, in seconds, and handles its ends.
     fn advance_film(&mut self, unclamped_secs: f64, timing: &Timing, stops: &[TransitionStop]) {
-        let film_secs = timing.pass_secs(stops);
+        let film_secs = timing.film_secs(stops);
         let is_past_end = if self.backwards {
             unclamped_secs <= 0.0
         } else {
@@ -288,7 +288,7 @@ pub fn landmarks(timing: &Timing, stops: &[TransitionStop]) -> Vec<f64> {
     all.extend([timing.from, timing.to]);
     all.sort_by(f64::total_cmp);
     // Sorted above, so duplicates are adjacent.
-    all.dedup_by(|a, b| (*a - *b).abs() < SAME_T);
+    all.dedup_by(|a, b| (*a - *b).abs() < STOP_TOLERANCE_T);
     all
 }
 
@@ -318,9 +318,11 @@ pub fn next_landmark(
     let all = landmarks(timing, stops);
     // A film may run from a larger t to a smaller one.
     if backwards != (timing.to < timing.from) {
-        all.into_iter().rev().find(|place| *place < t - SAME_T)
+        all.into_iter()
+            .rev()
+            .find(|place| *place < t - STOP_TOLERANCE_T)
     } else {
-        all.into_iter().find(|place| *place > t + SAME_T)
+        all.into_iter().find(|place| *place > t + STOP_TOLERANCE_T)
     }
 }
 
@@ -332,13 +334,13 @@ pub fn apply(
 ) {
     let (timing, stops) = (session.timing(), session.stops());
     for intent in intents.read() {
-        playback.act(intent, timing, stops);
+        playback.apply_intent(intent, timing, stops);
     }
 }
 
 impl Playback {
     /// Applies one intent; ignores those that do not concern time.
-    pub fn act(&mut self, intent: &Intent, timing: &Timing, stops: &[TransitionStop]) {
+    pub fn apply_intent(&mut self, intent: &Intent, timing: &Timing, stops: &[TransitionStop]) {
         match intent {
             Intent::TogglePlay => self.toggle(timing, stops),
             Intent::Reverse => self.reverse(),
@@ -353,7 +355,7 @@ impl Playback {
             Intent::Faster => self.change_speed(true),
             Intent::Slower => self.change_speed(false),
             Intent::NormalSpeed => self.set_speed(1.0),
-            Intent::Speed(speed) => self.set_speed(*speed),
+            Intent::SetSpeed(speed) => self.set_speed(*speed),
             _ => {}
         }
     }

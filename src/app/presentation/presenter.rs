@@ -52,7 +52,7 @@ struct ActiveTalk {
 impl Presentation {
     /// Whether a talk is given.
     #[must_use]
-    pub fn is_on(&self) -> bool {
+    pub fn is_active(&self) -> bool {
         self.talk.is_some()
     }
 
@@ -163,7 +163,7 @@ pub fn apply(
                 }
                 presentation.talk = None;
             }
-            (Intent::Black, Some(talk)) => talk.is_black = !talk.is_black,
+            (Intent::ToggleBlackScreen, Some(talk)) => talk.is_black = !talk.is_black,
             // Toggles what is visible now, whether it was chosen or is the default.
             (Intent::ToggleCaptions, Some(_)) => {
                 let are_shown = presentation.captions(&session).is_some();

@@ -73,19 +73,19 @@ pub fn apply(
 ) {
     // A screen other than the window's own. Some systems do not report it; then nothing opens by
     // itself.
-    let own = audience.single().ok().and_then(|(_, on)| Some(on?.0));
-    let second = own.and_then(|own| monitors.iter().find(|screen| *screen != own));
+    let audience_screen = audience.single().ok().and_then(|(_, on)| Some(on?.0));
+    let second = audience_screen.and_then(|first| monitors.iter().find(|screen| *screen != first));
     for intent in intents.read() {
         match intent {
-            Intent::Present { .. } if presentation.is_on() && speaker.window.is_none() => {
+            Intent::Present { .. } if presentation.is_active() && speaker.window.is_none() => {
                 if let (Some(screen), Ok((mut window, _))) = (second, audience.single_mut()) {
                     let screen = MonitorSelection::Entity(screen);
                     window.mode = WindowMode::BorderlessFullscreen(screen);
-                    speaker.window = Some(open(&mut commands, own));
+                    speaker.window = Some(open(&mut commands, audience_screen));
                 }
             }
-            Intent::ToggleSpeaker if presentation.is_on() && speaker.window.is_none() => {
-                speaker.window = Some(open(&mut commands, own));
+            Intent::ToggleSpeaker if presentation.is_active() && speaker.window.is_none() => {
+                speaker.window = Some(open(&mut commands, audience_screen));
             }
             Intent::ToggleSpeaker => close(&mut speaker, &mut commands),
             _ => {}
@@ -97,7 +97,7 @@ pub fn apply(
             .is_some_and(|(window, _)| window == request.window)
     };
     let is_closed = closing.read().filter(|request| is_own(request)).count() > 0;
-    if speaker.window.is_some() && (is_closed || !presentation.is_on()) {
+    if speaker.window.is_some() && (is_closed || !presentation.is_active()) {
         close(&mut speaker, &mut commands);
     }
 }
@@ -139,7 +139,7 @@ pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playbac
     }
     // Change detection is not used for this resource.
     let speaker = speaker.bypass_change_detection();
-    if let Some(picture) = BackgroundJob::take(&mut speaker.job) {
+    if let Some(picture) = BackgroundJob::take_result(&mut speaker.job) {
         speaker.picture = picture.ok().map(Arc::new);
     }
     let next = playback.next_stop(session.timing(), session.stops());

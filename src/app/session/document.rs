@@ -189,7 +189,7 @@ impl OpenDocument {
     }
 
     /// Clears the problems of all segments.
-    pub fn forget_problems(&mut self) {
+    pub fn clear_problems(&mut self) {
         for segment in &mut self.segments {
             segment.problem = None;
         }
@@ -265,7 +265,7 @@ impl OpenDocument {
     }
 
     /// Treats the current settings as saved.
-    pub fn forget_changes(&mut self) {
+    pub fn mark_saved(&mut self) {
         self.is_recovered = false;
         self.saved = self.loaded.project.clone();
     }
@@ -275,7 +275,7 @@ impl OpenDocument {
         let before = self.snapshot();
         self.loaded.project = project;
         self.refresh_segment();
-        self.history.note(before, self.snapshot(), mark);
+        self.history.record(before, self.snapshot(), mark);
     }
 
     /// Replaces the settings of the current segment, as [`Self::edit`] does.
@@ -301,7 +301,7 @@ impl OpenDocument {
             // Saved elsewhere since: the paths of the step refer to a folder that is no longer the
             // project's.
             Some(now) if folder.as_ref() != Some(now) => {
-                save::named_from(project, folder.as_deref(), now)?
+                save::with_relative_paths(project, folder.as_deref(), now)?
             }
             _ => project,
         };

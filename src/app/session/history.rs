@@ -71,7 +71,7 @@ impl Default for UndoHistory {
 
 impl UndoHistory {
     /// Records a change. Changes of the same gesture (`mark`) form one step.
-    pub fn note(&mut self, before: ProjectSnapshot, after: ProjectSnapshot, mark: Option<u64>) {
+    pub fn record(&mut self, before: ProjectSnapshot, after: ProjectSnapshot, mark: Option<u64>) {
         self.push(before, after, mark, false);
     }
 
@@ -138,9 +138,9 @@ mod tests {
     #[test]
     fn one_gesture_is_one_step() {
         let mut history = UndoHistory::default();
-        history.note(at("0"), at("1"), Some(7));
-        history.note(at("1"), at("2"), Some(7));
-        history.note(at("2"), at("3"), Some(8));
+        history.record(at("0"), at("1"), Some(7));
+        history.record(at("1"), at("2"), Some(7));
+        history.record(at("2"), at("3"), Some(8));
         assert_eq!(history.undo(), Some(at("2")));
         assert_eq!(history.undo(), Some(at("0")));
         assert!(!history.can_undo());
@@ -150,24 +150,24 @@ mod tests {
     #[test]
     fn changes_without_a_gesture_are_separate_steps() {
         let mut history = UndoHistory::default();
-        history.note(at("0"), at("1"), None);
-        history.note(at("1"), at("2"), None);
+        history.record(at("0"), at("1"), None);
+        history.record(at("1"), at("2"), None);
         assert_eq!(history.undo(), Some(at("1")));
     }
 
     #[test]
     fn a_gesture_that_returns_to_its_start_is_no_step() {
         let mut history = UndoHistory::default();
-        history.note(at("0"), at("1"), Some(7));
-        history.note(at("1"), at("0"), Some(7));
+        history.record(at("0"), at("1"), Some(7));
+        history.record(at("1"), at("0"), Some(7));
         assert!(!history.can_undo());
     }
 
     #[test]
     fn a_rejected_change_is_no_step() {
         let mut history = UndoHistory::default();
-        history.note(at("0"), at("1"), None);
-        history.note(at("1"), at("2"), None);
+        history.record(at("0"), at("1"), None);
+        history.record(at("1"), at("2"), None);
         history.amend(at("2"), at("1"));
         assert_eq!(history.undo(), Some(at("0")));
     }
@@ -175,9 +175,9 @@ mod tests {
     #[test]
     fn a_new_change_discards_undone_steps() {
         let mut history = UndoHistory::default();
-        history.note(at("0"), at("1"), None);
+        history.record(at("0"), at("1"), None);
         history.undo();
-        history.note(at("0"), at("2"), None);
+        history.record(at("0"), at("2"), None);
         assert!(!history.can_redo());
     }
 }

@@ -64,7 +64,7 @@ impl SegmentSettings {
     pub fn of(loaded: &LoadedProject, segment: usize) -> Self {
         let project = &loaded.project;
         let is_truss = |design: &Arc<Design>| matches!(design.form, DesignForm::Truss(_));
-        let stands_alone = project.follows_path()
+        let is_independent = project.follows_path()
             || !project.is_sequence()
             || (project.content == Some(ContentKind::Solid)
                 && project.fit == DesignFit::AsDrawn
@@ -72,7 +72,7 @@ impl SegmentSettings {
         Self {
             segment_project: project.segment(segment),
             path_segment: project.follows_path().then_some(segment),
-            all_designs: if stands_alone {
+            all_designs: if is_independent {
                 Vec::new()
             } else {
                 project.designs.clone()
@@ -542,7 +542,7 @@ pub fn transition_of(
 impl TransitionProblem {
     /// Whether the build was refused only because it would take too long or too much memory.
     #[must_use]
-    pub fn is_too_much(&self) -> bool {
+    pub fn exceeds_limits(&self) -> bool {
         matches!(self, Self::Build(error) if matches!(error.reason(), BuildError::TooMuch(_)))
     }
 

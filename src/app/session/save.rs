@@ -37,7 +37,7 @@ pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     // Works on a copy, so that a failed save leaves the open project unchanged.
-    let project = named_from(loaded.project.clone(), loaded.folder.as_deref(), &folder)?;
+    let project = with_relative_paths(loaded.project.clone(), loaded.folder.as_deref(), &folder)?;
     project.save_atomically(&path)?;
     loaded.project = project;
     loaded.folder = Some(folder);
@@ -49,7 +49,7 @@ pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
 ///
 /// # Errors
 /// A bundled design cannot be written.
-pub fn named_from(
+pub fn with_relative_paths(
     mut project: Project,
     old: Option<&Path>,
     folder: &Path,

@@ -267,7 +267,11 @@ impl Session {
     ///
     /// # Errors
     /// The reason why not, as tooltip of a disabled button.
-    pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), MethodUnavailable> {
+    pub fn check_method(
+        &self,
+        warp: WarpKind,
+        content: ContentKind,
+    ) -> Result<(), MethodUnavailable> {
         let open = self.open.as_ref().ok_or(MethodUnavailable::NothingOpen)?;
         for segment in open.staged_project().segments() {
             segment.check_available(warp, content)?;
@@ -336,7 +340,7 @@ impl Session {
 
     /// Whether the open project was recovered from an autosave.
     #[must_use]
-    pub fn is_rescued(&self) -> bool {
+    pub fn is_recovered(&self) -> bool {
         self.open.as_ref().is_some_and(|open| open.is_recovered)
     }
 
@@ -363,9 +367,9 @@ impl Session {
     }
 
     /// Treats the current settings as saved.
-    pub fn forget_changes(&mut self) {
+    pub fn mark_saved(&mut self) {
         if let Some(open) = &mut self.open {
-            open.forget_changes();
+            open.mark_saved();
         }
     }
 
@@ -497,7 +501,7 @@ impl Session {
         if let Some(open) = &mut self.open {
             open.loaded.patient = true;
             // The build is tried again and reports its problems anew.
-            open.forget_problems();
+            open.clear_problems();
             self.is_stale = true;
         }
     }
@@ -541,7 +545,7 @@ impl Session {
         let can_start = self
             .work
             .as_ref()
-            .is_none_or(TransitionWork::can_be_given_up);
+            .is_none_or(TransitionWork::can_be_abandoned);
         if self.is_stale
             && can_start
             && let Some(open) = &self.open
@@ -557,8 +561,8 @@ impl Session {
     /// Adopts an interim result that is due.
     fn adopt_interim(&mut self) -> Option<WorkOutcome> {
         let work = self.work.as_mut()?;
-        let opened = work.opened();
-        let (loaded, origin) = work.take_meanwhile()?;
+        let opened = work.document_constructor();
+        let (loaded, origin) = work.take_interim()?;
         match (origin, &mut self.open) {
             // First interim result of a project being opened: it replaces the open one.
             (Some(origin), open) => {
@@ -575,7 +579,7 @@ impl Session {
     fn adopt_result(&mut self) -> Option<WorkOutcome> {
         let result = self.work.as_ref()?.job.poll()?;
         let work = self.work.take()?;
-        let (opened, origin) = (work.opened(), work.origin);
+        let (opened, origin) = (work.document_constructor(), work.origin);
         Some(match (result, origin, &mut self.open) {
             (Ok(loaded), Some(origin), open) => {
                 self.is_stale = false;

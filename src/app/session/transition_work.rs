@@ -78,7 +78,7 @@ impl TransitionWork {
 
     /// Constructor that turns the result into an open project.
     #[must_use]
-    pub fn opened(&self) -> fn(BuiltProject, ProjectOrigin) -> OpenDocument {
+    pub fn document_constructor(&self) -> fn(BuiltProject, ProjectOrigin) -> OpenDocument {
         if self.is_unsaved {
             OpenDocument::unsaved
         } else {
@@ -88,7 +88,7 @@ impl TransitionWork {
 
     /// Whether the work may be abandoned for newer settings.
     #[must_use]
-    pub fn can_be_given_up(&self) -> bool {
+    pub fn can_be_abandoned(&self) -> bool {
         self.origin.is_none() && self.job.elapsed() > ABANDON_AFTER
     }
 
@@ -101,7 +101,7 @@ impl TransitionWork {
 
     /// Interim result that is due to be shown. The first one of a project being opened comes with
     /// its origin: from then on the project is open, and the work counts as its rebuild.
-    pub fn take_meanwhile(&mut self) -> Option<(BuiltProject, Option<ProjectOrigin>)> {
+    pub fn take_interim(&mut self) -> Option<(BuiltProject, Option<ProjectOrigin>)> {
         let receiver = self.interim_results.get_mut();
         let receiver = receiver.unwrap_or_else(PoisonError::into_inner);
         // Only the latest: a draft is better than the plainest method.

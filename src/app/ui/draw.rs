@@ -176,7 +176,7 @@ fn stage_content(
     stage: egui::Rect,
     intents: &mut Intents,
 ) -> egui::Rect {
-    if state.presenting.is_on() {
+    if state.presentation.is_active() {
         return presentation::show(root, state, stage, intents);
     }
     if state.editor.is_open {
@@ -248,7 +248,7 @@ fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
     if state.preferences.help {
         help::show(ctx, state, intents);
     }
-    if !state.presenting.is_on() {
+    if !state.presentation.is_active() {
         questions::show(ctx, state, intents);
     }
 }
@@ -262,7 +262,7 @@ fn messages(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
     }
     progress::show(ctx, state, free, intents);
     if state.editor.is_open {
-        free.max.y -= match_editor::ADVICE_HEIGHT;
+        free.max.y -= match_editor::INSTRUCTIONS_HEIGHT;
     }
     notices::show(ctx, state, free, intents);
 }

@@ -50,7 +50,7 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
 
 /// Draws one line per recently opened project.
 fn recent(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let opened = state.recent.opened();
+    let opened = state.recent.entries();
     if opened.is_empty() {
         return;
     }

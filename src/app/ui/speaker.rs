@@ -10,7 +10,7 @@ use bevy_egui::{EguiContext, EguiSchedule, PrimaryEguiContext};
 use image::RgbaImage;
 
 use crate::app::input::preferences::Preferences;
-use crate::app::playback::player::{Playback, SAME_T};
+use crate::app::playback::player::{Playback, STOP_TOLERANCE_T};
 use crate::app::presentation::presenter::Presentation;
 use crate::app::presentation::speaker_window::{SpeakerCamera, SpeakerWindow};
 use crate::app::session::state::Session;
@@ -89,7 +89,7 @@ struct SpeakerMoment<'a> {
 impl<'a> SpeakerMoment<'a> {
     /// Looks up the stop and the design at `t`; `names[k]` is the design at t = k.
     fn new(t: f64, stops: &'a [TransitionStop], names: &'a [String]) -> Self {
-        let is_here = |other_t: f64| (other_t - t).abs() < SAME_T;
+        let is_here = |other_t: f64| (other_t - t).abs() < STOP_TOLERANCE_T;
         let design = names.iter().enumerate().find(|(k, _)| is_here(*k as f64));
         Self {
             t,

@@ -86,7 +86,7 @@ pub fn follow(
 ) {
     // Change detection is set by hand: this system runs each frame but seldom changes anything.
     let strip = filmstrip.bypass_change_detection();
-    if let Some(Ok(pictures)) = BackgroundJob::take(&mut strip.job) {
+    if let Some(Ok(pictures)) = BackgroundJob::take_result(&mut strip.job) {
         strip.pictures = Some(Arc::new(pictures));
         filmstrip.set_changed();
         return;

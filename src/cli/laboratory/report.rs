@@ -17,7 +17,7 @@ use crate::measure::{self, FilmReport, Finding, MeshReport, Verdict};
 use crate::recording::{RecordingError, RecordingOptions};
 use crate::transition::{Transition, TransitionNote, TransitionProof};
 use crate::warp::WarpKind;
-use crate::work::progress::{Progress, ProgressSpan, WholeProgress};
+use crate::work::progress::{OverallProgress, Progress, ProgressSpan};
 
 /// Frames whose times are taken: an odd number has a middle, and the first few,
 /// which find cold caches, are far from it.
@@ -63,7 +63,7 @@ impl MeasuringArgs {
         inputs: &InputArgs,
         progress: &dyn Progress,
     ) -> Result<Vec<(OpenedPair, PairReport)>, CliError> {
-        let whole = WholeProgress::new(progress);
+        let whole = OverallProgress::new(progress);
         let building = ProgressSpan::new(&whole, 0.0, BUILT);
         let clock = StageClock::new(&building);
         let measuring = ProgressSpan::new(&whole, BUILT, 1.0);

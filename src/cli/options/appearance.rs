@@ -27,7 +27,7 @@ pub(super) struct ImportArgs {
     #[arg(long, value_name = "PIXELS")]
     specks: Option<u32>,
 
-    /// Maximum deviation of the outline, as a fraction of the longer side
+    /// Maximum deviation of the outline from the exact boundary, as a fraction of the longer side
     #[arg(long, value_name = "FRACTION")]
     tolerance: Option<f64>,
 
@@ -58,7 +58,7 @@ impl ImportArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Distance fields (field)")]
 pub(super) struct FieldArgs {
-    /// Distance metric
+    /// Metric in which distances are measured
     #[arg(long, value_parser = one_of::<Metric>())]
     metric: Option<Metric>,
 
@@ -70,7 +70,7 @@ pub(super) struct FieldArgs {
     #[arg(long, value_parser = one_of::<BlendSpace>())]
     space: Option<BlendSpace>,
 
-    /// ε of the logarithmic scale, in cells
+    /// Distance in cells below which the logarithmic scale is nearly linear, greater than 0
     #[arg(long, value_name = "CELLS")]
     epsilon: Option<f64>,
 
@@ -78,11 +78,11 @@ pub(super) struct FieldArgs {
     #[arg(long, value_name = "CELLS", allow_negative_numbers = true)]
     threshold: Option<f64>,
 
-    /// Cells along the longer side of the frame
+    /// Number of grid cells along the longer side of the frame
     #[arg(long, value_name = "N")]
     cells: Option<u32>,
 
-    /// Space around the designs, as a fraction of the longer side
+    /// Margin around the designs, as a fraction of their longer side
     #[arg(long, value_name = "FRACTION")]
     margin: Option<f64>,
 }

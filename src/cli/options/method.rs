@@ -32,7 +32,8 @@ named! { MethodFlag {
 } }
 
 impl MethodFlag {
-    /// Returns warp and content; `None` if they are chosen by rating the films.
+    /// Returns the warp and the content of the method; `None` for `auto`, which chooses by rating
+    /// the films.
     fn kinds(self) -> Option<(WarpKind, ContentKind)> {
         match self {
             Self::Arap => Some((WarpKind::Arap, ContentKind::Solid)),
@@ -49,7 +50,7 @@ pub(super) struct PlacingArgs {
     #[arg(long, value_parser = one_of::<MethodFlag>())]
     method: Option<MethodFlag>,
 
-    /// Alignment of the designs
+    /// Alignment of the other designs with the first
     #[arg(long, value_parser = one_of::<DesignFit>())]
     fit: Option<DesignFit>,
 
@@ -67,7 +68,7 @@ pub(super) struct PlacingArgs {
 }
 
 impl PlacingArgs {
-    /// Returns whether the method is chosen by rating the films.
+    /// Returns whether `--method auto` is given: the method is chosen by rating the films.
     pub(super) fn is_auto(&self) -> bool {
         self.method == Some(MethodFlag::Auto)
     }

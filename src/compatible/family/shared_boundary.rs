@@ -93,7 +93,7 @@ fn is_one_to_one(matched: &RegionMatch) -> bool {
     };
     let is_matched = |piece: &PieceMatch| {
         let rings = &piece.rings;
-        piece.is_in_both()
+        piece.is_matched()
             && piece.lone.is_empty()
             && piece.cuts.is_empty()
             && rings.iter().all(|ring| ring.kind == RingKind::Matched)

@@ -1,5 +1,5 @@
-//! Advancing front over a piece in two designs: replaces stretches of the front by fans around a
-//! point that sees them in each design, and cuts off corners.
+//! Advancing front over a piece in two designs. A stretch of the front is replaced by two edges to
+//! a new point that sees the whole stretch in each design; corners are cut off.
 
 use super::boundary_rings::BoundaryRings;
 use super::edge_grid::EdgeGrid;
@@ -8,33 +8,34 @@ use crate::geometry::{DVec2, orient2d, ring_edges, segments_touch};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::HashSet;
 
-/// Numbers of edges of the stretches tried, longest first; each is replaced by two edges, so three
-/// is the least that gains (heuristic).
+/// Numbers of edges of the stretches that are tried, longest first (heuristic). A stretch is
+/// replaced by two edges, so three edges are the minimum that reduces their number.
 const STRETCHES: [usize; 4] = [7, 5, 4, 3];
-/// Distances at which a new point is sought, in units of the stretch's extent; the farthest first,
-/// for good angles (heuristic).
+/// Distances from a stretch within which a new point is sought, in units of the stretch's extent
+/// (heuristic). The farthest comes first, because it gives good angles.
 const REACHES: [f64; 5] = [0.6, 0.3, 0.12, 0.04, 0.01];
-/// Factor by which the sight lines to a new point are extended when they are checked, so that
-/// fronts that meet leave room (heuristic).
+/// Factor by which the sight lines to a new point are extended when they are checked, so that parts
+/// of the front that approach each other leave room in between (heuristic).
 const CLEARANCE: f64 = 1.5;
-/// Maximum shape term (1 if equilateral) of a corner triangle that is cut off; a right triangle
-/// with sides of 1 and 5 next to the right angle has 3 (heuristic).
+/// Maximum shape term of a corner triangle that is cut off (heuristic). The term is 1 for an
+/// equilateral triangle and 3 for a right triangle with legs 1 and 5.
 const MAX_CORNER_SHAPE: f64 = 3.0;
 
-/// State of the front: the part that remains to be triangulated, and the faces behind it.
+/// State of the front: the rings that bound the region left to triangulate, and the faces behind
+/// them.
 pub(super) struct AdvancingFront {
-    /// All vertices in both designs, those of the rings first.
+    /// Positions of all vertices in both designs. The vertices of the piece's rings come first.
     pub(super) points: [Vec<DVec2>; 2],
-    /// Faces behind the front.
+    /// Faces behind the front, between it and the piece's boundary.
     pub(super) faces: Vec<[u32; 3]>,
-    /// Rings of the front, as vertex indices.
+    /// Rings of the front, as vertex indices in order.
     pub(super) rings: Vec<Vec<u32>>,
-    /// Edges of the front in each design, for proximity queries.
+    /// Edges of the front in each design, for queries of nearby edges.
     near: [EdgeGrid; 2],
 }
 
 impl AdvancingFront {
-    /// Creates a front on the boundary.
+    /// Creates a front along the boundary of the piece.
     pub(super) fn of(source: &BoundaryRings, target: &BoundaryRings) -> Self {
         let rings = source.ranges.iter().cloned();
         let points = [source, target].map(|rings| rings.points.clone());
@@ -52,12 +53,12 @@ impl AdvancingFront {
         coarse
     }
 
-    /// Ends of an edge in one design.
+    /// Positions of the ends of an edge in one design.
     fn ends(&self, design: usize, edge: [u32; 2]) -> [DVec2; 2] {
         edge.map(|v| self.points[design][v as usize])
     }
 
-    /// Adds an edge of the front to both grids.
+    /// Adds an edge of the front to the grids of both designs.
     fn insert_edge(&mut self, edge: [u32; 2]) {
         for d in 0..2 {
             let ends = self.ends(d, edge);
@@ -65,7 +66,7 @@ impl AdvancingFront {
         }
     }
 
-    /// Removes an edge of the front from both grids.
+    /// Removes an edge of the front from the grids of both designs.
     fn remove_edge(&mut self, edge: [u32; 2]) {
         for d in 0..2 {
             let ends = self.ends(d, edge);
@@ -73,7 +74,7 @@ impl AdvancingFront {
         }
     }
 
-    /// Rings of the front in one design.
+    /// Returns the rings of the front with their positions in one design.
     pub(super) fn front_rings(&self, design: usize) -> BoundaryRings {
         let ring = |ring: &Vec<u32>| -> Vec<DVec2> {
             let at = |&v: &u32| self.points[design][v as usize];
@@ -88,7 +89,7 @@ impl AdvancingFront {
     }
 }
 
-/// One ring of the front while it advances; the others stay as they are.
+/// One ring of the front while it advances. The other rings stay where they are.
 pub(super) struct FrontRing<'a> {
     coarse: &'a mut AdvancingFront,
     ring: usize,
@@ -97,7 +98,7 @@ pub(super) struct FrontRing<'a> {
 }
 
 impl<'a> FrontRing<'a> {
-    /// Selects the ring of the front that advances.
+    /// Selects the ring with the index `ring` as the one that advances.
     pub(super) fn of(
         coarse: &'a mut AdvancingFront,
         ring: usize,
@@ -110,13 +111,14 @@ impl<'a> FrontRing<'a> {
         }
     }
 
-    /// Advances once around the ring, from a different start each turn.
+    /// Advances once around the ring. The start depends on `turn`.
     pub(super) fn advance(
         &mut self,
         turn: usize,
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
-        // The same start would only try stretches again that did not fit.
+        // From the same start, the stretches that did not fit in the previous turn would only be
+        // tried again.
         let len = self.len();
         let mut at = turn % 3;
         let end = at + len;
@@ -132,7 +134,7 @@ impl<'a> FrontRing<'a> {
         self.coarse.rings[self.ring].len()
     }
 
-    /// Vertex at position `at` along the ring, modulo its length.
+    /// Vertex at position `at` along the ring; positions wrap around.
     fn vertex(&self, at: usize) -> u32 {
         self.coarse.rings[self.ring][at % self.len()]
     }
@@ -142,9 +144,10 @@ impl<'a> FrontRing<'a> {
         self.coarse.points[design][vertex as usize]
     }
 
-    /// Replaces a stretch that starts at `at`; returns the number of old points it covers.
+    /// Cuts off the corner after position `at`, or else replaces the longest possible stretch that
+    /// starts at `at`. Returns the number of edges removed from the ring; `None` if nothing fits.
     fn step(&mut self, at: usize) -> Option<usize> {
-        // Cutting a corner adds no point, so it is tried first.
+        // Cutting off a corner adds no vertex, so it is tried first.
         if self.cut_corner(at) {
             return Some(2);
         }
@@ -153,16 +156,16 @@ impl<'a> FrontRing<'a> {
             .find(|&k| self.replace(at, k).is_some())
     }
 
-    /// Cuts off the corner after position `at` if that is valid in both designs; returns whether it
-    /// did.
+    /// Cuts off the corner after position `at` if that is valid in both designs. Returns whether it
+    /// was cut off.
     fn cut_corner(&mut self, at: usize) -> bool {
         let stretch = [0, 1, 2].map(|k| self.vertex(at + k));
         // The ring needs at least three corners.
         if self.len() < 4 || self.has_frozen(&stretch) {
             return false;
         }
-        // In each design the triangle must be positive, well shaped, visible from its neighbours
-        // and empty.
+        // In each design the corner triangle must be positive, well shaped and empty. Its new side
+        // must be visible from the neighbouring vertices.
         let fits = (0..2).all(|d| {
             let corners = stretch.map(|v| self.place(d, v));
             face_cost::is_positive(corners)
@@ -186,8 +189,8 @@ impl<'a> FrontRing<'a> {
         stretch.iter().any(|v| self.frozen.contains(v))
     }
 
-    /// Replaces a stretch of `k` edges by two edges to a new point that sees all of them; `None` if
-    /// it does not fit.
+    /// Replaces the `k` edges that start at position `at` by two edges to a new vertex that sees
+    /// all of them in each design. `None` if no such vertex is found.
     fn replace(&mut self, at: usize, k: usize) -> Option<()> {
         let stretch: Vec<u32> = (0..=k).map(|i| self.vertex(at + i)).collect();
         if self.len() < k + 2 || self.has_frozen(&stretch) {
@@ -198,14 +201,16 @@ impl<'a> FrontRing<'a> {
         let new = self.coarse.points[0].len() as u32;
         self.coarse.points[0].push(p);
         self.coarse.points[1].push(q);
-        // The fan between the stretch and its new point leaves the front.
+        // The faces between the stretch and the new vertex form a fan; they now lie behind the
+        // front.
         let faces = stretch.windows(2).map(|edge| [edge[0], edge[1], new]);
         self.coarse.faces.extend(faces);
         self.splice(at, k, Some(new));
         Some(())
     }
 
-    /// Takes the inner vertices of a stretch out of the ring and puts `new` in their place.
+    /// Removes the inner vertices of a stretch of `k` edges from the ring and puts `new`, if any,
+    /// in their place.
     fn splice(&mut self, at: usize, k: usize, new: Option<u32>) {
         let len = self.len();
         for i in at..at + k {
@@ -220,20 +225,21 @@ impl<'a> FrontRing<'a> {
         }
         let ring = &mut self.coarse.rings[self.ring];
         ring.rotate_left(at);
-        // With the stretch at the start of the list, its inner vertices are 1..k.
+        // The stretch now starts at index 0, so its inner vertices have the indices 1..k.
         ring.splice(1..k, new);
-        // Rotated back, so that positions before the stretch stay valid.
+        // The ring is rotated back, so that positions before the stretch stay valid.
         let now = ring.len();
         ring.rotate_right(at.min(now) % now.max(1));
         debug_assert!(now < len);
     }
 
-    /// Returns the lines that a new vertex must lie left of: the edges of the stretch, and the
-    /// edges next to it at convex corners.
+    /// Returns the directed lines that a new vertex must lie to the left of, in the design `d`: the
+    /// edges of the stretch, and the edges before and after it where the stretch ends at a convex
+    /// corner.
     fn sides(&self, d: usize, at: usize, k: usize) -> Vec<[DVec2; 2]> {
         let n = self.len();
         let place = |i: usize| self.place(d, self.vertex(i));
-        // Cutting a corner (k = 2) adds no vertex that would have to see the stretch.
+        // Cutting off a corner (k = 2) adds no vertex, so nothing has to see the stretch.
         let mut sides: Vec<[DVec2; 2]> = (0..k)
             .filter(|_| k > 2)
             .map(|i| [place(at + i), place(at + i + 1)])
@@ -249,7 +255,8 @@ impl<'a> FrontRing<'a> {
         sides
     }
 
-    /// Returns a point that sees the whole stretch in one design, with clearance.
+    /// Returns a point that sees the whole stretch in the design `d`, with clearance; `None` if
+    /// none is found.
     fn common_point(&self, d: usize, at: usize, stretch: &[u32]) -> Option<DVec2> {
         let places: Vec<DVec2> = stretch.iter().map(|&v| self.place(d, v)).collect();
         let middle = places.iter().sum::<DVec2>() / places.len() as f64;
@@ -259,11 +266,12 @@ impl<'a> FrontRing<'a> {
             .fold(0.0, f64::max);
         let sides = self.sides(d, at, stretch.len() - 1);
         let last = places.len() - 1;
-        // The square keeps the kernel near its stretch; an unbounded kernel would reach across the
-        // piece.
+        // The square keeps the visibility kernel near the stretch. An unbounded kernel could extend
+        // across the whole piece.
         REACHES.into_iter().find_map(|reach| {
             let point = centre_of_kernel(middle, reach * extent, &sides)?;
-            // If the first and last sight lines are free, only a whole ring can lie inside the fan.
+            // If the first and the last sight line are free, only a whole ring of the front can
+            // still lie inside the fan.
             let sees = |p: DVec2| {
                 self.is_free(d, stretch[0], p, &[]) && self.is_free(d, stretch[last], p, &[])
             };
@@ -271,7 +279,7 @@ impl<'a> FrontRing<'a> {
                 .windows(2)
                 .map(|edge| [edge[0], edge[1], point])
                 .collect();
-            // Checked exactly, because the clipping is rounded.
+            // Checked by exact predicates, because the clipped kernel is subject to rounding.
             let fits = sides.iter().all(|&[a, b]| orient2d(a, b, point) > 0.0)
                 && sees(point)
                 && sees(middle + CLEARANCE * (point - middle))
@@ -280,23 +288,23 @@ impl<'a> FrontRing<'a> {
         })
     }
 
-    /// Returns whether the straight segment from a front vertex to a point touches no edge of the
-    /// front, except edges at that vertex and at `others`.
+    /// Returns whether the segment from the front vertex `from` to the point `to` touches no edge
+    /// of the front. Edges at `from` or at one of the vertices `others` do not count.
     fn is_free(&self, d: usize, from: u32, to: DVec2, others: &[u32]) -> bool {
         let segment = [self.place(d, from), to];
-        !self.coarse.near[d].any_near(segment, |edge| {
+        !self.coarse.near[d].any_edge_near(segment, |edge| {
             !edge.contains(&from)
                 && !others.iter().any(|v| edge.contains(v))
                 && segments_touch(segment, self.coarse.ends(d, edge))
         })
     }
 
-    /// Returns whether another ring of the front lies in one of the triangles.
+    /// Returns whether another ring of the front lies inside one of the triangles.
     fn holds_ring(&self, d: usize, triangles: &[[DVec2; 3]]) -> bool {
         let rings = self.coarse.rings.iter().enumerate();
         let mut others = rings.filter(|(r, _)| *r != self.ring);
         others.any(|(_, ring)| {
-            // Rings touch no sight line, so one point decides for the whole ring.
+            // No ring touches a sight line, so one point decides for the whole ring.
             let p = self.place(d, ring[0]);
             triangles.iter().any(|&[a, b, c]| {
                 [[a, b], [b, c], [c, a]]
@@ -307,15 +315,15 @@ impl<'a> FrontRing<'a> {
     }
 }
 
-/// Clips a square by all lines and returns the mean of the remaining polygon's corners; `None` if
-/// nothing remains.
+/// Clips a square by all lines and returns the mean of the corners of the remaining polygon; `None`
+/// if nothing remains. The square is centred at `middle` and has the half side `half`.
 fn centre_of_kernel(middle: DVec2, half: f64, sides: &[[DVec2; 2]]) -> Option<DVec2> {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let mut kernel: Vec<DVec2> = corners
         .iter()
         .map(|&(x, y)| middle + half * DVec2::new(x, y))
         .collect();
-    // Clips to the left of each line (Sutherland, Hodgman 1974).
+    // Keeps the part to the left of each line (Sutherland, Hodgman 1974).
     for &[a, b] in sides {
         let height = |p: DVec2| (b - a).perp_dot(p - a);
         let mut cut = Vec::with_capacity(kernel.len() + 1);

@@ -1,4 +1,5 @@
-//! Boundary rings of one connected piece in one design, and the check that they bound one.
+//! Boundary rings of a piece (a matched connected part) in one design, and the check that these
+//! rings bound exactly one connected region.
 
 use super::error::{PieceEdge, PieceMeshError};
 use super::ring_contacts::touching_edges;
@@ -6,17 +7,18 @@ use crate::geometry::{DVec2, Side, ring_edges, signed_area};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 use std::ops::Range;
 
-/// Boundary rings in one list of points, the outer one first.
+/// Boundary rings of one piece in one design, stored in a single list of points. The outer ring
+/// comes first, then the holes.
 #[derive(Clone, Debug)]
 pub(super) struct BoundaryRings {
     /// Points of all rings, ring after ring.
     pub(super) points: Vec<DVec2>,
-    /// Index range of the points of each ring.
+    /// For each ring, the index range of its points.
     pub(super) ranges: Vec<Range<usize>>,
 }
 
 impl BoundaryRings {
-    /// Collects rings.
+    /// Concatenates rings; the outer ring must come first.
     pub(super) fn of<R: AsRef<[DVec2]>>(rings: &[R]) -> Self {
         let mut end = 0;
         let range = |ring: &R| {
@@ -29,7 +31,7 @@ impl BoundaryRings {
         }
     }
 
-    /// The rings with all coordinates multiplied by `by`.
+    /// Returns the rings with all coordinates multiplied by `by`.
     pub(super) fn scaled(&self, by: f64) -> Self {
         Self {
             points: self.points.iter().map(|&p| p * by).collect(),
@@ -43,7 +45,7 @@ impl BoundaryRings {
         ranges.map(|range| &self.points[range]).collect()
     }
 
-    /// Returns the ring of a point and its index in that ring.
+    /// Returns the edge that starts at the point with the index `point` in the list of all points.
     pub(super) fn edge_at(&self, point: usize) -> PieceEdge {
         let holds = |range: &Range<usize>| range.contains(&point);
         let ring = self.ranges.iter().position(holds).unwrap_or(0);
@@ -52,9 +54,9 @@ impl BoundaryRings {
     }
 }
 
-/// Checks that the rings bound one piece: a counter-clockwise outer ring with clockwise holes
-/// inside, which touch nothing but their own slits. O(n log n) for valid rings.
-pub(super) fn check(rings: &BoundaryRings, side: Side) -> Result<(), PieceMeshError> {
+/// Checks that the rings bound one connected region: a counter-clockwise outer ring with clockwise
+/// holes inside, where no edges touch except the two banks of a slit. O(n log n) for valid rings.
+pub(super) fn validate_rings(rings: &BoundaryRings, side: Side) -> Result<(), PieceMeshError> {
     let loops = rings.loops();
     if loops.is_empty() {
         return Err(PieceMeshError::NoOutline);
@@ -66,11 +68,11 @@ pub(super) fn check(rings: &BoundaryRings, side: Side) -> Result<(), PieceMeshEr
     if let Some(point) = rings.points.iter().position(|p| !p.is_finite()) {
         return Err(not_finite(rings, point, side));
     }
-    // The triangulation quickly refuses all faults; only then is the cause searched for.
+    // The triangulation quickly detects any fault. Only then is the cause searched for.
     match constrained_delaunay(&loops) {
         Ok(_) => Ok(()),
         Err(TriangulationError::OutOfRange) => {
-            // The point farthest out is the likeliest cause.
+            // The point with the largest coordinate is the likeliest cause.
             let size = |p: &DVec2| p.abs().max_element();
             let farthest = (0..rings.points.len())
                 .max_by(|&a, &b| size(&rings.points[a]).total_cmp(&size(&rings.points[b])));
@@ -80,7 +82,7 @@ pub(super) fn check(rings: &BoundaryRings, side: Side) -> Result<(), PieceMeshEr
     }
 }
 
-/// Error for a point whose coordinates are out of range.
+/// Returns the error for a point whose coordinates are not finite or out of range.
 fn not_finite(rings: &BoundaryRings, point: usize, side: Side) -> PieceMeshError {
     let PieceEdge { ring, edge } = rings.edge_at(point);
     PieceMeshError::NotFinite {
@@ -90,14 +92,15 @@ fn not_finite(rings: &BoundaryRings, point: usize, side: Side) -> PieceMeshError
     }
 }
 
-/// Finds out why the rings bound no piece, by slow tests.
+/// Finds out, by slow tests, why the rings do not bound one connected region. `error` is the
+/// triangulation's own error.
 fn find_fault(
     rings: &BoundaryRings,
     loops: &[&[DVec2]],
     side: Side,
     error: TriangulationError,
 ) -> PieceMeshError {
-    // Contacts come first, because the orientation of crossing rings means nothing.
+    // Contacts are tested first, because rings that cross have no meaningful orientation.
     if let Some(edges) = touching_edges(loops) {
         return PieceMeshError::NotSimple {
             side,
@@ -125,7 +128,7 @@ fn find_fault(
     }
 }
 
-/// Index of the point at which the shortest edge starts.
+/// Index, in the list of all points, of the point at which the shortest edge starts.
 fn shortest_edge(loops: &[&[DVec2]]) -> usize {
     let edges = loops.iter().flat_map(|ring| ring_edges(ring));
     let lengths = edges.map(|(a, b)| a.distance(b)).enumerate();
@@ -139,7 +142,7 @@ mod tests {
 
     fn check_rings<const N: usize>(rings: [&[(f64, f64)]; N]) -> Result<(), PieceMeshError> {
         let rings = rings.map(|ring| ring.iter().copied().map(DVec2::from).collect::<Vec<_>>());
-        check(&BoundaryRings::of(&rings), Side::Source)
+        validate_rings(&BoundaryRings::of(&rings), Side::Source)
     }
 
     fn not_simple(edges: [(usize, usize); 2], place: (f64, f64)) -> Result<(), PieceMeshError> {
@@ -184,7 +187,7 @@ mod tests {
 
     #[test]
     fn rings_refused_without_a_known_fault_name_their_shortest_edge() {
-        // 1e-200 underflows in the predicates, so two points count as one.
+        // 1e-200 underflows in the predicates, so two of the points count as one.
         let thin = [(0.0, 0.0), (1.0, 0.0), (1.0, 1e-200), (0.0, 1.0)];
         let refused = PieceMeshError::NotTriangulated {
             side: Side::Source,

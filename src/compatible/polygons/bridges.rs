@@ -1,14 +1,15 @@
-//! Guaranteed base mesh for a piece with holes: cut it open along corresponding bridges until it is
-//! a disc, triangulate the disc, and weld it along the bridges.
+//! Guaranteed base mesh for a piece with holes. The piece is cut open along corresponding bridges
+//! until it is a disc. The disc is triangulated, and the mesh is welded along the bridges.
 //!
-//! A bridge is a straight diagonal in one design. In the other design it runs through the
-//! triangulation from edge midpoint to edge midpoint, and the diagonal gets the same number of
-//! points. The points of bridges become movable vertices.
+//! A bridge joins the outer boundary to a hole. In one design it is a straight diagonal. In the
+//! other design it runs through a triangulation of the piece, from edge midpoint to edge midpoint;
+//! these points are its inner points. The straight diagonal gets the same number of inner points.
+//! Inner points become movable vertices of the mesh.
 
 use super::boundary_rings::BoundaryRings;
 use super::chords;
 use super::error::PieceMeshError;
-use super::overlay::overlay;
+use super::overlay::overlay_triangulations;
 use super::pair_mesh::PairMesh;
 use crate::compatible::assembly::MeshAssembly;
 use crate::geometry::{DVec2, Side};
@@ -17,31 +18,31 @@ use crate::mesh::{Connectivity, sides};
 use crate::work::progress::{Progress, checkpoint};
 use std::collections::{HashMap, VecDeque};
 
-/// Maximum number of diagonals tried for each bridge, shortest first (resource limit: each needs a
-/// search through the other design's triangulation, and a better bridge only saves points that are
-/// thinned out later).
+/// Maximum number of diagonals tried for each bridge, shortest first (resource limit: each diagonal
+/// needs a search through the other design's triangulation. A better bridge only has fewer inner
+/// points, most of which are removed later anyway).
 const MAX_DIAGONALS: usize = 12;
 
-/// Corner of a boundary loop in both designs, with its vertex index.
+/// Corner of a boundary loop, with its positions in both designs and its vertex index.
 #[derive(Clone, Copy)]
 struct BridgeCorner {
     places: [DVec2; 2],
     vertex: u32,
 }
 
-/// Boundary loops of a piece in both designs: the outer one first, then the holes that are not
-/// bridged yet.
+/// Boundary loops of a piece in both designs: the outer one first, then the holes that no bridge
+/// has reached yet.
 struct PieceLoops(Vec<Vec<BridgeCorner>>);
 
-/// Bridge between two corners, which are numbered through all loops, with its inner points in both
-/// designs.
+/// Bridge between two corners. Corners are numbered consecutively through all loops. `inner`
+/// contains the positions of the bridge's inner points in both designs.
 struct Bridge {
     ends: [usize; 2],
     inner: Vec<[DVec2; 2]>,
 }
 
-/// Returns a mesh that is valid in exact arithmetic; rounding may flatten faces, which the caller
-/// checks.
+/// Returns the guaranteed base mesh of a piece. It is valid in exact arithmetic; rounding may
+/// flatten faces, which the caller checks.
 pub(super) fn bridged_base(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -53,7 +54,7 @@ pub(super) fn bridged_base(
         points: [source.points.clone(), target.points.clone()],
         faces: Vec::new(),
     };
-    // One hole at a time, so that the next bridge may start on this one.
+    // Only one hole is joined at a time, so that the next bridge may start on this hole.
     let holes = loops.0.len();
     while loops.0.len() > 1 {
         let done = 1.0 - loops.0.len() as f64 / holes as f64;
@@ -66,12 +67,12 @@ pub(super) fn bridged_base(
         }
         loops.merge(&bridge, first);
     }
-    // A single loop bounds a disc, which needs no bridges.
+    // The single remaining loop bounds a disc.
     let disc = &loops.0[0];
     let points = [0, 1].map(|d| disc.iter().map(|c| c.places[d]).collect::<Vec<_>>());
     let triangulations = chords::triangulations(&points[0], &points[1], progress)?;
-    let mesh = overlay(&points[0], &points[1], &triangulations, progress)?;
-    // Both banks of a bridge become one vertex again.
+    let mesh = overlay_triangulations(&points[0], &points[1], &triangulations, progress)?;
+    // The vertices on both banks of a bridge are merged again.
     let vertices: Vec<u32> = disc.iter().map(|corner| corner.vertex).collect();
     whole.append(
         &vertices,
@@ -82,7 +83,7 @@ pub(super) fn bridged_base(
 }
 
 impl PieceLoops {
-    /// Pairs the loops of both designs; vertices are numbered ring after ring.
+    /// Pairs the loops of both designs. Vertices are numbered ring after ring.
     fn of(source: &BoundaryRings, target: &BoundaryRings) -> Self {
         let pairs = source.points.iter().zip(&target.points);
         let corner = |(vertex, (&p, &q))| BridgeCorner {
@@ -98,13 +99,12 @@ impl PieceLoops {
         )
     }
 
-    /// Corners of all loops, in order.
+    /// Corners of all loops, loop after loop.
     fn corners(&self) -> impl Iterator<Item = &BridgeCorner> {
         self.0.iter().flatten()
     }
 
-    /// Returns the bridge from the first loop to another one that needs the fewest inner points and
-    /// is straight in one design.
+    /// Returns the bridge with the fewest inner points from the first loop to any other loop.
     fn bridge(&self) -> Result<Bridge, PieceMeshError> {
         let graphs = [
             MidpointGraph::of(self, Side::Source)?,
@@ -115,7 +115,8 @@ impl PieceLoops {
             let bent = &graphs[1 - straight];
             diagonals.filter_map(move |ends| Some((straight, ends, bent.path(ends)?)))
         });
-        // Ties go to the first candidate: straight in the source, then the shortest.
+        // Among bridges with equally many inner points the first is chosen: straight in the source,
+        // then the shortest.
         let (straight, ends, bent) = candidates
             .min_by_key(|(_, _, bent)| bent.len())
             .ok_or(PieceMeshError::NoBridge)?;
@@ -123,7 +124,8 @@ impl PieceLoops {
         Ok(Bridge { ends, inner })
     }
 
-    /// Returns the shortest diagonals from the first loop to the others in one design.
+    /// Returns the shortest diagonals of a design's triangulation that lead from the first loop to
+    /// another loop, as corner numbers.
     fn diagonals(&self, graph: &MidpointGraph, design: usize) -> Vec<[usize; 2]> {
         // Corners with smaller numbers belong to the first loop.
         let outer = self.0[0].len() as u32;
@@ -136,7 +138,8 @@ impl PieceLoops {
             .faces
             .iter()
             .flat_map(|&face| sides(face))
-            // Once each: the face on the other side lists the edge in the opposite direction.
+            // Each diagonal is listed once: the face on its other side lists it in the opposite
+            // direction.
             .filter(|&[a, b]| a < outer && b >= outer)
             .map(|edge| edge.map(|k| k as usize))
             .collect();
@@ -145,8 +148,8 @@ impl PieceLoops {
         shortest
     }
 
-    /// Returns the inner points of a bridge in both designs, given those in the design where it is
-    /// bent. In the other design they are spaced evenly.
+    /// Returns the inner points of a bridge in both designs. `inner` contains their positions in
+    /// the design where the bridge is bent; in the design `straight` they are spaced evenly.
     fn inner_points(&self, ends: [usize; 2], straight: usize, inner: &[DVec2]) -> Vec<[DVec2; 2]> {
         let corners: Vec<&BridgeCorner> = self.corners().collect();
         let [a, b] = ends.map(|end| corners[end].places[straight]);
@@ -162,11 +165,12 @@ impl PieceLoops {
         inner.iter().enumerate().map(place).collect()
     }
 
-    /// Merges a hole's loop into the first loop along both banks of a bridge. `first_vertex` is the
-    /// index of the bridge's first inner point.
+    /// Merges the loop at the far end of a bridge into the first loop. The merged loop runs along
+    /// both banks of the bridge. `first_vertex` is the vertex index of the bridge's first inner
+    /// point.
     fn merge(&mut self, bridge: &Bridge, first_vertex: u32) {
         let [a, mut b] = bridge.ends;
-        // Corners are numbered through all loops, so the loop of the far end has to be found.
+        // The corners are numbered through all loops, so the loop of the far end has to be found.
         let mut loop_index = 0;
         while b >= self.0[loop_index].len() {
             b -= self.0[loop_index].len();
@@ -180,8 +184,8 @@ impl PieceLoops {
             .zip(first_vertex..)
             .map(|(&places, vertex)| BridgeCorner { places, vertex })
             .collect();
-        // Each loop runs all around and repeats its first corner, so that either bank of the bridge
-        // has both ends.
+        // Each loop runs all the way round and repeats its first corner, so that both banks of the
+        // bridge have both end points.
         let around = |ring: &[BridgeCorner], from: usize| {
             let n = ring.len();
             (0..=n).map(|k| ring[(from + k) % n]).collect::<Vec<_>>()
@@ -196,15 +200,16 @@ impl PieceLoops {
     }
 }
 
-/// Triangulation of the loops in one design, searched for paths from a corner through edge
-/// midpoints to another corner.
+/// Triangulation of the loops in one design. It is searched for paths that lead from a corner over
+/// edge midpoints to another corner.
 struct MidpointGraph {
     faces: Vec<[u32; 3]>,
     connectivity: Connectivity,
     points: Vec<DVec2>,
 }
 
-/// For each face that was reached, the face and side from which; `None` for the faces at the start.
+/// For each face that the search has reached: the face before it on the path, and the side of that
+/// face that the path crosses. `None` for the faces at the start corner.
 type PredecessorMap = HashMap<usize, Option<(usize, usize)>>;
 
 impl MidpointGraph {
@@ -224,17 +229,17 @@ impl MidpointGraph {
         })
     }
 
-    /// Returns the edge midpoints on a path between two corners that has the fewest; none if an
-    /// edge joins the corners. `None` if no path exists.
+    /// Returns the edge midpoints along the path between two corners that crosses the fewest edges;
+    /// an empty list if the corners share a face. `None` if no path exists.
     fn path(&self, ends: [usize; 2]) -> Option<Vec<DVec2>> {
         let [from, to] = ends.map(|end| end as u32);
-        // All faces at the start are queued first, so one that also contains the end is found
-        // before any longer path.
+        // All faces at the start corner are queued first. If one of them also contains the end
+        // corner, it is found before any longer path.
         let mut open: VecDeque<usize> = (0..self.faces.len())
             .filter(|&f| self.faces[f].contains(&from))
             .collect();
         let mut reached: PredecessorMap = open.iter().map(|&f| (f, None)).collect();
-        // Breadth first, so the first path found crosses the fewest edges.
+        // The search is breadth first, so the first path found crosses the fewest edges.
         while let Some(f) = open.pop_front() {
             if self.faces[f].contains(&to) {
                 return Some(self.midpoints_to(f, &reached));
@@ -251,12 +256,13 @@ impl MidpointGraph {
         None
     }
 
-    /// Returns the midpoints of the edges crossed on the way to `face`, in order.
+    /// Returns the midpoints of the edges that are crossed on the way to `face`, in order.
     fn midpoints_to(&self, mut face: usize, reached: &PredecessorMap) -> Vec<DVec2> {
         let mut points = Vec::new();
         while let Some(&Some((before, k))) = reached.get(&face) {
             let [a, b] = sides(self.faces[before])[k].map(|v| self.points[v as usize]);
-            // The midpoint is as far as possible from both ends, which leaves room on either side.
+            // The midpoint is as far as possible from both ends of the edge, which leaves room on
+            // both sides.
             points.push(a.midpoint(b));
             face = before;
         }

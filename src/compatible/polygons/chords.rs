@@ -1,11 +1,11 @@
-//! Triangulates two polygons without extra vertices so that the triangulations cross as little as
-//! possible when both are drawn on one convex polygon.
+//! Triangulates two polygons with n vertices each, without extra vertices. The triangulations
+//! should cross as little as possible when both are drawn on one convex n-gon.
 //!
-//! Chords that lie inside a polygon are determined exactly. A triangulation with the least total
-//! chord cost is found by dynamic programming (Gilbert 1979, Klincsek 1980). The polygons take
-//! turns: each minimises its crossings with the other's current triangulation. The result is a
-//! local optimum. Chords that are valid in both polygons cost nothing, so two equal polygons end
-//! without crossings.
+//! The chords that lie inside a polygon are determined exactly. A triangulation with the least
+//! total cost of its chords is found by dynamic programming (Gilbert 1979, Klincsek 1980). The two
+//! polygons take turns: each minimises the crossings with the current triangulation of the other.
+//! The result is a local optimum. The first triangulation of the source prefers chords that are
+//! valid in both polygons, so two equal polygons end without crossings.
 
 use super::error::PieceMeshError;
 use crate::geometry::{DVec2, Side, orient2d, segments_touch};
@@ -14,24 +14,25 @@ use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
 /// Maximum number of vertices for which crossings are minimised (resource limit: the search is
-/// O(n³), with 10 million triangles per turn at this size). Larger polygons take their Delaunay
+/// O(n³), with 10 million triangles per turn at this size). Larger polygons use their Delaunay
 /// triangulations.
 const MAX_SEARCHED: usize = 400;
-/// Number of turns in which one polygon adapts to the other (heuristic).
+/// Number of turns; in each turn one polygon adapts to the other (heuristic).
 const TURNS: usize = 4;
-/// Cost of a flat triangle, in crossings (derived: at most [`MAX_SEARCHED`] triangles add up to
-/// less than one crossing, so shape only breaks ties).
+/// Cost of the shape of a flat triangle, in crossings (derived: the costs of all triangles, at most
+/// [`MAX_SEARCHED`], add up to less than one crossing, so shape only decides between triangulations
+/// with equally many crossings).
 const SHAPE_COST: f64 = 1e-3;
 /// Cost, in crossings, of a triangle that is flat up to rounding, such as one at a point on a
-/// straight side (derived: more than the 158,000 crossings possible, since crossings inside it
-/// would find no room).
+/// straight side (derived: more than the 158,000 crossings that are possible, because crossings
+/// inside such a triangle would have no room).
 const SLIVER_COST: f64 = 1e6;
-/// A triangle whose flatness is closer to 1 than this counts as flat up to rounding (tolerance: a
-/// height of about 6e-8 of the base, the error of points on a side that were written in single
-/// precision).
+/// A triangle counts as flat up to rounding if its [`flatness`] differs from 1 by less than this
+/// (tolerance: it corresponds to a height of about 6e-8 of the base, the error of points on a side
+/// whose coordinates were written in single precision).
 const SLIVER: f64 = 1e-7;
 
-/// Returns a triangulation of the vertices `0..n` for each polygon.
+/// Returns a triangulation of each polygon, with the vertices `0..n`.
 ///
 /// # Errors
 /// [`PieceMeshError`] if a polygon has no triangulation, or the work is cancelled.
@@ -42,7 +43,7 @@ pub(super) fn triangulations(
 ) -> Result<[Vec<[u32; 3]>; 2], PieceMeshError> {
     let base_error = |side, error| PieceMeshError::Base { side, error };
     let has_slits = |points| !coincident_corners(points).is_empty();
-    // The search needs distinct corners, and those on slits coincide.
+    // The search needs distinct corners, but corners on the two banks of a slit coincide.
     if source.len() > MAX_SEARCHED || has_slits(source) || has_slits(target) {
         let delaunay = |side: Side, points| {
             constrained_delaunay(&[points]).map_err(|error| base_error(side, error))
@@ -52,8 +53,8 @@ pub(super) fn triangulations(
             delaunay(Side::Target, target)?,
         ]);
     }
-    // The source first prefers chords that are valid in both; then the polygons take turns, the
-    // target first.
+    // The source starts with a triangulation that prefers chords inside both polygons. Then the
+    // polygons take turns, the target first.
     let chords = [
         InteriorChords::of(source, progress)?,
         InteriorChords::of(target, progress)?,
@@ -62,15 +63,15 @@ pub(super) fn triangulations(
     let not_shared = |i, j| f64::from(u8::from(!chords[1].inside(i, j)));
     let first = cheapest_triangulation(points[0], &chords[0], not_shared, progress)?;
     let mut faces = [first, Vec::new()];
-    // Odd turns change the target, even turns the source.
+    // Odd turns change the target's triangulation, even turns the source's.
     for turn in 1..=TURNS {
         let (mine, other) = (turn % 2, (turn + 1) % 2);
         let diagonals = diagonals(&faces[other], source.len());
         let crossings = |i, j| crossings(&diagonals, i, j) as f64;
         faces[mine] = cheapest_triangulation(points[mine], &chords[mine], crossings, progress)?;
     }
-    // A simple polygon always has a triangulation; this reports polygons that are not simple after
-    // all.
+    // A simple polygon always has a triangulation. Too few faces mean that the polygon is not
+    // simple.
     let lacks = |side: &Side| faces[*side].len() + 2 != source.len();
     match Side::BOTH.into_iter().find(lacks) {
         Some(side) => Err(base_error(side, TriangulationError::NotSimple)),
@@ -78,7 +79,7 @@ pub(super) fn triangulations(
     }
 }
 
-/// Returns the corners that coincide with another corner, as those on slits do.
+/// Returns the indices of the corners that coincide with another corner, as corners on slits do.
 pub(super) fn coincident_corners(points: &[DVec2]) -> Vec<u32> {
     // Adding zero turns -0 into 0.
     let at = |v: u32| points[v as usize] + 0.0;
@@ -91,10 +92,10 @@ pub(super) fn coincident_corners(points: &[DVec2]) -> Vec<u32> {
     pairs.flatten().copied().collect()
 }
 
-/// Chords between two vertices of a polygon that lie inside it.
+/// Table of the chords of a polygon that lie inside it.
 struct InteriorChords {
     n: usize,
-    /// `inside[i * n + j]` for i < j.
+    /// Whether the chord i–j lies inside or is an edge, at index i · n + j for i < j.
     inside: Vec<bool>,
 }
 
@@ -112,14 +113,14 @@ impl InteriorChords {
         Ok(Self { n, inside })
     }
 
-    /// Returns whether the open chord `i`–`j`, i < j, lies inside the polygon or is one of its
-    /// edges.
+    /// Returns whether the chord `i`–`j`, i < j, without its ends lies inside the polygon, or is
+    /// one of its edges.
     fn inside(&self, i: usize, j: usize) -> bool {
         self.inside[i * self.n + j]
     }
 }
 
-/// Returns whether the open chord lies inside the polygon and touches no edge except at its ends.
+/// Returns whether the chord `i`–`j` without its ends lies inside the polygon and touches no edge.
 fn is_inside(points: &[DVec2], i: usize, j: usize) -> bool {
     let n = points.len();
     let free_of = |k: usize| {
@@ -130,12 +131,13 @@ fn is_inside(points: &[DVec2], i: usize, j: usize) -> bool {
     in_cone(points, i, j) && in_cone(points, j, i) && (0..n).all(free_of)
 }
 
-/// Whether the chord leaves `i` strictly into the polygon.
+/// Returns whether the chord `i`–`j` leaves the corner `i` strictly into the polygon.
 fn in_cone(points: &[DVec2], i: usize, j: usize) -> bool {
     let n = points.len();
     let (before, after) = (points[(i + n - 1) % n], points[(i + 1) % n]);
     let (a, b) = (points[i], points[j]);
-    // Convex corner: the chord runs between both edges. Reflex corner: it avoids the outer cone.
+    // At a convex corner the chord must run between both edges. At a reflex corner it must avoid
+    // the outer cone.
     if orient2d(before, a, after) >= 0.0 {
         orient2d(a, b, before) > 0.0 && orient2d(b, a, after) > 0.0
     } else {
@@ -143,7 +145,8 @@ fn in_cone(points: &[DVec2], i: usize, j: usize) -> bool {
     }
 }
 
-/// Returns the inner edges of a triangulation of `0..n`, smaller vertex first, sorted.
+/// Returns the inner edges of a triangulation with the vertices `0..n`, sorted. Each lists its
+/// smaller vertex first.
 pub(super) fn diagonals(faces: &[[u32; 3]], n: usize) -> Vec<[u32; 2]> {
     let n = n as u32;
     let mut edges: Vec<[u32; 2]> = faces
@@ -155,19 +158,20 @@ pub(super) fn diagonals(faces: &[[u32; 3]], n: usize) -> Vec<[u32; 2]> {
     edges
 }
 
-/// Returns the number of diagonals that the chord crosses.
+/// Returns the number of diagonals that the chord `i`–`j` crosses on a convex polygon.
 fn crossings(diagonals: &[[u32; 2]], i: usize, j: usize) -> usize {
     let (i, j) = (i as u32, j as u32);
     diagonals.iter().filter(|d| interleave([i, j], **d)).count()
 }
 
-/// Returns whether two chords of a convex polygon cross; each has its smaller end first.
+/// Returns whether two chords of a convex polygon cross. Each lists its vertex with the smaller
+/// index first.
 pub(super) fn interleave([a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
     (a < c && c < b && b < d) || (c < a && a < d && d < b)
 }
 
-/// Returns the triangulation with the least total `cost` of its diagonals. Parts without a
-/// triangulation are left out.
+/// Returns the triangulation with the least total `cost` of its diagonals, where shape decides
+/// between equal ones. If no triangulation exists, faces are missing.
 fn cheapest_triangulation(
     points: &[DVec2],
     chords: &InteriorChords,
@@ -175,21 +179,24 @@ fn cheapest_triangulation(
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 3]>, Cancelled> {
     let n = points.len();
-    // For each chord, the least cost of the part from i to j and the apex of its triangle.
+    // For each chord i–j: the least cost of the part of the polygon with the corners i to j, and
+    // the third corner (apex) of the triangle at the chord.
     let mut best = vec![(f64::INFINITY, 0); n * n];
     for i in 0..n {
         if i + 1 < n {
             best[i * n + i + 1].0 = 0.0;
         }
     }
-    // From short chords to long ones, so that the parts behind a chord are already solved.
+    // Short chords come before long ones, so that the parts on both sides of an apex are already
+    // solved.
     for length in 2..n {
         check_cancelled(progress)?;
         for i in 0..n - length {
             let j = i + length;
             if chords.inside(i, j) {
                 let (apex_cost, apex) = best_apex(points, &best, i, j);
-                // The longest chord is the polygon's closing edge, not a diagonal.
+                // The longest chord, from the first to the last vertex, is an edge of the polygon
+                // and not a diagonal.
                 let own = if length == n - 1 { 0.0 } else { cost(i, j) };
                 best[i * n + j] = (apex_cost + own, apex);
             }
@@ -198,13 +205,15 @@ fn cheapest_triangulation(
     Ok(collect(&best, n))
 }
 
-/// Returns the minimum cost of the part behind a chord, and the apex of its triangle.
+/// Returns the least cost of the part of the polygon with the corners `i` to `j`, and the apex of
+/// the triangle at the chord `i`–`j`.
 fn best_apex(points: &[DVec2], best: &[(f64, usize)], i: usize, j: usize) -> (f64, usize) {
     let n = points.len();
     let mut cheapest = (f64::INFINITY, 0);
     for k in i + 1..j {
         let parts = best[i * n + k].0 + best[k * n + j].0;
-        // The sides of the triangle may all be inside while it is flat: points on a straight side.
+        // A triangle may be flat although all its sides are inside or edges: its corners may be
+        // points on one straight side.
         if parts < cheapest.0 && orient2d(points[i], points[k], points[j]) > 0.0 {
             let flatness = flatness(points[i], points[k], points[j]);
             let sliver = if flatness > 1.0 - SLIVER {
@@ -221,18 +230,19 @@ fn best_apex(points: &[DVec2], best: &[(f64, usize)], i: usize, j: usize) -> (f6
     cheapest
 }
 
-/// Flatness of a triangle: 0 if equilateral, towards 1 if flat.
+/// Flatness of a triangle: 0 for an equilateral triangle, 1 for a flat one.
 fn flatness(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let squares = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
     1.0 - 2.0 * 3f64.sqrt() * (b - a).perp_dot(c - a).abs() / squares
 }
 
-/// Reads the triangles from the table of the dynamic program.
+/// Reads the triangles of the best triangulation from the table of the dynamic program.
 fn collect(best: &[(f64, usize)], n: usize) -> Vec<[u32; 3]> {
     let mut faces = Vec::with_capacity(n - 2);
     let mut pending = vec![(0, n - 1)];
     while let Some((i, j)) = pending.pop() {
-        // A part without a triangulation is skipped; the caller notices by the number of faces.
+        // A part without a triangulation is skipped. The caller detects this by the number of
+        // faces.
         if j - i < 2 || best[i * n + j].0 == f64::INFINITY {
             continue;
         }

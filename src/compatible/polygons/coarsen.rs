@@ -1,11 +1,12 @@
-//! Reduces the boundary points before the guaranteed base is built, by an advancing front that
-//! starts on the boundary and moves inwards in both designs at once.
+//! Coarsening: replaces the boundary of a piece by one with fewer points before the guaranteed base
+//! mesh is built. An advancing front starts on the boundary and moves inwards in both designs at
+//! once.
 //!
-//! A stretch of the front that sees a common point in each design is replaced by two edges to that
-//! point, and the triangles in between join the mesh. A corner that can be cut off in both designs
-//! is cut off. Each step is checked exactly in both designs and skipped if it does not fit, so the
-//! remaining front always bounds corresponding pieces. Where the boundary has detail, each turn
-//! halves the number of points; the final number is not guaranteed.
+//! A stretch of the front is replaced by two edges to a new point if, in each design, a point
+//! exists that sees the whole stretch; the triangles in between become faces of the mesh. A corner
+//! is cut off if that is possible in both designs. Each step is checked exactly in both designs and
+//! skipped if it does not fit. The remaining front therefore always bounds corresponding pieces.
+//! How many points remain is not guaranteed.
 
 use super::advancing_front::{AdvancingFront, FrontRing};
 use super::boundary_rings::BoundaryRings;
@@ -13,13 +14,14 @@ use super::chords::coincident_corners;
 use crate::work::progress::{Cancelled, Progress};
 use std::collections::HashSet;
 
-/// The front stops when a turn removes less than this fraction of its points (heuristic).
+/// Minimum fraction of the front's points that a turn (one pass along the whole front) must remove
+/// for the front to advance further (heuristic).
 const MIN_GAIN: f64 = 0.02;
 /// Maximum number of turns (derived: at the smallest accepted gain, 0.98⁴⁰ of the points remain,
 /// less than half).
 const MAX_TURNS: usize = 40;
 
-/// Moves the front inwards until it has at most `max_size` points or makes no more progress.
+/// Moves the front inwards until it has at most `max_size` points or a turn removes too few.
 pub(super) fn coarsen(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -27,7 +29,8 @@ pub(super) fn coarsen(
     progress: &dyn Progress,
 ) -> Result<AdvancingFront, Cancelled> {
     let mut coarse = AdvancingFront::of(source, target);
-    // Corners on slits stay: the banks lie on each other, so a sight line from one touches both.
+    // Corners on slits stay on the front. The two banks of a slit lie on each other, so a sight
+    // line from one bank would touch both.
     let frozen: HashSet<u32> = coarse
         .points
         .iter()
@@ -72,7 +75,10 @@ mod tests {
         let coarse = coarsen(&source, &target, 60, &Silent).expect("not cancelled");
         assert!(coarse.size() < 200, "{}", coarse.size());
         for (d, side) in Side::BOTH.into_iter().enumerate() {
-            assert_eq!(boundary_rings::check(&coarse.front_rings(d), side), Ok(()));
+            assert_eq!(
+                boundary_rings::validate_rings(&coarse.front_rings(d), side),
+                Ok(())
+            );
             for face in &coarse.faces {
                 assert!(face_cost::is_positive(
                     face.map(|v| coarse.points[d][v as usize])

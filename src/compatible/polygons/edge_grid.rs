@@ -1,17 +1,19 @@
-//! Uniform grid over the edges of a front, for proximity queries while edges are added and removed.
+//! Uniform grid that finds the front edges near a segment while edges are added and removed.
 
 use crate::geometry::{Bounds, DVec2};
 
-/// Grid cells for each edge: about one edge in a cell of an even front (heuristic).
+/// Number of grid cells for each edge: about one edge in a cell if the edges are spread evenly
+/// (heuristic).
 const CELLS_PER_EDGE: f64 = 1.0;
 
-/// Maximum number of cells along a side (resource limit: a long edge is listed in many cells).
+/// Maximum number of cells along the longer side of the grid (resource limit: a long edge is listed
+/// in many cells).
 const MAX_CELLS_ALONG: f64 = 256.0;
 
-/// Edge given by its two vertices.
+/// Edge, given by the indices of its two vertices.
 type GridEdge = [u32; 2];
 
-/// Grid whose cells list the edges with bounding boxes that touch them.
+/// Grid in which each cell lists the edges whose bounding boxes touch the cell.
 #[derive(Clone, Debug)]
 pub(super) struct EdgeGrid {
     origin: DVec2,
@@ -22,7 +24,8 @@ pub(super) struct EdgeGrid {
 }
 
 impl EdgeGrid {
-    /// Creates an empty grid around `points` that suits the given number of edges.
+    /// Creates an empty grid over the bounding box of `points`, with a cell size that suits the
+    /// given number of edges.
     pub(super) fn around(points: &[DVec2], edges: usize) -> Self {
         let bounds = Bounds::of(points.iter().copied()).unwrap_or(Bounds::at(DVec2::ZERO));
         let size = bounds.size();
@@ -41,13 +44,13 @@ impl EdgeGrid {
         }
     }
 
-    /// Returns the cells that the bounding box of a segment touches. Whatever lies beyond the grid
-    /// counts to the outermost cells.
+    /// Returns the indices of the cells that the bounding box of a segment touches. Parts of the
+    /// box outside the grid belong to the outermost cells.
     fn cells(&self, [a, b]: [DVec2; 2]) -> impl Iterator<Item = usize> + use<> {
         let at = |p: DVec2| {
             let [x, y] = ((p - self.origin) / self.cell_size).to_array();
-            // The cast saturates: negative numbers become 0, and so does NaN if all points
-            // coincide.
+            // The cast saturates: negative numbers become 0. NaN, which occurs if all points
+            // coincide, becomes 0 too.
             [
                 (x as usize).min(self.columns - 1),
                 (y as usize).min(self.rows - 1),
@@ -58,23 +61,24 @@ impl EdgeGrid {
         (bottom..=top).flat_map(move |row| (left..=right).map(move |x| row * columns + x))
     }
 
-    /// Adds an edge with the given ends.
+    /// Adds an edge whose ends have the positions `ends`.
     pub(super) fn add(&mut self, edge: GridEdge, ends: [DVec2; 2]) {
         for cell in self.cells(ends) {
             self.edges_in_cell[cell].push(edge);
         }
     }
 
-    /// Removes an edge; `ends` must be those it was added with.
+    /// Removes an edge; `ends` must be the positions with which it was added.
     pub(super) fn remove(&mut self, edge: GridEdge, ends: [DVec2; 2]) {
         for cell in self.cells(ends) {
             self.edges_in_cell[cell].retain(|other| *other != edge);
         }
     }
 
-    /// Returns whether `is` holds for an edge whose bounding box may meet that of the segment. Some
-    /// edges are tested more than once.
-    pub(super) fn any_near(&self, segment: [DVec2; 2], is: impl Fn(GridEdge) -> bool) -> bool {
+    /// Returns whether `is` holds for at least one edge near a segment. An edge is near if its
+    /// bounding box touches a cell that the segment's bounding box touches; `is` must do any exact
+    /// test. Some edges are tested more than once.
+    pub(super) fn any_edge_near(&self, segment: [DVec2; 2], is: impl Fn(GridEdge) -> bool) -> bool {
         let mut cells = self.cells(segment);
         cells.any(|cell| self.edges_in_cell[cell].iter().any(|&edge| is(edge)))
     }

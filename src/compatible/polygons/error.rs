@@ -1,4 +1,4 @@
-//! Errors of the compatible triangulation of one piece.
+//! Errors of the compatible triangulation of one piece (a matched connected part).
 
 use crate::compatible::validation::CompatibleError;
 use crate::geometry::{ApproxPoint, DVec2, Side};
@@ -8,9 +8,9 @@ use crate::work::progress::Cancelled;
 /// Edge of a boundary ring, identified by its first point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PieceEdge {
-    /// Index of the ring: 0 for the outer boundary, 1 for the first hole.
+    /// Index of the boundary ring: 0 for the outer boundary, 1 for the first hole.
     pub ring: usize,
-    /// Index of the edge; it runs from this point of the ring to the next.
+    /// Index of the edge in its ring: edge i runs from point i to the next point.
     pub edge: usize,
 }
 
@@ -20,7 +20,7 @@ impl std::fmt::Display for PieceEdge {
     }
 }
 
-/// "the outline" or "hole 1".
+/// Formats the index of a ring as "the outline" for 0 or "hole 1" for 1.
 fn ring_name(ring: usize) -> String {
     match ring {
         0 => "the outline".to_owned(),
@@ -28,114 +28,118 @@ fn ring_name(ring: usize) -> String {
     }
 }
 
-/// Reason why a piece has no compatible triangulation in two designs. Messages count from 1.
+/// Reason why a piece has no compatible triangulation in two designs. Fields count from 0 unless
+/// stated otherwise, messages from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PieceMeshError {
-    /// There is no outer boundary.
+    /// No boundary ring is given.
     #[error("there is no outline; give at least one ring of points")]
     NoOutline,
-    /// The designs have different numbers of boundary rings.
+    /// The source and the target have these different numbers of boundary rings.
     #[error("the source has {} boundary rings and the target {}; close or cut open the unmatched holes", .0[0], .0[1])]
     RingCounts([usize; 2]),
     /// A ring has different numbers of points in the two designs.
     #[error("{} has {} points in the source and {} in the target; match them one to one", ring_name(*ring), points[0], points[1])]
     PointCounts {
-        /// Boundary ring; 0 is the outer one.
+        /// Index of the boundary ring; 0 is the outer one.
         ring: usize,
-        /// Numbers of points in source and target.
+        /// Numbers of points of the ring in source and target.
         points: [usize; 2],
     },
     /// A ring has fewer than three points.
     #[error("{} has {points} points; it needs at least 3", ring_name(*ring))]
     TooFewPoints {
-        /// Boundary ring; 0 is the outer one.
+        /// Index of the boundary ring; 0 is the outer one.
         ring: usize,
-        /// Number of its points.
+        /// Number of points of the ring.
         points: usize,
     },
-    /// A coordinate is NaN, infinite, or out of the triangulation's range.
+    /// A point has a coordinate that is NaN, infinite, or out of the triangulation's range.
     #[error("point {} of {} in the {side} has a coordinate that is not finite or too large; correct it", vertex + 1, ring_name(*ring))]
     NotFinite {
-        /// Design with the point.
+        /// Design that contains the point.
         side: Side,
-        /// Boundary ring; 0 is the outer one.
+        /// Index of the point's boundary ring; 0 is the outer one.
         ring: usize,
         /// Index of the point in its ring.
         vertex: usize,
     },
-    /// Two edges touch or cross, or points coincide, other than along a slit.
+    /// In one design two boundary edges touch or cross, or two points coincide, other than along a
+    /// slit.
     #[error("outlines of the {side} touch or cross {}; move them apart there, or choose another method", ApproxPoint(*place))]
     NotSimple {
-        /// Design with the edges.
+        /// Design in which the edges touch or cross.
         side: Side,
-        /// The edges, in the rings as given.
+        /// The two edges, numbered in the rings that the caller passed.
         edges: [PieceEdge; 2],
-        /// Start of the first edge.
+        /// Position of the first edge's start, near which the edges meet.
         place: DVec2,
     },
-    /// The outer boundary runs clockwise.
+    /// The outer boundary of this design runs clockwise.
     #[error("the outline of the {0} runs clockwise; reverse its points")]
     Clockwise(Side),
-    /// A hole runs counter-clockwise.
+    /// A hole of one design runs counter-clockwise.
     #[error("hole {hole} of the {side} runs counter-clockwise; reverse its points")]
     CounterClockwise {
-        /// Design with the hole.
+        /// Design that contains the hole.
         side: Side,
-        /// Number of the hole; the first is 1.
+        /// Number of the hole, counted from 1.
         hole: usize,
     },
-    /// A hole lies outside the outline or inside another hole.
+    /// A hole of this design lies outside the outer boundary or inside another hole.
     #[error(
         "a hole of the {0} lies outside its outline or in another hole; make it a separate part"
     )]
     HoleOutside(Side),
-    /// The edge length is not a positive number.
+    /// [`edge_length`](super::PolygonOptions::edge_length) is this number, which is not positive.
     #[error(
         "the edge length {0} is not a positive fraction of the diameter; use 0.05, for example"
     )]
     EdgeLength(f64),
-    /// A design's rings cannot be triangulated, and no specific fault was found.
+    /// The rings of one design cannot be triangulated, and no specific fault was found in them.
     #[error(
         "the outline of the {side} cannot be triangulated: {error}; its shortest edge is {}, remove a point there",
         ApproxPoint(*place)
     )]
     NotTriangulated {
-        /// Design with the rings.
+        /// Design whose rings cannot be triangulated.
         side: Side,
-        /// Its shortest edge, the likeliest cause.
+        /// The shortest edge of its rings, which is the likeliest cause.
         shortest: PieceEdge,
         /// Start of that edge.
         place: DVec2,
-        /// Error of the triangulation.
+        /// Error that the triangulation returned.
         error: TriangulationError,
     },
-    /// No bridge between the outline and a hole lies inside both designs.
+    /// No bridge from the outer boundary to a hole lies inside the piece in both designs.
     #[error(
         "no cut from the outline to a hole is possible in both designs; thicken the walls between them, or leave the hole out"
     )]
     NoBridge,
-    /// One design's part of the guaranteed base could not be triangulated.
+    /// A polygon from which the guaranteed base mesh is built could not be triangulated in one
+    /// design.
     #[error(
         "the {side} cannot be triangulated ({error}): part of it is thinner than floating-point precision; thicken its thinnest part, or move the match there"
     )]
     Base {
-        /// Design that failed.
+        /// Design in which the triangulation failed.
         side: Side,
-        /// Error of the triangulation.
+        /// Error that the triangulation returned.
         error: TriangulationError,
     },
-    /// Rounding left faces of the guaranteed base without area.
+    /// Because of rounding, faces of the guaranteed base mesh are flat or folded in one design.
     #[error("{} without area in the {side}, {}: the outline is thinner there than floating-point precision; thicken it, or move the match there", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, ApproxPoint(*place))]
     Folded {
-        /// Design with the faces.
+        /// Design in which the faces are flat or folded.
         side: Side,
         /// Number of these faces.
         faces: usize,
-        /// Centroid of the first one.
+        /// Centroid of the first of these faces.
         place: DVec2,
     },
-    /// The mesh is not valid in the designs' own coordinates.
+    /// The mesh is valid in the coordinates in which it was computed, but rounding to the designs'
+    /// own coordinates made it invalid.
     #[error(
         "the common triangulation is not valid in the designs' own coordinates: {0}; or scale both designs to a moderate size"
     )]
@@ -146,7 +150,7 @@ pub enum PieceMeshError {
 }
 
 impl PieceMeshError {
-    /// The error with the designs exchanged.
+    /// Returns the error for the designs in exchanged order.
     pub(super) fn swapped(mut self) -> Self {
         if let Self::Base { side, .. } | Self::Folded { side, .. } = &mut self {
             *side = side.other();
@@ -154,7 +158,7 @@ impl PieceMeshError {
         self
     }
 
-    /// The error with each design's coordinates multiplied by `by`.
+    /// Returns the error for designs whose coordinates are multiplied by `by`, one factor for each.
     pub(super) fn scaled(mut self, by: [f64; 2]) -> Self {
         if let Self::Folded { side, place, .. }
         | Self::NotSimple { side, place, .. }

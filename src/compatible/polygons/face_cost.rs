@@ -1,32 +1,34 @@
-//! Cost of one face in its two embeddings, with gradients.
+//! Cost of one face in its two embeddings, with gradients. A low cost means little distortion and
+//! good angles.
 //!
-//! The cost is symmetric in the two designs. It is the fourth power of the conformal distortion of
-//! the map between them (Hormann, Greiner 2000), plus the squared shape term of the face in each
-//! design, plus a small term for the change of area. The fourth power, instead of the square,
-//! weighs the worst faces more. The cost tends to infinity as a face flattens in either design.
+//! The cost is symmetric in the two designs. It is the sum of three terms: the fourth power of the
+//! conformal distortion of the map between the designs (Hormann, Greiner 2000), the squared shape
+//! term of the face in each design, and a small term for the change of area. The fourth power gives
+//! the worst faces more weight than a square would. The cost tends to infinity as a face becomes
+//! flat in either design.
 
 use crate::geometry::{DVec2, orient2d, twice_signed_area};
 
 /// Corner positions of a face in one design.
 pub(super) type FaceCorners = [DVec2; 3];
 
-/// Default weight of the area-change term (heuristic: small, since parts do grow and shrink, but
-/// not 0, or faces could trade area at no cost).
+/// Default weight of the area-change term (heuristic: small, because parts do grow and shrink; not
+/// 0, because otherwise one face could grow at the expense of another at no cost).
 pub(super) const AREA_WEIGHT: f64 = 0.02;
 
-/// Cost of a face, with its gradients with respect to the corners in source and target.
+/// Cost of a face, and its gradients with respect to the corner positions in source and target.
 pub(super) struct FaceCost {
     pub(super) value: f64,
     pub(super) gradients: [FaceCorners; 2],
 }
 
-/// Twice the signed area, in plain floating point.
+/// Twice the signed area of a face in one design, in plain floating point.
 pub(super) fn twice_area(p: FaceCorners) -> f64 {
     twice_signed_area(p[0], p[1], p[2])
 }
 
-/// Shape term: sum of squared edges over area, scaled to 1 for an equilateral triangle; infinite if
-/// the face is not positive.
+/// Shape term of a face in one design: the sum of its squared edge lengths over its area, scaled to
+/// 1 for an equilateral triangle; infinite if the face is not positive.
 pub(super) fn shape(p: FaceCorners) -> f64 {
     let det = twice_area(p);
     if det > 0.0 {
@@ -36,18 +38,19 @@ pub(super) fn shape(p: FaceCorners) -> f64 {
     }
 }
 
-/// Returns whether a face is positive, by exact predicates.
+/// Returns whether a face is positive in one design, by exact predicates.
 pub(super) fn is_positive(p: FaceCorners) -> bool {
     orient2d(p[0], p[1], p[2]) > 0.0
 }
 
-/// Cost without gradients; infinite if the face is not positive in both designs.
+/// Cost of a face with the corners `p` and `q` in the two designs, without gradients; infinite if
+/// the face is not positive in both.
 pub(super) fn value(p: FaceCorners, q: FaceCorners) -> f64 {
     evaluate(p, q, AREA_WEIGHT).map_or(f64::INFINITY, |cost| cost.value)
 }
 
-/// Cost with gradients; `None` if the face is not positive in both designs. `area_weight` is the
-/// weight of the area-change term.
+/// Cost of a face with the corners `p` and `q` in the two designs, with gradients; `None` if the
+/// face is not positive in both. `area_weight` is the weight of the area-change term.
 pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Option<FaceCost> {
     let det = [p, q].map(twice_area);
     if !(det[0] > 0.0 && det[1] > 0.0) {
@@ -57,17 +60,19 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
     let products = e.map(products);
     let inverse = det.map(|det| 1.0 / det);
     let both = 0.5 * inverse[0] * inverse[1];
-    // Conformal distortion: (σ₁/σ₂ + σ₂/σ₁) / 2 = |J|² / (2 det J), with det J = det[1] / det[0].
+    // Conformal distortion: (σ₁/σ₂ + σ₂/σ₁) / 2 = |J|² / (2 det J), where J is the Jacobian of the
+    // map and det J = det[1] / det[0].
     let conformal = dirichlet(products[0], e[1]) * both;
     let squared = conformal * conformal;
     let ratios = [det[0] * inverse[1], det[1] * inverse[0]];
     let mut gradients = [[DVec2::ZERO; 3]; 2];
     let mut shapes = [0.0; 2];
     for d in 0..2 {
-        // An equilateral triangle of side 1: squared edges add up to 3, twice its area is √3 / 2.
+        // For an equilateral triangle of side 1 the squared edges add up to 3, and twice the area
+        // is √3 / 2.
         let equilateral = inverse[d] / (2.0 * 3f64.sqrt());
         shapes[d] = squares(e[d]) * equilateral;
-        // Derivative with respect to this design's doubled area, which divides every term.
+        // Derivative of the cost with respect to twice the area of the face in this design.
         let by_det = -4.0 * squared * squared - 2.0 * shapes[d] * shapes[d]
             + area_weight * 0.5 * (ratios[d] - ratios[1 - d]);
         let by_det = by_det * inverse[d];
@@ -78,7 +83,7 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
         let pulls = products[1 - d].map(|product| by_dirichlet * product + by_squares);
         for k in 0..3 {
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-            // A corner changes its two sides, and the area by its height over the third side.
+            // A moving corner changes its two sides, and the area in proportion to the third side.
             gradients[d][k] =
                 pulls[next] * e[d][next] - pulls[last] * e[d][last] + by_det * e[d][k].perp();
         }
@@ -86,13 +91,13 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
     let value = squared * squared
         + (shapes[0] * shapes[0] + shapes[1] * shapes[1])
         + area_weight * 0.5 * (ratios[0] + ratios[1]);
-    // A tiny area may have an infinite inverse.
+    // The inverse of a tiny area may be infinite.
     value.is_finite().then_some(FaceCost { value, gradients })
 }
 
-/// Second derivative of the cost with respect to each design's edges, with areas and the other
-/// design fixed: one stiffness for each edge. A single stiffness may be negative, but the stiffness
-/// matrix of the face is positive semidefinite.
+/// Second derivative of the cost with respect to each design's edges, at fixed areas and with the
+/// other design fixed: for each design one stiffness for each edge. A single stiffness may be
+/// negative, but the stiffness matrix of the face is positive semidefinite.
 pub(super) fn stiffness(p: FaceCorners, q: FaceCorners) -> [[f64; 3]; 2] {
     let det = [p, q].map(twice_area);
     let e = [edges(p), edges(q)];
@@ -107,22 +112,24 @@ pub(super) fn stiffness(p: FaceCorners, q: FaceCorners) -> [[f64; 3]; 2] {
     })
 }
 
-/// Edges of a face. Edge k lies opposite corner k; the three add up to zero.
+/// Edge vectors of a face. Edge k lies opposite corner k; the three edges add up to zero.
 fn edges(p: FaceCorners) -> FaceCorners {
     [p[2] - p[1], p[0] - p[2], p[1] - p[0]]
 }
 
-/// Sum of the squared edge lengths.
+/// Sum of the squared lengths of three edges.
 fn squares(e: FaceCorners) -> f64 {
     e.iter().map(|e| e.length_squared()).sum()
 }
 
-/// For each corner the dot product of its two edges: its cotangent times twice the area.
+/// For each corner, the dot product of the two edges that leave it: the cotangent of its angle
+/// times twice the area.
 fn products(e: FaceCorners) -> [f64; 3] {
     [-e[1].dot(e[2]), -e[2].dot(e[0]), -e[0].dot(e[1])]
 }
 
-/// |J|² / det J times both doubled areas; symmetric in the two designs.
+/// The Dirichlet energy |J|² / det J of a face, times twice its area in both designs. `products`
+/// belongs to one design, the edges `e` to the other; the result is symmetric in the two.
 fn dirichlet(products: [f64; 3], e: FaceCorners) -> f64 {
     (0..3).map(|k| products[k] * e[k].length_squared()).sum()
 }

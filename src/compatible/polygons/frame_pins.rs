@@ -1,11 +1,14 @@
-//! Mesh of the whole frame in which each pin is a vertex, at its place in each design.
+//! Mesh of the whole frame in which each pin is a vertex. A pin is a pair of corresponding points,
+//! one in each design.
 //!
-//! The border of the frame stays where it is. The space between border and pins is filled evenly
-//! with points, which are triangulated (Delaunay) in the source. The mesh is then moved to the
-//! target in steps, and folds are removed after each step (see [`crate::compatible::polygons::transfer`]).
+//! The border of the frame stays in place. The space between the border and the pins is filled
+//! evenly with points, which are triangulated (Delaunay) in the source. The pins are then moved to
+//! the target in steps, and folds are removed after each step (see
+//! [`crate::compatible::polygons::transfer`]).
 //!
-//! Guaranteed: pins are met bit by bit, and faces are positive in both designs. Not guaranteed:
-//! that every set of pins can be met. Pins that cross have no such mesh and are named in the error.
+//! Guaranteed: pins are at their given positions bit by bit, and faces are positive in both
+//! designs. Not guaranteed: that a mesh is found for every set of pins. If folds remain, the error
+//! names the pins nearest to them.
 
 use super::options::PolygonOptions;
 use super::pair_mesh::{PairMesh, unit_scale};
@@ -17,46 +20,48 @@ use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{TriangulationError, delaunay};
 use crate::work::progress::{Cancelled, Progress, ProgressSpan, check_cancelled, checkpoint};
 
-/// Number of points along the longer side of the frame: about 700 in a square frame (heuristic).
+/// Number of points along the longer side of the frame: about 700 points in total in a square frame
+/// (heuristic).
 const POINTS_ALONG: f64 = 24.0;
 
-/// Minimum distance between points, in spacings; less than the 0.87 between two rows (heuristic).
+/// Minimum distance between points, in units of the spacing (heuristic: less than the 0.87 between
+/// two rows of a triangular lattice).
 const MIN_DISTANCE: f64 = 0.6;
 
-/// Narrowest spacing around a pin, as a fraction of the distance to the nearest other pin, which
-/// leaves one or two rows between them (heuristic).
+/// Narrowest spacing of points around a pin, as a fraction of the distance to the nearest other pin
+/// or border point (heuristic: it leaves one or two rows of points between them).
 const PIN_SPACING: f64 = 0.35;
-/// Growth of the spacing per unit of distance from a pin: less than a doubling in two rows
-/// (heuristic).
+/// Growth of the spacing per unit of distance from a pin (heuristic: the spacing grows by less than
+/// a factor of two over two rows).
 const GRADING: f64 = 0.35;
 
-/// Number of spacings, each half as wide as the one before, down to 1/32; pins 1/270 of the frame
-/// apart need the narrowest (resource limit).
+/// Number of spacings, each half as wide as the one before, down to 1/32 of the widest (resource
+/// limit: the narrowest suits pins that are 1/270 of the frame's longer side apart).
 const LATTICES: u32 = 6;
 
-/// Maximum number of points (resource limit: each candidate is compared with all points before it).
+/// Maximum number of points (resource limit: each candidate is compared with all earlier points).
 const MAX_POINTS: usize = 8_000;
 
-/// Number of steps on the way to the target, between which edges can be flipped (heuristic).
+/// Number of steps from source to target; edges can be flipped after each (heuristic).
 const STEPS: u32 = 6;
 
-/// Fraction of progress reported when the mesh has reached the target (heuristic).
+/// Progress reported once the mesh has reached the target, in [0, 1] (heuristic).
 const PROGRESS_AT_TARGET: f64 = 0.7;
 
-/// Distance up to which two pins coincide in a design, as a fraction of the frame's diameter
-/// (tolerance: too close to be placed by hand, and faces between them would be slivers).
+/// Distance up to which two pins count as coincident in a design, as a fraction of the frame's
+/// diameter (tolerance: too close to be placed by hand; faces between such pins would be slivers).
 const SAME_PIN: f64 = 1e-6;
 
-/// Reason why the frame has no mesh around the pins. Messages count pins from 1.
+/// Reason why the frame has no mesh in which the pins are vertices. Messages count pins from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FramePinsError {
-    /// A pin is not finite or not inside the frame.
+    /// A pin is not finite, or does not lie inside the frame.
     #[error("pin {} lies outside the frame of the {side} design; move it inside", pin + 1)]
     Outside {
         /// Index of the pin, from 0.
         pin: usize,
-        /// Design in which it lies outside.
+        /// Design in which the pin lies outside.
         side: Side,
     },
     /// Two pins coincide in one design but not in the other.
@@ -67,16 +72,18 @@ pub enum FramePinsError {
         /// Design in which they coincide.
         side: Side,
     },
-    /// No map without folds was found that meets all pins.
+    /// No mesh without folds was found that meets all pins.
     #[error("the plane would have to fold near {}; move or delete {}", pin_list(pins), if pins.len() == 1 { "it" } else { "some of them" })]
     Folds {
-        /// Indices of the pins at the folds, from 0.
+        /// Indices of the pins nearest to the folds, from 0.
         pins: Vec<usize>,
     },
-    /// The frame's size is out of the triangulation's range.
+    /// The filling points could not be triangulated, because the frame's coordinates are out of
+    /// range.
     #[error(transparent)]
     Triangulation(#[from] TriangulationError),
-    /// The mesh is not valid in the frame's own coordinates.
+    /// The mesh is valid in the coordinates in which it was computed, but rounding to the frame's
+    /// own coordinates made it invalid.
     #[error("the mesh around the pins is not valid in the frame's coordinates: {0}")]
     Mesh(#[from] CompatibleError),
     /// The work was cancelled.
@@ -84,7 +91,7 @@ pub enum FramePinsError {
     Cancelled(#[from] Cancelled),
 }
 
-/// Formats pin indices as "pin 3" or "pins 3, 5".
+/// Formats pin indices, which count from 0, as "pin 3" or "pins 3, 5", which count from 1.
 fn pin_list(pins: &[usize]) -> String {
     let numbers: Vec<String> = pins.iter().map(|pin| (pin + 1).to_string()).collect();
     let pin = if numbers.len() == 1 { "pin" } else { "pins" };
@@ -92,13 +99,13 @@ fn pin_list(pins: &[usize]) -> String {
 }
 
 impl CompatibleMesh {
-    /// Triangulates a rectangle so that each pin is a vertex, at its source place in the source and
-    /// at its target place in the target. The border is the same in both designs. Border vertices
-    /// come first, then the pins.
+    /// Triangulates a rectangle so that each pin is a vertex, at its source position in the source
+    /// and at its target position in the target. The border is the same in both designs. The border
+    /// vertices come first, then the pins.
     ///
     /// # Errors
-    /// [`FramePinsError`] for pins outside the rectangle, for pins that no map without folds can
-    /// meet, or if the work is cancelled.
+    /// [`FramePinsError`] if a pin lies outside the rectangle, if two pins coincide in only one
+    /// design, if no mesh without folds is found, or if the work is cancelled.
     ///
     /// ```
     /// use morphospace::compatible::CompatibleMesh;
@@ -136,9 +143,9 @@ impl CompatibleMesh {
         let (source, fixed_targets) = (scaled(&source), scaled(&fixed_places[1]));
         let faces = delaunay(&source)?;
         let mut mesh = PairMesh::new(fixed, [source.clone(), source], faces);
-        // Faces between fixed vertices alone could not follow the pins.
+        // Faces whose vertices are all fixed could not follow the pins.
         transfer::split_chords(&mut mesh);
-        // In several steps, so that edges can be flipped on the way.
+        // The mesh moves in several steps, so that edges can be flipped on the way.
         for step in 1..=STEPS {
             let along = f64::from(step) / f64::from(STEPS);
             // `fixed_targets` ends the iteration: only the border, which stays, and the pins are
@@ -158,7 +165,7 @@ impl CompatibleMesh {
                     pins: pins_near_folds(&mesh, border.len(), &pins),
                 });
             }
-            quality::settle(&mut mesh, progress)?;
+            quality::relax_and_flip(&mut mesh, progress)?;
         }
         let remaining = ProgressSpan::new(progress, PROGRESS_AT_TARGET, 1.0);
         quality::improve(&mut mesh, &PolygonOptions::default(), &remaining)?;
@@ -168,13 +175,14 @@ impl CompatibleMesh {
     }
 }
 
-/// Returns the distinct pins with their indices; of equal pins the first.
+/// Returns the distinct pins, each with its index in `pins`. Of pins that coincide in both designs,
+/// the first is returned.
 fn distinct_pins(
     frame: &Bounds,
     pins: &[PointPair],
 ) -> Result<Vec<(usize, PointPair)>, FramePinsError> {
     let same = SAME_PIN * frame.diameter();
-    // Pins on the border would leave no room for faces.
+    // A pin on the border would leave no room for faces.
     let inside = frame.padded(-same);
     let mut distinct: Vec<(usize, PointPair)> = Vec::new();
     for (pin, pair) in pins.iter().enumerate() {
@@ -185,13 +193,13 @@ fn distinct_pins(
         }
         let near =
             |other: &PointPair| Side::BOTH.map(|side| other[side].distance(pair[side]) <= same);
-        // A pin may repeat an earlier one exactly, but may not coincide with it in one design only.
+        // A pin may coincide with an earlier pin in both designs, but not in one design only.
         let mut others = distinct
             .iter()
             .map(|(number, other)| (*number, near(other)));
         match others.find(|(_, near)| near.contains(&true)) {
             None => distinct.push((pin, *pair)),
-            // A pin that is given twice counts once.
+            // A repeated pin counts once.
             Some((_, [true, true])) => {}
             Some((other, near)) => {
                 let side = if near[0] { Side::Source } else { Side::Target };
@@ -203,13 +211,14 @@ fn distinct_pins(
     Ok(distinct)
 }
 
-/// Widest spacing between points.
+/// Widest spacing between points, in units of the plane.
 fn spacing(frame: &Bounds) -> f64 {
     frame.size().max_element() / POINTS_ALONG
 }
 
-/// Returns points on triangular lattices between border and pins: spaced like the border's points,
-/// but more closely around pins that are near each other in either design.
+/// Returns the points of triangular lattices between border and pins. They are spaced like the
+/// points of the border, but more closely around pins that are close to another pin in either
+/// design.
 fn fill_points(
     frame: &Bounds,
     border: usize,
@@ -233,14 +242,16 @@ fn fill_points(
         pins.iter().map(about).fold(widest, f64::min)
     };
     let mut points = ends[0].clone();
-    // The narrowest rows come first, so that wider rows keep their distance from them.
+    // The narrowest spacing comes first, so that points of wider spacings keep their distance from
+    // its points.
     for lattice in (0..LATTICES).rev() {
         let step = widest / f64::from(1u32 << lattice);
         let is_last = lattice + 1 == LATTICES;
         for p in triangular_lattice(frame, step) {
             check_cancelled(progress)?;
-            // Each place is filled by the one level whose spacing fits. Spacings beyond the range
-            // are left to the widest or the narrowest level.
+            // Each point of the frame is filled by the one level whose spacing suits it. Where the
+            // required spacing is beyond the range of the levels, the widest or the narrowest level
+            // is used.
             let size = spacing_at(p);
             let fits =
                 size < 2.0 * step && (size >= step || is_last) || lattice == 0 && size >= step;
@@ -254,7 +265,7 @@ fn fill_points(
     Ok(points.split_off(ends[0].len()))
 }
 
-/// Points of a triangular lattice inside the frame; `side` is the length of its edges.
+/// Points of a triangular lattice inside the frame; `side` is the length of the lattice's edges.
 fn triangular_lattice(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> {
     let step = DVec2::new(side, side * 0.75f64.sqrt());
     let size = frame.size();
@@ -271,7 +282,7 @@ fn triangular_lattice(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> 
         .filter(move |p| room.contains(*p))
 }
 
-/// Indices of the pins nearest to the folded faces, each once.
+/// Indices of the pins nearest to the folded faces, sorted and each once.
 fn pins_near_folds(mesh: &PairMesh, first: usize, all: &[(usize, PointPair)]) -> Vec<usize> {
     let targets = &mesh.points[1];
     let mut pins: Vec<usize> = (mesh.faces())
@@ -318,7 +329,8 @@ mod tests {
     fn pins_that_exchange_places_are_met_or_named() {
         let pins = [pin((0.0, 3.0), (3.0, 3.0)), pin((3.0, 3.0), (0.0, 3.0))];
         let mesh = CompatibleMesh::around_pins(&FRAME, &pins, &Silent);
-        // A half turn between the pins meets them; if it is not found, the error names them.
+        // A half turn around a point between the pins meets them. If the search does not find it,
+        // the error names the pins.
         match mesh {
             Ok(mesh) => assert!(mesh.target().contains(&pins[0].target)),
             Err(FramePinsError::Folds { pins }) => assert!(!pins.is_empty()),

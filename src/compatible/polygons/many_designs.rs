@@ -1,10 +1,10 @@
-//! Triangulates one piece in many designs at once.
+//! Triangulates one piece (a matched connected part) in many designs at once.
 //!
-//! A refined triangulation of the piece in one design is transferred to all others
-//! ([`super::transfer`]); each design is tried in turn as the start.
+//! A refined triangulation of the piece in one design is transferred to all other designs
+//! ([`super::transfer`]). One design after another is tried as the start.
 //!
-//! Guaranteed: every face is positive in every design, by exact predicates, and the first vertices
-//! are the ring points, bit by bit. Not guaranteed: that a common triangulation is found.
+//! Guaranteed: every face is positive in every design, by exact predicates; the first vertices are
+//! the ring points, bit by bit. Not guaranteed: that a common triangulation is found.
 
 use super::boundary_rings;
 use super::boundary_rings::BoundaryRings;
@@ -19,22 +19,23 @@ use crate::mesh::triangulation::{RefinementOptions, refined_delaunay};
 use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
-/// Faces, and the vertices of each design.
+/// Faces as triples of vertex indices, and the vertex positions in each design.
 type SharedTriangulation = (Vec<[u32; 3]>, Vec<Vec<DVec2>>);
 
-/// The search ends when the valid triangulations found so far have been transferred to this many
-/// designs in total (resource limit: three triangulations of four designs, one of twelve).
+/// The search for triangulations ends when the number of valid ones times the number of designs
+/// reaches this (resource limit: three triangulations of four designs, one of twelve).
 const ENOUGH_TRANSFERS: usize = 12;
 
-/// Rounds of distortion reduction after each transfer (heuristic).
+/// Maximum number of rounds of distortion reduction after each transfer (heuristic).
 const REDUCTION_ROUNDS: usize = 3;
 
-/// Triangulates the rings of one piece in all designs. `rings[ring][design]` is a list of points;
-/// `first` is the design to start from.
+/// Triangulates one piece in all designs. `rings[ring][design]` is a list of points. `first` is the
+/// index of the design with which the search starts.
 ///
 /// # Errors
-/// A design whose rings bound no piece, with the reason; or design 0 without a reason if no common
-/// triangulation was found.
+/// Index of a design whose rings are not a valid boundary, with the reason. Otherwise the index is
+/// 0: without a reason if no common triangulation was found, with a reason if the work was
+/// cancelled.
 pub(in crate::compatible) fn triangulate_many(
     rings: &[Vec<Vec<DVec2>>],
     first: usize,
@@ -47,7 +48,7 @@ pub(in crate::compatible) fn triangulate_many(
             BoundaryRings::of(&rings.iter().map(|ring| &ring[design]).collect::<Vec<_>>())
         })
         .collect();
-    // Near size 1 no product over- or underflows, as exact predicates require.
+    // At a diameter near 1 no product overflows or underflows, as exact predicates require.
     let scales: Vec<f64> = design_rings
         .iter()
         .map(|rings| unit_scale(&rings.points))
@@ -55,20 +56,21 @@ pub(in crate::compatible) fn triangulate_many(
     let scaled = design_rings.iter().zip(&scales);
     let scaled: Vec<BoundaryRings> = scaled.map(|(rings, &by)| rings.scaled(by)).collect();
     for (design, (rings, scale)) in scaled.iter().zip(&scales).enumerate() {
-        boundary_rings::check(rings, Side::Source)
+        boundary_rings::validate_rings(rings, Side::Source)
             .map_err(|error| (design, Some(error.scaled([scale.recip(); 2]))))?;
     }
     let best = best_triangulation(&scaled, first, options, progress).map_err(cancelled)?;
     let (faces, mut places) = best.ok_or((0, None))?;
     for ((places, rings), scale) in places.iter_mut().zip(&design_rings).zip(&scales) {
         places.iter_mut().for_each(|p| *p /= *scale);
-        // Restores the ring points bit by bit.
+        // Restores the exact ring points.
         places[..rings.points.len()].copy_from_slice(&rings.points);
     }
     Ok((faces, places))
 }
 
-/// Returns the best of the first few triangulations that fold in no design.
+/// Returns the triangulation with the lowest cost among the first few that fold in no design;
+/// `None` if there are none.
 fn best_triangulation(
     designs: &[BoundaryRings],
     first: usize,
@@ -88,8 +90,8 @@ fn best_triangulation(
             break;
         }
     }
-    // If no design works alone: the mesh of the first and a hard design together is always found,
-    // and may transfer to the others.
+    // If no start works: the common mesh of the first design and one other design is nearly always
+    // found, and it may transfer to the remaining designs.
     for hard in order.skip(1) {
         if !candidates.is_empty() {
             break;
@@ -114,12 +116,13 @@ fn best_triangulation(
     Ok(best.map(|(_, mesh)| mesh))
 }
 
-/// The error of a cancelled triangulation.
+/// Error of a cancelled triangulation.
 fn cancelled(cancelled: Cancelled) -> (usize, Option<PieceMeshError>) {
     (0, Some(cancelled.into()))
 }
 
-/// Returns the refined triangulation of one design; `None` if it cannot be triangulated.
+/// Returns a refined triangulation of one design, as a mesh with that design in both embeddings;
+/// `None` if the design cannot be triangulated.
 fn refined_mesh(
     rings: &BoundaryRings,
     options: &PolygonOptions,
@@ -143,8 +146,8 @@ fn refined_mesh(
     Ok(Some(mesh))
 }
 
-/// Reduces the distortion of a transferred mesh that folds nowhere. A transfer that meets no folds
-/// ends with the harmonic map, which distorts more than necessary.
+/// Reduces the distortion of a transferred mesh, if it has no folds. A transfer without folds to
+/// remove ends with the harmonic map, which distorts more than necessary.
 fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
     for _ in 0..REDUCTION_ROUNDS {
         let before = mesh.points[1].clone();
@@ -159,10 +162,11 @@ fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
     }
 }
 
-/// Transfers a triangulation of the design `from` to all others. Returns its total cost and the
-/// result; `None` if it folds in one of them.
+/// Transfers the triangulation `base` of the design `from` to all other designs. Returns the sum of
+/// its costs and the result; `None` if it is folded in one of the designs.
 ///
-/// `hard_points` is a further design in which the vertices are already known.
+/// If present, `hard_points` contains the index of another design and the positions of the vertices
+/// in it; no transfer to that design is needed.
 fn transfer_to_all(
     base: &PairMesh,
     from: usize,
@@ -175,7 +179,7 @@ fn transfer_to_all(
         let hard_points = hard_points.as_ref().filter(|(hard, _)| *hard == design);
         let mut mesh = base.clone();
         match hard_points {
-            // The design of the start keeps its own vertices, without distortion.
+            // The start itself keeps its vertices and has no distortion.
             _ if design == from => return Ok(Some((0.0, own.clone()))),
             Some((_, places)) => mesh.points[1].clone_from(places),
             None => {

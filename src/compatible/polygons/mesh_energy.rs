@@ -1,8 +1,9 @@
-//! Cost of a mesh, the weighted sum of its face costs, as a function of everything that may move:
+//! Cost of a mesh (the weighted sum of its face costs) as a function of everything that may move:
 //! inner vertices in both designs, and boundary vertices that slide along the outlines.
 //!
-//! Unknowns are the displacements of the inner vertices (first design x, first y, second x, second
-//! y), then the slide of each sliding vertex.
+//! The unknowns are the displacements of the inner vertices (all x in the first design, all y in
+//! the first, all x in the second, all y in the second), followed by one slide for each sliding
+//! vertex.
 
 use super::face_cost;
 use super::pair_mesh::PairMesh;
@@ -11,58 +12,60 @@ use crate::geometry::DVec2;
 use crate::numerics::lbfgs::minimise;
 use crate::work::progress::Progress;
 
-/// Boundary vertex that slides along both outlines, by half of its slide in each design, in
-/// opposite directions.
+/// Boundary vertex that slides along the outlines. A slide moves it by half the amount in each
+/// design, in opposite directions.
 #[derive(Clone, Debug)]
 pub(super) struct SlidingVertex<'a> {
-    /// Index of the vertex.
+    /// Index of the vertex in the mesh.
     pub(super) vertex: u32,
-    /// Outline of each design.
+    /// Outline along which the vertex slides, in each design.
     pub(super) curves: [&'a BoundaryCurve; 2],
-    /// Position on each outline, in curve units (the whole curve is 1).
+    /// Position of the vertex along each outline, in curve units (the whole outline is 1).
     pub(super) places: [f64; 2],
 }
 
-/// Change of the position in each design per unit of slide (derived: half each, so that both
-/// designs are treated alike).
+/// Change of a sliding vertex's position along the outline of each design, per unit of slide
+/// (derived: half in each design, so that both are treated alike).
 const SLIDE_SHARES: [f64; 2] = [-0.5, 0.5];
 
 impl SlidingVertex<'_> {
-    /// Moves the vertex by a slide.
+    /// Moves the vertex in both designs by the slide `by`.
     pub(super) fn slide(&mut self, by: f64) {
         self.places = [0, 1].map(|design| self.place(by, design));
     }
 
-    /// Position in one design after a slide.
+    /// Position of the vertex along the outline of one design after the slide `by`.
     fn place(&self, by: f64, design: usize) -> f64 {
         self.places[design] + SLIDE_SHARES[design] * by
     }
 }
 
-/// Cost of a mesh as a function of its unknowns, with scratch memory for evaluations.
+/// Cost of a mesh as a function of the unknowns, with scratch memory for its evaluation.
 pub(super) struct MeshEnergy<'a> {
     mesh: &'a PairMesh,
-    /// Faces with their weights.
+    /// Faces as triples of vertex indices, each with its weight.
     pub(super) faces: Vec<([u32; 3], f64)>,
-    /// The inner vertices, ascending.
+    /// Indices of the inner vertices, ascending.
     pub(super) inner: Vec<u32>,
     sliders: &'a [SlidingVertex<'a>],
-    /// Scale of each design relative to its curves.
+    /// For each design, the factor from the coordinates of its outlines to those of the mesh.
     scales: [f64; 2],
     /// Weight of the area-change term.
     area: f64,
-    /// Scratch: vertices for the current unknowns, and gradients with respect to them.
+    /// Scratch memory: vertex positions for the current unknowns, and the gradients with respect to
+    /// these positions.
     current: [Vec<DVec2>; 2],
     gradients: [Vec<DVec2>; 2],
 }
 
 impl<'a> MeshEnergy<'a> {
-    /// Cost as a function of the inner vertices only.
+    /// Creates the cost as a function of the inner vertices only. `area` is the weight of the
+    /// area-change term.
     pub(super) fn of_inner_vertices(mesh: &'a PairMesh, area: f64) -> Self {
         Self::new(mesh, &[], [1.0; 2], area)
     }
 
-    /// Cost as a function of the inner vertices and the sliding ones.
+    /// Creates the cost as a function of the inner vertices and of the sliding ones.
     pub(super) fn new(
         mesh: &'a PairMesh,
         sliders: &'a [SlidingVertex<'a>],
@@ -72,7 +75,7 @@ impl<'a> MeshEnergy<'a> {
         let zero = vec![DVec2::ZERO; mesh.points[0].len()];
         Self {
             faces: weighted_faces(mesh),
-            inner: mesh.steiner(),
+            inner: mesh.steiner_vertices(),
             current: mesh.points.clone(),
             gradients: [zero.clone(), zero],
             mesh,
@@ -82,19 +85,20 @@ impl<'a> MeshEnergy<'a> {
         }
     }
 
-    /// Number of unknowns.
-    pub(super) fn unknowns(&self) -> usize {
+    /// Number of unknowns: four for each inner vertex and one for each sliding vertex.
+    pub(super) fn unknown_count(&self) -> usize {
         4 * self.inner.len() + self.sliders.len()
     }
 
-    /// Takes at most `steps` steps downhill; returns the vertices and the slides reached.
-    pub(super) fn minimised(
+    /// Takes at most `steps` descent steps. Returns the vertex positions in both designs and the
+    /// slides.
+    pub(super) fn minimise(
         mut self,
         steps: usize,
         precondition: impl FnMut(&mut [f64]),
         progress: &dyn Progress,
     ) -> ([Vec<DVec2>; 2], Vec<f64>) {
-        let mut x = vec![0.0; self.unknowns()];
+        let mut x = vec![0.0; self.unknown_count()];
         let energy = |x: &[f64], gradient: &mut [f64]| self.energy(x, gradient);
         minimise(&mut x, steps, 1e-5, precondition, energy, progress);
         self.apply(&x);
@@ -102,14 +106,15 @@ impl<'a> MeshEnergy<'a> {
         (self.current, x.split_off(4 * self.inner.len()))
     }
 
-    /// Derivative of a sliding vertex's position in one design with respect to its slide.
+    /// Derivative of a sliding vertex's position in one design with respect to its slide, at the
+    /// slide `by`.
     pub(super) fn velocity(&self, slider: usize, by: f64, design: usize) -> DVec2 {
         let slider = &self.sliders[slider];
         let along = slider.curves[design].velocity_at(slider.place(by, design));
         along * (SLIDE_SHARES[design] * self.scales[design])
     }
 
-    /// Moves the vertices to where the unknowns `x` put them.
+    /// Writes the vertex positions for the unknowns `x` to `current`.
     fn apply(&mut self, x: &[f64]) {
         let n = self.inner.len();
         for d in 0..2 {
@@ -130,7 +135,8 @@ impl<'a> MeshEnergy<'a> {
         }
     }
 
-    /// Returns the cost at `x` and fills its gradient; infinite if a face is not positive.
+    /// Returns the cost at the unknowns `x` and writes its gradient; infinite if a face is not
+    /// positive.
     fn energy(&mut self, x: &[f64], gradient: &mut [f64]) -> f64 {
         self.apply(x);
         for gradients in &mut self.gradients {
@@ -139,7 +145,7 @@ impl<'a> MeshEnergy<'a> {
         let mut total = 0.0;
         for &(face, weight) in &self.faces {
             let [p, q] = [0, 1].map(|d| face.map(|v| self.current[d][v as usize]));
-            // No gradient is needed: the line search only shortens its step.
+            // No gradient is needed here, because the line search then only shortens its step.
             let Some(cost) = face_cost::evaluate(p, q, self.area) else {
                 return f64::INFINITY;
             };
@@ -160,7 +166,7 @@ impl<'a> MeshEnergy<'a> {
         }
         for (i, slider) in self.sliders.iter().enumerate() {
             let (v, by) = (slider.vertex as usize, x[4 * n + i]);
-            // Chain rule: one slide moves the vertex in both designs.
+            // Chain rule: a slide moves the vertex in both designs.
             let along = |d: usize| self.gradients[d][v].dot(self.velocity(i, by, d));
             gradient[4 * n + i] = along(0) + along(1);
         }
@@ -168,8 +174,8 @@ impl<'a> MeshEnergy<'a> {
     }
 }
 
-/// Returns the faces with weights that add up to 1. Half of a weight is the face's mean share of
-/// both areas, and half is the same for all faces.
+/// Returns the faces with weights that add up to 1. One half of the total weight is distributed in
+/// proportion to the face's mean share of the area in both designs, the other half equally.
 pub(super) fn weighted_faces(mesh: &PairMesh) -> Vec<([u32; 3], f64)> {
     let areas = |face| mesh.corners(face).map(face_cost::twice_area);
     let mut total = [0.0; 2];
@@ -179,7 +185,7 @@ pub(super) fn weighted_faces(mesh: &PairMesh) -> Vec<([u32; 3], f64)> {
         total = [total[0] + area[0], total[1] + area[1]];
         count += 1.0;
     }
-    // By area alone, the small faces of details would hardly count.
+    // With weights by area alone, the small faces of details would hardly count.
     let weight = |face| {
         let area = areas(face);
         0.25 * (area[0] / total[0] + area[1] / total[1]) + 0.5 / count

@@ -2,27 +2,28 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Options of the compatible triangulation of a piece.
+/// Options of the compatible triangulation of a piece (a matched connected part).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PolygonOptions {
-    /// Maximum length of inner edges, as a fraction of each design's diameter. `None`: faces grow
-    /// from the boundary inwards, with at most two inner vertices for each boundary vertex except
-    /// in hard cases.
+    /// Requested maximum length of inner edges, as a fraction of each design's diameter. `None`:
+    /// faces grow from the boundary inwards, with at most two inner vertices for each boundary
+    /// vertex except in hard cases.
     pub edge_length: Option<f64>,
 }
 
 impl PolygonOptions {
-    /// Maximum number of inner vertices that a refinement may add, for `boundary` boundary
+    /// Maximum number of inner vertices that refinement may add to a piece with `boundary` boundary
     /// vertices.
     pub(super) fn max_inner_points(&self, boundary: usize) -> usize {
-        /// Shortest edge length, as a fraction of the diameter (resource limit: 2 million
-        /// vertices).
+        /// Smallest edge length that is taken into account, as a fraction of the diameter (resource
+        /// limit: 2 million vertices).
         const SHORTEST: f64 = 1e-3;
         match self.edge_length {
             // Typical pairs need 1.1 to 1.8 inner vertices for each boundary vertex.
             None => 2 * boundary,
-            // A disc of diameter 1 needs 0.9 / share² vertices.
+            // The second term is about twice the need: equilateral triangles of side `share` fill a
+            // disc of diameter 1 with 0.9 / share² vertices.
             Some(share) => 2 * boundary + (2.0 / share.max(SHORTEST).powi(2)) as usize,
         }
     }

@@ -1,14 +1,15 @@
-//! Guaranteed base mesh of two simple polygons: their triangulations drawn on one convex polygon
-//! and overlaid (Aronov, Seidel, Souvaine 1993).
+//! Guaranteed base mesh of two simple polygons: their triangulations are drawn on one convex
+//! polygon and overlaid (Aronov, Seidel, Souvaine 1993).
 //!
-//! On a convex n-gon the vertex numbers alone decide which chords of the two triangulations cross,
-//! so this is computed without coordinates. Every cell of the common refinement is a convex polygon
-//! with three to six corners. In each design the crossings on one of its chords are spaced evenly
-//! along it, which keeps every cell strictly convex there.
+//! On a convex n-gon the vertex indices alone determine which chords of the two triangulations
+//! cross, so crossings are found without coordinates. Every cell of the overlay (the common
+//! refinement) is a convex polygon with three to six corners. In each design, the crossings on a
+//! chord of that design's triangulation are placed on it at even spacing. This makes every cell
+//! strictly convex in that design.
 //!
 //! Guaranteed in exact arithmetic: all faces are positive in both designs. Rounding can break this
-//! where a polygon is as thin as floating-point precision; the caller checks every face exactly.
-//! There may be O(n²) crossings.
+//! where a polygon is about as thin as floating-point precision; the caller checks every face
+//! exactly. There may be O(n²) crossings.
 
 use super::chords::{diagonals, interleave};
 use super::pair_mesh::PairMesh;
@@ -17,20 +18,20 @@ use crate::mesh::{sides, undirected};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::HashMap;
 
-/// Chord between two polygon vertices, the smaller first.
+/// Chord between two polygon vertices, given by their indices, the smaller first.
 type Chord = [u32; 2];
 
 /// Crossing of a chord of the source's triangulation with one of the target's.
 struct ChordCrossing {
-    /// Index of the vertex at the crossing.
+    /// Index of the mesh vertex at the crossing.
     vertex: u32,
-    /// Rank among the crossings on its chord in each design, counted from 1 at the chord's smaller
-    /// end.
+    /// For each design: the rank of the crossing among all crossings on the chord of that design,
+    /// counted from 1 at the chord's vertex with the smaller index.
     ranks: [u32; 2],
 }
 
-/// Returns the common refinement of the triangulations of both polygons.
-pub(super) fn overlay(
+/// Returns the overlay (the common refinement) of the given triangulations of both polygons.
+pub(super) fn overlay_triangulations(
     source: &[DVec2],
     target: &[DVec2],
     triangulations: &[Vec<[u32; 3]>; 2],
@@ -44,8 +45,8 @@ pub(super) fn overlay(
     let chords = [0, 1].map(|d| diagonals(&triangulations[d], n));
     vertices.place_crossings(&chords, progress)?;
     let mut faces = Vec::new();
-    // Two triangles of a convex polygon share a cell, a side, a corner or nothing, and the cells
-    // together fill the polygon.
+    // The intersection of two triangles of a convex polygon is a cell, a segment, a corner or
+    // empty. The cells together fill the polygon.
     for &s in &triangulations[0] {
         check_cancelled(progress)?;
         for &t in &triangulations[1] {
@@ -57,15 +58,16 @@ pub(super) fn overlay(
     Ok(PairMesh::new(n, vertices.points, faces))
 }
 
-/// Corners of the cells: polygon vertices and crossings.
+/// Vertices of the overlay: polygon vertices and crossings.
 struct OverlayVertices {
-    /// Crossings by their chords, the source's chord first.
+    /// Crossings, looked up by their two chords; the source's chord is first in the key.
     crossings: HashMap<[Chord; 2], ChordCrossing>,
-    /// Vertices in source and target.
+    /// Vertex positions in source and target.
     points: [Vec<DVec2>; 2],
 }
 
-/// Orders a chord of one design and one of the other: the source's first.
+/// Orders a chord `own` of `design` and a chord `other` of the other design: returns the source's
+/// chord first.
 fn source_first(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
     if design == 0 {
         [own, other]
@@ -75,7 +77,8 @@ fn source_first(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
 }
 
 impl OverlayVertices {
-    /// Numbers all crossings and places them in both designs.
+    /// Adds a vertex for each crossing of the chords of both designs, and places it in both
+    /// designs.
     fn place_crossings(
         &mut self,
         chords: &[Vec<Chord>; 2],
@@ -86,7 +89,7 @@ impl OverlayVertices {
             for &chord in &chords[design] {
                 check_cancelled(progress)?;
                 let crossed = crossing_chords(chord, &chords[1 - design], n);
-                // Crossings divide the chord into equal sections, one more than there are
+                // The crossings divide the chord into equal sections, one more than there are
                 // crossings.
                 let count = crossed.len() as f64 + 1.0;
                 let [a, b] = chord.map(|v| self.points[design][v as usize]);
@@ -99,7 +102,8 @@ impl OverlayVertices {
                             ranks: [0; 2],
                         }
                     };
-                    // Added at the source's chord; already present at the target's.
+                    // A crossing is added when the source's chord is visited. It is already present
+                    // when the target's chord is.
                     let chords = source_first(design, chord, other);
                     let crossing = self.crossings.entry(chords).or_insert_with(new);
                     crossing.ranks[design] = rank;
@@ -111,13 +115,13 @@ impl OverlayVertices {
         Ok(())
     }
 
-    /// Returns the corners of the intersection of two triangles, counter-clockwise; `None` if it
-    /// has no area.
+    /// Returns the corners of the intersection of a source triangle `s` and a target triangle `t`,
+    /// counter-clockwise; `None` if the intersection has no area.
     fn cell(&self, s: [u32; 3], t: [u32; 3]) -> Option<Vec<u32>> {
         let mut edges: Vec<(u32, u32)> = Vec::with_capacity(6);
         for (design, own, other) in [(0, s, t), (1, t, s)] {
             for side in sides(own) {
-                // A side shared by both triangles is found twice.
+                // A side that belongs to both triangles is found twice.
                 if let Some(edge) = self.clipped_side(design, side, other)
                     && !edges.contains(&edge)
                 {
@@ -128,7 +132,7 @@ impl OverlayVertices {
         if edges.len() < 3 {
             return None;
         }
-        // The parts of sides are directed, so they chain into a cycle by their ends.
+        // The parts of sides are directed. They are chained into a cycle by their ends.
         let mut cycle = vec![edges[0].0];
         while cycle.len() < edges.len() {
             let last = cycle[cycle.len() - 1];
@@ -137,12 +141,13 @@ impl OverlayVertices {
         Some(cycle)
     }
 
-    /// Returns the part of a side, in its direction, that lies in the triangle `other` of the other
-    /// design's triangulation; `None` if it is a point or nothing.
+    /// Returns the part of the side `side` that lies in the triangle `other` of the other design's
+    /// triangulation, as two vertices in the direction of the side. `None` if that part is a point
+    /// or empty.
     fn clipped_side(&self, design: usize, side: [u32; 2], other: [u32; 3]) -> Option<(u32, u32)> {
         let chord = undirected(side);
         let mut ends: Vec<(u32, u32)> = Vec::with_capacity(2);
-        // Larger than the rank of any crossing.
+        // Stands for the chord's second end; larger than the rank of any crossing.
         let last = u32::MAX;
         for corner in side.iter().filter(|corner| other.contains(corner)) {
             ends.push((if *corner == chord[0] { 0 } else { last }, *corner));
@@ -154,7 +159,7 @@ impl OverlayVertices {
             }
         }
         ends.sort_unstable();
-        // A chord meets a triangle in two places, in one corner, or not at all.
+        // A chord meets the boundary of a triangle in two places, in one corner, or not at all.
         match ends[..] {
             [(_, low), (_, high)] if side == chord => Some((low, high)),
             [(_, low), (_, high)] => Some((high, low)),
@@ -162,7 +167,8 @@ impl OverlayVertices {
         }
     }
 
-    /// Splits a cell into the fan whose worst triangle is best.
+    /// Splits a cell into triangles: of all fans around one of its corners, the one whose
+    /// worst-shaped triangle is best.
     fn fill(&self, cell: &[u32], faces: &mut Vec<[u32; 3]>) {
         let k = cell.len();
         let fan = |apex: usize| -> Vec<[u32; 3]> {
@@ -170,7 +176,7 @@ impl OverlayVertices {
                 .map(|i| [cell[apex], cell[(apex + i) % k], cell[(apex + i + 1) % k]])
                 .collect()
         };
-        // All fans of a triangle are the same, and every fan of a convex cell is valid.
+        // All fans of a triangular cell are the same. Every fan of a convex cell is valid.
         let apexes = if k == 3 { 1 } else { k };
         let worst_shape = |fan: &[[u32; 3]]| {
             let worst = |points: &Vec<DVec2>| {
@@ -186,17 +192,19 @@ impl OverlayVertices {
     }
 }
 
-/// Returns the chords of `others` that cross `chord`, in order from its smaller end.
+/// Returns the chords of `others` that cross `chord`, in order from the end of `chord` with the
+/// smaller index. `n` is the number of polygon vertices.
 ///
-/// They do not cross each other, so their ends decide the order.
+/// The chords of `others` do not cross each other, so the indices of their ends determine the
+/// order.
 fn crossing_chords([a, b]: Chord, others: &[Chord], n: u32) -> Vec<Chord> {
     let mut crossed: Vec<(u32, u32, Chord)> = others
         .iter()
         .filter(|&&other| interleave([a, b], other))
         .map(|&[c, d]| {
             let (near, far) = if a < c && c < b { (c, d) } else { (d, c) };
-            // Sorted by the end between a and b. Among chords that share it, the one whose other
-            // end is nearer to a crosses first.
+            // The chords are sorted by their end between a and b. Among chords that share this end,
+            // the one whose other end is nearer to a comes first.
             (near, n - (far + n - b) % n, [c, d])
         })
         .collect();

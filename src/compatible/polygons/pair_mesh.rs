@@ -1,8 +1,8 @@
-//! Mesh with two embeddings that is edited by flips, splits and collapses without becoming invalid.
+//! Mesh with two embeddings that is edited by flips, splits and collapses and stays valid.
 //!
-//! Guaranteed: an edit is made only if every face it creates is positive in both designs, by exact
-//! predicates; polygon vertices (the first ones) never move, and polygon edges are never split or
-//! flipped. Faces that start out invalid stay as they are.
+//! Guaranteed: an edit of valid faces is made only if every face that it creates is positive in
+//! both designs, by exact predicates; polygon vertices (the first ones) never move; polygon edges
+//! are never split or flipped. Faces that are invalid from the start may stay invalid.
 
 use super::face_cost;
 use super::face_cost::FaceCorners;
@@ -10,23 +10,24 @@ use crate::compatible::{CompatibleError, CompatibleMesh};
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::sides;
 
-/// Marker in place of a removed face.
+/// Marks the slot of a removed face.
 const REMOVED: [u32; 3] = [u32::MAX; 3];
 
-/// Mesh with two embeddings, indexed for local edits.
+/// Mesh with two embeddings that knows the faces at each vertex, for local edits.
 #[derive(Clone, Debug)]
 pub(super) struct PairMesh {
-    /// Number of polygon vertices; they come first and never move.
+    /// Number of polygon (boundary) vertices; they come first and never move.
     pub(super) fixed: usize,
-    /// Vertices in source and target.
+    /// Vertex positions in source and target.
     pub(super) points: [Vec<DVec2>; 2],
-    /// Faces, with [`REMOVED`] in unused slots.
+    /// Faces as triples of vertex indices, with [`REMOVED`] in unused slots.
     faces: Vec<[u32; 3]>,
-    /// Indices of the faces at each vertex.
-    around: Vec<Vec<u32>>,
+    /// For each vertex, the indices of its faces.
+    vertex_faces: Vec<Vec<u32>>,
 }
 
-/// Faces on both sides of an inner edge a → b: (a, b, left) and (b, a, right).
+/// The two faces at an inner edge a → b: (a, b, left) and (b, a, right). `left` and `right` are
+/// vertices.
 struct EdgeFaces {
     faces: [u32; 2],
     left: u32,
@@ -46,16 +47,16 @@ impl PairMesh {
             fixed,
             points,
             faces,
-            around,
+            vertex_faces: around,
         }
     }
 
-    /// Faces, without removed ones.
+    /// All faces except removed ones.
     pub(super) fn faces(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
         self.faces.iter().copied().filter(|face| *face != REMOVED)
     }
 
-    /// Corners of a face in source and target.
+    /// Positions of a face's corners in source and target.
     pub(super) fn corners(&self, face: [u32; 3]) -> [FaceCorners; 2] {
         [0, 1].map(|d| face.map(|v| self.points[d][v as usize]))
     }
@@ -70,8 +71,8 @@ impl PairMesh {
         self.faces().all(|face| self.is_valid_face(face))
     }
 
-    /// Number of faces that are not positive in both designs.
-    pub(super) fn folds(&self) -> usize {
+    /// Number of faces that are not positive in at least one of the designs.
+    pub(super) fn fold_count(&self) -> usize {
         let is_folded = |face: &[u32; 3]| !self.is_valid_face(*face);
         self.faces().filter(is_folded).count()
     }
@@ -86,10 +87,11 @@ impl PairMesh {
         }
     }
 
-    /// Moves all vertices to `points` unless that invalidates a face; returns whether it did.
+    /// Moves all vertices to `points` unless that makes a face invalid. Returns whether the
+    /// vertices moved.
     ///
-    /// The check is exact, because costs are computed in floating point and may accept a face that
-    /// is flat up to rounding.
+    /// The check uses exact predicates. The caller's costs are computed in floating point and may
+    /// accept a face that is flat up to rounding.
     pub(super) fn move_to(&mut self, points: [Vec<DVec2>; 2]) -> bool {
         let before = std::mem::replace(&mut self.points, points);
         let is_valid = self.is_valid();
@@ -99,16 +101,16 @@ impl PairMesh {
         is_valid
     }
 
-    /// Movable vertices that belong to a face, in ascending order.
-    pub(super) fn steiner(&self) -> Vec<u32> {
-        (self.fixed as u32..self.around.len() as u32)
-            .filter(|&v| !self.around[v as usize].is_empty())
+    /// Inner (movable) vertices that belong to at least one face, in ascending order.
+    pub(super) fn steiner_vertices(&self) -> Vec<u32> {
+        (self.fixed as u32..self.vertex_faces.len() as u32)
+            .filter(|&v| !self.vertex_faces[v as usize].is_empty())
             .collect()
     }
 
-    /// Faces at a vertex.
+    /// Faces that contain the vertex `v`.
     pub(super) fn faces_at(&self, v: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
-        self.around[v as usize]
+        self.vertex_faces[v as usize]
             .iter()
             .map(|&f| self.faces[f as usize])
     }
@@ -121,33 +123,35 @@ impl PairMesh {
         neighbours
     }
 
-    /// Edges with a face on either side, smaller vertex first, sorted.
+    /// Edges with a face on both sides, sorted. Each lists its smaller vertex first.
     pub(super) fn inner_edges(&self) -> Vec<[u32; 2]> {
         let mut edges: Vec<[u32; 2]> = self
             .faces()
             .flat_map(sides)
-            // Once each, from the face that lists it from the smaller to the larger vertex.
+            // Each inner edge is listed once: by the face that runs along it from the smaller to
+            // the larger vertex.
             .filter(|&[a, b]| a < b && self.opposite(b, a).is_some())
             .collect();
         edges.sort_unstable();
         edges
     }
 
-    /// Returns whether an edge has a face on either side.
+    /// Returns whether an edge has a face on both sides.
     pub(super) fn is_inner(&self, [a, b]: [u32; 2]) -> bool {
         self.opposite(a, b).is_some() && self.opposite(b, a).is_some()
     }
 
-    /// Returns the index of the face that contains the directed edge a → b, and its third vertex.
+    /// Returns the index of the face that contains the directed edge a → b, and the face's third
+    /// vertex.
     fn opposite(&self, a: u32, b: u32) -> Option<(u32, u32)> {
-        self.around[a as usize].iter().find_map(|&f| {
+        self.vertex_faces[a as usize].iter().find_map(|&f| {
             let face = self.faces[f as usize];
             let k = (0..3).find(|&k| face[k] == a && face[(k + 1) % 3] == b)?;
             Some((f, face[(k + 2) % 3]))
         })
     }
 
-    /// Returns the faces on both sides of an inner edge.
+    /// Returns the two faces at an edge; `None` if the edge is not an inner edge.
     fn edge_faces(&self, [a, b]: [u32; 2]) -> Option<EdgeFaces> {
         let (f, left) = self.opposite(a, b)?;
         let (g, right) = self.opposite(b, a)?;
@@ -158,7 +162,7 @@ impl PairMesh {
         })
     }
 
-    /// Highest cost among the faces.
+    /// Highest cost of any of the given faces.
     fn max_cost(&self, faces: &[[u32; 3]]) -> f64 {
         faces
             .iter()
@@ -166,20 +170,22 @@ impl PairMesh {
             .fold(0.0, f64::max)
     }
 
-    /// Flips an inner edge if that lowers the higher cost of its two faces; returns whether it did.
+    /// Flips an inner edge if that lowers the higher cost of the edge's two faces. Returns whether
+    /// it was flipped.
     pub(super) fn flip_if_better(&mut self, edge: [u32; 2]) -> bool {
         let [a, b] = edge;
         let Some(edge_faces) = self.edge_faces(edge) else {
             return false;
         };
-        // The flipped edge may already exist, beyond a vertex with three faces.
+        // If one end of the edge has only three faces, `left` and `right` are already joined by an
+        // edge. A flip would create that edge twice.
         let (left, right) = (edge_faces.left, edge_faces.right);
         if self.opposite(left, right).is_some() || self.opposite(right, left).is_some() {
             return false;
         }
         let new = [[a, right, left], [right, b, left]];
         let old = edge_faces.faces.map(|f| self.faces[f as usize]);
-        // By more than rounding, or an edge could flip back and forth.
+        // The improvement must exceed rounding. Otherwise an edge could flip back and forth.
         let is_better = self.max_cost(&new) < self.max_cost(&old) * (1.0 - 1e-9);
         if is_better {
             self.replace(edge_faces.faces.to_vec(), &new);
@@ -187,23 +193,23 @@ impl PairMesh {
         is_better
     }
 
-    /// Inserts a vertex at the midpoint of an inner edge, in both designs; `None` if a valid face
-    /// would fold.
+    /// Inserts a vertex at the midpoint of an inner edge, in both designs, and returns its index.
+    /// `None` if the edge is not an inner edge, or if rounding would make a valid face invalid.
     pub(super) fn split(&mut self, edge: [u32; 2]) -> Option<u32> {
         let [a, b] = edge;
         let edge_faces = self.edge_faces(edge)?;
-        let middle = self.around.len() as u32;
+        let middle = self.vertex_faces.len() as u32;
         for points in &mut self.points {
             points.push(points[a as usize].midpoint(points[b as usize]));
         }
-        self.around.push(Vec::new());
+        self.vertex_faces.push(Vec::new());
         let new = [
             [a, middle, edge_faces.left],
             [middle, b, edge_faces.left],
             [b, middle, edge_faces.right],
             [middle, a, edge_faces.right],
         ];
-        // Faces that were folded may stay folded, but valid ones must stay valid.
+        // A split of invalid faces may create invalid faces. Valid faces must stay valid.
         let was_valid = edge_faces
             .faces
             .iter()
@@ -212,15 +218,15 @@ impl PairMesh {
             self.points
                 .iter_mut()
                 .for_each(|points| points.truncate(middle as usize));
-            self.around.truncate(middle as usize);
+            self.vertex_faces.truncate(middle as usize);
             return None;
         }
         self.replace(edge_faces.faces.to_vec(), &new);
         Some(middle)
     }
 
-    /// Highest cost around `v` if it is moved onto its neighbour `onto`; infinite if the collapse
-    /// is not allowed.
+    /// Highest cost of the faces at `v` after `v` is moved onto its neighbour `onto`; infinite if
+    /// the collapse is not allowed.
     pub(super) fn collapse_cost(&self, v: u32, onto: u32) -> f64 {
         let shared = self.neighbours(onto);
         let common = self
@@ -228,8 +234,8 @@ impl PairMesh {
             .iter()
             .filter(|u| shared.contains(u))
             .count();
-        // Otherwise the collapse would pinch the mesh or close a hole (link condition; Dey,
-        // Edelsbrunner, Guha, Nekhayev 1999).
+        // With any other number of common neighbours the collapse would pinch the mesh or close a
+        // hole (link condition; Dey, Edelsbrunner, Guha, Nekhayev 1999).
         if common != 2 {
             return f64::INFINITY;
         }
@@ -238,27 +244,30 @@ impl PairMesh {
             .fold(0.0, f64::max)
     }
 
-    /// Faces at `v` that remain after the collapse onto a neighbour, with their new corners.
+    /// Faces that contain `v` and remain when `v` is moved onto its neighbour `onto`, with their
+    /// new corners.
     fn faces_after_collapse(&self, v: u32, onto: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
         self.faces_at(v)
             .filter(move |face| !face.contains(&onto))
             .map(move |face| face.map(|u| if u == v { onto } else { u }))
     }
 
-    /// Moves `v` onto its neighbour; the caller has checked [`Self::collapse_cost`].
+    /// Merges `v` into its neighbour `onto`. The caller must have checked that
+    /// [`Self::collapse_cost`] is finite.
     pub(super) fn collapse(&mut self, v: u32, onto: u32) {
         let new: Vec<[u32; 3]> = self.faces_after_collapse(v, onto).collect();
-        self.replace(self.around[v as usize].clone(), &new);
+        self.replace(self.vertex_faces[v as usize].clone(), &new);
     }
 
-    /// Replaces faces by new ones.
+    /// Replaces the faces with the indices `old` by the faces `new`.
     fn replace(&mut self, old: Vec<u32>, new: &[[u32; 3]]) {
         for &f in &old {
             for v in std::mem::replace(&mut self.faces[f as usize], REMOVED) {
-                self.around[v as usize].retain(|&g| g != f);
+                self.vertex_faces[v as usize].retain(|&g| g != f);
             }
         }
-        // Indices are reused so that they stay small; a split needs two more than it frees.
+        // Slots of removed faces are reused, so that indices stay small. A split needs two slots
+        // more than it frees.
         let mut free = old.into_iter();
         for &face in new {
             let f = free.next().unwrap_or(self.faces.len() as u32);
@@ -268,7 +277,7 @@ impl PairMesh {
                 self.faces[f as usize] = face;
             }
             for v in face {
-                self.around[v as usize].push(f);
+                self.vertex_faces[v as usize].push(f);
             }
         }
     }
@@ -279,10 +288,12 @@ impl PairMesh {
         self
     }
 
-    /// Faces and vertices renumbered without gaps.
+    /// Faces and vertex positions, renumbered without gaps. Unused inner vertices are left out.
     pub(super) fn compacted(&self) -> (Vec<[u32; 3]>, [Vec<DVec2>; 2]) {
-        let used: Vec<u32> = (0..self.fixed as u32).chain(self.steiner()).collect();
-        let mut new_number = vec![u32::MAX; self.around.len()];
+        let used: Vec<u32> = (0..self.fixed as u32)
+            .chain(self.steiner_vertices())
+            .collect();
+        let mut new_number = vec![u32::MAX; self.vertex_faces.len()];
         for (new, &old) in used.iter().enumerate() {
             new_number[old as usize] = new as u32;
         }
@@ -293,11 +304,12 @@ impl PairMesh {
         (faces.collect(), points)
     }
 
-    /// Converts the mesh to the given coordinates, by division by `scales`. The first vertices are
-    /// copied from `exact_points`, so they are met to the last bit.
+    /// Converts the mesh to the designs' own coordinates: divides the positions by `scales`, one
+    /// number for each design. The polygon vertices are copied from `exact_points`, so they are
+    /// exact to the last bit.
     ///
     /// # Errors
-    /// [`CompatibleError`] if rounding in these coordinates invalidates a face.
+    /// [`CompatibleError`] if a face is invalid after rounding to these coordinates.
     pub(super) fn to_compatible_mesh(
         &self,
         scales: [f64; 2],
@@ -313,7 +325,8 @@ impl PairMesh {
     }
 }
 
-/// Returns the power of two that brings the diameter near 1; such a scale is exact.
+/// Returns the power of two that scales the points to a diameter near 1. Scaling by a power of two
+/// is exact.
 pub(super) fn unit_scale(points: &[DVec2]) -> f64 {
     let size = Bounds::diameter_of(points);
     if size.is_normal() {

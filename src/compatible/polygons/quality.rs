@@ -1,6 +1,6 @@
-//! Improves angles in both designs at once without losing validity: flips, collapses of unneeded
-//! vertices, splits, and moves that lower the face costs ([`super::face_cost`]) of both embeddings
-//! together.
+//! Improves the angles of a mesh in both designs at once and keeps it valid. It uses flips,
+//! collapses of unneeded vertices, splits, and moves that lower the face costs
+//! ([`super::face_cost`]).
 
 use super::face_cost;
 use super::options::PolygonOptions;
@@ -12,25 +12,27 @@ use crate::mesh::sides;
 use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 use std::collections::HashSet;
 
-/// Rounds of flips, splits and moves (heuristic).
+/// Number of rounds of flips, splits and moves (heuristic).
 const ROUNDS: usize = 5;
-/// Steps of the moves before two candidate meshes are compared; only the better one is improved
-/// further (heuristic).
+/// Maximum number of descent steps before two candidate meshes are compared; only the better one is
+/// improved further (heuristic).
 const FIRST_STEPS: usize = 20;
-/// Steps of the moves in the last round (heuristic).
+/// Maximum number of descent steps in the last round (heuristic).
 const LAST_STEPS: usize = 60;
-/// Steps of the moves in earlier rounds, after which the mesh changes once more (heuristic).
+/// Maximum number of descent steps in earlier rounds, after which the mesh changes once more
+/// (heuristic).
 const EARLY_STEPS: usize = 8;
-/// Maximum product of steps and faces in a round (resource limit: reached only by meshes far larger
-/// than their boundary).
+/// Maximum product of descent steps and faces in a round (resource limit: it reduces the steps only
+/// of meshes with more than 20,000 faces).
 const MAX_WORK: usize = 1_200_000;
-/// Faces that cost more than this are split while there is room for vertices; an undistorted
-/// equilateral face costs 3 (heuristic).
+/// Face cost above which a face is split while the limit on vertices allows it (heuristic: an
+/// undistorted equilateral face costs about 3).
 const COSTLY: f64 = 6.0;
-/// Maximum product of faces and rounds of thinning, after which the base is left as it is (resource
-/// limit).
+/// Maximum product of faces and round number in thinning; beyond it, thinning ends and the
+/// remaining vertices stay (resource limit).
 const MAX_THINNING_WORK: usize = 150_000;
-/// Maximum number of rounds in which the base loses unneeded vertices (resource limit).
+/// Maximum number of rounds in which unneeded vertices are removed from the guaranteed base mesh
+/// (resource limit).
 const MAX_THINNING_ROUNDS: usize = 12;
 
 /// Improves a mesh by several rounds of flips, splits and moves.
@@ -44,7 +46,8 @@ pub(super) fn improve(
     for round in 0..ROUNDS {
         checkpoint(progress, "improving", round as f64 / ROUNDS as f64)?;
         flip_all(mesh, progress)?;
-        // Flips may have joined boundary points by chords, whose faces have no freedom.
+        // Flips may have joined two boundary points by a chord. Faces whose corners are all on the
+        // boundary cannot move.
         split_chords(mesh);
         // The last round adds no vertices.
         if round + 1 < ROUNDS {
@@ -62,7 +65,7 @@ pub(super) fn improve(
     check_cancelled(progress)
 }
 
-/// Adapts the mesh to vertices that have moved: flips edges and splits costly faces.
+/// Adapts a mesh whose vertices have moved: flips edges and splits costly faces.
 pub(super) fn refit(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
@@ -74,14 +77,17 @@ pub(super) fn refit(
     flip_all(mesh, progress)
 }
 
-/// One round of flips and moves, without new vertices.
-pub(super) fn settle(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
+/// Runs one round of flips and moves, without new vertices.
+pub(super) fn relax_and_flip(
+    mesh: &mut PairMesh,
+    progress: &dyn Progress,
+) -> Result<(), Cancelled> {
     flip_all(mesh, progress)?;
     relax(mesh, FIRST_STEPS, progress);
     check_cancelled(progress)
 }
 
-/// Splits the costliest faces, to add freedom where it is needed.
+/// Splits the costliest faces, to add movable vertices where they are needed.
 fn split_costly(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
@@ -90,20 +96,20 @@ fn split_costly(
     let n = mesh.fixed;
     let room = options
         .max_inner_points(n)
-        .saturating_sub(mesh.steiner().len());
+        .saturating_sub(mesh.steiner_vertices().len());
     let mut costly: Vec<([u32; 3], f64)> = mesh
         .faces()
         .map(|face| (face, mesh.cost(face)))
         .filter(|(_, cost)| *cost > COSTLY)
         .collect();
-    // The costliest first, and only one of neighbouring faces, since a split changes the others
-    // too.
+    // The costliest faces come first. Of neighbouring faces only one is split, because a split
+    // changes the others too.
     costly.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut touched = HashSet::new();
     let mut splits = 0;
     for (face, _) in costly {
         check_cancelled(progress)?;
-        // Only a few in each round, because costs change after every split.
+        // Only a few faces are split in each round, because costs change after every split.
         if splits >= room.min(1 + n / 8) {
             break;
         }
@@ -119,10 +125,11 @@ fn split_costly(
     Ok(())
 }
 
-/// Returns a face's longest inner edge, measured in the design where the face is thinner.
+/// Returns the longest inner edge of a face, measured in the design where the face is thinner;
+/// `None` if all its edges are on the boundary.
 fn longest_inner_edge(mesh: &PairMesh, face: [u32; 3]) -> Option<[u32; 2]> {
     let [p, q] = mesh.corners(face).map(face_cost::shape);
-    // A larger shape term means a thinner face.
+    // The larger shape term belongs to the thinner face.
     let points = &mesh.points[usize::from(p <= q)];
     let length = |[a, b]: [u32; 2]| points[a as usize].distance_squared(points[b as usize]);
     sides(face)
@@ -131,15 +138,19 @@ fn longest_inner_edge(mesh: &PairMesh, face: [u32; 3]) -> Option<[u32; 2]> {
         .max_by(|&a, &b| length(a).total_cmp(&length(b)))
 }
 
-/// Removes unneeded vertices from a mesh that has far too many.
-pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
+/// Removes unneeded vertices from the guaranteed base mesh, which has far too many.
+pub(super) fn remove_unneeded_vertices(
+    mesh: &mut PairMesh,
+    progress: &dyn Progress,
+) -> Result<(), Cancelled> {
     for round in 0..MAX_THINNING_ROUNDS {
         checkpoint(
             progress,
             "simplifying",
             round as f64 / MAX_THINNING_ROUNDS as f64,
         )?;
-        // The first two rounds always run: the second collapses vertices that the first has moved.
+        // The first two rounds always run. The second one can remove vertices that the first one
+        // has only moved.
         if round > 1 && round * mesh.faces().count() > MAX_THINNING_WORK {
             break;
         }
@@ -153,7 +164,7 @@ pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(
     Ok(())
 }
 
-/// Flips all edges that improve their faces.
+/// Flips every edge whose flip improves its two faces, until no flip does.
 fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     /// Maximum number of passes over all edges (resource limit).
     const MAX_PASSES: usize = 6;
@@ -161,7 +172,7 @@ fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelle
         let mut flipped = 0;
         for edge in mesh.inner_edges() {
             check_cancelled(progress)?;
-            // A flip removes no other listed edge.
+            // A flip removes no edge that is still to come in the list.
             flipped += usize::from(mesh.flip_if_better(edge));
         }
         if flipped == 0 {
@@ -171,11 +182,11 @@ fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelle
     Ok(())
 }
 
-/// Collapses movable vertices where that does not raise the highest cost around them; returns how
-/// many.
+/// Merges inner vertices into a neighbour where that does not raise the highest cost of the faces
+/// around them. Returns the number of vertices removed.
 fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, Cancelled> {
     let mut removed = 0;
-    for v in mesh.steiner() {
+    for v in mesh.steiner_vertices() {
         check_cancelled(progress)?;
         let current_cost = mesh
             .faces_at(v)
@@ -186,7 +197,7 @@ fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, C
             .into_iter()
             .map(|u| (mesh.collapse_cost(v, u), u))
             .min_by(|a, b| a.0.total_cmp(&b.0));
-        // Must not make the worst face around the vertex worse.
+        // The collapse must not make the worst face around the vertex worse.
         if let Some((cost, onto)) = best.filter(|(cost, _)| *cost <= current_cost)
             && cost.is_finite()
         {
@@ -197,7 +208,7 @@ fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, C
     Ok(removed)
 }
 
-/// Splits edges that are longer than requested in either design.
+/// Splits edges that are much longer than the requested length in either design.
 fn split_long(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
@@ -207,10 +218,10 @@ fn split_long(
         return Ok(());
     };
     let n = mesh.fixed;
-    // From 1.5 times the requested length on, the halves are closer to it than the whole edge is.
+    // Beyond 1.5 times the requested length, the halves are closer to it than the whole edge is.
     let longest = [0, 1].map(|d| 1.5 * share * Bounds::diameter_of(&mesh.points[d][..n]));
     let max_count = options.max_inner_points(n);
-    let mut count = mesh.steiner().len();
+    let mut count = mesh.steiner_vertices().len();
     for [a, b] in mesh.inner_edges() {
         check_cancelled(progress)?;
         let is_long = (0..2)
@@ -222,12 +233,12 @@ fn split_long(
     Ok(())
 }
 
-/// Moves each movable vertex in turn downhill, in both designs at once.
+/// Moves each inner vertex in turn, in both designs at once, to lower the costs of its faces.
 fn nudge_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     /// Number of passes over all vertices (heuristic).
     const PASSES: usize = 3;
     for _ in 0..PASSES {
-        for v in mesh.steiner() {
+        for v in mesh.steiner_vertices() {
             check_cancelled(progress)?;
             nudge(mesh, v);
         }
@@ -235,15 +246,16 @@ fn nudge_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancell
     Ok(())
 }
 
-/// Moves one vertex downhill by backtracking; it stays if no trial lowers the cost.
+/// Moves one inner vertex along the descent direction, by backtracking. The vertex stays if no
+/// trial step lowers the cost.
 fn nudge(mesh: &mut PairMesh, v: u32) {
-    /// Maximum number of trial steps (resource limit: the last is 0.5 · 0.25⁵ of the way to the
-    /// nearest neighbour, 1/2000).
+    /// Maximum number of trial steps (resource limit: the last one is 0.5 · 0.25⁵ ≈ 1/2000 of the
+    /// distance to the nearest neighbour).
     const MAX_TRIALS: usize = 6;
     let faces: Vec<[u32; 3]> = mesh.faces_at(v).collect();
     let total = |mesh: &PairMesh| faces.iter().map(|&face| mesh.cost(face)).sum::<f64>();
     let before = total(mesh);
-    // Around an invalid face there is no descent direction.
+    // There is no descent direction if a face at the vertex is invalid.
     if !before.is_finite() {
         return;
     }
@@ -264,7 +276,8 @@ fn nudge(mesh: &mut PairMesh, v: u32) {
     }
 }
 
-/// Descent direction in each design, with the length of the distance to the nearest neighbour.
+/// Descent direction of a vertex in each design, as a vector as long as the distance to the nearest
+/// neighbour.
 fn descent(mesh: &PairMesh, v: u32, faces: &[[u32; 3]]) -> [DVec2; 2] {
     let mut gradients = [DVec2::ZERO; 2];
     let mut reach = [f64::INFINITY; 2];

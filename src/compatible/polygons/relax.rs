@@ -1,8 +1,8 @@
-//! Moves all inner vertices together, in both designs at once, to lower the weighted sum of the
-//! face costs.
+//! Relaxation: moves all inner vertices together, in both designs at once, to lower the weighted
+//! sum of the face costs.
 //!
-//! Guaranteed: a valid mesh stays valid, because the cost is infinite for invalid faces and the
-//! result is checked exactly. Not guaranteed: a minimum.
+//! Guaranteed: a valid mesh stays valid, because the cost of an invalid face is infinite and the
+//! result is checked by exact predicates. Not guaranteed: that the sum reaches a minimum.
 
 use super::face_cost;
 use super::mesh_energy::MeshEnergy;
@@ -10,24 +10,26 @@ use super::pair_mesh::PairMesh;
 use super::springs::Springs;
 use crate::work::progress::Progress;
 
-/// Takes at most `steps` descent steps with all inner vertices. Changes nothing if rounding leaves
-/// a face that is not exactly positive. A cancel ends it early.
+/// Takes at most `steps` descent steps with all inner vertices. Leaves the mesh unchanged if
+/// rounding makes a face of the result invalid. A cancel ends the descent early.
 pub(super) fn relax(mesh: &mut PairMesh, steps: usize, progress: &dyn Progress) {
     let energy = MeshEnergy::of_inner_vertices(mesh, face_cost::AREA_WEIGHT);
     let Some([mut source, mut target]) = springs(&energy, mesh, progress) else {
         return;
     };
     let n = energy.inner.len();
-    // The unknowns of each design are contiguous.
+    // The unknowns of the source come first, then those of the target.
     let precondition = |forces: &mut [f64]| {
         source.solve(&mut forces[..2 * n]);
         target.solve(&mut forces[2 * n..]);
     };
-    let (points, _) = energy.minimised(steps, precondition, progress);
+    let (points, _) = energy.minimise(steps, precondition, progress);
     mesh.move_to(points);
 }
 
-/// Returns springs with the cost's curvature at fixed areas, one network for each design.
+/// Returns two networks of springs, one for each design, whose stiffness is the second derivative
+/// of the cost at fixed face areas. `None` if a stiffness matrix is not positive definite, or on a
+/// cancel.
 fn springs(energy: &MeshEnergy, mesh: &PairMesh, progress: &dyn Progress) -> Option<[Springs; 2]> {
     let of = |d: usize| {
         let springs = energy.faces.iter().flat_map(|&(face, weight)| {
@@ -38,6 +40,7 @@ fn springs(energy: &MeshEnergy, mesh: &PairMesh, progress: &dyn Progress) -> Opt
         });
         Springs::new(&energy.inner, springs, progress)
     };
-    // Each design on its own, because the terms that couple the two may be negative.
+    // Each design has its own network, because the terms that couple the two designs may be
+    // negative.
     Some([of(0)?, of(1)?])
 }

@@ -1,12 +1,13 @@
-//! Finds edges of closed boundary loops that touch or cross where they must not, exactly.
+//! Finds two edges of closed boundary loops that touch or cross where they must not, by exact
+//! predicates.
 
 use crate::geometry::{DVec2, orient2d, segments_touch};
 use std::collections::HashSet;
 
-/// Edges of all loops, numbered consecutively.
+/// Edges of all loops, numbered consecutively. Edge i starts at point i.
 struct LoopEdges {
     points: Vec<DVec2>,
-    /// Next corner on the same loop, for each corner.
+    /// For each point, the index of the next point on the same loop.
     next: Vec<usize>,
 }
 
@@ -22,25 +23,26 @@ impl LoopEdges {
         Self { points, next }
     }
 
-    /// Start and end of an edge.
+    /// Positions of the start and the end of an edge.
     fn ends(&self, edge: usize) -> [DVec2; 2] {
         [self.points[edge], self.points[self.next[edge]]]
     }
 
-    /// Returns whether two edges share more than allowed. Neighbours may share a vertex, the banks
-    /// of a slit everything; if `lenient`, other edges may share a vertex too.
+    /// Returns whether two edges touch or cross where they must not. Neighbouring edges may share
+    /// their common vertex; the two banks of a slit may coincide. If `lenient`, other edges may
+    /// share a vertex too.
     fn touch(&self, i: usize, j: usize, lenient: bool) -> bool {
         let ([a, b], [c, d]) = (self.ends(i), self.ends(j));
-        // An edge without length touches its neighbours everywhere.
+        // An edge of length zero always counts as touching.
         if a == b || c == d {
             return true;
         }
-        // The same edge in both directions: a slit, or a spike if the edges are neighbours.
+        // The same edge in both directions is a slit, or a spike if the two edges are neighbours.
         if a == d && b == c {
             return !lenient && (self.next[i] == j || self.next[j] == i);
         }
         let neighbours = self.next[i] == j || self.next[j] == i;
-        // Edges that share a vertex touch elsewhere only if one folds back onto the other.
+        // Two edges that share a vertex touch elsewhere only if one folds back onto the other.
         if b == c && (neighbours || lenient) {
             return folds_back(a, b, d);
         }
@@ -57,12 +59,12 @@ impl LoopEdges {
     }
 }
 
-/// Returns two edges that touch or cross where they must not, found by a sweep along x. Crossings
-/// come first, then vertices that coincide without a slit.
+/// Returns the indices of two edges that touch or cross where they must not. Crossings have
+/// priority over vertices that coincide without a slit.
 pub(super) fn touching_edges(loops: &[&[DVec2]]) -> Option<[usize; 2]> {
     let edges = LoopEdges::of(loops);
     let all: Vec<usize> = (0..edges.next.len()).collect();
-    // Lenient first: coinciding vertices are ignored, so that crossings are found before them.
+    // The lenient sweep comes first. It ignores coinciding vertices and therefore finds crossings.
     first_contact(&edges, all, true).or_else(|| {
         // Adding zero turns -0 into 0.
         let key = |[a, b]: [DVec2; 2]| [a.x, a.y, b.x, b.y].map(|x| (x + 0.0).to_bits());
@@ -84,14 +86,14 @@ pub(super) fn touching_edges(loops: &[&[DVec2]]) -> Option<[usize; 2]> {
     })
 }
 
-/// Sweeps along x and returns the first two edges that touch.
+/// Sweeps along x over the edges in `order` and returns the first two that touch.
 fn first_contact(edges: &LoopEdges, mut order: Vec<usize>, lenient: bool) -> Option<[usize; 2]> {
     let left = |i: usize| edges.ends(i)[0].x.min(edges.ends(i)[1].x);
     let right = |i: usize| edges.ends(i)[0].x.max(edges.ends(i)[1].x);
     order.sort_by(|&i, &j| left(i).total_cmp(&left(j)));
     let mut active: Vec<usize> = Vec::new();
     for &i in &order {
-        // Edges that end before this one starts cannot touch it.
+        // Edges that end to the left of this one cannot touch it.
         active.retain(|&j| right(j) >= left(i));
         if let Some(&j) = active.iter().find(|&&j| edges.touch(i, j, lenient)) {
             return Some([i.min(j), i.max(j)]);
@@ -101,12 +103,13 @@ fn first_contact(edges: &LoopEdges, mut order: Vec<usize>, lenient: bool) -> Opt
     None
 }
 
-/// Returns whether the path a, b, c runs back onto itself or does not move.
+/// Returns whether the path from `a` over `b` to `c` runs back over itself or has an edge of length
+/// zero.
 fn folds_back(a: DVec2, b: DVec2, c: DVec2) -> bool {
     a == b || b == c || (orient2d(a, b, c) == 0.0 && (is_between(b, a, c) || is_between(b, c, a)))
 }
 
-/// Returns whether `p` lies between `a` and `b`, ends included; all three must be collinear.
+/// Returns whether `p` lies between `a` and `b` or on one of them; all three must be collinear.
 fn is_between(a: DVec2, p: DVec2, b: DVec2) -> bool {
     let (low, high) = (a.min(b), a.max(b));
     p.cmpge(low).all() && p.cmple(high).all()

@@ -1,11 +1,13 @@
-//! Improves correspondence and map together: the vertices of both outlines slide along them, inner
-//! vertices follow and the mesh adapts, so that the map between the designs distorts less.
+//! Improves the correspondence and the mesh together: the boundary vertices slide along the
+//! outlines of both designs, inner vertices follow, and the mesh adapts. Afterwards the map between
+//! the designs distorts less.
 //!
-//! A vertex that slides over a corner cuts it off; the caller rebuilds the rings, including their
-//! corners, from the returned places.
+//! A vertex that slides past a corner of an outline leaves the corner without a vertex. The caller
+//! therefore rebuilds the rings, including their corners, from the returned places.
 //!
-//! Guaranteed: pinned vertices stay; exchanging the designs exchanges the places, bit by bit. Not
-//! guaranteed: that places stay in order around corners, or a minimum.
+//! Guaranteed: pinned vertices stay in place; exchanging the designs exchanges the places, bit by
+//! bit. Not guaranteed: that places stay in order around corners; that the distortion reaches a
+//! minimum.
 
 use super::boundary_rings::BoundaryRings;
 use super::face_cost;
@@ -20,22 +22,23 @@ use crate::geometry::Side;
 use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
 use crate::work::progress::Progress;
 
-/// Weight of the area-change term; without it a map without angular distortion could shrink whole
-/// limbs to a point (heuristic).
+/// Weight of the area-change term in the face cost (heuristic). Without the term, a map without
+/// angular distortion could shrink whole limbs to a point.
 const AREA: f64 = 0.45;
 
-/// Fraction of its own stiffness that is added to the diagonal entry of each unknown (tolerance:
-/// keeps the matrix definite where springs cancel).
+/// Number added to the diagonal entry of each unknown, as a fraction of the sum of its springs'
+/// stiffness (tolerance: keeps the matrix positive definite where springs cancel).
 const REGULARISATION: f64 = 1e-6;
 
-/// Descent steps before the mesh is adapted (heuristic).
+/// Number of descent steps in a round, after which the mesh is adapted (heuristic).
 const STEPS: usize = 20;
-/// Number of rounds of steps and adaptation (heuristic).
+/// Number of rounds of descent and adaptation (heuristic).
 const ROUNDS: usize = 4;
 
-/// Returns, for each ring of the piece, places of its vertices for which the map distorts less than
-/// for those of `mesh`. They have the form of `MatchedCurves::places`. `None` if no vertex can
-/// slide, if rounding invalidates the mesh, or on a cancel.
+/// Returns, for each ring of the piece, new places of its vertices on both outlines, for which the
+/// map between the designs distorts less than in `mesh`. The places have the form of
+/// `MatchedCurves::places`. `None` if no vertex can slide, if rounding makes the mesh invalid, or
+/// on a cancel.
 pub(crate) fn slide_outlines(
     piece: &PieceMatch,
     mesh: &CompatibleMesh,
@@ -46,7 +49,7 @@ pub(crate) fn slide_outlines(
         let rings = piece.rings.iter().map(|r| [&r.source, &r.target][side]);
         BoundaryRings::of(&rings.collect::<Vec<_>>())
     });
-    // A fixed order of the designs gives the same result when they are exchanged.
+    // The designs are processed in a fixed order, so that exchanging them gives the same result.
     let sides = if precedes(&rings[0], &rings[1]) {
         Side::BOTH
     } else {
@@ -60,7 +63,7 @@ pub(crate) fn slide_outlines(
     for _ in 0..ROUNDS {
         let energy = MeshEnergy::new(&pair, &sliding, scales, AREA);
         let mut proxy = QuadraticProxy::of(&energy, &pair, &sliding, progress)?;
-        let (points, slides) = energy.minimised(STEPS, |forces| proxy.solve(forces), progress);
+        let (points, slides) = energy.minimise(STEPS, |forces| proxy.solve(forces), progress);
         if !pair.move_to(points) {
             return None;
         }
@@ -72,7 +75,7 @@ pub(crate) fn slide_outlines(
     Some(places(piece, sides, &sliding))
 }
 
-/// Returns a sliding vertex for each unpinned vertex on a matched ring.
+/// Returns a sliding vertex for each vertex of a matched ring that no pin fixes.
 fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<SlidingVertex<'_>> {
     let mut ring_start = 0;
     let mut all = Vec::new();
@@ -90,7 +93,7 @@ fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<SlidingVertex<'_>> {
     all
 }
 
-/// Returns the places of all vertices after the slides, ring by ring.
+/// Returns the places of all vertices after the slides, one list for each ring.
 fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[SlidingVertex]) -> Vec<Vec<[f64; 2]>> {
     let mut ring_start = 0;
     let mut sliders = sliders.iter().peekable();
@@ -111,8 +114,9 @@ fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[SlidingVertex]) -> Ve
     rings.collect()
 }
 
-/// Returns the piece's mesh with its designs in the order `sides`, scaled to equal area so that
-/// uniform growth does not count as distortion, and the scale of each design.
+/// Returns the piece's mesh with its designs in the order `sides`, and the scale factor of each
+/// design. Both designs are scaled to equal area, so that uniform growth does not count as
+/// distortion.
 fn equal_area_pair(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (PairMesh, [f64; 2]) {
     let points = [mesh.source(), mesh.target()];
     let scales = sides.map(|side| {
@@ -128,15 +132,16 @@ fn equal_area_pair(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (Pa
     (pair, scales)
 }
 
-/// Quadratic proxy of the cost at fixed areas, over all unknowns: springs between vertices. A
-/// boundary vertex has a single unknown, which moves it in both designs.
+/// Quadratic approximation of the cost at fixed areas, as springs between vertices over all
+/// unknowns. A sliding vertex has a single unknown, which moves it in both designs.
 struct QuadraticProxy {
     factor: Cholesky,
     workspace: CholeskyWorkspace,
 }
 
 impl QuadraticProxy {
-    /// Assembles and factors the springs; `None` if they are not positive definite, or on a cancel.
+    /// Assembles and factors the stiffness matrix of the springs; `None` if it is not positive
+    /// definite, or on a cancel.
     fn of(
         energy: &MeshEnergy,
         mesh: &PairMesh,
@@ -152,7 +157,9 @@ impl QuadraticProxy {
         for (i, slider) in sliders.iter().enumerate() {
             slider_of[slider.vertex as usize] = Some(i);
         }
-        // For a vertex and an axis: the unknown that moves it, and by how much.
+        // For a vertex, a design and an axis: the index of the unknown that moves the vertex along
+        // the axis, and the derivative of its coordinate with respect to this unknown. `None` if
+        // the vertex is fixed.
         let unknown_of = |v: u32, d: usize, axis: usize| -> Option<(u32, f64)> {
             if let Some(i) = inner_of[v as usize] {
                 return Some((((2 * d + axis) * n + i) as u32, 1.0));
@@ -160,10 +167,10 @@ impl QuadraticProxy {
             let i = slider_of[v as usize]?;
             Some(((4 * n + i) as u32, energy.velocity(i, 0.0, d)[axis]))
         };
-        let unknowns = energy.unknowns();
-        // Two designs × two axes × three edges × three entries for each face.
+        let unknowns = energy.unknown_count();
+        // For each face: two designs × two axes × three edges × three entries.
         let mut matrix = SymmetricMatrix::zero(unknowns, 36 * energy.faces.len() + unknowns);
-        // Positive, so that an unknown without springs keeps a positive diagonal entry.
+        // Positive, so that an unknown without springs gets a positive diagonal entry.
         let mut stiffness_of = vec![f64::MIN_POSITIVE; unknowns];
         for &(face, weight) in &energy.faces {
             let [p, q] = mesh.corners(face);
@@ -192,7 +199,7 @@ impl QuadraticProxy {
         Some(Self { factor, workspace })
     }
 
-    /// Turns forces into displacements, in place.
+    /// Replaces the forces on all unknowns by the displacements that they cause.
     fn solve(&mut self, forces: &mut [f64]) {
         self.factor.solve_in_place(forces, &mut self.workspace);
     }

@@ -1,25 +1,25 @@
-//! Springs along the edges of a mesh: a sparse preconditioner with which the number of minimisation
-//! steps does not grow with the mesh (Kovalsky, Galun, Lipman 2016, "Accelerated quadratic proxy
-//! for geometric optimization").
+//! Network of springs along the edges of a mesh, used as a sparse preconditioner. With it, the
+//! number of minimisation steps does not grow with the mesh (Kovalsky, Galun, Lipman 2016,
+//! "Accelerated quadratic proxy for geometric optimization").
 
 use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
 use crate::work::progress::Progress;
 
-/// Fraction of the mean stiffness that is added to each diagonal entry (tolerance: keeps the matrix
-/// definite where springs cancel; far below the springs, so steps hardly shorten, and far above
-/// rounding).
+/// Number added to each diagonal entry of the stiffness matrix, as a fraction of the mean stiffness
+/// per movable vertex (tolerance: keeps the matrix positive definite where springs cancel; small
+/// enough that steps hardly shorten, and far above rounding).
 const REGULARISATION: f64 = 1e-6;
 
-/// Factored stiffness matrix of a network of springs.
+/// Stiffness matrix of a network of springs, in factored form.
 pub(super) struct Springs {
     factor: Cholesky,
     workspace: CholeskyWorkspace,
 }
 
 impl Springs {
-    /// Assembles and factors springs with the given ends and stiffness. The unknowns are the
-    /// `movable` vertices, in ascending order; all others are fixed. `None` if the matrix is not
-    /// positive definite, or on a cancel.
+    /// Assembles and factors the stiffness matrix of springs, each given by its two ends and its
+    /// stiffness. The unknowns are the positions of the `movable` vertices, in ascending order; all
+    /// other vertices are fixed. `None` if the matrix is not positive definite, or on a cancel.
     pub(super) fn new(
         movable: &[u32],
         springs: impl Iterator<Item = ([u32; 2], f64)>,
@@ -29,7 +29,7 @@ impl Springs {
         let mut matrix = SymmetricMatrix::zero(movable.len(), 16 * movable.len());
         let mut sum = 0.0;
         for (ends, stiffness) in springs {
-            // Springs opposite obtuse corners have negative stiffness.
+            // A spring opposite an obtuse corner has negative stiffness.
             sum += stiffness.abs();
             let ends = ends.map(unknown);
             for v in ends.into_iter().flatten() {
@@ -48,7 +48,8 @@ impl Springs {
         Some(Self { factor, workspace })
     }
 
-    /// Turns forces into displacements, in place: first all x components, then all y components.
+    /// Replaces the forces on the movable vertices by the displacements that they cause. The list
+    /// contains all x components, then all y components.
     pub(super) fn solve(&mut self, forces: &mut [f64]) {
         self.factor.solve_in_place(forces, &mut self.workspace);
     }

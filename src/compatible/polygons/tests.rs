@@ -1,5 +1,5 @@
-//! Compatible triangulation of random simple polygons with arbitrary matches, checked against exact
-//! oracles.
+//! Tests of the compatible triangulation of random simple polygons with arbitrary correspondences,
+//! checked against exact oracles.
 
 mod pieces;
 
@@ -33,13 +33,13 @@ fn polar(radius: f64, angle: f64) -> DVec2 {
     radius * DVec2::from_angle(angle)
 }
 
-/// Random star-shaped polygon about the origin.
+/// Random star-shaped polygon around the origin, with `n` points.
 fn star(n: usize, random: &mut Random) -> Vec<DVec2> {
     let point = |i| polar(0.05 + random.next(), TAU * f64::from(i) / n as f64);
     (0..n as u32).map(point).collect()
 }
 
-/// Random points in an order without crossings, by reversing sections (2-opt).
+/// Random points, ordered into a simple polygon by reversing sections (2-opt).
 fn two_opt(n: usize, random: &mut Random) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = (0..n)
         .map(|_| DVec2::new(random.next(), random.next()))
@@ -57,7 +57,7 @@ fn counter_clockwise(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points
 }
 
-/// Comb with the given number of teeth.
+/// Comb-shaped polygon with the given number of teeth.
 fn comb(teeth: usize, depth: f64) -> Vec<DVec2> {
     let mut points = vec![DVec2::ZERO, DVec2::new(teeth as f64, 0.0)];
     for tooth in (0..teeth).rev() {
@@ -68,7 +68,7 @@ fn comb(teeth: usize, depth: f64) -> Vec<DVec2> {
     points
 }
 
-/// Band that winds around itself.
+/// Band that winds around itself in a spiral.
 fn spiral(steps: usize, turns: f64) -> Vec<DVec2> {
     let at = |i: usize, offset: f64| {
         let share = i as f64 / steps as f64;
@@ -79,7 +79,7 @@ fn spiral(steps: usize, turns: f64) -> Vec<DVec2> {
     outer.chain(inner).collect::<Vec<_>>()
 }
 
-/// Square whose sides carry points that are almost collinear.
+/// Square with about `n` points, which deviate from its straight sides by up to half of `by`.
 fn nearly_straight(n: usize, by: f64, random: &mut Random) -> Vec<DVec2> {
     let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
     let mut points = Vec::new();
@@ -94,7 +94,7 @@ fn nearly_straight(n: usize, by: f64, random: &mut Random) -> Vec<DVec2> {
     points
 }
 
-/// Halves the longest edges until there are `n` points.
+/// Inserts midpoints of the longest edges until there are `n` points.
 fn with_points(mut points: Vec<DVec2>, n: usize) -> Vec<DVec2> {
     while points.len() < n {
         let k = points.len();
@@ -122,12 +122,12 @@ fn shape(kind: usize, n: usize, random: &mut Random) -> Vec<DVec2> {
     with_points(points, n)
 }
 
-/// Checks everything that is guaranteed, against slow and simple oracles.
+/// Checks all guarantees for a mesh of two polygons, against slow and simple oracles.
 fn assert_valid(mesh: &CompatibleMesh, source: &[DVec2], target: &[DVec2]) {
     assert_valid_piece(mesh, &[source], &[target]);
 }
 
-/// As [`assert_valid`], for a piece with holes.
+/// Same as [`assert_valid`], for a piece with holes.
 fn assert_valid_piece<R: AsRef<[DVec2]>>(mesh: &CompatibleMesh, source: &[R], target: &[R]) {
     let mut loops = mesh.boundary_loops();
     for boundary in &mut loops {
@@ -167,7 +167,7 @@ fn assert_valid_piece<R: AsRef<[DVec2]>>(mesh: &CompatibleMesh, source: &[R], ta
     }
 }
 
-/// Triangulates two polygons together and checks the result.
+/// Triangulates two polygons with the same faces, checks the result and returns it.
 fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
     let mesh =
         CompatibleMesh::from_piece(&[source], &[target], &PolygonOptions::default(), &Silent)
@@ -176,7 +176,7 @@ fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
     mesh
 }
 
-/// Builds the guaranteed base of two polygons, checks it and returns it.
+/// Builds the guaranteed base mesh of two polygons, checks it and returns it.
 fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
     let mesh = from_base(
         &BoundaryRings::of(&[source]),
@@ -202,8 +202,9 @@ fn pair(kinds: (usize, usize), n: usize, seed: u64) -> Option<[Vec<DVec2>; 2]> {
     let m = target.len();
     let source = with_points(source, m);
     target.rotate_left((random.next() * m as f64) as usize);
-    let simple =
-        |points| boundary_rings::check(&BoundaryRings::of(&[points]), Side::Source).is_ok();
+    let simple = |points| {
+        boundary_rings::validate_rings(&BoundaryRings::of(&[points]), Side::Source).is_ok()
+    };
     (simple(&source) && simple(&target)).then_some([source, target])
 }
 

@@ -1,8 +1,8 @@
-//! Fold-free transfer: carries one polygon's refined triangulation to another polygon.
+//! Transfer: carries the refined triangulation of one polygon over to another polygon.
 //!
-//! The boundary is placed on the other polygon, the interior follows harmonically (Tutte 1963), and
-//! folds are removed ([`super::untangle`]). This gives good angles at low cost. Nothing is
-//! guaranteed: if folds remain, there is no result.
+//! The boundary vertices are placed on the other polygon, the inner vertices follow harmonically
+//! (Tutte 1963), and folds are removed ([`super::untangle`]). This gives good angles at low cost.
+//! It is not guaranteed that all folds can be removed; if some remain, the transfer has failed.
 
 use super::boundary_rings::BoundaryRings;
 use super::options::PolygonOptions;
@@ -13,26 +13,26 @@ use crate::mesh::triangulation::{RefinementOptions, refined_delaunay};
 use crate::numerics::{Cholesky, SymmetricMatrix};
 use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 
-/// Maximum number of untangling rounds; [`PATIENCE`] usually ends earlier (resource limit).
+/// Maximum number of rounds of fold removal (resource limit: [`PATIENCE`] usually ends it earlier).
 pub(super) const MAX_ROUNDS: usize = 60;
-/// Number of rounds after which a transfer stops if the one in the other direction is fold-free by
-/// then (heuristic).
+/// Number of rounds of fold removal after which a transfer stops, if it or the transfer in the
+/// other direction is free of folds by then (heuristic).
 pub(super) const FIRST_ROUNDS: usize = PATIENCE;
-/// Number of rounds in which the folds must decrease to the fraction [`MAX_REMAINING`], or the
-/// transfer is given up (heuristic).
+/// Number of rounds in which the number of folds must decrease to the fraction [`MAX_REMAINING`];
+/// otherwise the transfer is given up (heuristic).
 const PATIENCE: usize = 6;
-/// Fraction of the folds that may remain after [`PATIENCE`] rounds (heuristic).
+/// Maximum fraction of the folds that may remain after [`PATIENCE`] rounds (heuristic).
 const MAX_REMAINING: f64 = 0.75;
 
-/// Refined triangulation of one polygon on its way to another.
+/// Refined triangulation of one polygon while it is transferred to another polygon.
 pub(super) struct Transfer {
     mesh: PairMesh,
     folds: FoldHistory,
 }
 
 impl Transfer {
-    /// Refines a triangulation of the first polygon and lays it over the second, where it may fold;
-    /// `None` if that is impossible.
+    /// Creates a refined triangulation of the polygon `from` and places it on the polygon `to`,
+    /// where it may be folded; `None` if that is impossible.
     pub(super) fn begin(
         from: &BoundaryRings,
         to: &BoundaryRings,
@@ -45,7 +45,8 @@ impl Transfer {
                 .map(|share| share * Bounds::diameter_of(&from.points)),
             max_points: options.max_inner_points(from.points.len()),
         };
-        // The guaranteed base uses the same rings and reports what is wrong with them.
+        // No error is returned here: the guaranteed base is built from the same rings and reports
+        // any fault in them.
         let start = refined_delaunay(&from.loops(), &refinement, progress);
         check_cancelled(progress)?;
         let Ok(start) = start else {
@@ -59,7 +60,7 @@ impl Transfer {
         Ok(is_possible.then_some(Self { mesh, folds }))
     }
 
-    /// Removes folds, for at most `rounds` rounds in total over all calls.
+    /// Removes folds. Stops when all calls together have used `rounds` rounds.
     pub(super) fn unfold(
         &mut self,
         rounds: usize,
@@ -68,18 +69,19 @@ impl Transfer {
         self.folds.remove(&mut self.mesh, rounds, progress)
     }
 
-    /// Returns whether no face is folded.
+    /// Returns whether no face is folded in either design.
     pub(super) fn is_fold_free(&self) -> bool {
         self.mesh.is_valid()
     }
 
-    /// Returns the mesh if no face is folded.
+    /// Returns the mesh; `None` if a face is folded.
     pub(super) fn into_valid_mesh(self) -> Option<PairMesh> {
         self.is_fold_free().then_some(self.mesh)
     }
 }
 
-/// Carries a mesh to the second design, where its first vertices belong at `to`. Folds may remain.
+/// Transfers a mesh to the second design, in which its polygon vertices have the positions `to`.
+/// Folds may remain.
 pub(super) fn transfer_onto(
     mesh: &mut PairMesh,
     to: &[DVec2],
@@ -91,10 +93,11 @@ pub(super) fn transfer_onto(
     Ok(())
 }
 
-/// Lays a mesh over the second design, where its first vertices belong at `to`. Returns whether
-/// that was possible.
+/// Places a mesh on the second design, in which its polygon vertices have the positions `to`. Folds
+/// may result. Returns whether that was possible.
 fn lay_onto(mesh: &mut PairMesh, to: &[DVec2], progress: &dyn Progress) -> Result<bool, Cancelled> {
-    // Tried first, because a harmonic map would distort even a polygon that is merely moved.
+    // A similarity is tried first, because a harmonic map would distort even a polygon that has
+    // only moved.
     place_onto(mesh, to);
     if mesh.is_valid() {
         return Ok(true);
@@ -107,8 +110,9 @@ fn lay_onto(mesh: &mut PairMesh, to: &[DVec2], progress: &dyn Progress) -> Resul
     Ok(true)
 }
 
-/// Moves a mesh that is valid on: its first vertices go to `to` in the second design, and folds are
-/// removed. Inner vertices start from where they are. Folds may remain.
+/// Moves the polygon vertices of a valid mesh to the positions `to` in the second design and
+/// removes the folds that result. Inner vertices start from their current positions. Folds may
+/// remain.
 pub(super) fn continue_transfer(
     mesh: &mut PairMesh,
     to: &[DVec2],
@@ -118,17 +122,18 @@ pub(super) fn continue_transfer(
     FoldHistory::default().remove(mesh, MAX_ROUNDS, progress)
 }
 
-/// Progress of fold removal.
+/// History of a fold removal.
 #[derive(Default)]
 struct FoldHistory {
-    /// Fewest folds so far, before each round.
+    /// For each round done: the smallest number of folds before it or any earlier round.
     min_folds: Vec<usize>,
-    /// Whether no further round is worthwhile.
+    /// Whether further rounds are not worthwhile.
     is_given_up: bool,
 }
 
 impl FoldHistory {
-    /// Removes folds until none is left, progress stalls, or `rounds` rounds are done in total.
+    /// Removes folds until none is left, until progress stalls, or until `rounds` rounds are done
+    /// in total.
     fn remove(
         &mut self,
         mesh: &mut PairMesh,
@@ -136,7 +141,7 @@ impl FoldHistory {
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
         while !self.is_given_up && self.min_folds.len() < rounds {
-            let folds = mesh.folds();
+            let folds = mesh.fold_count();
             if folds == 0 {
                 break;
             }
@@ -160,36 +165,40 @@ impl FoldHistory {
     }
 }
 
-/// Splits every inner edge between two polygon vertices, because its faces would have no freedom.
+/// Splits every inner edge between two polygon vertices. A face whose corners are all polygon
+/// vertices cannot move.
 pub(super) fn split_chords(mesh: &mut PairMesh) {
     let n = mesh.fixed as u32;
     for edge in mesh.inner_edges() {
         if edge.iter().all(|&v| v < n) {
-            // A chord too short to have a distinct midpoint stays.
+            // A chord that is too short to have a distinct midpoint is not split.
             mesh.split(edge);
         }
     }
 }
 
-/// Lays a mesh onto `to` in the second design, with inner vertices moved by the similarity that
-/// fits the polygons best. Similar polygons stay undistorted.
+/// Places the polygon vertices at `to` in the second design, and the inner vertices at their image
+/// under the similarity that maps the polygons onto each other best. Similar polygons are therefore
+/// not distorted.
 fn place_onto(mesh: &mut PairMesh, to: &[DVec2]) {
     let n = mesh.fixed;
     let [points, placed] = &mut mesh.points;
     placed[..n].copy_from_slice(to);
-    // Points without extent have no similarity, and no valid mesh either.
+    // Points that all coincide determine no similarity; no valid mesh exists for them either.
     let Some(fit) = SimilarityFit::of(&points[..n], to) else {
         return;
     };
     let [from, to] = fit.means;
-    // Applied as a difference, so that equal polygons keep every bit.
+    // The similarity is applied as a difference, so that equal polygons keep their positions bit by
+    // bit.
     let turn = fit.factor - DVec2::X;
     for (place, &p) in placed[n..].iter_mut().zip(&points[n..]) {
         *place = p + turn.rotate(p - from) + (to - from);
     }
 }
 
-/// Returns the vertices in the second design, each inner one at the mean of its neighbours.
+/// Returns the vertex positions in the second design: polygon vertices at `to`, each inner vertex
+/// at the mean of its neighbours. `None` if the linear system cannot be solved, or on a cancel.
 fn harmonic(mesh: &PairMesh, to: &[DVec2], progress: &dyn Progress) -> Option<Vec<DVec2>> {
     let n = mesh.fixed;
     let inner = mesh.points[0].len() - n;
@@ -197,10 +206,10 @@ fn harmonic(mesh: &PairMesh, to: &[DVec2], progress: &dyn Progress) -> Option<Ve
     let mut rhs = vec![DVec2::ZERO; inner];
     for (i, sum) in rhs.iter_mut().enumerate() {
         for u in mesh.neighbours((i + n) as u32) {
-            // Uniform weights keep the matrix definite, whatever the shapes of the faces.
+            // Uniform weights keep the matrix positive definite, whatever the shapes of the faces.
             matrix.add(i as u32, i as u32, 1.0);
             match (u as usize).checked_sub(n) {
-                // Each edge is visited from both ends but added once.
+                // Each edge is visited from both ends, but its entry is added only once.
                 Some(j) if j < i => matrix.add(i as u32, j as u32, -1.0),
                 Some(_) => {}
                 None => *sum += to[u as usize],

@@ -1,5 +1,5 @@
-//! Pipeline of the compatible triangulation of two designs: transfer in both directions, the
-//! guaranteed base if both fail, then quality.
+//! Compatible triangulation of one piece in two designs: transfers in both directions, the
+//! guaranteed base mesh if both fail, then improvement of the angles.
 
 use super::boundary_rings;
 use super::boundary_rings::BoundaryRings;
@@ -14,27 +14,31 @@ use crate::geometry::{DVec2, Side, lexicographic};
 use crate::work::progress::{Cancelled, Progress, ProgressShares, ProgressSpan, checkpoint};
 use rayon::prelude::*;
 
-/// Maximum number of boundary points for which the base is built directly; larger pieces are
-/// coarsened first (resource limit: 200 corners can cause 39,000 crossings, each a vertex).
+/// Maximum number of boundary points for which the guaranteed base mesh is built directly; larger
+/// pieces are coarsened first (resource limit: 200 corners can cause 39,000 crossings, and each
+/// becomes a vertex).
 const MAX_BASE_POINTS: usize = 200;
 
-/// Fraction of progress reported after the transfers (heuristic).
+/// Progress reported once the transfers are done, in [0, 1] (heuristic).
 const PROGRESS_AFTER_TRANSFER: f64 = 0.5;
-/// Fraction of progress reported after the base (heuristic).
+/// Progress reported once the guaranteed base mesh is built, in [0, 1] (heuristic).
 const PROGRESS_AFTER_BASE: f64 = 0.7;
 
 impl CompatibleMesh {
-    /// Triangulates one connected piece in two designs together.
+    /// Triangulates one connected piece in two designs with the same faces.
     ///
-    /// Ring 0 is the outer boundary, counter-clockwise; the others are holes, clockwise. Point i of
-    /// a ring corresponds to point i of that ring in the other design. The mesh's first vertices
-    /// are the ring points, ring after ring; inner vertices follow.
+    /// Ring 0 is the outer boundary, counter-clockwise; the other rings are holes, clockwise. Point
+    /// i of a ring corresponds to point i of that ring in the other design. The first vertices of
+    /// the mesh are the ring points, ring after ring; inner vertices follow.
     ///
-    /// In either design or in both, a ring may run along a slit, there and back over bit-equal
-    /// points, as in a letter D that is cut open. The two banks become separate vertices.
+    /// In one design or in both, a ring may run along a slit: there and back over points with the
+    /// same coordinates, as in a letter D that is cut open. The two banks of the slit become
+    /// separate vertices.
     ///
     /// # Errors
-    /// [`PieceMeshError`] if the rings bound no single piece, or if the work is cancelled.
+    /// [`PieceMeshError`] if the rings of the designs do not correspond or are not a valid
+    /// boundary, if the piece is too thin for floating-point precision, or if the work is
+    /// cancelled.
     ///
     /// ```
     /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
@@ -54,13 +58,13 @@ impl CompatibleMesh {
     ) -> Result<Self, PieceMeshError> {
         check(source, target, options)?;
         let design_rings = [source, target].map(BoundaryRings::of);
-        // Near size 1 no product over- or underflows, as exact predicates require.
+        // At a diameter near 1 no product overflows or underflows, as exact predicates require.
         let scales = [&design_rings[0], &design_rings[1]].map(|rings| unit_scale(&rings.points));
         let [p, q] = [0, 1].map(|d| design_rings[d].scaled(scales[d]));
         let enlarged = |error: PieceMeshError| error.scaled(scales.map(f64::recip));
-        boundary_rings::check(&p, Side::Source).map_err(enlarged)?;
-        boundary_rings::check(&q, Side::Target).map_err(enlarged)?;
-        // Always solved in the same order, and exchanged back if necessary.
+        boundary_rings::validate_rings(&p, Side::Source).map_err(enlarged)?;
+        boundary_rings::validate_rings(&q, Side::Target).map_err(enlarged)?;
+        // A pair is always solved in the same order. If necessary, the result is exchanged back.
         let mesh = if precedes(&p, &q) {
             triangulate_pair(&p, &q, options, progress)
         } else {
@@ -74,7 +78,8 @@ impl CompatibleMesh {
     }
 }
 
-/// Checks the options and that the rings of both designs have the same numbers of points.
+/// Checks the options, and that both designs have the same numbers of rings and of points in each
+/// ring.
 fn check<R: AsRef<[DVec2]>>(
     source: &[R],
     target: &[R],
@@ -96,8 +101,8 @@ fn check<R: AsRef<[DVec2]>>(
     }
 }
 
-/// Total order of designs. A pair is solved in this order, so that exchanging its designs gives the
-/// same mesh.
+/// Returns whether the design `a` comes before `b` in a fixed total order. Every pair is solved in
+/// this order, so that exchanging its designs gives the same mesh.
 pub(super) fn precedes(a: &BoundaryRings, b: &BoundaryRings) -> bool {
     // Adding zero turns -0 into 0.
     let coordinates = |rings: &BoundaryRings| -> Vec<f64> {
@@ -107,7 +112,8 @@ pub(super) fn precedes(a: &BoundaryRings, b: &BoundaryRings) -> bool {
     lexicographic(coordinates(a), coordinates(b)).is_le()
 }
 
-/// Triangulates a checked piece together in two designs, the one that goes first as the source.
+/// Triangulates a checked piece in two designs. Exchanging the designs may give another mesh; a
+/// caller that needs symmetry orders them by [`precedes`].
 pub(super) fn triangulate_pair(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -133,7 +139,7 @@ pub(super) fn triangulate_pair(
     Ok(mesh)
 }
 
-/// Returns the better of the transfers in both directions; `None` if both stay folded.
+/// Returns the better of the transfers in both directions; `None` if both still have folds.
 fn best_transfer(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -148,14 +154,16 @@ fn best_transfer(
         .zip(&shares)
         .map(|((from, to), share)| Transfer::begin(from, to, options, share));
     let mut transfers: Vec<Option<Transfer>> = begun.collect::<Result<_, _>>()?;
-    // A few rounds in both directions; more only if neither is free of folds by then.
+    // Both directions get a few rounds of fold removal. They get more only if neither is free of
+    // folds by then.
     for rounds in [FIRST_ROUNDS, MAX_ROUNDS] {
         let pending = transfers.par_iter_mut().zip(&shares);
         pending.try_for_each(|(transfer, share)| match transfer {
             Some(transfer) => transfer.unfold(rounds, share),
             None => Ok(()),
         })?;
-        // A direction that takes much longer than the other ends up worse, if it succeeds at all.
+        // A direction that needs many more rounds than the other ends up worse, if it succeeds at
+        // all.
         if transfers.iter().flatten().any(Transfer::is_fold_free) {
             break;
         }
@@ -166,8 +174,8 @@ fn best_transfer(
         .map(|(transfer, share)| {
             let mut mesh = transfer.and_then(Transfer::into_valid_mesh);
             if let Some(mesh) = &mut mesh {
-                // Only as far as the comparison needs.
-                quality::settle(mesh, share)?;
+                // The mesh is improved only as far as the comparison needs.
+                quality::relax_and_flip(mesh, share)?;
             }
             Ok(mesh)
         });
@@ -177,7 +185,7 @@ fn best_transfer(
     Ok(best.min_by(|a, b| mean_cost(a).total_cmp(&mean_cost(b))))
 }
 
-/// Builds the guaranteed base and thins it out.
+/// Builds the guaranteed base mesh and removes unneeded vertices from it.
 pub(super) fn from_base(
     source: &BoundaryRings,
     target: &BoundaryRings,
@@ -189,15 +197,17 @@ pub(super) fn from_base(
     } else {
         bridges::bridged_base(source, target, &first)?
     };
-    // In exact arithmetic no face is folded, and no later step repairs one.
+    // In exact arithmetic no face of the base is folded. If rounding has folded one, no later step
+    // repairs it.
     if let Some(error) = degenerate_faces_error(&mesh) {
         return Err(error);
     }
-    quality::thin_out(&mut mesh, &ProgressSpan::new(progress, 0.5, 1.0))?;
+    quality::remove_unneeded_vertices(&mut mesh, &ProgressSpan::new(progress, 0.5, 1.0))?;
     Ok(mesh)
 }
 
-/// Error for faces of a base that rounding left without area; `None` if there are none.
+/// Returns the error for faces of the base mesh that are flat or folded because of rounding; `None`
+/// if there are none.
 fn degenerate_faces_error(mesh: &PairMesh) -> Option<PieceMeshError> {
     Side::BOTH.into_iter().find_map(|side| {
         let corners = mesh.faces().map(|face| mesh.corners(face)[side]);
@@ -211,13 +221,14 @@ fn degenerate_faces_error(mesh: &PairMesh) -> Option<PieceMeshError> {
     })
 }
 
-/// Builds the base of what a front leaves, and joins it to the faces behind the front.
+/// Coarsens the boundary by an advancing front, builds the base mesh of the remaining region, and
+/// joins it to the faces behind the front.
 fn coarse_base(
     source: &BoundaryRings,
     target: &BoundaryRings,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PieceMeshError> {
-    // Half the limit, because bridges to holes add corners again.
+    // The front keeps at most half the limit, because bridges to holes add corners again.
     checkpoint(progress, "simplifying", 0.0)?;
     let coarse = coarsen::coarsen(source, target, MAX_BASE_POINTS / 2, progress)?;
     let core = bridges::bridged_base(&coarse.front_rings(0), &coarse.front_rings(1), progress)?;
@@ -238,7 +249,7 @@ fn coarse_base(
     ))
 }
 
-/// Weighted mean of the face costs, by which meshes are compared.
+/// Weighted mean of the face costs; the lower it is, the better the mesh.
 pub(super) fn mean_cost(mesh: &PairMesh) -> f64 {
     let weighted = mesh_energy::weighted_faces(mesh);
     weighted

@@ -1,5 +1,8 @@
-//! Removes folds by minimising Σ area · (tr(JᵀJ) + 1 + det²) / χ(det) with a shrinking ε (Garanzha,
-//! Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, "Foldover-free maps in 50 lines of code").
+//! Removes folds of a mesh in its second embedding by minimising Σ area · (tr(JᵀJ) + 1 + det²) /
+//! χ(det) over all faces (Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021,
+//! "Foldover-free maps in 50 lines of code"). J is the Jacobian of a face and det its determinant.
+//! χ(det) = (det + √(ε² + det²)) / 2 is positive for either sign of det; ε shrinks from round to
+//! round as folds disappear.
 
 use super::face_cost;
 use super::pair_mesh::PairMesh;
@@ -8,40 +11,42 @@ use crate::geometry::{DMat2, DVec2};
 use crate::numerics::lbfgs::minimise;
 use crate::work::progress::Progress;
 
-/// Smallest ε, in units of the mean determinant (heuristic: a smaller one allows thinner faces but
+/// Minimum of ε, in units of the mean determinant (heuristic: a smaller ε allows thinner faces but
 /// needs shorter steps).
 const MIN_EPSILON: f64 = 1e-3;
-/// Descent steps for each ε (heuristic: the next ε is better as soon as the worst face has moved).
+/// Number of descent steps in a round, which has one ε (heuristic: a new ε is better as soon as the
+/// worst face has moved).
 const STEPS: usize = 30;
 
-/// Face with the quantities that the energy needs.
+/// Face with the quantities from which its energy is computed.
 struct UntangleFace {
-    /// Indices of the corners.
+    /// Vertex indices of the corners.
     corners: [usize; 3],
-    /// Map from edge vectors in the target to the Jacobian, scaled so that the mean determinant is
-    /// 1.
+    /// Matrix that maps the face's edge vectors in the target to its Jacobian. It is scaled so that
+    /// the mean determinant over all faces is 1.
     from_edges: DMat2,
-    /// Share of the source's area.
+    /// Fraction of the source's total area that the face has.
     share: f64,
 }
 
 impl UntangleFace {
-    /// Jacobian of the map from source to target, for the target positions `at`.
+    /// Jacobian of the map of this face from source to target, where `at` gives the target
+    /// positions of the vertices.
     fn jacobian(&self, at: impl Fn(usize) -> DVec2) -> DMat2 {
         let [a, b, c] = self.corners.map(at);
         DMat2::from_cols(b - a, c - a) * self.from_edges
     }
 }
 
-/// Prepares all faces of a mesh.
+/// Computes the energy quantities of all faces of a mesh.
 fn untangle_faces(mesh: &PairMesh) -> Vec<UntangleFace> {
     let twice_areas = |d: usize| {
         mesh.faces()
             .map(move |f| face_cost::twice_area(mesh.corners(f)[d]))
     };
     let total: f64 = twice_areas(0).sum();
-    // Folded faces cancel in the sum, so it is the area of the target polygon whatever its
-    // interior.
+    // Folded faces have negative area, so the sum is the area of the target polygon wherever its
+    // inner vertices lie.
     let scale = (total / twice_areas(1).sum::<f64>()).sqrt();
     let prepared = |face: [u32; 3]| {
         let [p, _] = mesh.corners(face);
@@ -55,7 +60,8 @@ fn untangle_faces(mesh: &PairMesh) -> Vec<UntangleFace> {
     mesh.faces().map(prepared).collect()
 }
 
-/// Runs one round with one ε; a cancel ends it early. Returns whether any vertex moved.
+/// Runs one round with one ε and moves the inner vertices in the second embedding. A cancel ends
+/// the round early. Returns whether any vertex moved.
 pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
     let faces = untangle_faces(mesh);
     let n = mesh.fixed;
@@ -64,7 +70,7 @@ pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
         .iter()
         .map(|face| face.jacobian(|v| start[v]).determinant())
         .fold(f64::INFINITY, f64::min);
-    // One fifth of the worst fold, as in the paper's own code.
+    // ε follows the most negative determinant, with the factor 1/5 of the paper's own code.
     let epsilon = MIN_EPSILON.hypot(0.2 * smallest_det.min(0.0));
     let movable: Vec<u32> = (n as u32..start.len() as u32).collect();
     let Some(mut springs) = springs(&faces, &movable, progress) else {
@@ -78,15 +84,17 @@ pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
     for (i, point) in mesh.points[1][n..].iter_mut().enumerate() {
         *point += DVec2::new(along_x[i], along_y[i]);
     }
-    // If nothing moved, another round would move nothing either.
+    // If no vertex has moved, another round would not move any either.
     mesh.points[1] != start
 }
 
-/// Springs with the curvature of the energy near an undistorted map, up to a factor.
+/// Springs whose stiffness is, up to a factor, the second derivative of the energy near an
+/// undistorted map.
 fn springs(faces: &[UntangleFace], movable: &[u32], progress: &dyn Progress) -> Option<Springs> {
     let springs = faces.iter().flat_map(|face| {
         let weight = 2.0 * face.share;
-        // |J|² is a sum of squared edges, weighted by the cotangents of the opposite corners.
+        // The energy |J|² of a face is a sum of squared edge lengths, weighted by the cotangents of
+        // the opposite corners.
         let m = face.from_edges * face.from_edges.transpose();
         let (ab, ac, bc) = (
             m.x_axis.x + m.y_axis.x,
@@ -99,7 +107,8 @@ fn springs(faces: &[UntangleFace], movable: &[u32], progress: &dyn Progress) -> 
     Springs::new(movable, springs, progress)
 }
 
-/// Returns the energy at the displacements `x` and fills its gradient.
+/// Returns the energy at the displacements `x` of the inner vertices and writes its gradient. `x`
+/// lists all x components, then all y components.
 fn energy(
     faces: &[UntangleFace],
     start: &[DVec2],
@@ -119,7 +128,8 @@ fn energy(
         let j = face.jacobian(at);
         let (value, by_jacobian) = density(j, epsilon);
         total += face.share * value;
-        // J = edges · from_edges; the first corner moves both edges, in the opposite direction.
+        // J = edges · from_edges. The first corner moves both edge vectors in the opposite
+        // direction.
         let by_edges = by_jacobian * face.from_edges.transpose() * face.share;
         let corners = [
             -(by_edges.x_axis + by_edges.y_axis),
@@ -136,10 +146,11 @@ fn energy(
     total
 }
 
-/// χ = (det + √(ε² + det²)) / 2, which is positive for either sign of `det`.
+/// Computes χ = (det + √(ε² + det²)) / 2, which is positive for either sign of `det`.
 fn chi(det: f64, epsilon: f64) -> f64 {
     let root = (epsilon * epsilon + det * det).sqrt();
-    // For det < 0 the textbook form cancels to zero; the other form does not.
+    // For det < 0 this form of χ cancels to zero in floating point; the equivalent form below does
+    // not.
     if det > 0.0 {
         0.5 * (det + root)
     } else {
@@ -147,7 +158,7 @@ fn chi(det: f64, epsilon: f64) -> f64 {
     }
 }
 
-/// Returns (tr(JᵀJ) + 1 + det²) / χ(det) and its derivative with respect to J.
+/// Returns the energy density (tr(JᵀJ) + 1 + det²) / χ(det) and its derivative with respect to J.
 fn density(j: DMat2, epsilon: f64) -> (f64, DMat2) {
     let det = j.determinant();
     let root = (epsilon * epsilon + det * det).sqrt();
@@ -159,7 +170,7 @@ fn density(j: DMat2, epsilon: f64) -> (f64, DMat2) {
     );
     let square = j.x_axis.length_squared() + j.y_axis.length_squared();
     let value = (square + 1.0 + det * det) / chi;
-    // χ′ = χ / √(ε² + det²).
+    // The derivative of χ with respect to det is χ / √(ε² + det²).
     let by_det = (2.0 * det - value * chi / root) / chi;
     (value, j * (2.0 / chi) + cofactor * by_det)
 }

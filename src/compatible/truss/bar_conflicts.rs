@@ -99,7 +99,7 @@ pub(super) fn remove_greedily(
 }
 
 /// Returns for each bar whether it conflicts with no other bar.
-pub(super) fn keep_uncrossed(bars: usize, conflicts: &[BarConflict]) -> Vec<bool> {
+pub(super) fn uncrossed_bars(bars: usize, conflicts: &[BarConflict]) -> Vec<bool> {
     let mut remaining = vec![true; bars];
     for &bar in conflicts.iter().flatten() {
         remaining[bar as usize] = false;
@@ -150,6 +150,6 @@ mod tests {
             remove_greedily(3, &[[0, 2]], &Silent),
             Ok(vec![true, true, false])
         );
-        assert_eq!(keep_uncrossed(3, &[[0, 2]]), [false, true, false]);
+        assert_eq!(uncrossed_bars(3, &[[0, 2]]), [false, true, false]);
     }
 }

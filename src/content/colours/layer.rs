@@ -1,7 +1,7 @@
 //! A picture in linear light with a mipmap pyramid, sampled bilinearly anywhere in the plane.
 
 use super::super::placement_scan::AffinePlane;
-use super::linear_light::{LinearLight, decode, encode_premultiplied, mean, mixed};
+use super::linear_light::{LinearLight, decode, encode_premultiplied, mean, mix};
 use crate::design::Picture;
 use crate::geometry::{Bounds, DMat2, DVec2};
 use glam::DAffine2;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub struct PictureLayer {
     picture: Picture,
     /// Pyramid levels, from full resolution down to a single pixel.
-    levels: Arc<Vec<MipLevel>>,
+    mip_levels: Arc<Vec<MipLevel>>,
     /// Map from the plane to pixels of the picture: x right, y down, origin in its upper left
     /// corner.
     from_plane: DAffine2,
@@ -45,7 +45,7 @@ impl PictureLayer {
         let own = DAffine2::from_mat2_translation(inverse.linear(), inverse.apply(DVec2::ZERO));
         Self {
             from_plane: flip * own,
-            levels: Arc::new(levels),
+            mip_levels: Arc::new(levels),
             picture: picture.clone(),
         }
     }
@@ -72,9 +72,9 @@ impl PictureLayer {
     /// stored row by row from above as sRGB premultiplied in linear light, four bytes per pixel.
     #[must_use]
     pub fn texture(&self) -> (Vec<u8>, u32) {
-        let lights = self.levels.iter().flat_map(MipLevel::pixels);
+        let lights = self.mip_levels.iter().flat_map(MipLevel::pixels);
         let bytes = lights.flat_map(|&light| encode_premultiplied(light));
-        (bytes.collect(), self.levels.len() as u32)
+        (bytes.collect(), self.mip_levels.len() as u32)
     }
 
     /// Side length of a pixel in the plane.
@@ -94,8 +94,8 @@ impl PictureLayer {
         } else {
             0
         };
-        let level = &self.levels[index.min(self.levels.len() - 1)];
-        let scale = level.size() / self.levels[0].size();
+        let level = &self.mip_levels[index.min(self.mip_levels.len() - 1)];
+        let scale = level.size() / self.mip_levels[0].size();
         // Samples lie at pixel centres, half a pixel from the corner.
         let from_plane = scale_then_translate(scale, DVec2::splat(-0.5)) * self.from_plane;
         PictureSampler { level, from_plane }
@@ -208,9 +208,9 @@ impl PixelFootprint<'_> {
         // row.
         let row = |at: usize| {
             let two = &self.light[at..at + 2];
-            mixed(two[0], two[1], u)
+            mix(two[0], two[1], u)
         };
-        mixed(row(at), row(at + self.width), v)
+        mix(row(at), row(at + self.width), v)
     }
 }
 

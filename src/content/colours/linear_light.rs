@@ -86,7 +86,7 @@ pub(super) fn mean(of: [LinearLight; 4]) -> LinearLight {
 
 /// Linear interpolation from `a` to `b`.
 #[inline]
-pub(super) fn mixed(a: LinearLight, b: LinearLight, share: f32) -> LinearLight {
+pub(super) fn mix(a: LinearLight, b: LinearLight, share: f32) -> LinearLight {
     a + share * (b - a)
 }
 
@@ -112,6 +112,6 @@ mod tests {
     #[test]
     fn black_and_white_mix_to_half_the_light() {
         let [black, white] = [0, 255].map(|v| decode(Rgba([v, v, v, 255])));
-        assert_eq!(encoded(mixed(black, white, 0.5)).0, [188, 188, 188, 255]);
+        assert_eq!(encoded(mix(black, white, 0.5)).0, [188, 188, 188, 255]);
     }
 }

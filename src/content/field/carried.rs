@@ -1,8 +1,9 @@
-//! Contours of distance fields carried by a warp.
+//! Contours of the blend of two distance fields that a warp carries along.
 //!
-//! At each sample of the frame's grid, the placement gives the corresponding point of the source
-//! and of the target. The fields are read at those two points and blended as usual. The values read
-//! this way are no longer exact distances in the frame; L is applied to them unchanged.
+//! For each sample of a grid in the frame, the placement gives the corresponding point of the
+//! source and of the target. The two fields are read at these points and blended as usual. In the
+//! frame these values are no longer exact distances; the scale function L is applied to them all
+//! the same.
 
 use super::super::placement_scan::scan;
 use super::FieldPair;
@@ -10,20 +11,22 @@ use crate::field::{SampledField, contour};
 use crate::geometry::{Bounds, DVec2};
 use crate::warp::Placement;
 
-/// Distance, in cells, of samples that no face of the placement covers: outside (heuristic: as
-/// deep as a sample next to a boundary).
+/// Distance, in cells, at samples that no face of the placement covers (derived: outside, as deep
+/// as a sample next to a boundary).
 const UNCOVERED_DISTANCE: f64 = -1.0;
 
-/// Maximum extension of the sampled area beyond the fields' grid on each side, as a fraction of its
-/// longer side (resource limit: a square grid then has four times as many samples).
+/// Maximum margin by which the sampled rectangle extends beyond the fields' grid on each side, as a
+/// fraction of the grid's longer side (resource limit: a square grid then has four times as many
+/// samples).
 const MAX_EXTENSION: f64 = 0.5;
 
 impl FieldPair {
-    /// Returns the contour at `t` of the fields carried by `placement`, as closed polygons in the
-    /// plane: outer ones counter-clockwise, holes clockwise.
+    /// Returns the contour at `t` of the blend of both fields, carried along by `placement`, as
+    /// closed polygons in the plane. Outer polygons run counter-clockwise, holes clockwise.
     ///
-    /// Between samples the blend is interpolated bilinearly. Area that no face covers is outside.
-    /// Shapes that leave the grid are followed for up to half its longer side.
+    /// Between samples the blend is interpolated bilinearly. Regions that no face covers are
+    /// outside. A shape that leaves the grid is drawn up to a distance of half the grid's longer
+    /// side.
     ///
     /// # Panics
     /// Panics if a face of the placement has a vertex without a position.
@@ -31,11 +34,10 @@ impl FieldPair {
     pub fn contour_carried(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         let (grid, blend) = (self.grid(), &self.blend);
         let level = blend.level();
-        // Samples are stored relative to the level, so that single precision is finest near the
-        // contour.
+        // Samples are stored relative to L(τ), so that single precision is finest near the contour.
         let outside = (blend.curve(UNCOVERED_DISTANCE + blend.threshold.min(0.0)) - level) as f32;
-        // The extended grid has the same margin on all sides, so the two lattices differ by a shift
-        // only.
+        // The extended grid has the same margin on all sides, so its sample coordinates differ from
+        // those of the fields' grid by a shift only.
         let margin_cells = self.cells_beyond(placement);
         let [width, height] = [grid.width, grid.height].map(|n| n + 2 * margin_cells);
         let shift = DVec2::splat(f64::from(margin_cells));
@@ -58,7 +60,7 @@ impl FieldPair {
                 }
             },
         );
-        // Unreachable: the lattice has at least one cell, and as many samples as cells.
+        // This error cannot occur: the grid has at least one cell, and as many samples as cells.
         let Ok(samples) = SampledField::new(width, height, &samples) else {
             return Vec::new();
         };
@@ -69,12 +71,13 @@ impl FieldPair {
         rings
     }
 
-    /// Number of cells by which shapes in `placement` reach beyond the grid, the maximum over all
-    /// sides.
+    /// Maximum number of cells, over all four sides, by which shapes in `placement` extend beyond
+    /// the grid; limited to [`MAX_EXTENSION`].
     fn cells_beyond(&self, placement: &Placement) -> u32 {
         let grid = self.grid();
         let bounds = grid.bounds();
-        // Vertices outside the grid in both designs are outside both fields, wherever they move.
+        // A vertex that lies outside the grid in both designs belongs to neither field's shape,
+        // wherever it moves.
         let design_points = placement.in_source.iter().zip(&placement.in_target);
         let in_fields = placement
             .in_frame

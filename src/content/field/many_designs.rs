@@ -1,7 +1,8 @@
-//! Blends of the distance fields of any number of designs: F = Σ wⱼ L(fⱼ), filled where F ≥ L(τ).
+//! Blends of the distance fields fⱼ of any number of designs with weights wⱼ: F = Σ wⱼ L(fⱼ),
+//! filled where F ≥ L(τ). L is the scale function and τ the threshold of [`FieldBlend`].
 //!
-//! Guaranteed: with all weight on one design the contour is its own; for two designs with weights
-//! (1 − t, t) it is that of a [`super::FieldPair`] at t.
+//! Guaranteed: with all weight on one design the contour is that of this design; for two designs
+//! with the weights (1 − t, t) it is that of a [`super::FieldPair`] at t.
 
 use super::{FieldBlend, FieldBlendError};
 use crate::field::{DistanceField, Grid, contour};
@@ -9,7 +10,8 @@ use crate::geometry::DVec2;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// One or more distance fields on one grid, and their blend. Cloning is cheap.
+/// One or more distance fields on the same grid, and the parameters of their blend. Cloning is
+/// cheap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldSet {
     fields: Arc<[DistanceField]>,
@@ -17,10 +19,10 @@ pub struct FieldSet {
 }
 
 impl FieldSet {
-    /// Combines fields on one grid. Returns `None` if there are no fields.
+    /// Combines fields on the same grid. Returns `None` if there are no fields.
     ///
     /// # Errors
-    /// Returns an error if the grids differ or the blend is invalid.
+    /// [`FieldBlendError`] if the grids differ or the parameters are invalid.
     pub fn new(
         fields: Vec<DistanceField>,
         blend: FieldBlend,
@@ -29,7 +31,7 @@ impl FieldSet {
         let Some(first) = fields.first() else {
             return Ok(None);
         };
-        // Distances are in cells, so fields of different grids have different units.
+        // Distances are in cells, so fields on different grids have different units.
         if let Some(other) = fields.iter().find(|field| field.grid() != first.grid()) {
             return Err(FieldBlendError::Grids {
                 source_grid: *first.grid(),
@@ -52,15 +54,15 @@ impl FieldSet {
         self.blend
     }
 
-    /// Fields, one per design.
+    /// Distance fields, one for each design.
     #[must_use]
     pub fn fields(&self) -> &[DistanceField] {
         &self.fields
     }
 
-    /// Returns the field whose L is the blend with these weights. Blending two such fields is the
-    /// same as blending their weights. With all weight on one design the field is its own,
-    /// unchanged.
+    /// Returns the blend for these weights as a distance field: at each sample, the distance at
+    /// which L has the value F. Blending two such fields gives the same as blending their weights.
+    /// With all weight on one design the result is that design's field, unchanged.
     ///
     /// # Panics
     /// Panics if the number of weights differs from the number of fields.
@@ -90,9 +92,9 @@ impl FieldSet {
             .unwrap_or_else(|_| unreachable!("blends of finite numbers are finite"))
     }
 
-    /// Returns the contour for these weights as closed polygons in the plane: outer ones
-    /// counter-clockwise, holes clockwise, clipped to the grid's rectangle. Fields with weight 0
-    /// are not read.
+    /// Returns the contour of the blend for these weights as closed polygons in the plane, clipped
+    /// to the rectangle of the grid. Outer polygons run counter-clockwise, holes clockwise. Fields
+    /// with weight 0 are not read.
     ///
     /// # Panics
     /// Panics if the number of weights differs from the number of fields.
@@ -112,8 +114,8 @@ impl FieldSet {
                 .map(|(field, weight)| weight * blend.curve(field.samples().bilinear(x, y)))
                 .sum()
         };
-        // L is monotone, so with non-negative weights a sample that lies on the same side of the
-        // threshold in all fields needs no evaluation.
+        // L is monotone. With non-negative weights a sample therefore needs no evaluation if all
+        // fields are on the same side of the threshold there.
         let is_between = weights.iter().all(|&weight| weight >= 0.0);
         let known_side = |column: usize, row: usize| {
             let index = row * grid.width as usize + column;
@@ -172,8 +174,8 @@ mod tests {
             abc.contour(&[0.25, 0.625, 0.125]),
         ];
         let [near, far] = [near.concat(), far.concat()];
-        // The pair interpolates before L is applied, the set after, so the contours differ
-        // slightly.
+        // The pair of blended fields is interpolated before L is applied, the original fields
+        // before they are blended. The two contours therefore differ slightly.
         let gap = |p: &DVec2| far.iter().map(|q| p.distance(*q)).fold(9.0, f64::min);
         assert!(near.iter().map(gap).all(|gap| gap < 0.2) && near.len() > 10);
     }

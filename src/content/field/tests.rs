@@ -1,4 +1,5 @@
-//! Tests of field blends: the paper's formula, exact ends, thresholds, topology and refused input.
+//! Tests of field blends: the paper's formula, exact ends, thresholds, topology, clipping and
+//! refused input.
 
 use super::*;
 use crate::geometry::{Bounds, FillRule, Regions, signed_area};
@@ -16,7 +17,7 @@ fn regions(rings: &[Vec<DVec2>]) -> Regions {
     Regions::from_rings(rings, FillRule::EvenOdd).expect("an area")
 }
 
-/// Area of the shape at `t`, holes subtracted.
+/// Area of the filled shape at `t`, holes subtracted.
 fn drawn_area(pair: &FieldPair, t: f64) -> f64 {
     pair.contour(t).iter().map(|ring| signed_area(ring)).sum()
 }
@@ -41,7 +42,7 @@ fn log(epsilon: f64) -> FieldBlend {
     }
 }
 
-/// A blend on the linear scale.
+/// Parameters of a blend on the linear scale.
 const REAL: FieldBlend = FieldBlend {
     space: BlendSpace::Real,
     epsilon: 1.0,
@@ -213,7 +214,8 @@ fn points_are_inside_exactly_where_the_contour_encloses_them() {
         for i in 0..60 {
             for j in 0..60 {
                 let p = DVec2::new(f64::from(i), f64::from(j)) / 3.0 - DVec2::splat(9.9);
-                // Within 0.02 of the level, the chord of a contour cell decides.
+                // Where F is within 0.02 of L(τ), the straight chord of a contour cell may decide
+                // differently.
                 if (pair.value(p, t) - pair.blend().level()).abs() > 0.02 {
                     assert_eq!(pair.is_inside(p, t), drawn.contains(p), "{p} at {t}");
                     inside += i32::from(drawn.contains(p));

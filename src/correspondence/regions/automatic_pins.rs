@@ -3,14 +3,14 @@
 use super::super::PointPair;
 use super::region_match::{RegionMatch, RingKind, RingMatch};
 
-/// Minimum number of pins on a ring, however short (heuristic).
+/// Minimum number of pins on a ring, even if the ring is short (heuristic).
 const MIN_PINS: usize = 4;
 
 impl RegionMatch {
-    /// Returns pairs of points along the matched rings, one list for each ring. Pins lie where the
-    /// outlines bend and where they change most. The longest ring gets about `count`, shorter ones
-    /// proportionally fewer. Rings that close to a point or open from one get none, because no map
-    /// of the plane can do that.
+    /// Returns pairs of points (pins) along the matched rings, one list for each matched ring. Pins
+    /// lie where the outlines bend and where they change most. The longest ring gets about `count`
+    /// pins, a shorter one proportionally fewer, but at least four. Rings that close to a point or
+    /// open from one have no list, because no continuous map of the plane can do that.
     ///
     /// ```
     /// use morphospace::correspondence::{MatchSettings, match_regions};
@@ -51,14 +51,14 @@ fn arc_lengths(ring: &RingMatch) -> Vec<f64> {
     sums
 }
 
-/// Returns the ring's total length.
+/// Returns the ring's total length, which is the last of its [`arc_lengths`].
 fn total(sums: &[f64]) -> f64 {
     sums.last().copied().unwrap_or(0.0)
 }
 
-/// Selects `count` pairs of vertices, or all there are. It starts with a few even ones and
-/// repeatedly adds the vertex that is farthest, in either design, from where its neighbouring pins
-/// would carry it.
+/// Selects at most `count` pairs of vertices as pins. Starts with a few evenly spaced vertices, and
+/// repeatedly adds the vertex that linear interpolation between its neighbouring pins predicts
+/// worst.
 fn pins(ring: &RingMatch, count: usize) -> Vec<PointPair> {
     let sums = arc_lengths(ring);
     let n = ring.source.len();
@@ -96,15 +96,16 @@ fn pins(ring: &RingMatch, count: usize) -> Vec<PointPair> {
 struct PinInterval {
     from: usize,
     to: usize,
-    /// Vertex in between that the pins predict worst; `from` if there is none.
+    /// Vertex between the two pins that interpolation between them predicts worst; `from` if there
+    /// is none.
     farthest: usize,
-    /// Its squared prediction error, summed over both designs.
+    /// Squared prediction error of the vertex `farthest`, summed over both designs.
     off: f64,
 }
 
 impl PinInterval {
-    /// Finds the vertex with the largest prediction error between two pins. `sums` are the ring's
-    /// arc lengths.
+    /// Finds the vertex with the largest prediction error between the pins at vertices `from` and
+    /// `to`. `sums` are the ring's [`arc_lengths`].
     fn new(ring: &RingMatch, sums: &[f64], from: usize, to: usize) -> Self {
         let n = ring.source.len();
         let position = |k: usize| sums[k % n] + total(sums) * (k / n) as f64;

@@ -2,25 +2,27 @@
 //!
 //! The hole's centre is mapped to the other design by mean value coordinates of the matched
 //! boundary (Floater 2003; signed, as Hormann and Floater 2006 use them for arbitrary polygons). If
-//! the result lies outside the part, or close to its boundary, the nearest point with enough
-//! clearance is used.
+//! the result lies outside the other design's part, or close to its boundary, the nearest point
+//! with enough clearance is used instead.
 
 use super::region_match::POINT_SIZE;
 use crate::geometry::{Bounds, DVec2, Region, Ring, ray_hit_parameter};
 
-/// Minimum clearance of the point, relative to the largest available. More would pull holes to the
-/// middle of the part; less would push them to its boundary, where triangles are thin (heuristic).
+/// Minimum clearance of the point to which a hole closes, as a fraction of the largest clearance
+/// available. More would pull holes to the middle of the part; less would push them to its
+/// boundary, where triangles are thin (heuristic).
 const MIN_CLEARANCE: f64 = 0.25;
 
-/// Maximum diameter of the tiny ring, relative to the clearance of its point. Up to ½ would fit;
-/// the rest leaves room for the triangles around it (heuristic).
+/// Maximum diameter of the tiny ring that represents a point, as a fraction of the point's
+/// clearance. A larger ring would still fit; the rest of the clearance leaves room for the
+/// triangles around the ring (heuristic).
 const MAX_RING_SIZE: f64 = 0.2;
 
-/// Maximum number of boundary edges from which interior points are searched (resource limit: each
-/// search visits every edge).
+/// Maximum number of boundary edges from which points inside the part are searched (resource limit:
+/// each search visits every edge).
 const MAX_SEARCHED_EDGES: usize = 256;
 
-/// Corresponding vertices of one ring.
+/// Corresponding vertices of one matched ring in both designs.
 pub(super) struct RingVertices<'a> {
     /// Vertices in the design that contains the hole.
     pub(super) from: &'a [DVec2],
@@ -28,19 +30,19 @@ pub(super) struct RingVertices<'a> {
     pub(super) to: &'a [DVec2],
 }
 
-/// Free space inside a part, for holes that close to points in it.
+/// Free space inside a part, in which holes of the other design close to points.
 pub(super) struct FreeSpace<'a> {
     part: &'a Region,
     /// Points inside the part, with their distances to its boundary.
     places: Vec<(DVec2, f64)>,
-    /// Centres of the tiny rings placed so far.
+    /// Centres of the tiny rings that were placed so far.
     occupied: Vec<DVec2>,
-    /// Maximum diameter of a tiny ring.
+    /// Maximum diameter of a tiny ring that represents a point.
     size: f64,
 }
 
 impl<'a> FreeSpace<'a> {
-    /// Collects points inside the part.
+    /// Collects points inside the part at which holes may close.
     pub(super) fn of(part: &'a Region) -> Self {
         let places = interior_points(part).map(|p| (p, boundary_distance(part, p)));
         Self {
@@ -51,16 +53,16 @@ impl<'a> FreeSpace<'a> {
         }
     }
 
-    /// Places the tiny ring that stands for `hole`, similar to it, in the part of the other design.
-    /// `outer` is the matched boundary around it, and `rotation` the rotation of the match in
-    /// radians.
+    /// Returns a tiny ring, similar to `hole`, that represents the point of this part to which the
+    /// hole closes. `hole` is in the other design, `outer` is the matched boundary around it, and
+    /// `rotation` is the rotation of that match in radians.
     pub(super) fn point_ring(
         &mut self,
         hole: &Ring,
         outer: &RingVertices,
         rotation: f64,
     ) -> Vec<DVec2> {
-        let mapped = map_by_mean_values(outer, centre(hole));
+        let mapped = map_by_mean_values(outer, outline_centre(hole));
         let mapped_point = mapped.map(|p| (p, boundary_distance(self.part, p)));
         let target = mapped.unwrap_or_else(|| self.part.outer.bounds().centre());
         let nearest = |points: &mut dyn Iterator<Item = (DVec2, f64)>| {
@@ -73,7 +75,8 @@ impl<'a> FreeSpace<'a> {
         let with_clearance = |(p, to_boundary): (DVec2, f64)| (p, self.clearance(p, to_boundary));
         let clearances: Vec<(DVec2, f64)> = points.chain(shifted).map(with_clearance).collect();
         let best_clearance = clearances.iter().map(|place| place.1).fold(0.0, f64::max);
-        // Not the point with the most clearance: the hole should close near where it was.
+        // Take the nearest such point, not the one with the most clearance: the hole should close
+        // near its own place.
         let mut candidates = clearances
             .iter()
             .copied()
@@ -81,18 +84,18 @@ impl<'a> FreeSpace<'a> {
         let (at, clearance) = nearest(&mut candidates).unwrap_or((target, best_clearance));
         let size = self.size.min(MAX_RING_SIZE * clearance);
         self.occupied.push(at);
-        shrunk(hole.points(), centre(hole), at, size, rotation)
+        shrink_to(hole.points(), outline_centre(hole), at, size, rotation)
     }
 
-    /// Returns the clearance of a point: its distance to the boundary, reduced by the tiny rings
-    /// placed so far.
+    /// Returns the clearance of a point: its distance `to_boundary` or its distance to the nearest
+    /// tiny ring placed so far, whichever is smaller.
     fn clearance(&self, p: DVec2, to_boundary: f64) -> f64 {
         let to_holes = self.occupied.iter().map(|q| q.distance(p) - self.size);
         to_holes.fold(to_boundary, f64::min).max(0.0)
     }
 
-    /// If another hole already closes at a point, returns a point next to it, halfway to the
-    /// nearest obstacle. Otherwise returns `None`.
+    /// If another hole already closes at the point `p`, returns a point next to `p`, halfway to the
+    /// nearest obstacle, and its distance to the boundary. Otherwise returns `None`.
     fn point_next_to(&self, p: DVec2, to_boundary: f64) -> Option<(DVec2, f64)> {
         if self.clearance(p, to_boundary) > 0.0 {
             return None;
@@ -106,7 +109,7 @@ impl<'a> FreeSpace<'a> {
 
 /// Returns the points scaled about `centre` to a diameter of `size`, rotated by `rotation` radians
 /// and moved to `at`.
-pub(super) fn shrunk(
+pub(super) fn shrink_to(
     points: &[DVec2],
     centre: DVec2,
     at: DVec2,
@@ -120,18 +123,19 @@ pub(super) fn shrunk(
 }
 
 /// Returns the mean of a ring's vertices.
-pub(super) fn centre(ring: &Ring) -> DVec2 {
+pub(super) fn outline_centre(ring: &Ring) -> DVec2 {
     let count = ring.points().len() as f64;
     let base = ring.points()[0];
     let sum: DVec2 = ring.points().iter().map(|&p| p - base).sum();
     base + sum / count
 }
 
-/// Maps `p` by the mean value coordinates of the boundary. Returns `None` if `p` lies on the
-/// boundary.
+/// Maps `p` from one design to the other by its mean value coordinates with respect to the boundary
+/// `outer`. Returns `None` if `p` lies on the boundary.
 fn map_by_mean_values(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
     let n = outer.from.len();
-    // tan(α/2) from sine and cosine of α, times both lengths, which cancel.
+    // tan(α/2) = sin α / (1 + cos α) for the angle α between a and b, with numerator and
+    // denominator times both lengths.
     let half_tangent = |k: usize| {
         let (a, b) = (outer.from[k] - p, outer.from[(k + 1) % n] - p);
         let (cross, dot) = (a.perp_dot(b), a.dot(b));
@@ -144,13 +148,13 @@ fn map_by_mean_values(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
         sum += weight * (outer.to[k] - outer.to[0]);
         total += weight;
     }
-    // On the outline itself the result is 0 / 0.
+    // If `p` lies on the boundary, the result is 0 / 0.
     let place = outer.to[0] + sum / total;
     place.is_finite().then_some(place)
 }
 
-/// Returns points inside a part: from the middle of each edge inwards, halfway to the opposite
-/// boundary.
+/// Returns points inside a part: from the middle of each edge, halfway along the inward normal to
+/// the opposite boundary.
 fn interior_points(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
     let count: usize = part.rings().map(|ring| ring.points().len()).sum();
     let step = count.div_ceil(MAX_SEARCHED_EDGES);

@@ -1,33 +1,34 @@
-//! Groups the parts of two designs: one with one, one with several, or unmatched.
+//! Divides the parts of two designs into groups: one part with one, one part with several, or a
+//! single unmatched part.
 
 use super::super::pairing::{Pairing, pair_parts, relative_centres};
 use super::super::{MatchSettings, PairError, PartRule};
 use super::locate::{LocatedPin, part_at};
 use super::region_match::RegionMatchError;
-use crate::correspondence::looks::PartLooks;
+use crate::correspondence::looks::PartAppearances;
 use crate::geometry::{DVec2, Region, Regions, Side};
 
-/// Minimum fraction of its design's area at which an unmatched part may cause a split; smaller
-/// parts appear or disappear. Without it, a negligible leftover could cut a part along its whole
-/// side (heuristic).
+/// Minimum area of an unmatched part that may cause a split, as a fraction of its design's area;
+/// smaller parts appear or disappear. Without this limit, a tiny part could cause a cut along a
+/// whole side of a large one (heuristic).
 const MIN_SPLIT_AREA: f64 = 1e-3;
 
-/// Parts that belong together: one with one, one with several, or a single unmatched part.
+/// Parts that are matched together: one with one, one with several, or a single unmatched part.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct PartGroup {
-    /// Indices of the parts of source and target, ascending.
+    /// Indices of the group's parts in the source and in the target, each list ascending.
     pub(super) parts: [Vec<usize>; 2],
 }
 
 impl PartGroup {
-    /// Returns the sort key of groups: their first parts; groups without a part on a side come
-    /// last.
+    /// Returns the key by which groups are sorted: the index of the group's first part in the
+    /// source, then in the target. A group without a part in a design comes last there.
     pub(super) fn key(&self) -> [usize; 2] {
         let first = |side: Side| self.parts[side].first().copied().unwrap_or(usize::MAX);
         Side::BOTH.map(first)
     }
 
-    /// Returns side and index of the part if the group is a single unmatched part.
+    /// If the group is a single unmatched part, returns the part's design and its index.
     pub(super) fn unmatched_part(&self) -> Option<(Side, usize)> {
         match [&self.parts[0][..], &self.parts[1][..]] {
             [&[part], []] => Some((Side::Source, part)),
@@ -40,17 +41,17 @@ impl PartGroup {
 /// Pairs the parts of two designs by position, shape, appearance and the user's settings. Each part
 /// is in at least one pair; unmatched parts have `None` as partner.
 ///
-/// A group of one with several gives one pair for each of the several.
+/// A group of one part with several gives one pair for each of the several parts.
 ///
 /// # Errors
 /// [`RegionMatchError`] for links or pins that contradict each other.
 pub(crate) fn paired_parts(
     designs: [&Regions; 2],
-    looks: &PartLooks,
+    looks: &PartAppearances,
     settings: &MatchSettings,
 ) -> Result<Vec<[Option<usize>; 2]>, RegionMatchError> {
-    let groups = grouped(designs, looks, settings, &[])?;
-    // Of one with several, the one repeats; of several with several, no part is omitted.
+    let groups = group_parts(designs, looks, settings, &[])?;
+    // The last part of the shorter list repeats, so no part is omitted.
     let pairs = |PartGroup { parts }: &PartGroup| -> Vec<[Option<usize>; 2]> {
         let count = parts.iter().map(Vec::len).max().unwrap_or(0);
         let part_or_last =
@@ -62,13 +63,13 @@ pub(crate) fn paired_parts(
     Ok(groups.iter().flat_map(pairs).collect())
 }
 
-/// Groups all parts of both designs, in the order of the source's parts.
+/// Divides all parts of both designs into groups, in the order of the source's parts.
 ///
 /// # Errors
 /// [`RegionMatchError`] for links or pins that contradict each other.
-pub(super) fn grouped(
+pub(super) fn group_parts(
     designs: [&Regions; 2],
-    looks: &PartLooks,
+    looks: &PartAppearances,
     settings: &MatchSettings,
     pins: &[LocatedPin],
 ) -> Result<Vec<PartGroup>, RegionMatchError> {
@@ -77,7 +78,8 @@ pub(super) fn grouped(
         .iter()
         .map(|g| [g.parts[0][0], g.parts[1][0]])
         .collect();
-    // In each group one pair is passed on as fixed; its other parts are taken.
+    // Pass the first pair of each group on as fixed. Exclude the group's other parts from the
+    // pairing.
     let unmatched = declared_unmatched(designs, settings, &groups);
     let fixed_parts = Side::BOTH.map(|side| -> Vec<usize> {
         let additional = groups.iter().flat_map(|g| g.parts[side][1..].to_vec());
@@ -104,9 +106,13 @@ pub(super) fn grouped(
     Ok(groups)
 }
 
-/// Dissolves pairs of a letter with something else, provided that other pairs remain: a wave that
-/// turns into a letter would make neither recognisable.
-fn without_text_mismatches(pairing: Pairing, looks: &PartLooks, fixed: &[[usize; 2]]) -> Pairing {
+/// Dissolves pairs of a letter with a part that is not a letter, provided that other pairs remain:
+/// if a wave turned into a letter, neither would be recognisable.
+fn without_text_mismatches(
+    pairing: Pairing,
+    looks: &PartAppearances,
+    fixed: &[[usize; 2]],
+) -> Pairing {
     let is_mixed = |pair: &[usize; 2]| {
         let [a, b] = Side::BOTH.map(|side| looks.is_text(side, pair[side]));
         a != b && !fixed.contains(pair)
@@ -127,7 +133,7 @@ fn without_text_mismatches(pairing: Pairing, looks: &PartLooks, fixed: &[[usize;
     }
 }
 
-/// Returns the pairs of parts that links and pins name, each once, ascending.
+/// Returns the pairs of parts that the user's links and pins name, each once, ascending.
 pub(super) fn fixed_pairs(
     designs: [&Regions; 2],
     settings: &MatchSettings,
@@ -144,11 +150,11 @@ pub(super) fn fixed_pairs(
     pairs
 }
 
-/// Returns the groups of parts that links and pins name.
+/// Returns the groups of the parts that the user's links and pins name.
 ///
 /// # Errors
-/// [`PairError::Twice`] if several parts would be grouped with several, or with one although the
-/// rule for parts forbids splitting.
+/// [`PairError::Twice`] if several parts would be grouped with several, or if several would be
+/// grouped with one although the rule for parts forbids splitting.
 fn user_groups(
     designs: [&Regions; 2],
     settings: &MatchSettings,
@@ -201,12 +207,12 @@ fn declared_unmatched(
     unmatched
 }
 
-/// Adds each unmatched part to a group that will be split for it, within the same paint layer, or
-/// gives it a group of its own.
+/// Adds each unmatched part to the nearest group whose part in the other design may be split for
+/// it, or gives it a group of its own if there is none in its paint layer.
 fn assign_unmatched(
     groups: &mut Vec<PartGroup>,
     designs: [&Regions; 2],
-    looks: &PartLooks,
+    looks: &PartAppearances,
     rule: PartRule,
     pairing: &Pairing,
 ) {
@@ -240,12 +246,12 @@ fn assign_unmatched(
     }
 }
 
-/// Returns the group whose single part on the other side is nearest to a part. Only groups in the
-/// part's paint layer whose single part may be cut are considered.
+/// Returns the index of the group whose single part in the other design is nearest to the given
+/// part. Considers only groups in the part's paint layer whose single part may be cut.
 pub(super) fn nearest_group(
     groups: &[PartGroup],
     centres: &[Vec<DVec2>; 2],
-    looks: &PartLooks,
+    looks: &PartAppearances,
     side: Side,
     part: usize,
 ) -> Option<usize> {

@@ -1,7 +1,7 @@
-//! Assigns large unmatched parts to the nearest pair of parts, so that they get a partner.
+//! Assigns each large unmatched part to the nearest pair of parts, so that it gets a partner.
 //!
-//! The pair becomes a group of two parts and one, and the single part of the other design is cut
-//! into a piece for each.
+//! The pair becomes a group of two parts of one design and a single part of the other. The single
+//! part is then cut into one piece for each of the two.
 
 use super::super::PartRule;
 use super::super::pairing::relative_centres;
@@ -11,15 +11,15 @@ use super::plan::MatchPlan;
 use crate::geometry::{DVec2, Region, Side};
 use crate::work::progress::Progress;
 
-/// Minimum fraction of its design's area at which an unmatched part is assigned to a group
-/// (heuristic).
+/// Minimum area of an unmatched part that is assigned to a group, as a fraction of its design's
+/// area (heuristic).
 const MIN_AREA: f64 = 0.1;
 
 impl MatchPlan<'_> {
-    /// Returns the same designs with their large unmatched parts assigned to groups. Returns `None`
-    /// if there are no such parts, if no part can be cut for them, or if the user chose a rule for
-    /// parts.
-    pub(crate) fn shared_out(&self, progress: &dyn Progress) -> Option<Self> {
+    /// Returns this plan with its large unmatched parts assigned to groups. Returns `None` if there
+    /// are no such parts, if no part can be cut for them, if the user chose a rule for parts, or if
+    /// a design has very many rings.
+    pub(crate) fn with_large_parts_assigned(&self, progress: &dyn Progress) -> Option<Self> {
         if self.settings.parts != PartRule::Auto || self.has_many_rings() {
             return None;
         }
@@ -56,8 +56,8 @@ impl MatchPlan<'_> {
         large
     }
 
-    /// Assigns an unmatched part to the nearest pair. Returns whether the pair's part in the other
-    /// design can be cut for it.
+    /// Assigns an unmatched part to the nearest pair. Returns false, and changes nothing, if there
+    /// is no such pair or if its part in the other design cannot be cut.
     fn assign_to_nearest(
         &mut self,
         side: Side,
@@ -67,14 +67,14 @@ impl MatchPlan<'_> {
     ) -> bool {
         let is_paired = |group: &&PartGroup| group.parts.iter().all(|parts| !parts.is_empty());
         let paired: Vec<PartGroup> = self.groups.iter().filter(is_paired).cloned().collect();
-        let nearest = nearest_group(&paired, centres, self.looks(), side, part);
+        let nearest = nearest_group(&paired, centres, self.appearances(), side, part);
         let Some(nearest) = nearest.map(|k| &paired[k]) else {
             return false;
         };
         let mut extended = nearest.clone();
         extended.parts[side].push(part);
         extended.parts[side].sort_unstable();
-        let Some(cut) = self.split(&extended, progress) else {
+        let Some(cut) = self.split_part(&extended, progress) else {
             return false;
         };
         let groups = std::mem::take(&mut self.groups);
@@ -92,7 +92,7 @@ impl MatchPlan<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::correspondence::{MatchSettings, PartLooks, UnmatchedPart};
+    use crate::correspondence::{MatchSettings, PartAppearances, UnmatchedPart};
     use crate::geometry::{FillRule, Regions};
     use crate::work::progress::Silent;
 
@@ -130,19 +130,21 @@ mod tests {
     fn a_large_unmatched_part_is_cut_from_its_neighbours_partner() {
         let [one, two] = designs();
         for designs in [[&one, &two], [&two, &one]] {
-            let (looks, settings) = (PartLooks::default(), MatchSettings::default());
+            let (looks, settings) = (PartAppearances::default(), MatchSettings::default());
             let plan = MatchPlan::new(designs, &looks, &settings, &Silent).expect("designs");
             assert_eq!(part_counts(&plan), (2, 1));
-            let changed = plan.shared_out(&Silent).expect("a part is unmatched");
+            let changed = plan
+                .with_large_parts_assigned(&Silent)
+                .expect("a part is unmatched");
             assert_eq!(part_counts(&changed), (3, 0));
-            assert!(changed.shared_out(&Silent).is_none());
+            assert!(changed.with_large_parts_assigned(&Silent).is_none());
         }
     }
 
     #[test]
     fn declared_and_small_unmatched_parts_stay_unmatched() {
         let [one, two] = designs();
-        let looks = PartLooks::default();
+        let looks = PartAppearances::default();
         let declared = MatchSettings {
             lone: vec![UnmatchedPart {
                 side: Side::Target,
@@ -151,7 +153,7 @@ mod tests {
             ..MatchSettings::default()
         };
         let plan = MatchPlan::new([&one, &two], &looks, &declared, &Silent).expect("designs");
-        assert!(plan.shared_out(&Silent).is_none());
+        assert!(plan.with_large_parts_assigned(&Silent).is_none());
         let small = blocks(&[
             (0.0, 0.0, 8.0, 3.0),
             (4.5, 4.0, 1.0, 1.0),
@@ -159,6 +161,6 @@ mod tests {
         ]);
         let settings = MatchSettings::default();
         let plan = MatchPlan::new([&one, &small], &looks, &settings, &Silent).expect("designs");
-        assert!(plan.shared_out(&Silent).is_none());
+        assert!(plan.with_large_parts_assigned(&Silent).is_none());
     }
 }

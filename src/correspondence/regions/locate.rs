@@ -4,7 +4,7 @@ use super::super::{MatchSettings, PointPair};
 use super::region_match::RegionMatchError;
 use crate::geometry::{DVec2, Regions};
 
-/// Identifies a ring of a design.
+/// Indices that identify a ring of a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct RingIndex {
     /// Index of the part.
@@ -13,20 +13,21 @@ pub(super) struct RingIndex {
     pub(super) ring: usize,
 }
 
-/// A pin with the rings that it lies on, source first.
+/// A pin with its ends and the rings on which they lie, source first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LocatedPin {
-    /// Index among all pins.
+    /// Index of the pin in the settings.
     pub(super) index: usize,
     pub(super) on: [RingIndex; 2],
     pub(super) points: [DVec2; 2],
 }
 
-/// Checks that all coordinates in the settings are finite.
+/// Checks that all coordinates of pins, links, cuts and unmatched parts are finite.
 ///
 /// # Errors
-/// [`RegionMatchError::NotFinite`] with the index among all pins, links, cuts and unmatched parts.
-pub(super) fn check(settings: &MatchSettings) -> Result<(), RegionMatchError> {
+/// [`RegionMatchError::NotFinite`] with an index that counts pins, links, cuts and unmatched parts,
+/// in this order.
+pub(super) fn check_places(settings: &MatchSettings) -> Result<(), RegionMatchError> {
     let pairs = settings.pins.iter().chain(&settings.links);
     let cuts = settings.cuts.iter().map(|cut| [cut.outer, cut.hole]);
     let unmatched = settings.lone.iter().map(|part| [part.at; 2]);
@@ -42,8 +43,8 @@ pub(super) fn check(settings: &MatchSettings) -> Result<(), RegionMatchError> {
     Ok(())
 }
 
-/// Returns each pin with the rings nearest to its ends.
-pub(super) fn pins(settings: &MatchSettings, designs: [&Regions; 2]) -> Vec<LocatedPin> {
+/// Returns each pin with the rings that are nearest to its ends.
+pub(super) fn locate_pins(settings: &MatchSettings, designs: [&Regions; 2]) -> Vec<LocatedPin> {
     let located = |(index, pair): (usize, &PointPair)| {
         let points = pair.to_array();
         let on = [0, 1].map(|s| nearest_ring(designs[s], points[s]));

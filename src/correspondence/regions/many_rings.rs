@@ -1,8 +1,8 @@
-//! Limits on the effort for designs with very many rings.
+//! Limits the effort of matching designs with very many rings (outer boundaries and holes).
 //!
 //! The time to match a ring grows with the square of its samples, and each unmatched hole could be
-//! cut open in dozens of ways. Above a number of rings, the samples of all rings together are
-//! limited, unmatched holes close, and only the requested match is tried.
+//! cut open in dozens of ways. If a design has more than [`MAX_RINGS`] rings, the samples of all
+//! rings together are limited, unmatched holes close, and only the requested match is tried.
 
 use super::super::{HoleRule, MatchOptions};
 use crate::geometry::Regions;
@@ -11,10 +11,11 @@ use crate::geometry::Regions;
 /// letters have fewer).
 const MAX_RINGS: usize = 32;
 
-/// Minimum number of samples of a ring, enough for the corners of a letter (heuristic).
+/// Minimum number of samples of a ring if rings are many, enough for the corners of a letter
+/// (heuristic).
 const MIN_SAMPLES: u32 = 24;
 
-/// Returns the number of rings of the design that has more.
+/// Returns the larger of the two designs' numbers of rings.
 fn max_ring_count(designs: [&Regions; 2]) -> usize {
     let count = |design: &Regions| design.rings().count();
     designs.map(count).into_iter().max().unwrap_or(0)

@@ -16,7 +16,8 @@ pub(crate) struct MatchedCurves {
     matched: BoundaryMatch,
     /// Maximum edge length of the shared polygons, in fractions of the curves' mean length.
     spacing: f64,
-    /// For each design, the slits that its curve follows in both directions.
+    /// For each design: both ends of each slit (a straight cut from a hole to another boundary).
+    /// The curve runs along each slit in both directions.
     slits: [Vec<[DVec2; 2]>; 2],
     /// Places of the ring's vertices, `[source, target]`.
     places: Vec<[f64; 2]>,
@@ -32,7 +33,7 @@ impl MatchedCurves {
     ) -> (Self, SharedPolygons) {
         let mut shared = matched.polygons(&curves[0], &curves[1], spacing);
         for side in Side::BOTH {
-            // Both passages of a slit need the same vertices.
+            // The curve passes along a slit twice, and both passages need the same vertices.
             for &slit in &slits[side] {
                 let other = &curves[side.other()];
                 mirror_slit_vertices(&mut shared, side, &curves[side], slit, other);
@@ -58,13 +59,14 @@ impl MatchedCurves {
         &self.places
     }
 
-    /// Returns whether a vertex is a pin.
+    /// Returns whether the vertex with this index is a pin.
     pub(crate) fn is_pinned(&self, vertex: usize) -> bool {
         is_pin(&self.matched.pins, self.places[vertex])
     }
 
-    /// Returns the pair with its vertices at other places, one for each vertex and close to the
-    /// previous ones. Vertices that would break monotonicity are omitted, except pins.
+    /// Returns the pair with its vertices moved to other places. `places` holds the new place of
+    /// each vertex, which must be close to its old one. Vertices that would break monotonicity are
+    /// omitted, except pins.
     pub(super) fn with_places(&self, places: &[[f64; 2]]) -> (Self, SharedPolygons) {
         let wrapped = |place: &[f64; 2]| [0, 1].map(|side| self.curves[side].wrapped(place[side]));
         let places: Vec<[f64; 2]> = places.iter().map(wrapped).collect();

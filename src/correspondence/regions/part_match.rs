@@ -1,9 +1,10 @@
-//! Matches one part with one part, including holes and cuts, to a [`PieceMatch`].
+//! Matches one part of the source with one part of the target, including holes and cuts. The result
+//! is a [`PieceMatch`].
 
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::BoundaryCurve;
 use super::super::options::MatchError;
-use super::closing::{FreeSpace, RingVertices, centre};
+use super::closing::{FreeSpace, RingVertices, outline_centre};
 use super::matched_curves::MatchedCurves;
 use super::part_matcher::{PartMatchTask, PartMatcher, PartPin};
 use super::region_match::{PieceMatch, RegionMatchError, RingMatch};
@@ -11,12 +12,12 @@ use crate::geometry::{DVec2, Ring, Side};
 use crate::work::progress::{Cancelled, check_cancelled};
 use rayon::prelude::*;
 
-/// Maximum edge length of shared outlines, in fractions of the outer ring's length: 80 edges
-/// around. Fewer would bend coarsely; more cost time in the interior, which grows with their square
-/// (heuristic).
+/// Maximum edge length of matched rings, as a fraction of the outer ring's length: at least 80
+/// edges around. Fewer edges would bend coarsely; more edges cost time, because the number of
+/// triangles inside grows with their square (heuristic).
 const MAX_EDGE: f64 = 0.0125;
 
-/// Minimum number of vertices of a ring; the spacing alone would turn a small hole into a triangle
+/// Minimum number of vertices of a ring. [`MAX_EDGE`] alone would turn a small hole into a triangle
 /// (heuristic).
 const MIN_VERTICES: f64 = 10.0;
 
@@ -27,7 +28,7 @@ const MIN_VERTICES: f64 = 10.0;
 pub(super) fn match_part(task: &PartMatchTask) -> Result<PieceMatch, RegionMatchError> {
     let mut matcher = PartMatcher::new(task);
     let uncut = matcher.outer_match()?;
-    let (pairing, cuts) = matcher.paired_and_cut(uncut.rotation())?;
+    let (pairing, cuts) = matcher.pair_and_cut_holes(uncut.rotation())?;
     // Cuts change the boundary loops, so these are matched again.
     let outer = if cuts.is_empty() {
         uncut
@@ -39,7 +40,8 @@ pub(super) fn match_part(task: &PartMatchTask) -> Result<PieceMatch, RegionMatch
         check_cancelled(task.progress)?;
         matcher.hole_ring(pair, outer.rotation())
     });
-    // Collected first, so that the reported error does not depend on the order of completion.
+    // Collect all results first, so that the reported error does not depend on the order of
+    // completion.
     let holes: Vec<Result<RingMatch, RegionMatchError>> = holes.collect();
     for hole in holes {
         rings.push(hole?);
@@ -72,8 +74,8 @@ impl PartMatcher<'_> {
         Ok(RingMatch::from_curves(curves, polygons))
     }
 
-    /// Matches two paired holes. They are rotated like their parts, which decides the rotation of
-    /// holes whose shape leaves it open.
+    /// Matches two paired holes. They are first rotated like their parts, by `rotation` radians, so
+    /// that holes whose shape determines no rotation, such as circles, follow their parts.
     fn hole_ring(&self, [a, b]: [usize; 2], rotation: f64) -> Result<RingMatch, RegionMatchError> {
         let holes = [
             &self.task.regions[0].holes[a],
@@ -82,16 +84,16 @@ impl PartMatcher<'_> {
         let curve = |ring: &Ring| BoundaryCurve::closed(ring).map_err(MatchError::from);
         let curves = [curve(holes[0])?, curve(holes[1])?];
         let turned = |ring: &Ring, by: f64| {
-            let (turn, middle) = (DVec2::from_angle(by), centre(ring));
+            let (turn, middle) = (DVec2::from_angle(by), outline_centre(ring));
             curve(&ring.mapped(|p| turn.rotate(p - middle)))
         };
-        // Each side is rotated by half, so that the reverse match is the same bit by bit.
+        // Rotate each side by half the angle, so that the reverse match is exactly the inverse.
         let posed = [
             turned(holes[0], 0.5 * rotation)?,
             turned(holes[1], -0.5 * rotation)?,
         ];
         let is_here = |pin: &PartPin| pin.rings == [a + 1, b + 1];
-        let matched = self.matched(is_here, &curves, &posed)?;
+        let matched = self.match_with_pins(is_here, &curves, &posed)?;
         let [a, b] =
             Side::BOTH.map(|side| holes[side].perimeter() / self.boundaries[side].ring.perimeter());
         let spacing = spacing(0.5 * (a + b));
@@ -99,8 +101,8 @@ impl PartMatcher<'_> {
         Ok(RingMatch::from_curves(curves, polygons))
     }
 
-    /// Returns a ring for each unmatched hole that was not cut open: it closes to a point, or opens
-    /// from one.
+    /// Returns a ring for each unmatched hole that was not cut open. The ring closes to a point, or
+    /// opens from one. `around` is the matched outer ring.
     fn closing_rings(
         &self,
         around: &RingMatch,
@@ -134,7 +136,7 @@ impl PartMatcher<'_> {
         Ok(rings)
     }
 
-    /// Returns the ring with its long edges divided.
+    /// Returns the ring with long edges divided into shorter ones.
     fn subdivide_ring(&self, side: Side, ring: &Ring) -> Ring {
         let outer = self.boundaries[side].ring.perimeter();
         let longest = (MAX_EDGE * outer).min(ring.perimeter() / MIN_VERTICES);
@@ -147,8 +149,8 @@ impl PartMatcher<'_> {
     }
 }
 
-/// Returns the maximum edge length of a ring, in fractions of its own length. `relative_length` is
-/// the ratio of its length to that of the outer ring.
+/// Returns the maximum edge length of a ring, as a fraction of the ring's own length.
+/// `relative_length` is the ratio of the ring's length to the outer ring's length.
 fn spacing(relative_length: f64) -> f64 {
     (MAX_EDGE / relative_length).min(1.0 / MIN_VERTICES)
 }

@@ -1,8 +1,8 @@
-//! Working state while one part is matched with another: the boundary loops of both, the holes cut
+//! Working state of the match of one part with another: the boundary loops of both, the holes cut
 //! open so far, and the pins on each ring.
 //!
-//! Decides which holes are paired, which are cut open and which close, and matches the resulting
-//! outer boundaries.
+//! It decides which holes are paired, which are cut open and which close, and it matches the
+//! resulting outer boundaries.
 
 use super::super::boundary::match_curves;
 use super::super::boundary_match::BoundaryMatch;
@@ -17,27 +17,28 @@ use super::slit_boundary::SlitBoundary;
 use crate::geometry::{DVec2, Region, Ring, Side};
 use crate::work::progress::{Progress, check_cancelled};
 
-/// Cost of closing a hole, times the ratio of its length to that of the outer boundary. For a hole
-/// as long as the outer boundary it lies between the match costs of two poses of one shape (up to
-/// 0.3) and of dissimilar shapes (0.4 and more) (heuristic).
+/// Cost of closing a hole whose perimeter equals that of the outer boundary; the cost is
+/// proportional to the hole's perimeter. The value lies between the match costs of two poses of one
+/// shape (up to 0.3) and of dissimilar shapes (0.4 and more) (heuristic).
 const CLOSING_COST: f64 = 0.35;
 
 /// Treatment of the holes of two parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum HolePolicy {
-    /// Holes are paired; unmatched ones follow a rule.
+    /// Holes are paired; those without a partner are treated by the given rule.
     Paired(HoleRule),
-    /// No holes are paired, except by pins; all others are unmatched and excluded from the piece.
+    /// Holes are paired only by pins; all other holes are unmatched and excluded from the matched
+    /// piece.
     Unpaired,
 }
 
 impl HolePolicy {
-    /// Returns whether rings may be cut open.
+    /// Returns whether the policy allows rings to be cut open without a request by the user.
     fn cuts(self) -> bool {
         matches!(self, Self::Paired(HoleRule::Auto | HoleRule::Cut))
     }
 
-    /// Returns whether unmatched holes are excluded from the piece.
+    /// Returns whether unmatched holes are excluded from the matched piece.
     pub(super) fn leaves_transient(self) -> bool {
         matches!(self, Self::Paired(HoleRule::Transient) | Self::Unpaired)
     }
@@ -47,22 +48,22 @@ impl HolePolicy {
 pub(super) struct PartMatchTask<'a> {
     /// The two parts, source and target.
     pub(super) regions: [&'a Region; 2],
-    /// Indices of the two parts.
+    /// Indices of the two parts in their designs, source first.
     pub(super) parts: [usize; 2],
-    /// Index and points of each pin on these parts.
+    /// For each pin on these parts: its index among all pins, and its points in source and target.
     pub(super) pins: Vec<(usize, [DVec2; 2])>,
-    /// Index of each cut through one of these parts, with the cut.
+    /// For each cut through one of these parts: its index among all cuts, and the cut.
     pub(super) cuts: Vec<(usize, RingCut)>,
     pub(super) holes: HolePolicy,
     pub(super) options: MatchOptions,
     pub(super) progress: &'a dyn Progress,
 }
 
-/// A pin with the rings that it lies on.
+/// A pin with the rings on which its ends lie.
 pub(super) struct PartPin {
     /// Index among all pins.
     pub(super) index: usize,
-    /// Ring in each design: 0 for the outer ring, 1 + k for hole k.
+    /// Ring of the part in each design: 0 for the outer ring, 1 + k for hole k.
     pub(super) rings: [usize; 2],
     points: [DVec2; 2],
 }
@@ -71,23 +72,25 @@ pub(super) struct PartPin {
 pub(super) struct PartMatcher<'a> {
     /// Outer boundary loops of both parts, including the slits cut so far.
     pub(super) boundaries: [SlitBoundary; 2],
-    /// Holes of each side that its boundary loop runs around, because they were cut open.
-    opened: [Vec<usize>; 2],
+    /// For each design: indices of the holes that were cut open, so that the boundary loop runs
+    /// around them.
+    cut_holes: [Vec<usize>; 2],
     pub(super) pins: Vec<PartPin>,
-    /// Requests that could not be fulfilled.
+    /// Notes about requests that could not be fulfilled.
     pub(super) notes: Vec<MatchNote>,
     pub(super) task: &'a PartMatchTask<'a>,
 }
 
 impl PartPin {
-    /// Returns whether the pin ties a hole of `side` to the outer ring of the other.
+    /// Returns whether the pin ties a hole of the design `side` to the outer ring of the other
+    /// design.
     fn is_across(&self, side: Side) -> bool {
         self.rings[side] > 0 && self.rings[side.other()] == 0
     }
 }
 
 impl<'a> PartMatcher<'a> {
-    /// Starts with plain outer boundaries and locates the pins.
+    /// Starts with the outer boundaries, without slits, and locates the pins.
     pub(super) fn new(task: &'a PartMatchTask<'a>) -> Self {
         let nearest = |side: Side, p: DVec2| {
             let distances = task.regions[side]
@@ -103,17 +106,19 @@ impl<'a> PartMatcher<'a> {
         };
         Self {
             boundaries: task.regions.map(SlitBoundary::of_region),
-            opened: [Vec::new(), Vec::new()],
+            cut_holes: [Vec::new(), Vec::new()],
             pins: task.pins.iter().map(located).collect(),
             notes: Vec::new(),
             task,
         }
     }
 
-    /// Returns for each side the holes that a pin ties to the other side's outer ring, ascending.
+    /// Returns for each design the holes that a pin ties to the other design's outer ring,
+    /// ascending.
     ///
     /// # Errors
-    /// [`RegionMatchError::PinAcross`] if the holes are to close.
+    /// [`RegionMatchError::PinAcross`] if there is such a hole, but the rule is that unmatched
+    /// holes close.
     fn pins_across(&self) -> Result<[Vec<usize>; 2], RegionMatchError> {
         let mut across = [Vec::new(), Vec::new()];
         for pin in &self.pins {
@@ -132,8 +137,8 @@ impl<'a> PartMatcher<'a> {
         Ok(across)
     }
 
-    /// Returns for each side the requested cuts: index, hole and ends. Each hole is cut at most
-    /// once.
+    /// Returns for each design the cuts that the user requested: index of the cut, index of the
+    /// hole, and ends, the outer one first. Each hole is cut at most once.
     fn requested_cuts(&self) -> [Vec<(usize, usize, [DVec2; 2])>; 2] {
         Side::BOTH.map(|side| {
             let region = self.task.regions[side];
@@ -154,11 +159,12 @@ impl<'a> PartMatcher<'a> {
     }
 
     /// Pairs the holes, and cuts rings open where that is requested or matches better than closing
-    /// the hole. Returns the pairs and the cuts made.
+    /// the hole. Returns the pairs and the cuts made. `rotation` is that of the outer boundaries'
+    /// match, in radians.
     ///
     /// # Errors
     /// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.
-    pub(super) fn paired_and_cut(
+    pub(super) fn pair_and_cut_holes(
         &mut self,
         rotation: f64,
     ) -> Result<(Pairing, Vec<RingCut>), RegionMatchError> {
@@ -189,15 +195,15 @@ impl<'a> PartMatcher<'a> {
                 cuts.push((side, slit.ok_or(RegionMatchError::Cut(number))?));
             }
             let unmatched = [&pairing.source_only, &pairing.target_only][side];
-            // Each cut changes the boundary loop, so the largest hole, which matters most, is cut
-            // first.
+            // Each cut changes the boundary loop, so begin with the largest hole, which matters
+            // most.
             for hole in self.sorted_by_area(side, unmatched) {
                 let slit = self.open_if_better(side, hole, false);
                 check_cancelled(self.task.progress)?;
                 cuts.extend(slit.map(|ends| (side, ends)));
             }
             for &hole in &across[side] {
-                if !self.opened[side].contains(&hole) {
+                if !self.cut_holes[side].contains(&hole) {
                     let slit = self.open_if_better(side, hole, true);
                     check_cancelled(self.task.progress)?;
                     cuts.extend(slit.map(|ends| (side, ends)));
@@ -208,7 +214,7 @@ impl<'a> PartMatcher<'a> {
         Ok((pairing, cuts.into_iter().map(cut).collect()))
     }
 
-    /// Returns the pairs of holes that pins tie together, without the holes in `used_holes`.
+    /// Returns the pairs of holes that pins tie together, except pairs with a hole in `used_holes`.
     fn pinned_holes(&self, used_holes: &[Vec<usize>; 2]) -> Vec<[usize; 2]> {
         let mut fixed: Vec<[usize; 2]> = self
             .pins
@@ -231,26 +237,26 @@ impl<'a> PartMatcher<'a> {
         holes
     }
 
-    /// Returns the holes that are not cut open, with their indices.
+    /// Returns the indices of the holes that are not cut open, and these holes.
     pub(super) fn closed_holes(&self, side: Side) -> (Vec<usize>, Vec<&'a Ring>) {
         let holes = self.task.regions[side].holes.iter().enumerate();
-        let closed = holes.filter(|(k, _)| !self.opened[side].contains(k));
+        let closed = holes.filter(|(k, _)| !self.cut_holes[side].contains(k));
         closed.unzip()
     }
 
-    /// Cuts a hole open near the requested ends. Returns the slit, or `None` if no such slit is
-    /// possible.
+    /// Cuts a hole open near the requested ends. Returns the ends of the slit, or `None` if no such
+    /// slit is possible.
     fn open_requested(&mut self, side: Side, hole: usize, ends: [DVec2; 2]) -> Option<[DVec2; 2]> {
         let (numbers, holes) = self.closed_holes(side);
         let index = numbers.iter().position(|&k| k == hole)?;
         let slit = self.boundaries[side].slit(&holes, index, ends[0], ends[1])?;
         self.boundaries[side] = self.boundaries[side].cut_open(holes[index], &slit)?;
-        self.opened[side].push(hole);
+        self.cut_holes[side].push(hole);
         Some(slit.ends)
     }
 
-    /// Cuts a hole open if the rule or a pin (`forced`) demands it, or if that matches better than
-    /// closing it. Returns the slit, if any.
+    /// Cuts a hole open if the rule demands it, if a pin does (`forced`), or if that matches better
+    /// than closing the hole. Returns the ends of the slit if the hole was cut open.
     fn open_if_better(&mut self, side: Side, hole: usize, forced: bool) -> Option<[DVec2; 2]> {
         let rule = self.task.holes;
         if !rule.cuts() && !forced {
@@ -273,7 +279,7 @@ impl<'a> PartMatcher<'a> {
             self.note_uncut(side, hole, forced);
             return None;
         };
-        // Both costs are of coarse matches and therefore comparable.
+        // Both costs come from coarse matches, so they are comparable.
         if rule == HolePolicy::Paired(HoleRule::Auto) && !forced {
             let closed_cost = self.coarse_cost(side, &other)?;
             let length_ratio = holes[index].perimeter() / self.boundaries[side].ring.perimeter();
@@ -282,12 +288,12 @@ impl<'a> PartMatcher<'a> {
             }
         }
         self.boundaries[side] = candidate.boundary;
-        self.opened[side].push(hole);
+        self.cut_holes[side].push(hole);
         Some(candidate.slit.ends)
     }
 
-    /// Notes that a hole closes although it should have been cut open, and which pins are ignored
-    /// for that reason.
+    /// Adds a note if a hole closes although it should have been cut open, and one for each pin
+    /// that is ignored for that reason.
     fn note_uncut(&mut self, side: Side, hole: usize, forced: bool) {
         let part = self.task.parts[side];
         if forced || self.task.holes == HolePolicy::Paired(HoleRule::Cut) {
@@ -298,7 +304,7 @@ impl<'a> PartMatcher<'a> {
         self.notes.extend(pins.map(MatchNote::PinLeftOut));
     }
 
-    /// Returns the options for trial matches: without inner distances, which take longer.
+    /// Returns the options for trial matches: without inner distances, which would take longer.
     fn along_boundary(&self) -> MatchOptions {
         MatchOptions {
             inner: 0.0,
@@ -306,7 +312,7 @@ impl<'a> PartMatcher<'a> {
         }
     }
 
-    /// Returns the cost of a coarse match of one side's boundary with the other curve.
+    /// Returns the cost of a coarse match of one design's boundary loop with the curve `other`.
     fn coarse_cost(&self, side: Side, other: &BoundaryCurve) -> Option<f64> {
         let curve = self.boundaries[side].curve().ok()?;
         let coarse = ring_cut::coarse_options(&self.along_boundary());
@@ -320,19 +326,20 @@ impl<'a> PartMatcher<'a> {
         Ok([curve(Side::Source)?, curve(Side::Target)?])
     }
 
-    /// Matches the outer boundary loops as they are now, with all pins on them.
+    /// Matches the outer boundary loops, including the slits cut so far, with all pins on them.
     pub(super) fn outer_match(&self) -> Result<BoundaryMatch, RegionMatchError> {
         let curves = self.curves()?;
         let is_outer =
-            |side: Side, ring: usize| ring == 0 || self.opened[side].contains(&(ring - 1));
+            |side: Side, ring: usize| ring == 0 || self.cut_holes[side].contains(&(ring - 1));
         let is_on_both =
             |pin: &PartPin| (Side::BOTH.into_iter()).all(|side| is_outer(side, pin.rings[side]));
-        self.matched(is_on_both, &curves, &curves)
+        self.match_with_pins(is_on_both, &curves, &curves)
     }
 
-    /// Matches two curves with the pins that satisfy `is_here`. Pins are located on the `located`
-    /// curves, which have the same places. Errors refer to pins by their indices among all pins.
-    pub(super) fn matched(
+    /// Matches two curves with the pins that satisfy `is_here`. The places of pins are found on the
+    /// curves `located`, which may be rotated copies of the two. Errors refer to pins by their
+    /// indices among all pins.
+    pub(super) fn match_with_pins(
         &self,
         is_here: impl Fn(&PartPin) -> bool,
         located: &[BoundaryCurve; 2],
@@ -350,7 +357,8 @@ impl<'a> PartMatcher<'a> {
     }
 }
 
-/// Replaces local pin indices in an error with indices among all pins.
+/// Replaces the pin indices in an error, which count the pins of one match, with indices among all
+/// pins.
 fn renumber_pins(error: PinError, index_of: impl Fn(usize) -> usize) -> PinError {
     match error {
         PinError::NotFinite(k) => PinError::NotFinite(index_of(k)),

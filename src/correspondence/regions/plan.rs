@@ -1,9 +1,10 @@
-//! Prepares the match of two designs: groups their parts and splits those that need it. The result
-//! is independent of the match options, so that several matches can share it.
+//! Plans the match of two designs: divides their parts into groups, splits parts that are matched
+//! with several, and matches the groups. The plan does not depend on the match options, so that
+//! several matches with different options can share it.
 
 use super::super::{MatchOptions, MatchSettings, RingCut};
-use super::closing::{centre, shrunk};
-use super::groups::{PartGroup, fixed_pairs, grouped};
+use super::closing::{outline_centre, shrink_to};
+use super::groups::{PartGroup, fixed_pairs, group_parts};
 use super::locate;
 use super::locate::{LocatedPin, nearest_ring};
 use super::many_rings;
@@ -13,12 +14,12 @@ use super::region_match::{
     MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingMatch,
 };
 use super::split::split;
-use crate::correspondence::looks::PartLooks;
+use crate::correspondence::looks::PartAppearances;
 use crate::geometry::{DVec2, Region, Regions, Ring, Side, SourceTarget};
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled, checkpoint};
 use rayon::prelude::*;
 
-/// Fraction of the progress bar reached once parts are paired and split (heuristic).
+/// Progress reported once parts are paired and split, in [0, 1] (heuristic).
 const PREPARED: f64 = 0.2;
 
 /// Two designs with their parts grouped and, where needed, split.
@@ -26,21 +27,22 @@ const PREPARED: f64 = 0.2;
 pub(crate) struct MatchPlan<'a> {
     pub(super) designs: [&'a Regions; 2],
     /// Appearance of the parts.
-    looks: &'a PartLooks,
+    appearances: &'a PartAppearances,
     pub(super) settings: &'a MatchSettings,
     /// Pairs of parts that the user linked or pinned.
     pub(super) fixed_pairs: Vec<[usize; 2]>,
-    /// Pins with the rings that they lie on.
+    /// Pins with the rings on which their ends lie.
     pins: Vec<LocatedPin>,
     parts: [DesignParts<'a>; 2],
     pub(super) groups: Vec<PartGroup>,
-    /// For each group, the pieces into which its single part is cut; `None` if it is not cut.
+    /// For each group: the pieces into which its single part is cut, in the order of the parts that
+    /// they match; `None` if it is not cut.
     pub(super) pieces: Vec<Option<Vec<Region>>>,
-    /// Whether a design has so many rings that effort is limited.
-    is_crowd: bool,
+    /// Whether a design has so many rings that the effort is limited (see [`many_rings`]).
+    has_many_rings: bool,
 }
 
-/// Parts of a design, with their centres.
+/// Parts of a design, with the centres of their outer rings.
 #[derive(Clone)]
 struct DesignParts<'a> {
     regions: Vec<&'a Region>,
@@ -51,7 +53,7 @@ impl<'a> DesignParts<'a> {
     fn of(design: &'a Regions) -> Self {
         Self {
             regions: design.iter().collect(),
-            centres: design.iter().map(|r| centre(&r.outer)).collect(),
+            centres: design.iter().map(|r| outline_centre(&r.outer)).collect(),
         }
     }
 }
@@ -64,56 +66,66 @@ impl<'a> MatchPlan<'a> {
     /// [`RegionMatchError`] for settings that contradict each other, or if the work is cancelled.
     pub(crate) fn new(
         designs: [&'a Regions; 2],
-        looks: &'a PartLooks,
+        looks: &'a PartAppearances,
         settings: &'a MatchSettings,
         progress: &dyn Progress,
     ) -> Result<Self, RegionMatchError> {
-        locate::check(settings)?;
-        let pins = locate::pins(settings, designs);
+        locate::check_places(settings)?;
+        let pins = locate::locate_pins(settings, designs);
         let mut plan = Self {
-            groups: grouped(designs, looks, settings, &pins)?,
+            groups: group_parts(designs, looks, settings, &pins)?,
             fixed_pairs: fixed_pairs(designs, settings, &pins),
             parts: designs.map(DesignParts::of),
-            is_crowd: many_rings::has_many_rings(designs),
+            has_many_rings: many_rings::has_many_rings(designs),
             designs,
-            looks,
+            appearances: looks,
             settings,
             pins,
             pieces: Vec::new(),
         };
         let groups = plan.groups.par_iter();
-        plan.pieces = groups.map(|group| plan.split(group, progress)).collect();
+        plan.pieces = groups
+            .map(|group| plan.split_part(group, progress))
+            .collect();
         check_cancelled(progress)?;
         Ok(plan)
     }
 
-    /// Replaces the groups and their pieces, sorted canonically.
+    /// Replaces the groups and their pieces, sorted by [`PartGroup::key`].
     pub(super) fn set_groups(&mut self, mut groups: Vec<(PartGroup, Option<Vec<Region>>)>) {
         groups.sort_by_key(|(group, _)| group.key());
         (self.groups, self.pieces) = groups.into_iter().unzip();
     }
 
-    /// Returns whether a line is drawn along any part of a group; a cut through such a part would
-    /// be visible.
-    pub(crate) fn is_lined(&self, group: usize) -> bool {
+    /// Returns whether a line is drawn along any part of the group with this index; a cut through
+    /// such a part would be visible.
+    pub(crate) fn is_stroked(&self, group: usize) -> bool {
         let parts = &self.groups[group].parts;
-        let is_lined = |side: Side| parts[side].iter().any(|&k| self.looks.is_lined(side, k));
+        let is_lined = |side: Side| {
+            parts[side]
+                .iter()
+                .any(|&k| self.appearances.is_lined(side, k))
+        };
         Side::BOTH.into_iter().any(is_lined)
     }
 
     /// Returns the appearance of the parts.
-    pub(crate) fn looks(&self) -> &'a PartLooks {
-        self.looks
+    pub(crate) fn appearances(&self) -> &'a PartAppearances {
+        self.appearances
     }
 
     /// Returns whether a design has so many rings that only one match is tried.
     pub(crate) fn has_many_rings(&self) -> bool {
-        self.is_crowd
+        self.has_many_rings
     }
 
-    /// Cuts the single part of a group into a piece for each part on the other side. Returns `None`
-    /// for other groups, or if no cut is found.
-    pub(super) fn split(&self, group: &PartGroup, progress: &dyn Progress) -> Option<Vec<Region>> {
+    /// Cuts the single part of a group into one piece for each of the several parts in the other
+    /// design. Returns `None` for other groups, or if no cut is found.
+    pub(super) fn split_part(
+        &self,
+        group: &PartGroup,
+        progress: &dyn Progress,
+    ) -> Option<Vec<Region>> {
         let regions = self.regions(group);
         match [&regions[0][..], &regions[1][..]] {
             [[_], [_]] => None,
@@ -146,7 +158,7 @@ impl<'a> MatchPlan<'a> {
     ///
     /// # Errors
     /// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.
-    pub(crate) fn matched(
+    pub(crate) fn match_all_groups(
         &self,
         options: &MatchOptions,
         progress: &dyn Progress,
@@ -155,10 +167,14 @@ impl<'a> MatchPlan<'a> {
         let remaining = ProgressSpan::new(progress, PREPARED, 1.0);
         let shares = ProgressShares::new(&remaining, self.groups.len());
         let groups = (0..self.groups.len()).into_par_iter();
-        let holes = HolePolicy::Paired(many_rings::hole_rule(self.settings.holes, self.is_crowd));
+        let holes = HolePolicy::Paired(many_rings::hole_rule(
+            self.settings.holes,
+            self.has_many_rings,
+        ));
         let pieces =
-            groups.map(|group| self.matched_group(group, options, holes, &shares.part(group)));
-        // Collected first, so that the reported error does not depend on the order of completion.
+            groups.map(|group| self.match_group(group, options, holes, &shares.part(group)));
+        // Collect all results first, so that the reported error does not depend on the order of
+        // completion.
         let pieces: Vec<Result<Vec<PieceMatch>, RegionMatchError>> = pieces.collect();
         let pieces: Vec<_> = pieces.into_iter().collect::<Result<_, _>>()?;
         Ok(RegionMatch {
@@ -166,12 +182,12 @@ impl<'a> MatchPlan<'a> {
         })
     }
 
-    /// Matches one group with the given options. The order of its pieces does not depend on the
-    /// options.
+    /// Matches the group with this index with the given options. The order of its pieces does not
+    /// depend on the options.
     ///
     /// # Errors
     /// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.
-    pub(crate) fn matched_group(
+    pub(crate) fn match_group(
         &self,
         group: usize,
         options: &MatchOptions,
@@ -186,7 +202,8 @@ impl<'a> MatchPlan<'a> {
         Ok(pieces)
     }
 
-    /// Matches the parts of a group, or the pieces in `cut`.
+    /// Matches the parts of a group. If its single part was cut, `cut` holds the pieces, which are
+    /// matched instead of the part.
     fn match_group_pieces(
         &self,
         group: &PartGroup,
@@ -216,7 +233,7 @@ impl<'a> MatchPlan<'a> {
             [several, [one]] => (one, several, Side::Target),
             _ => return Ok(Vec::new()),
         };
-        // The pieces are in the order of the parts that they match.
+        // The pieces are in the same order as the parts that they match.
         let others = &group.parts[side.other()];
         let match_piece = |k: usize, piece: &Region| {
             let regions = SourceTarget::with_side(side, piece, several[k]);
@@ -242,14 +259,15 @@ impl<'a> MatchPlan<'a> {
         pieces.into_iter().collect()
     }
 
-    /// Returns the index and points of each pin on a pair of parts.
+    /// Returns each pin on a pair of parts: its index among all pins, and its points in source and
+    /// target.
     fn pins_of(&self, parts: [usize; 2]) -> Vec<(usize, [DVec2; 2])> {
         let is_on_pair = |pin: &&LocatedPin| pin.on.map(|at| at.part) == parts;
         let pins = self.pins.iter().filter(is_on_pair);
         pins.map(|pin| (pin.index, pin.points)).collect()
     }
 
-    /// Returns the index of each cut through one of two parts, with the cut.
+    /// Returns each cut through one of two parts, with its index among all cuts.
     fn cuts_of(&self, parts: [usize; 2]) -> Vec<(usize, RingCut)> {
         let is_on_pair =
             |cut: &RingCut| nearest_ring(self.designs[cut.side], cut.hole).part == parts[cut.side];
@@ -257,8 +275,8 @@ impl<'a> MatchPlan<'a> {
         cuts.filter(|(_, cut)| is_on_pair(cut)).collect()
     }
 
-    /// Returns the piece of an unmatched part: in the other design it is a point that is displaced
-    /// like its nearest matched neighbour.
+    /// Returns the match of an unmatched part with a point of the other design. The point is the
+    /// part's centre, displaced like the nearest part that is matched.
     fn unmatched_piece(&self, side: Side, part: usize) -> PieceMatch {
         let here = self.parts[side].centres[part];
         let mut nearest = (f64::INFINITY, DVec2::ZERO);
@@ -284,8 +302,8 @@ impl<'a> MatchPlan<'a> {
     }
 }
 
-/// Returns the rings of a part. In the other design they are tiny similar rings, at `here`
-/// displaced by `displacement`.
+/// Matches each ring of a part, whose centre is `here`, with a tiny similar ring of the other
+/// design. The tiny rings lie at `here + displacement`.
 fn transient_rings(
     region: &Region,
     side: Side,
@@ -295,7 +313,7 @@ fn transient_rings(
     let ring = |ring: &Ring| {
         let whole = ring.points().to_vec();
         let size = POINT_SIZE * ring.bounds().diameter();
-        let point = shrunk(&whole, here, here + displacement, size, 0.0);
+        let point = shrink_to(&whole, here, here + displacement, size, 0.0);
         RingMatch::transient(side, whole, point)
     };
     region.rings().map(ring).collect()

@@ -1,5 +1,5 @@
-//! The result of matching two designs, the notes about what could not be done as requested, and the
-//! errors.
+//! The result of matching two designs, the notes about requests that could not be fulfilled, and
+//! the errors.
 
 #[cfg(doc)]
 use super::super::HoleRule;
@@ -10,8 +10,8 @@ use crate::geometry::{DVec2, Side, SourceTarget};
 use crate::work::progress::Cancelled;
 use serde::{Deserialize, Serialize};
 
-/// Diameter of the tiny ring that stands for a point, relative to the diameter of the part that it
-/// lies in or stands for (tolerance: a pixel on a screen of 4,000 pixels).
+/// Diameter of the tiny ring that represents a point, as a fraction of the diameter of the part in
+/// which it lies or to which it grows (tolerance: one pixel on a screen that is 4,000 pixels wide).
 pub const POINT_SIZE: f64 = 2.5e-4;
 
 /// Match of two whole designs.
@@ -22,26 +22,31 @@ pub struct RegionMatch {
     pub pieces: Vec<PieceMatch>,
 }
 
-/// Match of one connected piece.
+/// Match of one piece: a connected region of one design with a connected region, or a point, of the
+/// other.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PieceMatch {
-    /// Outer ring first, counter-clockwise, then holes, clockwise.
+    /// Rings of the piece: the outer ring first, counter-clockwise, then the holes, clockwise.
     pub rings: Vec<RingMatch>,
-    /// Holes that exist in only one design and are excluded from the piece ([`HoleRule::Transient`]):
-    /// clockwise in that design, a point in the other.
+    /// Holes that exist in only one design and are excluded from the piece
+    /// ([`HoleRule::Transient`]). Each is clockwise in that design, and a tiny ring that represents
+    /// a point in the other.
     pub lone: Vec<RingMatch>,
-    /// Part of the source that the piece is, or is cut from; `None` if the piece appears.
+    /// Index of the source's part that contains the piece; `None` if the piece exists only in the
+    /// target.
     pub source_part: Option<usize>,
-    /// Part of the target that the piece is, or is cut from; `None` if the piece disappears.
+    /// Index of the target's part that contains the piece; `None` if the piece exists only in the
+    /// source.
     pub target_part: Option<usize>,
-    /// Cuts that opened rings, with their ends on the outer boundary and on the hole.
+    /// Cuts that were made to open rings.
     pub cuts: Vec<RingCut>,
-    /// Rotation that best aligns the source's outer ring with the target's, in radians in (−π, π].
+    /// Rotation of the source's outer ring that best aligns it with the target's, in radians in
+    /// (−π, π].
     pub rotation: f64,
     /// Dissimilarity of the matched outer rings, see
     /// [`crate::correspondence::BoundaryMatch::cost`]; 0 for pieces that appear or disappear.
     pub cost: f64,
-    /// Requests that could not be fulfilled.
+    /// Notes about requests that could not be fulfilled.
     pub notes: Vec<MatchNote>,
 }
 
@@ -55,7 +60,7 @@ pub enum MatchNote {
     Uncut {
         /// Design that contains the hole.
         side: Side,
-        /// Part that contains the hole.
+        /// Index of the part that contains the hole.
         part: usize,
         /// Index of the hole in the part.
         hole: usize,
@@ -76,15 +81,15 @@ pub enum MatchNote {
 /// Corresponding vertices of one ring: vertex k of the source corresponds to vertex k of the
 /// target.
 ///
-/// A ring that was cut open runs along its slit twice, there and back, through the same points bit
-/// by bit.
+/// If a part was cut open, its ring runs along the slit twice, there and back, through exactly the
+/// same points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RingMatch {
-    /// Vertices on the source.
+    /// Vertices in the source.
     pub source: Vec<DVec2>,
-    /// Vertices on the target.
+    /// Vertices in the target.
     pub target: Vec<DVec2>,
-    /// Whether the ring is matched, closes or opens.
+    /// Whether the ring is matched with a ring, closes to a point or opens from one.
     pub kind: RingKind,
     /// The matched curves from which the vertices derive; `None` if the ring exists in only one
     /// design, or was read from a file.
@@ -96,11 +101,11 @@ pub struct RingMatch {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum RingKind {
-    /// It is matched with a ring of the other design.
+    /// The ring is matched with a ring of the other design.
     Matched,
-    /// It closes to a point in the target.
+    /// The ring exists in the source and closes to a point in the target.
     Closes,
-    /// It opens from a point in the source.
+    /// The ring exists in the target and opens from a point in the source.
     Opens,
 }
 
@@ -114,10 +119,11 @@ pub enum RegionMatchError {
     /// Pins on one boundary contradict each other; their indices are those among all pins.
     #[error("{0}")]
     Pins(PinError),
-    /// A coordinate of a pin, link, cut or unmatched part is not finite.
+    /// A coordinate of a pin, link, cut or unmatched part is not finite. The index counts these
+    /// four kinds in this order.
     #[error("pin, link or cut {} has a coordinate that is not finite; place it again", .0 + 1)]
     NotFinite(usize),
-    /// A pin ties a hole to an outer boundary, but the rule is that holes close.
+    /// A pin ties a hole to an outer boundary, but the rule is that unmatched holes close.
     #[error("pin {} ties a hole to an outer boundary; let the ring be cut open, or delete the pin", .0 + 1)]
     PinAcross(usize),
     /// A cut does not run straight inside its part from the hole to a boundary.
@@ -147,7 +153,7 @@ impl RegionMatch {
 impl PieceMatch {
     /// Returns whether the piece exists in both designs.
     #[must_use]
-    pub fn is_in_both(&self) -> bool {
+    pub fn is_matched(&self) -> bool {
         self.only_side().is_none()
     }
 
@@ -185,7 +191,8 @@ impl RingMatch {
         }
     }
 
-    /// Returns whether both sides have the same number of vertices, at least three, all finite.
+    /// Returns whether the ring has the same number of vertices in both designs, at least three,
+    /// and all are finite.
     pub(crate) fn is_sound(&self) -> bool {
         let mut points = self.source.iter().chain(&self.target);
         self.source.len() == self.target.len()
@@ -203,7 +210,8 @@ impl RingMatch {
         }
     }
 
-    /// Creates a ring of one design that is a point in the other.
+    /// Creates a ring of the design `side`, with vertices `whole`, that is a tiny ring `point` in
+    /// the other design.
     pub(super) fn transient(side: Side, whole: Vec<DVec2>, point: Vec<DVec2>) -> Self {
         let kind = match side {
             Side::Source => RingKind::Closes,

@@ -1,8 +1,8 @@
-//! Finds the best place to cut a ring open.
+//! Finds the best place to cut the ring around a hole open.
 //!
 //! Candidate cuts start at evenly spaced places on the boundary and end at the nearest point of the
-//! hole. Each is rated by a match with few samples. A second round tries places between the best
-//! one's neighbours.
+//! hole. Each is rated by the cost of a match with few samples. A second round tries places between
+//! the two neighbours of the best place.
 
 use super::super::boundary::match_curves;
 use super::super::curve::BoundaryCurve;
@@ -12,20 +12,22 @@ use crate::geometry::Ring;
 use crate::work::progress::{Progress, check_cancelled};
 use rayon::prelude::*;
 
-/// Number of places in the first round (resource limit: each needs a match of its own).
+/// Number of places on the boundary at which the first round tries a cut (resource limit: each
+/// needs a match of its own).
 const FIRST_PLACES: u32 = 28;
 /// Number of samples of each trial match (resource limit: keeps all trials together about as fast
 /// as one full match).
 const SAMPLES: u32 = 56;
 
-/// Number of places in the second round, between the best one's neighbours (resource limit).
+/// Number of places at which the second round tries a cut, between the two neighbours of the best
+/// place (resource limit).
 const SECOND_PLACES: u32 = 6;
 
-/// Weight of a slit's length, as a fraction of the boundary's length; it decides between cuts that
-/// match equally well (heuristic).
+/// Weight, in the cost of a cut, of the slit's length as a fraction of the boundary's length. It
+/// decides between cuts that match equally well (heuristic).
 const LENGTH_WEIGHT: f64 = 0.25;
 
-/// A cut boundary and how well it matches.
+/// A cut, the boundary loop after it, and its cost.
 #[derive(Clone, Debug)]
 pub(super) struct CutCandidate {
     pub(super) boundary: SlitBoundary,
@@ -34,8 +36,8 @@ pub(super) struct CutCandidate {
     pub(super) cost: f64,
 }
 
-/// Returns the best cut to hole `cut`. Returns `None` if no straight cut reaches it, or if the work
-/// is cancelled.
+/// Returns the best cut from the boundary loop to the hole `holes[cut]`, judged by a match with the
+/// curve `other`. Returns `None` if no straight cut reaches the hole, or if the work is cancelled.
 pub(super) fn best_cut(
     boundary: &SlitBoundary,
     holes: &[&Ring],
@@ -83,7 +85,8 @@ fn cost(
     Some(matched.cost() + LENGTH_WEIGHT * length)
 }
 
-/// Returns the options with few samples, for trial matches that are only compared with each other.
+/// Returns the options with few samples, for trial matches whose costs are only compared with each
+/// other.
 pub(super) fn coarse_options(options: &MatchOptions) -> MatchOptions {
     MatchOptions {
         samples: SAMPLES.min(options.samples),

@@ -1,5 +1,5 @@
-//! Boundary loops of cut-open rings: a single closed loop around a part, along the slit to a hole,
-//! around the hole and back along the slit.
+//! The boundary loop of a part whose holes were cut open: a single closed loop around the part,
+//! along the slit to a hole, around the hole and back along the slit.
 
 use super::super::curve::{BoundaryCurve, CurveLengthError};
 use crate::geometry::{DVec2, Region, Ring, nearest_segment_parameter, segments_touch};
@@ -15,11 +15,12 @@ pub(super) struct SlitBoundary {
 /// A straight cut from the boundary loop to a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slit {
-    /// Edge of the loop at which the slit starts, by the index of its first vertex.
+    /// Index of the loop's edge on which the slit starts; an edge has the index of its first
+    /// vertex.
     outer_edge: usize,
-    /// Edge of the hole at which the slit ends.
+    /// Index of the hole's edge on which the slit ends.
     hole_edge: usize,
-    /// Ends on the loop and on the hole.
+    /// End on the loop and end on the hole.
     pub(super) ends: [DVec2; 2],
 }
 
@@ -30,9 +31,9 @@ const END_SHARE: f64 = 1e-6;
 /// Positions along a slit, as fractions of its length, at which its clearance from the boundary is
 /// checked (heuristic).
 const CLEARANCE_CHECKS: [f64; 7] = [0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98];
-/// Minimum clearance, relative to the distance from the slit's nearer end. It rejects slits that
-/// almost run along the boundary, such as along the stem of an R, which rounding would let touch it
-/// (heuristic).
+/// Minimum distance of a point of the slit from all boundaries, as a fraction of the point's
+/// distance from the nearer end of the slit. It rejects slits that almost run along a boundary,
+/// such as along the stem of an R, because rounding could make them touch it (heuristic).
 const MIN_CLEARANCE: f64 = 0.1;
 
 impl SlitBoundary {
@@ -44,7 +45,7 @@ impl SlitBoundary {
         }
     }
 
-    /// Returns the curve along the loop.
+    /// Returns the curve along the boundary loop.
     ///
     /// # Errors
     /// [`CurveLengthError`] if its length overflows or underflows.
@@ -52,9 +53,9 @@ impl SlitBoundary {
         BoundaryCurve::closed(&self.ring)
     }
 
-    /// Returns the straight cut from the loop's point nearest to `outer` to hole `cut`'s point
-    /// nearest to `hole`. Returns `None` if the cut leaves the part, or touches the end of another
-    /// slit.
+    /// Returns the straight cut from the loop's point nearest to `outer` to the point of
+    /// `holes[cut]` nearest to `hole`. Returns `None` if the cut leaves the part, or starts at the
+    /// end of another slit.
     pub(super) fn slit(
         &self,
         holes: &[&Ring],
@@ -72,7 +73,7 @@ impl SlitBoundary {
         (!self.touches_slit(a) && self.is_free(holes, &slit)).then_some(slit)
     }
 
-    /// Returns the cut from a point of the loop to the nearest point of the hole.
+    /// Returns the straight cut from a point of the loop to the nearest point of `holes[cut]`.
     pub(super) fn slit_from(&self, holes: &[&Ring], cut: usize, outer: DVec2) -> Option<Slit> {
         self.slit(holes, cut, outer, outer)
     }
@@ -109,7 +110,7 @@ impl SlitBoundary {
             && CLEARANCE_CHECKS.iter().all(is_clear)
     }
 
-    /// Returns the loop that also follows the slit and runs around the hole.
+    /// Returns this loop extended along the slit, around the hole and back along the slit.
     pub(super) fn cut_open(&self, hole: &Ring, slit: &Slit) -> Option<Self> {
         let [a, b] = slit.ends;
         let mut points = ring_from(&self.ring, slit.outer_edge, a);
@@ -121,20 +122,20 @@ impl SlitBoundary {
     }
 }
 
-/// Returns the points once around a ring from a point on an edge; that point is both first and
-/// last.
+/// Returns the points once around a ring, starting and ending at the point `from` on the given
+/// edge.
 fn ring_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
     let points = ring.points();
     let n = points.len();
     let mut loop_points = vec![from];
     loop_points.extend((1..=n).map(|k| points[(edge + k) % n]));
     loop_points.push(from);
-    // A start that is a vertex would occur twice in a row.
+    // If `from` is a vertex, it would occur twice in a row.
     loop_points.dedup();
     loop_points
 }
 
-/// Returns the edge nearest to a point, among those allowed, and the nearest point on it.
+/// Returns the index of the allowed edge that is nearest to `p`, and the nearest point on it.
 fn nearest_edge(
     ring: &Ring,
     p: DVec2,
@@ -147,7 +148,7 @@ fn nearest_edge(
             continue;
         }
         let q = match nearest_segment_parameter(p, a, b) {
-            // Return vertices bit by bit: slits are later identified by their ends.
+            // Return vertices without rounding, because slits are later identified by their ends.
             0.0 => a,
             1.0 => b,
             along => a.lerp(b, along),

@@ -1,10 +1,11 @@
-//! Gives the two sides of a slit the same vertices.
+//! Gives both passages of a boundary loop along a slit the same vertices.
 //!
-//! A boundary loop follows its slit twice, and vertices of the other design fall on either passage
-//! arbitrarily. This module gives both passages all of these vertices, at the same points bit by
-//! bit. A mesh of the part before it was cut has these points once.
+//! A boundary loop follows a slit twice, there and back. Vertices that come from the other design
+//! lie on one passage or the other arbitrarily. This module gives both passages all of these
+//! vertices, at exactly the same points, so that a mesh of the uncut part needs each of the points
+//! only once.
 
-use super::super::boundary_match::interpolated;
+use super::super::boundary_match::interpolate_knots;
 use super::super::curve::BoundaryCurve;
 use super::super::shared_polygons::SharedPolygons;
 use crate::geometry::{DVec2, Side, SourceTarget};
@@ -13,36 +14,38 @@ use crate::geometry::{DVec2, Side, SourceTarget};
 /// along the slit. Below ½, so that no vertex is close to two of an even row (heuristic).
 const MERGE_DISTANCE: f64 = 0.35;
 
-/// A vertex on one passage.
+/// A vertex on one passage along a slit.
 #[derive(Clone, Copy)]
 struct PassageVertex {
     /// Position along the slit from its outer end, in (0, 1).
     along: f64,
-    /// Index among the shared vertices.
+    /// Index of the vertex in [`SharedPolygons`].
     vertex: usize,
 }
 
-/// A point of the slit that both passages contain as a vertex.
+/// A point of the slit at which both passages get a vertex.
 struct SlitVertex {
     /// Position along the slit from its outer end, in (0, 1).
     along: f64,
-    /// Existing vertices on the outward and on the return passage.
+    /// Indices of the vertices that the outward and the return passage already have here; `None`
+    /// where one is missing.
     existing: [Option<usize>; 2],
 }
 
-/// One passage along a slit: outward from its outer end, or the return to it.
+/// One passage along a slit: the outward passage from the slit's outer end, or the return passage
+/// to it.
 struct SlitPassage<'a> {
     /// Design that was cut.
     side: Side,
     /// Curve along the cut boundary loop.
     curve: &'a BoundaryCurve,
-    /// Curve of the other design.
+    /// Matched curve of the other design.
     other: &'a BoundaryCurve,
-    /// Outer and inner end of the slit.
+    /// Outer end and inner end of the slit.
     slit: [DVec2; 2],
     /// Whether this is the return passage.
     is_back: bool,
-    /// Places at which the passage begins and ends.
+    /// Places on `curve` at which the passage begins and ends.
     span: [f64; 2],
 }
 
@@ -77,7 +80,8 @@ pub(super) fn mirror_slit_vertices(
     insert(shared, side, curve, added);
 }
 
-/// Returns the intervals of places in which the curve runs along the slit: outward, then back.
+/// Returns the two intervals of places in which the curve runs along the slit: first outward, then
+/// back.
 fn passages(curve: &BoundaryCurve, [a, b]: [DVec2; 2]) -> Option<[[f64; 2]; 2]> {
     let points = curve.points();
     let n = points.len();
@@ -89,7 +93,8 @@ fn passages(curve: &BoundaryCurve, [a, b]: [DVec2; 2]) -> Option<[[f64; 2]; 2]> 
     Some([find(a, b)?, find(b, a)?])
 }
 
-/// Merges the vertices of both passages into one ascending list; close pairs become one.
+/// Merges the vertices of both passages into one ascending list. A close pair, one of each passage,
+/// becomes one vertex.
 fn merge_passages([outward, back]: &[Vec<PassageVertex>; 2]) -> Vec<SlitVertex> {
     let near = MERGE_DISTANCE / (outward.len().max(back.len()) + 1) as f64;
     let (mut i, mut j) = (0, 0);
@@ -118,8 +123,8 @@ fn merge_passages([outward, back]: &[Vec<PassageVertex>; 2]) -> Vec<SlitVertex> 
     vertices
 }
 
-/// Makes the positions strictly ascending, with space between neighbours. Inner vertices of a slit
-/// may move along it, because no outline runs there.
+/// Makes the positions strictly ascending, with space between neighbours. Vertices may move along a
+/// slit, because a slit is no part of the drawn outline.
 fn separate_positions(mut vertices: Vec<SlitVertex>) -> Vec<SlitVertex> {
     let count = vertices.len() as f64 + 1.0;
     let mut positions: Vec<f64> = vertices.iter().map(|vertex| vertex.along).collect();
@@ -128,7 +133,7 @@ fn separate_positions(mut vertices: Vec<SlitVertex>) -> Vec<SlitVertex> {
         .chain(positions.iter().copied())
         .chain(std::iter::once(1.0))
         .collect::<Vec<_>>();
-    // Crowded vertices are spaced evenly instead, because slivers along a slit have no good
+    // If any two are too close, space all vertices evenly: tiny edges along a slit would force thin
     // triangles.
     let is_crowded = bounds.windows(2).any(|w| w[1] - w[0] < 0.1 / count);
     for (k, vertex) in vertices.iter_mut().enumerate() {
@@ -143,9 +148,9 @@ fn separate_positions(mut vertices: Vec<SlitVertex>) -> Vec<SlitVertex> {
 
 /// A pair of corresponding vertices to be inserted.
 struct NewVertexPair {
-    /// Places on source and target.
+    /// Places on the source and on the target curve.
     places: [f64; 2],
-    /// Points on source and target.
+    /// Points on the source and on the target curve.
     points: [DVec2; 2],
 }
 
@@ -174,13 +179,14 @@ impl SlitPassage<'_> {
         }
     }
 
-    /// Returns the index of the vertex that this passage already has at a point of the slit.
+    /// Returns the index of the vertex that this passage already has at the given point of the
+    /// slit.
     fn existing_index(&self, vertex: &SlitVertex) -> Option<usize> {
         vertex.existing[usize::from(self.is_back)]
     }
 
-    /// Moves the passage's existing vertices to the points of the slit, and collects those that are
-    /// missing.
+    /// Moves the passage's existing vertices to their points in `vertices`, and adds the vertices
+    /// that the passage lacks to `missing`.
     fn place(
         &self,
         shared: &mut SharedPolygons,
@@ -198,7 +204,7 @@ impl SlitPassage<'_> {
             } else {
                 let across = self
                     .other
-                    .wrapped(interpolated(&anchors, vertex.along, [0, 1]));
+                    .wrapped(interpolate_knots(&anchors, vertex.along, [0, 1]));
                 let here = SourceTarget::with_side(self.side, own, across);
                 let points = SourceTarget::with_side(self.side, point, self.other.point_at(across));
                 missing.push(NewVertexPair {
@@ -209,8 +215,8 @@ impl SlitPassage<'_> {
         }
     }
 
-    /// Returns the passage's existing vertices and its ends, each as a pair: fraction of the slit,
-    /// and unwrapped place on the other side. Pairs ascend in the fraction.
+    /// Returns the passage's ends and existing vertices, each as a pair: position along the slit,
+    /// and unwrapped place on the other design's curve. Pairs ascend in the position.
     fn anchors(&self, shared: &SharedPolygons, vertices: &[SlitVertex]) -> Vec<[f64; 2]> {
         let across = |vertex: usize| shared.places[vertex][self.side.other()];
         let across_at = |place: f64| {
@@ -230,7 +236,7 @@ impl SlitPassage<'_> {
             anchors.extend(vertices.iter().filter_map(inner));
         }
         anchors.push([self.outer_fraction(1.0), across_at(to)]);
-        // In the direction of the boundary loop, places on the other side ascend.
+        // Along the boundary loop, the places on the other curve ascend, so unwrap them.
         for k in 1..anchors.len() {
             if anchors[k][1] < anchors[k - 1][1] {
                 anchors[k][1] += 1.0;
@@ -243,7 +249,7 @@ impl SlitPassage<'_> {
     }
 }
 
-/// Returns the shared vertices on one side.
+/// Returns the shared vertices of one design.
 fn points_mut(shared: &mut SharedPolygons, side: Side) -> &mut Vec<DVec2> {
     match side {
         Side::Source => &mut shared.source,
@@ -261,7 +267,7 @@ fn insert(
     let first = shared.places.first().map_or(0.0, |place| place[side]);
     let ahead = |place: f64| curve.wrapped(place - first);
     added.sort_by(|a, b| ahead(a.places[side]).total_cmp(&ahead(b.places[side])));
-    // Insert from the last to the first, so that earlier positions stay valid.
+    // Insert from the last to the first, so that the insertion points of the others stay valid.
     for new in added.into_iter().rev() {
         let index = shared
             .places

@@ -1,10 +1,12 @@
-//! Splits one part into as many pieces as the other design has parts.
+//! Splits one part into several pieces, one for each part of the other design that it is matched
+//! with.
 //!
-//! Cuts are straight, from boundary to boundary. They are ranked by how well areas and positions of
-//! the two sides agree with the parts to match, and by their length. The best few are then matched,
-//! and the best match wins. Several pieces are cut off one after another, along the line on which
-//! these parts lie. Many pieces are found by bisection with the ranking alone, because the
-//! shape of a group of parts says little about its members.
+//! Cuts are straight, from boundary to boundary. They are ranked by how well the areas and
+//! positions of the two sides agree with those of the parts to match, and by their length. The best
+//! few cuts are then rated by matching the pieces, and the best match wins. Several pieces are cut
+//! off one after another, along the line on which the parts to match lie. If pieces are many, the
+//! part is bisected repeatedly by the ranking alone, because the outline of a group of parts says
+//! little about its members.
 
 use super::super::boundary::match_curves;
 use super::super::curve::BoundaryCurve;
@@ -18,24 +20,25 @@ use rayon::prelude::*;
 /// cuts grows with its square).
 const CUT_PLACES: u32 = 56;
 
-/// Number of best-ranked cuts that are matched (resource limit).
+/// Number of best-ranked cuts whose pieces are matched (resource limit).
 const MATCHED_CUTS: usize = 10;
 
-/// Weight of areas in the ranking of cuts; the reference for the other weights.
+/// Weight of the error in the pieces' areas in the ranking of cuts; the other weights are relative
+/// to it.
 const AREA_WEIGHT: f64 = 1.0;
-/// Weight of positions in the ranking (heuristic).
+/// Weight of the error in the pieces' positions in the ranking of cuts (heuristic).
 const POSITION_WEIGHT: f64 = 0.6;
-/// Weight of a cut's length in the ranking (heuristic).
+/// Weight of a cut's length in the ranking of cuts (heuristic).
 const LENGTH_WEIGHT: f64 = 0.35;
-/// Weight of the ranking relative to the match cost (heuristic).
+/// Weight of the rank relative to the match cost, where cuts are rated by both (heuristic).
 const RANK_WEIGHT: f64 = 0.15;
 
-/// Maximum number of pieces that are cut off one after another, with matches of the best cuts; more
-/// are bisected (resource limit: 100 pieces would take 40 s).
+/// Maximum number of pieces that are cut off one after another, with matches of the best cuts. More
+/// pieces are found by bisection (resource limit: 100 pieces would take 40 s).
 const MAX_SEQUENTIAL_PIECES: usize = 8;
 
-/// Splits a region into pieces in the order of `parts`. Returns `None` if no straight cut is
-/// found, or if the work is cancelled.
+/// Splits a region into one piece for each of `parts`, in the same order. Returns `None` if no
+/// straight cut is found, or if the work is cancelled.
 pub(super) fn split(
     region: &Region,
     parts: &[&Region],
@@ -79,15 +82,15 @@ fn bisect(
     let (first_half, second_half) = order.split_at(order.len() / 2);
     let selected = |order: &[usize]| order.iter().map(|&k| parts[k]).collect::<Vec<_>>();
     let (first_parts, other_parts) = (selected(first_half), selected(second_half));
-    // A single candidate: the best-ranked cut is taken without matching.
+    // With a single candidate, the best-ranked cut is taken without matching.
     let goal = SplitGoal::of(&first_parts, &other_parts);
     let [first, rest] = cut_in_two(&region, &goal, 1, progress)?;
     bisect(first, parts, first_half, pieces, progress)?;
     bisect(rest, parts, second_half, pieces, progress)
 }
 
-/// Returns the direction along which parts lie: that between the two parts farthest apart, pointing
-/// towards positive x.
+/// Returns the direction along which parts lie: from one to the other of the two parts farthest
+/// apart, towards positive x.
 fn main_direction(parts: &[&Region]) -> DVec2 {
     let mut best = DVec2::X;
     let mut max_squared = 0.0;
@@ -108,13 +111,13 @@ fn centre(region: &Region) -> DVec2 {
     region.outer.bounds().centre()
 }
 
-/// The areas and positions that a cut should produce.
+/// The areas and positions of the two sides that a cut should produce.
 struct SplitGoal<'a> {
     /// Parts intended for one side of the cut.
     first: &'a [&'a Region],
     /// Parts intended for the other side.
     others: &'a [&'a Region],
-    /// Fraction of the area that `first` should get.
+    /// Fraction of the region's area that the side for `first` should get.
     share: f64,
     /// Vector from the centre of `first` to that of `others`, in units of the square root of the
     /// area.
@@ -139,8 +142,9 @@ impl<'a> SplitGoal<'a> {
     }
 }
 
-/// Returns the two sides of the best cut, the one for `goal.first` first. The `matched_cuts`
-/// best-ranked cuts are matched; with 1 the best-ranked cut is returned without matching.
+/// Returns the two sides of the best cut, first the side for `goal.first`. `matched_cuts` is the
+/// number of best-ranked cuts whose pieces are matched; with 1, the best-ranked cut is returned
+/// without matching.
 fn cut_in_two(
     region: &Region,
     goal: &SplitGoal,
@@ -169,7 +173,7 @@ fn cut_in_two(
         };
         (cost, pieces)
     });
-    // Collected in order of rank, so that ties go to the better-ranked cut.
+    // Collect in order of rank, so that ties go to the better-ranked cut.
     let rated: Vec<(f64, [Region; 2])> = rated.collect();
     rated
         .into_iter()
@@ -177,7 +181,7 @@ fn cut_in_two(
         .map(|(_, pieces)| pieces)
 }
 
-/// Returns how much areas and positions of two pieces deviate from the goal.
+/// Returns how much the areas and positions of two pieces deviate from the goal; lower is better.
 fn rank(goal: &SplitGoal, first: &Region, rest: &Region) -> f64 {
     let total = first.area() + rest.area();
     let fraction = first.area() / total;
@@ -187,8 +191,8 @@ fn rank(goal: &SplitGoal, first: &Region, rest: &Region) -> f64 {
     AREA_WEIGHT * area_error + POSITION_WEIGHT * apart.distance(goal.apart)
 }
 
-/// Returns the match cost of the pieces with their parts, weighted by area. Only pieces for a
-/// single part are matched.
+/// Returns the cost of matching the two pieces with their parts, weighted by area. A piece for
+/// several parts is not matched and costs 0.
 fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Progress) -> f64 {
     let cost = |piece: &Region, part: &Region| {
         if progress.is_cancelled() {
@@ -211,7 +215,8 @@ fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Prog
     single_cost(goal.share, first, goal.first) + single_cost(1.0 - goal.share, rest, goal.others)
 }
 
-/// Returns all straight cuts tried, with their lengths and pieces; fewer if the work is cancelled.
+/// Returns the straight cuts between places of the outer boundary that stay inside the region, each
+/// with its length and its two pieces; fewer if the work is cancelled.
 fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
     let Ok(curve) = BoundaryCurve::closed(&region.outer) else {
         return Vec::new();
@@ -243,7 +248,7 @@ fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
 
 /// A place on the outer boundary at which a cut may end.
 struct BoundaryPlace {
-    /// Length along the boundary to the place, as a fraction of the whole.
+    /// Length along the boundary to the place, as a fraction of the boundary's length.
     fraction: f64,
     point: DVec2,
 }
@@ -289,7 +294,7 @@ fn cut_between(
         .then_some(pieces)
 }
 
-/// Returns whether the open segment runs inside the region.
+/// Returns whether the segment from `a` to `b`, without its ends, runs inside the region.
 fn is_free(region: &Region, a: DVec2, b: DVec2) -> bool {
     /// Fraction of the segment omitted at each end, which lies on the boundary (tolerance: above
     /// rounding, far below any edge).

@@ -1,4 +1,4 @@
-//! Tests of the match of whole designs: parts, holes, cuts, pins and links.
+//! Tests of the match of whole designs: parts, holes, cuts, pins, links and notes.
 
 use super::*;
 use crate::correspondence::{HoleRule, PartRule, PointPair, RingCut, UnmatchedPart};
@@ -22,7 +22,7 @@ fn plate(holes: &[(f64, f64)]) -> Regions {
     design(&rings)
 }
 
-/// Matches two designs and checks that corresponding rings have as many vertices.
+/// Matches two designs and checks that corresponding rings have the same number of vertices.
 fn run(a: &Regions, b: &Regions, settings: &MatchSettings) -> RegionMatch {
     let matched = match_regions(a, b, settings, &Silent).expect("matched");
     for piece in &matched.pieces {
@@ -43,8 +43,8 @@ fn kinds(piece: &PieceMatch) -> Vec<RingKind> {
 
 #[test]
 fn closing_holes_keep_apart_from_each_other() {
-    // In an odd grid the middle suits the hole there best, but is taken by the first hole, which
-    // has little space of its own.
+    // In a grid of 5 × 5 holes, the centre of the plate suits the middle hole best. The first hole,
+    // which finds little space near its own place, already closes there.
     let places = (0..25).map(|k| (f64::from(k % 5), f64::from(k / 5)));
     let holes = places.map(|(x, y)| block(2.0 * x + 0.5, 2.0 * y + 0.5, 1.0, 1.0));
     let rings: Vec<_> = [block(0.0, 0.0, 10.0, 10.0)]
@@ -281,7 +281,7 @@ fn contradictory_pins_are_named_by_their_index_among_all_pins() {
 
 #[test]
 fn a_hole_that_no_straight_cut_reaches_closes_and_is_reported() {
-    // A small hole inside a hole that winds around it.
+    // A small hole, and a hole that winds around it.
     let winding = [
         (5.25, 13.0),
         (5.25, 5.25),
@@ -353,10 +353,10 @@ fn transient_holes_are_excluded_from_the_piece() {
 fn unpaired_holes_are_all_excluded_from_the_piece() {
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
     let settings = MatchSettings::default();
-    let no_looks = PartLooks::default();
+    let no_looks = PartAppearances::default();
     let plan = MatchPlan::new([&two, &one], &no_looks, &settings, &Silent).expect("prepared");
     let options = settings.options();
-    let pieces = plan.matched_group(0, &options, HolePolicy::Unpaired, &Silent);
+    let pieces = plan.match_group(0, &options, HolePolicy::Unpaired, &Silent);
     let pieces = pieces.expect("matched");
     assert_eq!((pieces[0].rings.len(), pieces[0].lone.len()), (1, 3));
 }

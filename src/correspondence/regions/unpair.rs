@@ -1,4 +1,5 @@
-//! Unpairs pieces of a match: their source parts disappear, and their target parts appear.
+//! Unpairs pieces of a match: their parts of the source disappear, and their parts of the target
+//! appear.
 
 use super::super::PartRule;
 use super::groups::PartGroup;
@@ -8,13 +9,13 @@ use crate::geometry::Side;
 use crate::work::progress::Progress;
 
 impl MatchPlan<'_> {
-    /// Unpairs the given pieces of a match that was made from these groups, and returns whether
-    /// anything changed.
+    /// Unpairs the pieces of `matched` with the indices `unpaired`, and returns whether anything
+    /// changed. The match must have been made from this plan.
     ///
-    /// A part that was split is split again for the partners left to it. It keeps its largest
-    /// partner if none would be left. Parts that the user linked or pinned stay together, and so do
-    /// all if the rule for parts is to split.
-    pub(crate) fn let_go(
+    /// A part that was split is split again for its remaining partners. It keeps its largest
+    /// partner if none would remain. Groups with a part that the user linked or pinned do not
+    /// change, and no group does if the rule for parts is [`PartRule::Split`].
+    pub(crate) fn unpair(
         &mut self,
         matched: &RegionMatch,
         unpaired: &[usize],
@@ -36,7 +37,7 @@ impl MatchPlan<'_> {
             let (remaining, released) = self.split_group(&group, &unpaired);
             has_changed |= remaining != group;
             if remaining != PartGroup::default() {
-                let pieces = self.split(&remaining, progress);
+                let pieces = self.split_part(&remaining, progress);
                 groups.push((remaining, pieces));
             }
             groups.extend(single_groups(&released).map(|group| (group, None)));
@@ -55,7 +56,7 @@ impl MatchPlan<'_> {
         self.fixed_pairs.iter().any(is_in)
     }
 
-    /// Splits a group into the parts that stay together and those that become unmatched. `unpaired`
+    /// Returns the parts of a group that stay together, and those that become unmatched. `unpaired`
     /// holds the parts of the pieces to unpair.
     fn split_group(&self, group: &PartGroup, unpaired: &PartGroup) -> (PartGroup, PartGroup) {
         if group.parts.iter().all(|parts| parts.len() == 1) {
@@ -83,7 +84,8 @@ impl MatchPlan<'_> {
     }
 }
 
-/// Returns the parts of the given pieces that belong to a group.
+/// Returns the parts of the given pieces that belong to `group`; `pieces` holds indices in
+/// `matched`.
 fn parts_of_pieces(matched: &RegionMatch, pieces: &[usize], group: &PartGroup) -> PartGroup {
     let parts = |k: usize| [matched.pieces[k].source_part, matched.pieces[k].target_part];
     let is_here = |k: &usize| {
@@ -103,7 +105,7 @@ fn parts_of_pieces(matched: &RegionMatch, pieces: &[usize], group: &PartGroup) -
     }
 }
 
-/// Returns a group of its own for each part.
+/// Returns a separate group for each part of `group`.
 fn single_groups(group: &PartGroup) -> impl Iterator<Item = PartGroup> {
     let sides = Side::BOTH.into_iter();
     sides.flat_map(|side| {

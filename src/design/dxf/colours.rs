@@ -1,4 +1,5 @@
-//! Resolves the colours of entities: their own, their layer's or their block's.
+//! Resolves the colours of entities (their own, their layer's or their block's) and converts
+//! AutoCAD colour indices.
 //!
 //! Colours are numbered by the AutoCAD colour index (DXF Reference): 1 to 6 are pure colours;
 //! 10 to 249 are hues in steps of 15°, with ten colours per hue (five brightnesses, each at
@@ -14,7 +15,7 @@ use std::rc::Rc;
 pub(super) struct EntityStyle {
     /// Name of the layer.
     pub layer: Rc<[u8]>,
-    /// Source of the colour.
+    /// Source of the entity's colour.
     pub colour: ColourSource,
 }
 
@@ -33,11 +34,13 @@ pub(super) enum ColourSource {
 /// Colours of layers by name; `None` for index 7 or an invalid index.
 pub(super) type LayerColours = HashMap<Vec<u8>, Option<Rgb>>;
 
-/// Name of the layer whose entities in a block take the layer of the block reference.
+/// Name of a special layer: an entity of a block that lies on it takes the layer of the block
+/// reference.
 const OF_BLOCK: &[u8] = b"0";
 
 impl ColourSource {
-    /// Interprets a colour index and an optional 24-bit colour, which takes precedence.
+    /// Interprets the colour index `number` and the optional 24-bit colour `exact`, which takes
+    /// precedence.
     pub fn of(number: i64, exact: Option<i64>) -> Self {
         match (exact, number) {
             (Some(bits), _) => Self::Own(Some(from_rgb_bits(bits))),
@@ -49,7 +52,8 @@ impl ColourSource {
 }
 
 impl EntityStyle {
-    /// Resolves layer and colour in a block reference with the style `outer`.
+    /// Resolves the layer and colour of an entity in a block whose reference has the style `outer`;
+    /// `None` for an entity outside of blocks.
     pub fn inherited_from(&self, outer: Option<&Self>) -> Self {
         let Some(outer) = outer else {
             return self.clone();
@@ -65,7 +69,8 @@ impl EntityStyle {
         Self { layer, colour }
     }
 
-    /// Returns the colour, if there is one.
+    /// Returns the colour; `None` for index 7, an invalid index, a layer without a colour, or
+    /// BYBLOCK outside of blocks.
     pub fn rgb(&self, layers: &LayerColours) -> Option<Rgb> {
         match self.colour {
             ColourSource::OfLayer => layers.get(&*self.layer).copied().flatten(),
@@ -75,7 +80,8 @@ impl EntityStyle {
     }
 }
 
-/// Converts a colour index; a negative index (layer off) has the same colour.
+/// Converts a colour index; a negative index (layer off) has the same colour as its absolute value.
+/// Returns `None` for index 7 and for indices that are no colour.
 pub(super) fn from_index(number: i64) -> Option<Rgb> {
     let number = u8::try_from(number.unsigned_abs()).ok()?;
     Some(Rgb(match number {
@@ -98,7 +104,7 @@ pub(super) fn from_index(number: i64) -> Option<Rgb> {
     }))
 }
 
-/// Converts a 24-bit colour with blue in the lowest byte.
+/// Converts a 24-bit colour with blue in the lowest byte and red in the highest.
 pub(super) fn from_rgb_bits(bits: i64) -> Rgb {
     let [.., red, green, blue] = bits.to_be_bytes();
     Rgb([red, green, blue])
@@ -106,7 +112,7 @@ pub(super) fn from_rgb_bits(bits: i64) -> Rgb {
 
 /// Converts a colour index from 10 to 249.
 fn hue_colour(number: u8) -> [u8; 3] {
-    /// Maximum channel value of the five brightnesses (DXF Reference).
+    /// Maximum channel value, 0 to 255, of each of the five brightnesses (DXF Reference).
     const BRIGHTNESS: [f64; 5] = [255.0, 165.0, 127.0, 76.0, 38.0];
     let hue = f64::from(number / 10 - 1) * 15.0 / 60.0;
     let brightness = BRIGHTNESS[usize::from(number % 10 / 2)];

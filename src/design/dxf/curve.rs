@@ -1,9 +1,10 @@
 //! Curves of a DXF drawing (lines, arcs of ellipses and NURBS) and their flattening.
 //!
-//! Arcs are divided evenly: a chord over the angle h deviates by at most 1 − cos(h/2) times
-//! the larger radius. NURBS curves (Piegl and Tiller, The NURBS Book, 1997) are evaluated by
-//! de Boor's algorithm (1972) and bisected within each knot span until three points between
-//! neighbours lie within the tolerance; their error is estimated, not bounded.
+//! Arcs are divided evenly: a chord over the angle h deviates by at most 1 − cos(h/2) times the
+//! larger radius. NURBS curves (Piegl and Tiller, The NURBS Book, 1997) are evaluated by de Boor's
+//! algorithm (1972) and bisected within each knot span until three points of the curve between two
+//! neighbouring polyline points lie within the tolerance of their chord; the error is estimated,
+//! not bounded.
 
 use crate::design::flatten::MAX_POINTS;
 use crate::geometry::{DVec2, distance_squared_to_segment};
@@ -13,15 +14,15 @@ use std::f64::consts::{PI, TAU};
 /// Maximum number of chords of an arc (resource limit).
 const MAX_ARC_PIECES: f64 = 4096.0;
 
-/// Maximum number of bisections of half a knot span, which gives up to 2048 chords per span
-/// (resource limit).
+/// Maximum recursion depth when half a knot span is bisected, which gives up to 2048 chords per
+/// span (resource limit).
 const MAX_BISECTIONS: u32 = 10;
 
-/// Minimum bulge of an arc; smaller ones count as straight (tolerance: the arc rises by 5e-8
-/// of its chord).
+/// Minimum absolute value of an arc's bulge; arcs with a smaller one count as straight (tolerance:
+/// at this bulge an arc rises above its chord by 5e-8 of the chord's length).
 const MIN_BULGE: f64 = 1e-7;
 
-/// Segment of an outline.
+/// Curve of a drawing, in drawing units.
 #[derive(Clone, Debug)]
 pub(super) enum DxfCurve {
     Line([DVec2; 2]),
@@ -29,8 +30,8 @@ pub(super) enum DxfCurve {
     Spline(NurbsCurve),
 }
 
-/// Elliptical arc: centre + cos φ · u + sin φ · v for φ from `from` to `from + sweep`, in
-/// radians.
+/// Elliptical arc: the points `centre` + cos φ · `u` + sin φ · `v` for φ from `from` to `from +
+/// sweep`, in radians.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EllipseArc {
     pub centre: DVec2,
@@ -51,11 +52,12 @@ pub(super) struct NurbsCurve {
 }
 
 impl DxfCurve {
-    /// Creates the circular arc from `p` to `q` with a DXF bulge: the tangent of a quarter of
-    /// the arc's angle, positive for counter-clockwise arcs.
+    /// Creates the circular arc from `p` to `q` with the given DXF bulge, which is the tangent of a
+    /// quarter of the arc's angle, positive for counter-clockwise arcs. Returns a line if the arc
+    /// is nearly straight.
     pub fn from_bulge(p: DVec2, q: DVec2, bulge: f64) -> Self {
         let chord = q - p;
-        // Distance of the centre from the chord, in units of the chord.
+        // Signed distance from the chord to the centre, as a fraction of the chord's length.
         let to_centre = (1.0 - bulge * bulge) / (4.0 * bulge);
         let centre = p + 0.5 * chord + to_centre * chord.perp();
         let u = p - centre;
@@ -120,7 +122,8 @@ impl DxfCurve {
         }
     }
 
-    /// Appends the points of the flattened curve, including the first.
+    /// Appends the points of the flattened curve, including its start. `tolerance` is the maximum
+    /// deviation in drawing units.
     pub fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {
         match self {
             Self::Line(ends) => points.extend(ends),
@@ -131,21 +134,21 @@ impl DxfCurve {
 }
 
 impl EllipseArc {
-    /// Returns the point at a fraction of the sweep.
+    /// Returns the point at the fraction `share` of the sweep.
     fn at(&self, share: f64) -> DVec2 {
         let (sin, cos) = (self.from + share * self.sweep).sin_cos();
         self.centre + cos * self.u + sin * self.v
     }
 
     /// Returns whether the arc is a full ellipse.
-    pub fn is_whole(&self) -> bool {
+    pub fn is_full_ellipse(&self) -> bool {
         self.sweep.abs() >= TAU - 1e-9
     }
 
     fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {
         // An upper bound of the larger semi-axis, even if u and v are not orthogonal.
         let radius = self.u.length().hypot(self.v.length());
-        // Clamped for tolerances larger than the diameter.
+        // Clamped for the case that the tolerance exceeds the diameter.
         let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos();
         // At least one chord per quarter turn, so that a tiny circle is still a square.
         let pieces = (self.sweep.abs() / step.min(0.5 * PI)).ceil();
@@ -153,7 +156,11 @@ impl EllipseArc {
         let pieces = (pieces.clamp(1.0, MAX_ARC_PIECES) as u32).max(1);
         let share = |k: u32| f64::from(k) / f64::from(pieces);
         // A full ellipse does not repeat its first point.
-        let last = if self.is_whole() { pieces - 1 } else { pieces };
+        let last = if self.is_full_ellipse() {
+            pieces - 1
+        } else {
+            pieces
+        };
         points.extend((0..=last).map(|k| self.at(share(k))));
     }
 }
@@ -173,15 +180,16 @@ impl NurbsCurve {
     /// Maximum degree (resource limit: CAD programs support up to 25).
     pub const MAX_DEGREE: usize = 25;
 
-    /// Creates a curve; returns `None` if the number or order of the knots does not match the
-    /// degree and points, or if a weight is not positive. No weights means that all are 1.
+    /// Creates a curve. If `weights` is empty, all weights are 1. Returns `None` if the number or
+    /// order of the knots does not match the degree and points, or if a weight is not in [1e-9,
+    /// 1e9].
     pub fn new(degree: usize, knots: Vec<f64>, points: &[DVec2], weights: &[f64]) -> Option<Self> {
         let degree_fits = (1..=Self::MAX_DEGREE).contains(&degree) && points.len() > degree;
         let knots_fit = knots.len() == points.len() + degree + 1
             && knots.is_sorted()
             && knots.get(degree) < knots.get(points.len());
         let weights_fit = weights.is_empty() || weights.len() == points.len();
-        // A larger range would cancel all digits of the smaller weight.
+        // In a larger range, rounding would lose all digits of the smaller weights.
         let is_weight = |w: &f64| (1e-9..=1e9).contains(w);
         if !(degree_fits && knots_fit && weights_fit && weights.iter().all(is_weight)) {
             return None;
@@ -200,7 +208,7 @@ impl NurbsCurve {
     /// `span + 1`.
     fn at(&self, span: usize, parameter: f64) -> DVec2 {
         let first = span - self.degree;
-        // On the stack, because this runs for every point of every curve.
+        // An array on the stack, because this function runs for every point of every curve.
         let mut points = [DVec3::ZERO; Self::MAX_DEGREE + 1];
         let points = &mut points[..=self.degree];
         points.copy_from_slice(&self.control[first..=span]);
@@ -230,7 +238,8 @@ impl NurbsCurve {
                 if points.len() == start {
                     points.push(point(from));
                 }
-                // At least two pieces: the midpoint of an S-shaped span lies on its chord.
+                // At least two pieces per span, because the midpoint of an S-shaped span lies on
+                // its chord.
                 let middle = 0.5 * (from + to);
                 bisect(&point, [from, middle], tolerance, MAX_BISECTIONS, points);
                 bisect(&point, [middle, to], tolerance, MAX_BISECTIONS, points);
@@ -239,8 +248,9 @@ impl NurbsCurve {
     }
 }
 
-/// Appends the flattened points after `from` up to `to`, recursively bisecting the interval at
-/// most `depth` times.
+/// Flattens a curve, given as a function `point` of its parameter. Appends the points after the
+/// parameter `from`, up to and including `to`. Bisects the interval recursively, at most `depth`
+/// levels deep.
 fn bisect(
     point: &impl Fn(f64) -> DVec2,
     [from, to]: [f64; 2],

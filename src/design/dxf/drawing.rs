@@ -11,11 +11,12 @@ use glam::{DAffine2, DVec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
-/// Maximum number of pairs stored for one entity (resource limit: about 40 bytes each; a
-/// spline with a million control points has four pairs for each).
+/// Maximum number of pairs (group code and value) stored for one entity (resource limit: about 40
+/// bytes per pair; a spline has about four pairs per control point, so a million control points
+/// fit).
 const MAX_PAIRS: usize = 4_000_000;
-/// Maximum number of distinct entity types in the counts of ignored entities (resource limit:
-/// a hostile file could give every entity a new type).
+/// Maximum number of entity types for which ignored entities are counted (resource limit: a hostile
+/// file could give every entity a new type).
 const MAX_KINDS: usize = 50;
 
 /// Content of a drawing.
@@ -23,11 +24,11 @@ const MAX_KINDS: usize = 50;
 pub(super) struct DxfDrawing {
     /// Paths with all blocks expanded.
     pub paths: Vec<DxfPath>,
-    /// Number of ignored entities by type.
+    /// For each type of entity that was ignored: the number of its entities.
     pub skipped: BTreeMap<String, usize>,
 }
 
-/// Connected curves with layer and colour.
+/// Path of connected curves with its layer and colour.
 pub(super) struct DxfPath {
     pub curves: Vec<DxfCurve>,
     /// Whether the last curve ends at the start of the first.
@@ -36,15 +37,15 @@ pub(super) struct DxfPath {
     pub layer_and_colour: (Rc<[u8]>, Option<Rgb>),
 }
 
-/// Block definition.
+/// Definition of a block.
 #[derive(Default)]
 struct DxfBlock {
-    /// Point that is placed at the insertion point.
+    /// Point of the block that is placed at the insertion point of a reference.
     base: DVec2,
     entities: Vec<DxfEntity>,
 }
 
-/// State of the reader between records.
+/// Content read so far, before blocks are expanded.
 #[derive(Default)]
 struct DxfReader {
     /// Names of layers that are frozen or off.
@@ -56,16 +57,16 @@ struct DxfReader {
     open: Option<(Vec<u8>, DxfBlock)>,
     /// Entities outside of blocks.
     entities: Vec<DxfEntity>,
-    /// Number of entities read, including those in blocks.
+    /// Number of entities and polyline vertices read, including those in blocks.
     objects: usize,
     drawing: DxfDrawing,
 }
 
-/// Reads a file and expands its blocks.
+/// Reads a DXF file and expands its block references.
 pub(super) fn read(bytes: &[u8]) -> Result<DxfDrawing, DxfError> {
     let mut records = RecordReader::of(bytes)?;
     let mut reader = DxfReader::default();
-    // `None` between sections, otherwise whether the section is read or skipped.
+    // `None` between sections; inside a section, whether it is read (`true`) or skipped.
     let mut is_section_read = None;
     loop {
         let record = records.next()?;
@@ -85,7 +86,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<DxfDrawing, DxfError> {
     }
 }
 
-/// Groups pairs into records, with one pair of lookahead.
+/// Groups the pairs of a file into records; reads one pair ahead.
 struct RecordReader<'a> {
     pairs: PairReader<'a>,
     /// First pair of the next record; `None` at the end of the file.
@@ -93,7 +94,7 @@ struct RecordReader<'a> {
 }
 
 impl<'a> RecordReader<'a> {
-    /// Skips to the first record.
+    /// Creates a reader and skips to the first record of the file.
     fn of(bytes: &'a [u8]) -> Result<Self, DxfError> {
         let mut pairs = PairReader::of(bytes);
         let mut head = pairs.next()?;
@@ -111,7 +112,7 @@ impl<'a> RecordReader<'a> {
             pairs: Vec::new(),
         };
         if record.kind == b"EOF" {
-            return Ok(record); // data after EOF need not be DXF
+            return Ok(record); // data after the EOF record need not be DXF
         }
         loop {
             let at = self.pairs.place();
@@ -144,7 +145,7 @@ fn check_count(count: usize, max: usize) -> Result<(), DxfError> {
 }
 
 impl DxfReader {
-    /// Processes a record of a section that is read.
+    /// Processes a record of one of the sections that are read: TABLES, BLOCKS and ENTITIES.
     fn take(&mut self, record: &DxfRecord, records: &mut RecordReader) -> Result<(), DxfError> {
         match record.kind {
             b"SEQEND" | b"TABLE" | b"ENDTAB" => {}
@@ -166,9 +167,9 @@ impl DxfReader {
 
     /// Reads a layer: its colour and whether it is hidden.
     fn layer(&mut self, record: &DxfRecord) -> Result<(), DxfError> {
-        let is_frozen = record.whole(70)? & 1 != 0;
+        let is_frozen = record.integer(70)? & 1 != 0;
         // A negative colour number means that the layer is off.
-        let number = record.whole(62)?;
+        let number = record.integer(62)?;
         let is_off = number < 0;
         let exact = record.bits()?.map(from_rgb_bits);
         let name = record.text(2).to_owned();
@@ -180,10 +181,11 @@ impl DxfReader {
         Ok(())
     }
 
-    /// Adds a visible entity to the open block or to the drawing.
+    /// Adds an entity to the open block or to the drawing, unless it is hidden or in paper space.
+    /// `shape` is `None` for an unsupported type, which is only counted.
     fn store(&mut self, record: &DxfRecord, shape: Option<EntityShape>) -> Result<(), DxfError> {
-        let is_hidden = record.whole(60)? != 0 || self.hidden_layers.contains(record.text(8));
-        let is_on_paper = record.whole(67)? != 0;
+        let is_hidden = record.integer(60)? != 0 || self.hidden_layers.contains(record.text(8));
+        let is_on_paper = record.integer(67)? != 0;
         if is_hidden || is_on_paper {
             return Ok(());
         }
@@ -200,13 +202,13 @@ impl DxfReader {
         Ok(())
     }
 
-    /// Counts an entity against the limit.
+    /// Counts one entity; returns an error if there are more than [`MAX_OBJECTS`].
     fn count(&mut self) -> Result<(), DxfError> {
         self.objects += 1;
         check_count(self.objects, MAX_OBJECTS)
     }
 
-    /// Expands all block references.
+    /// Expands all block references into curves of the drawing.
     fn expand_blocks(self) -> Result<DxfDrawing, DxfError> {
         let mut expansion = BlockExpansion {
             blocks: &self.blocks,
@@ -229,7 +231,7 @@ fn named_block(record: &DxfRecord) -> Result<(Vec<u8>, DxfBlock), DxfError> {
     Ok((record.text(2).to_owned(), block))
 }
 
-/// Counts an ignored entity by type.
+/// Counts one ignored entity of the type `kind`.
 fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
     let kind: String = String::from_utf8_lossy(kind).chars().take(32).collect();
     if skipped.len() < MAX_KINDS || skipped.contains_key(&kind) {
@@ -241,14 +243,15 @@ fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
 struct BlockExpansion<'b> {
     blocks: &'b HashMap<Vec<u8>, DxfBlock>,
     layers: &'b LayerColours,
-    /// Number of curve points and block copies so far.
+    /// Number of steps so far; each path, each control point of a curve and each block copy counts.
     steps: usize,
     drawing: DxfDrawing,
 }
 
 impl BlockExpansion<'_> {
-    /// Adds entities, transformed by `by`, to the drawing. Recurses at most [`MAX_DEPTH`]
-    /// levels. `outer` is the style of the enclosing block reference.
+    /// Adds entities, transformed by `by`, to the drawing. `outer` is the style of the enclosing
+    /// block reference, `depth` the number of enclosing references. Recurses at most [`MAX_DEPTH`]
+    /// levels.
     fn place(
         &mut self,
         entities: &[DxfEntity],
@@ -276,7 +279,8 @@ impl BlockExpansion<'_> {
                         let to_base = DAffine2::from_translation(-block.base);
                         for place in places {
                             self.count(1)?;
-                            // Right to left: base point to the origin, insertion, outer block.
+                            // Applied from right to left: moves the base point to the origin,
+                            // inserts the block, applies the transform of the outer block.
                             let inner = *by * *place * to_base;
                             self.place(&block.entities, &inner, Some(&ink), depth + 1)?;
                         }
@@ -287,9 +291,9 @@ impl BlockExpansion<'_> {
         Ok(())
     }
 
-    /// Counts curve points or a block copy against the limit.
+    /// Counts the control points of a path, or a block copy; returns an error above the limit.
     fn count(&mut self, steps: usize) -> Result<(), DxfError> {
-        // At least one, so that copies of empty blocks also reach the limit.
+        // One more than `steps`, so that paths without curves also reach the limit.
         self.steps += 1 + steps;
         check_count(self.steps, 2 * MAX_OBJECTS)
     }

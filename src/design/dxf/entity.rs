@@ -1,7 +1,7 @@
 //! Converts DXF entities to curves in the plane and to block references.
 //!
-//! An entity with an extrusion direction has its own coordinate system (the "arbitrary axis
-//! algorithm" of the DXF Reference) and is projected onto the xy plane.
+//! An entity with an extrusion direction has its own coordinate system, defined by the "arbitrary
+//! axis algorithm" of the DXF Reference. Such an entity is projected onto the xy plane.
 
 use super::colours::{ColourSource, EntityStyle};
 use super::curve::{DxfCurve, EllipseArc, NurbsCurve};
@@ -30,16 +30,17 @@ pub(super) enum EntityShape {
     Insert {
         /// Name of the block.
         block: Vec<u8>,
-        /// Placement of each copy, relative to the base point of the block.
+        /// For each copy, the map from block coordinates with the base point as origin to the
+        /// coordinates that contain the reference.
         places: Vec<DAffine2>,
     },
 }
 
-/// Maximum number of copies of one INSERT (resource limit: a grid of 100 by 100; checked
-/// before the placements are allocated).
+/// Maximum number of block copies that one INSERT makes (resource limit: a grid of 100 by 100;
+/// checked before the placements are allocated).
 const MAX_COPIES: i64 = 10_000;
 
-/// Record of the file: an entity or table entry with its pairs.
+/// Record of the file: an entity or table entry with its pairs of group code and value.
 pub(super) struct DxfRecord<'a> {
     /// Type name, such as `LINE`.
     pub kind: &'a [u8],
@@ -60,8 +61,8 @@ impl<'a> DxfRecord<'a> {
     }
 
     /// Returns the first integer with a group code, or 0.
-    pub fn whole(&self, code: i32) -> Result<i64, DxfError> {
-        self.first(code).map_or(Ok(0), GroupPair::whole)
+    pub fn integer(&self, code: i32) -> Result<i64, DxfError> {
+        self.first(code).map_or(Ok(0), GroupPair::integer)
     }
 
     /// Returns the first text with a group code, or an empty text.
@@ -69,21 +70,21 @@ impl<'a> DxfRecord<'a> {
         self.first(code).map_or(b"", GroupPair::text)
     }
 
-    /// Returns layer and colour of the entity.
+    /// Returns the layer and the colour source of the entity.
     pub fn ink(&self) -> Result<EntityStyle, DxfError> {
-        let number = self.first(62).map_or(Ok(256), GroupPair::whole)?;
+        let number = self.first(62).map_or(Ok(256), GroupPair::integer)?;
         Ok(EntityStyle {
             layer: self.text(8).into(),
             colour: ColourSource::of(number, self.bits()?),
         })
     }
 
-    /// Returns the 24-bit RGB colour, if given.
+    /// Returns the 24-bit colour (group code 420), if given.
     pub fn bits(&self) -> Result<Option<i64>, DxfError> {
-        self.first(420).map(GroupPair::whole).transpose()
+        self.first(420).map(GroupPair::integer).transpose()
     }
 
-    /// Returns the point whose x, y and z have the codes `code`, `code + 10`, `code + 20`.
+    /// Returns the point whose x, y and z have the group codes `code`, `code + 10` and `code + 20`.
     fn point(&self, code: i32) -> Result<DVec3, DxfError> {
         Ok(DVec3::new(
             self.real(code, 0.0)?,
@@ -98,7 +99,7 @@ impl<'a> DxfRecord<'a> {
         pairs.map(GroupPair::real).collect()
     }
 
-    /// Returns all points whose x has the code `code` and y the code `code + 10`.
+    /// Returns all points whose x has the group code `code` and whose y has `code + 10`.
     fn points(&self, code: i32) -> Result<Vec<DVec2>, DxfError> {
         let (xs, ys) = (self.reals(code)?, self.reals(code + 10)?);
         if xs.len() != ys.len() {
@@ -107,18 +108,19 @@ impl<'a> DxfRecord<'a> {
         Ok(xs.into_iter().zip(ys).map(DVec2::from).collect())
     }
 
-    /// Returns the extrusion direction; +z if it has no length.
+    /// Returns the extrusion direction as a unit vector; +z if it has no length.
     fn normal(&self) -> Result<DVec3, DxfError> {
-        // Its z component defaults to 1, unlike other numbers.
+        // The z component of the direction defaults to 1, that of other points to 0.
         let z = self.real(230, 1.0)?;
         let given = self.point(210)?.with_z(z);
         Ok(given.try_normalize().unwrap_or(DVec3::Z))
     }
 
-    /// Returns the map from the entity's own plane at an elevation to the xy plane.
+    /// Returns the map from the plane of the entity's own coordinate system at the given elevation
+    /// to the xy plane of the drawing.
     fn plane_map(&self, elevation: f64) -> Result<DAffine2, DxfError> {
         let normal = self.normal()?;
-        // The DXF Reference prescribes exactly this bound.
+        // The DXF Reference prescribes exactly this bound, 1/64.
         let near_z = normal.x.abs() < 1.0 / 64.0 && normal.y.abs() < 1.0 / 64.0;
         let reference_axis = if near_z { DVec3::Y } else { DVec3::Z };
         let x_axis = reference_axis
@@ -132,7 +134,7 @@ impl<'a> DxfRecord<'a> {
         })
     }
 
-    /// Returns the error for an entity with inconsistent data.
+    /// Returns the error for an entity with inconsistent data; `what` describes the fault.
     fn inconsistency_error(&self, what: &'static str) -> DxfError {
         DxfError::Broken {
             at: self.at,
@@ -178,19 +180,19 @@ impl<'a> DxfRecord<'a> {
             }
         }
         let plan = self.plane_map(self.real(38, 0.0)?)?;
-        Ok(polyline(&corners, self.whole(70)? & 1 != 0, &plan))
+        Ok(polyline(&corners, self.integer(70)? & 1 != 0, &plan))
     }
 
     /// Converts a POLYLINE with its VERTEX records; returns `None` for a mesh.
     pub fn polyline(&self, vertices: &[DxfRecord]) -> Result<Option<EntityShape>, DxfError> {
-        let flags = self.whole(70)?;
+        let flags = self.integer(70)?;
         if flags & (16 | 64) != 0 {
             return Ok(None);
         }
         let is_in_space = flags & 8 != 0;
         let mut corners = Vec::with_capacity(vertices.len());
         for vertex in vertices {
-            if vertex.whole(70)? & 16 != 0 {
+            if vertex.integer(70)? & 16 != 0 {
                 continue; // control point of a curve whose fitted vertices follow
             }
             let bulge = match is_in_space {
@@ -207,7 +209,7 @@ impl<'a> DxfRecord<'a> {
         Ok(Some(polyline(&corners, flags & 1 != 0, &plan)))
     }
 
-    /// Converts a CIRCLE or ARC.
+    /// Converts a CIRCLE or ARC with the given start angle and sweep in radians.
     fn arc(&self, from: f64, sweep: f64) -> Result<EntityShape, DxfError> {
         let centre = self.point(10)?;
         let radius = self.real(40, 0.0)?;
@@ -224,7 +226,7 @@ impl<'a> DxfRecord<'a> {
     /// Converts an ELLIPSE.
     fn ellipse(&self) -> Result<EntityShape, DxfError> {
         let (centre, major) = (self.point(10)?, self.point(11)?);
-        // World coordinates, unlike those of a circle, so no plane is applied.
+        // An ELLIPSE is given in world coordinates, unlike a CIRCLE, so it is only projected.
         let minor = self.real(40, 1.0)? * self.normal()?.cross(major);
         let (from, to) = (self.real(41, 0.0)?, self.real(42, TAU)?);
         let arc = EllipseArc {
@@ -243,7 +245,7 @@ impl<'a> DxfRecord<'a> {
         if points.is_empty() {
             return Ok(None);
         }
-        let degree = usize::try_from(self.whole(71)?).unwrap_or(0);
+        let degree = usize::try_from(self.integer(71)?).unwrap_or(0);
         let (knots, weights) = (self.reals(40)?, self.reals(41)?);
         let spline = NurbsCurve::new(degree, knots, &points, &weights).ok_or_else(|| {
             self.inconsistency_error(
@@ -253,14 +255,14 @@ impl<'a> DxfRecord<'a> {
         Ok(Some(open_path(DxfCurve::Spline(spline))))
     }
 
-    /// Converts an INSERT, a grid of block copies.
+    /// Converts an INSERT, a reference that places a grid of block copies.
     fn insert(&self) -> Result<EntityShape, DxfError> {
         let at = self.point(10)?;
         let plan = self.plane_map(at.z)?;
         let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
         let rotation = DMat2::from_angle(self.real(50, 0.0)?.to_radians());
         // A count of 0 means 1.
-        let counts = [self.whole(70)?, self.whole(71)?].map(|n| n.max(1));
+        let counts = [self.integer(70)?, self.integer(71)?].map(|n| n.max(1));
         if counts[0].saturating_mul(counts[1]) > MAX_COPIES {
             return Err(self.inconsistency_error("it makes too many copies"));
         }
@@ -284,14 +286,15 @@ impl<'a> DxfRecord<'a> {
     }
 }
 
-/// Returns the counter-clockwise angle from one direction to another, in (0, 2π].
+/// Returns the counter-clockwise angle from the direction `from` to the direction `to`, in (0, 2π]
+/// radians.
 fn positive_angle(from: f64, to: f64) -> f64 {
     let sweep = (to - from).rem_euclid(TAU);
-    // Equal directions, up to rounding, mean a full turn.
+    // Directions that are equal up to rounding errors mean a full turn.
     if sweep <= 1e-12 { TAU } else { sweep }
 }
 
-/// Returns an open path of one curve.
+/// Returns an open path that consists of one curve.
 fn open_path(curve: DxfCurve) -> EntityShape {
     EntityShape::Path {
         curves: vec![curve],
@@ -299,10 +302,10 @@ fn open_path(curve: DxfCurve) -> EntityShape {
     }
 }
 
-/// Returns a path of one arc.
+/// Returns a path that consists of one arc, mapped by `plan`.
 fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
     EntityShape::Path {
-        is_closed: arc.is_whole(),
+        is_closed: arc.is_full_ellipse(),
         curves: vec![DxfCurve::Arc(arc).transformed(plan)],
     }
 }
@@ -310,13 +313,14 @@ fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
 /// Vertex of a polyline.
 struct PolylineVertex {
     point: DVec2,
-    /// Bulge of the segment that starts here: the tangent of a quarter of its angle.
+    /// Bulge of the segment that starts at this vertex: the tangent of a quarter of its angle, 0
+    /// for a line.
     bulge: f64,
 }
 
-/// Returns the path through the vertices of a polyline.
+/// Returns the path through the vertices of a polyline, mapped by `plan`.
 fn polyline(corners: &[PolylineVertex], is_closed: bool, plan: &DAffine2) -> EntityShape {
-    // An open polyline has one segment less than vertices.
+    // An open polyline has one segment fewer than it has vertices.
     let last = corners.len().saturating_sub(1);
     let sides = if is_closed { corners.len() } else { last };
     let side = |i: usize| {

@@ -1,12 +1,13 @@
-//! Errors of the DXF importer, the limits they mention, and positions in a file.
+//! Errors of the DXF importer, the limits that they mention, and positions in a file.
 
 use crate::design::flatten::TooManyPoints;
 use crate::design::note::OtherKinds;
 use crate::geometry::{DVec2, RegionsError};
 use std::fmt;
 
-/// Maximum number of entities in the file, and half the maximum of curve points and block
-/// copies after expansion (resource limit: a few hundred bytes each).
+/// Maximum number of entities in the file (resource limit: a few hundred bytes each). The expansion
+/// of blocks may take twice as many steps: one for each path and control point, two for each block
+/// copy.
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
 
 /// Maximum nesting depth of blocks (resource limit: expansion recurses, and a block may contain
@@ -23,7 +24,7 @@ pub enum DxfError {
     /// The file is incomplete.
     #[error("{0}: the file is incomplete; save or copy it again")]
     Truncated(DxfPlace),
-    /// A value is not a number or exceeds [`MAX_COORDINATE`].
+    /// A value is not a number, or its absolute value exceeds [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("{0}: expected a number from -1e18 to 1e18; correct it or scale the drawing")]
@@ -51,7 +52,7 @@ pub enum DxfError {
     /// The curves need too many points.
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
-    /// The drawing has no supported curves; lists the other entities.
+    /// The drawing has no supported curves; holds the counts of the other entities.
     #[error("the drawing has no lines, arcs or curves{0}; draw or explode the outlines")]
     Nothing(OtherKinds),
     /// The curves form no closed ring.
@@ -60,7 +61,7 @@ pub enum DxfError {
         at.x, at.y
     )]
     Open {
-        /// Number of curves.
+        /// Number of open curves in the drawing.
         count: usize,
         /// Free end of one of the curves.
         at: DVec2,
@@ -70,7 +71,7 @@ pub enum DxfError {
     Regions(#[from] RegionsError),
 }
 
-/// Position in the file.
+/// Position in a DXF file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DxfPlace {
     /// Line of a text file, counted from 1.

@@ -1,10 +1,10 @@
 //! Joins open curves end to end into closed rings.
 //!
-//! End points closer than a given distance form one node of a graph. Curves with a free end
-//! are removed repeatedly until every node joins at least two curves. The rest is traversed,
-//! and whenever the traversal returns to a node, a ring is closed. Where more than two curves
-//! meet, the choice is arbitrary: under the even-odd rule the area does not depend on it if
-//! the number of curves is even.
+//! End points closer than a given distance form one node of a graph. Curves with a free end are
+//! removed repeatedly until every node joins at least two curves. The remaining curves are
+//! traversed, and whenever the traversal returns to a node, a ring is closed. Where more than two
+//! curves meet, it is arbitrary which one comes next: if the number of curves is even, the area
+//! under the even-odd rule does not depend on this choice.
 
 use crate::geometry::DVec2;
 use std::collections::{HashMap, HashSet};
@@ -12,18 +12,18 @@ use std::collections::{HashMap, HashSet};
 /// Result of joining curves.
 #[derive(Debug, Default)]
 pub(super) struct JoinedCurves {
-    /// Closed rings.
+    /// Closed rings; the last point of a ring is not its first.
     pub rings: Vec<Vec<DVec2>>,
-    /// Indices of the joined curves for each ring.
+    /// For each ring, the indices of its curves in the input.
     pub ring_curves: Vec<Vec<usize>>,
-    /// One free end of each curve that belongs to no ring.
+    /// For each curve that belongs to no ring, one of its end points.
     pub loose_ends: Vec<DVec2>,
     /// Number of duplicate curves that were ignored.
     pub duplicates: usize,
 }
 
-/// Joins open curves of at least two points each. End points within the distance `within` are
-/// identified.
+/// Joins open curves of at least two points each. End points up to the distance `within` apart
+/// become one node.
 pub(super) fn join_curves(curves: Vec<Vec<DVec2>>, within: f64) -> JoinedCurves {
     let mut result = JoinedCurves::default();
     let (curves, indices) = result.without_duplicates(curves);
@@ -39,7 +39,8 @@ pub(super) fn join_curves(curves: Vec<Vec<DVec2>>, within: f64) -> JoinedCurves 
 }
 
 impl JoinedCurves {
-    /// Removes and counts duplicates; returns the other curves with their original indices.
+    /// Removes and counts duplicate curves; returns the other curves and their indices in the
+    /// input.
     fn without_duplicates(&mut self, curves: Vec<Vec<DVec2>>) -> (Vec<Vec<DVec2>>, Vec<usize>) {
         let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // turns -0 into 0
         let mut seen = HashSet::new();
@@ -59,11 +60,13 @@ impl JoinedCurves {
     }
 }
 
-/// Graph whose nodes are identified end points and whose edges are curves.
+/// Graph whose edges are curves and whose nodes are their end points; end points that are close
+/// together are one node.
 struct EndpointGraph {
-    /// Nodes of the first and last point of each curve.
+    /// For each curve, the nodes of its first and last point.
     ends: Vec<[usize; 2]>,
-    /// Curves at each node. A curve that starts and ends there is listed twice.
+    /// For each node, the curves that end there. A curve that starts and ends at the node is listed
+    /// twice.
     curves_at: Vec<Vec<usize>>,
     /// Whether each curve has been removed or traversed.
     is_used: Vec<bool>,
@@ -87,22 +90,23 @@ impl EndpointGraph {
         }
     }
 
-    /// Removes curves with a free end until none is left; returns a free end of each.
+    /// Repeatedly removes curves with a free end until no curve has one; returns the free end of
+    /// each removed curve.
     fn remove_loose(&mut self, curves: &[Vec<DVec2>]) -> Vec<DVec2> {
         let mut degree: Vec<usize> = self.curves_at.iter().map(Vec::len).collect();
         let mut free_nodes: Vec<usize> = (0..degree.len()).filter(|&p| degree[p] == 1).collect();
         let mut loose = Vec::new();
         while let Some(place) = free_nodes.pop() {
             let Some(curve) = self.unused_at(place) else {
-                continue; // already removed from its other end
+                continue; // the curve was already removed from its other end
             };
             self.is_used[curve] = true;
             let [first, last] = self.ends[curve];
             let points = &curves[curve];
             loose.push(points[if first == place { 0 } else { points.len() - 1 }]);
             let other = if first == place { last } else { first };
-            // The removal may free the end of one more curve. A closed curve counts twice
-            // at its node and is never removed.
+            // The removal may leave one more curve with a free end. A closed curve counts twice at
+            // its node and so is never removed.
             degree[other] -= 1;
             if degree[other] == 1 {
                 free_nodes.push(other);
@@ -111,7 +115,7 @@ impl EndpointGraph {
         loose
     }
 
-    /// Returns a curve at a node that has not been used.
+    /// Returns a curve at a node that has been neither removed nor traversed.
     fn unused_at(&mut self, place: usize) -> Option<usize> {
         let here = &mut self.curves_at[place];
         while here.last().is_some_and(|&curve| self.is_used[curve]) {
@@ -120,14 +124,15 @@ impl EndpointGraph {
         here.last().copied()
     }
 
-    /// Traverses unused curves from a start curve and collects the rings that close.
+    /// Traverses unused curves, beginning with the curve `start`, and collects the rings that
+    /// close.
     fn trace(&mut self, start: usize, curves: &[Vec<DVec2>], result: &mut JoinedCurves) {
         if self.is_used[start] {
             return;
         }
         let mut here = self.ends[start][0];
         let mut trail: Vec<TrailStep> = Vec::new();
-        // Position in the trail at which each node was left.
+        // For each visited node, the index in `trail` of the step that leaves it.
         let mut steps_from: HashMap<usize, usize> = HashMap::from([(here, 0)]);
         let mut next = Some(start);
         while let Some(curve) = next {
@@ -142,7 +147,7 @@ impl EndpointGraph {
             here = if is_forward { last } else { first };
             match steps_from.get(&here).copied() {
                 Some(closed) => {
-                    // Nodes of the closed ring may be visited again.
+                    // The nodes of the closed ring, except its start, may be visited again.
                     for step in &trail[closed + 1..] {
                         steps_from.remove(&step.from);
                     }
@@ -163,9 +168,9 @@ impl EndpointGraph {
     }
 }
 
-/// Traversal of one curve.
+/// Step of the traversal: one curve in one direction.
 struct TrailStep {
-    /// Node at which the traversal of the curve starts.
+    /// Node at which the step starts.
     from: usize,
     curve: usize,
     is_forward: bool,
@@ -181,13 +186,13 @@ impl TrailStep {
     }
 }
 
-/// Spatial hash that identifies points within a distance of each other.
+/// Spatial hash that assigns end points to nodes, so that points close to each other share a node.
 struct EndpointIndex {
     /// Origin of the grid.
     origin: DVec2,
-    /// Maximum distance of identified points, also the width of a grid cell.
+    /// Maximum distance between a node and its points; also the width of a grid cell.
     within: f64,
-    /// First point of each node.
+    /// Position of each node: the first point that was assigned to it.
     points: Vec<DVec2>,
     /// Nodes in each grid cell.
     cells: HashMap<[i64; 2], Vec<usize>>,
@@ -203,14 +208,16 @@ impl EndpointIndex {
         }
     }
 
-    /// Returns the node of a point, creating it if no node is near.
+    /// Returns the node of a point; creates it if no node is close enough.
     fn of(&mut self, p: DVec2) -> usize {
         let cell = ((p - self.origin) / self.within).floor();
         let [x, y] = [cell.x as i64, cell.y as i64];
-        // Cells are as wide as the distance, so the 3 × 3 block contains all near nodes.
+        // A cell is as wide as the maximum distance, so the 3 × 3 cells around `p` contain all
+        // nodes that are close enough.
         let block = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [i, j]));
         let existing = block
-            // Saturates, as the conversion of far cells to integers does.
+            // Saturating, because the conversion of a distant cell to an integer may have
+            // saturated.
             .filter_map(|[i, j]| self.cells.get(&[x.saturating_add(i), y.saturating_add(j)]))
             .flatten()
             .find(|&&place| self.points[place].distance(p) <= self.within);

@@ -1,12 +1,12 @@
 //! Reads the pairs of group code and value that make up a DXF file, from its text or binary
 //! encoding (Autodesk, DXF Reference).
 //!
-//! Values are slices of the file, so nothing is copied.
+//! Text values are slices of the file, so nothing is copied.
 
 use super::error::{DxfError, DxfPlace};
 use crate::geometry::MAX_COORDINATE;
 
-/// First bytes of a binary DXF file.
+/// Signature with which a binary DXF file begins.
 pub(in crate::design) const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 /// Value of a pair.
@@ -14,7 +14,7 @@ pub(in crate::design) const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 enum GroupValue<'a> {
     /// Text, or a number in text form.
     Text(&'a [u8]),
-    /// Number of a binary file.
+    /// Number from a binary file.
     Number(f64),
 }
 
@@ -43,13 +43,14 @@ impl<'a> GroupPair<'a> {
             GroupValue::Number(number) => Some(number),
             GroupValue::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
         };
-        // Applies to angles and knots too, to keep arithmetic finite. Also rejects NaN.
+        // The limit also applies to angles and knots, so that all arithmetic stays finite. The
+        // comparison rejects NaN, too.
         let number = number.filter(|n: &f64| n.abs() <= MAX_COORDINATE);
         number.ok_or(DxfError::Number(self.at))
     }
 
     /// Returns the value as an integer; a fraction is truncated.
-    pub fn whole(&self) -> Result<i64, DxfError> {
+    pub fn integer(&self) -> Result<i64, DxfError> {
         Ok(self.real()? as i64)
     }
 }
@@ -57,14 +58,14 @@ impl<'a> GroupPair<'a> {
 /// Reader of the pairs of a file.
 pub(super) struct PairReader<'a> {
     bytes: &'a [u8],
-    /// Byte offset of the next pair.
+    /// Byte offset of the next unread byte.
     position: usize,
-    /// Number of lines read of a text file.
+    /// Number of lines read so far; 0 in a binary file.
     line: usize,
     form: DxfEncoding,
 }
 
-/// Encoding of a file.
+/// Encoding of a DXF file.
 #[derive(Clone, Copy, PartialEq)]
 enum DxfEncoding {
     /// Two lines of text per pair.
@@ -76,12 +77,13 @@ enum DxfEncoding {
 }
 
 impl<'a> PairReader<'a> {
-    /// Detects the encoding and skips the header.
+    /// Creates a reader: detects the encoding and skips the signature of a binary file.
     pub fn of(bytes: &'a [u8]) -> Self {
         let content = bytes.strip_prefix(BINARY);
         let form = match content {
             None => DxfEncoding::Text,
-            // The first code is 0: two zero bytes, or one followed by "SECTION".
+            // The first group code is 0. It takes two zero bytes in the wide encoding; in the
+            // narrow one it is one zero byte, followed by the text "SECTION".
             Some([0, 0, ..]) => DxfEncoding::Wide,
             Some(_) => DxfEncoding::Narrow,
         };
@@ -108,7 +110,7 @@ impl<'a> PairReader<'a> {
         Ok(Some(GroupPair { code, at, value }))
     }
 
-    /// Returns the position of the next pair.
+    /// Returns the position of the next unread line or byte.
     pub fn place(&self) -> DxfPlace {
         match self.form {
             DxfEncoding::Text => DxfPlace::Line(self.line + 1),
@@ -122,7 +124,7 @@ impl<'a> PairReader<'a> {
         let Some(code) = self.line() else {
             return Ok(None);
         };
-        // Empty lines at the end are not a truncated pair.
+        // Empty lines at the end of the file are not an incomplete pair.
         if code.is_empty() && self.bytes[self.position..].trim_ascii().is_empty() {
             return Ok(None);
         }
@@ -158,7 +160,7 @@ impl<'a> PairReader<'a> {
         Ok(i16::from_le_bytes(self.take()?).into())
     }
 
-    /// Reads a value of a binary file; its type depends on the group code.
+    /// Reads a value of a binary file. The group code determines its type.
     fn binary_value(&mut self, code: i32) -> Result<GroupValue<'a>, DxfError> {
         Ok(match code {
             10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {

@@ -4,7 +4,8 @@ use super::*;
 use crate::geometry::Regions;
 use std::f64::consts::PI;
 
-/// Builds a text file from sections whose pairs are separated by white space.
+/// Builds a text file from sections, given as names and contents. In the contents, group codes and
+/// values are separated by white space.
 fn text(sections: &[(&str, &str)]) -> String {
     let section = |(name, pairs): &(&str, &str)| {
         let pairs: String = pairs
@@ -16,7 +17,7 @@ fn text(sections: &[(&str, &str)]) -> String {
     sections.iter().map(section).collect::<String>() + "0\nEOF\n"
 }
 
-/// Converts a text file to a binary file.
+/// Converts a text file to a binary file with group codes of two bytes (`wide`) or one byte.
 fn binary(text: &str, wide: bool) -> Vec<u8> {
     let mut bytes = BINARY.to_vec();
     let mut lines = text.lines();
@@ -240,7 +241,8 @@ fn a_flattened_circle_uses_its_tolerance() {
     }
 }
 
-/// Returns a square with its left edge at `x` on a layer, with additional pairs.
+/// Returns a square as an LWPOLYLINE on a layer, with its left edge at `x` and the additional pairs
+/// `more`.
 fn square_on(layer: &str, x: f64, side: f64, more: &str) -> String {
     let (right, top) = (x + side, side);
     format!(
@@ -249,7 +251,7 @@ fn square_on(layer: &str, x: f64, side: f64, more: &str) -> String {
     )
 }
 
-/// Returns colour, name and area of each paint layer, lowest first.
+/// Returns the colour, name and rounded area of each paint layer, lowest first.
 fn painted(sections: &[(&str, &str)]) -> Vec<(Option<Rgb>, String, f64)> {
     let file = text(sections);
     let outlines = read(file.as_bytes(), 1e-5).expect("an outline");
@@ -292,7 +294,8 @@ fn blocks_inherit_colours_from_their_reference() {
     );
     let insert = "0 INSERT 8 walls 62 3 2 tile 10 0 20 0";
     let found = painted(&[("TABLES", LAYERS), ("BLOCKS", &block), ("ENTITIES", insert)]);
-    // The colour of the reference's layer, then the colour of the reference.
+    // The square on layer 0 takes the colour of the reference's layer. The square with the colour
+    // BYBLOCK takes the reference's own colour.
     let expected = [
         (Some(Rgb([255, 0, 0])), "walls".to_owned(), 16.0),
         (Some(Rgb([0, 255, 0])), "other".to_owned(), 4.0),

@@ -1,4 +1,5 @@
-//! Readers of points, rings and polygons in JSON values, and their errors.
+//! Reads points, rings and polygons from JSON values, and defines the errors of the polygon
+//! importer.
 //!
 //! An error is created without its position. Each enclosing value then prepends its step
 //! to the error's path (see [`PolygonsImportError::within`]).
@@ -26,7 +27,7 @@ pub enum PolygonsImportError {
     /// The file has too many JSON objects.
     #[error("the file has more than {MAX_OBJECTS} objects; save its polygons as one MultiPolygon")]
     TooManyObjects,
-    /// The file has no polygons; lists the other objects.
+    /// The file has no polygons; holds the numbers of its other objects by type.
     #[error("the file has no polygons{0}; save filled outlines")]
     NoPolygon(OtherKinds),
     /// The polygons enclose no area.
@@ -34,7 +35,7 @@ pub enum PolygonsImportError {
     Regions(#[from] RegionsError),
 }
 
-/// Fault of a JSON value, worded to follow its path.
+/// Fault of a JSON value. Its message continues a sentence that begins with the path of the value.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PolygonsFault {
@@ -54,7 +55,7 @@ pub enum PolygonsFault {
         /// Expected type of the member.
         expected: &'static str,
     },
-    /// A coordinate exceeds [`MAX_COORDINATE`].
+    /// The absolute value of a coordinate exceeds [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("{RANGE_MESSAGE}")]
@@ -84,11 +85,11 @@ impl PolygonsImportError {
     }
 }
 
-/// Maximum number of objects in a file (resource limit: each takes about 600 bytes of
-/// memory during the import).
+/// Maximum number of JSON objects in a file (resource limit: each takes about 600 bytes of memory
+/// during the import).
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
 
-/// Closed polygon; the last point connects to the first.
+/// Ring of points; an edge connects the last point to the first.
 pub(super) type JsonRing = Vec<DVec2>;
 
 type PolygonsResult<T> = std::result::Result<T, PolygonsImportError>;
@@ -163,7 +164,8 @@ pub(super) fn polygons(value: &Value) -> PolygonsResult<Vec<Vec<JsonRing>>> {
     read_list(value, "a list of polygons, each a list of rings", rings)
 }
 
-/// Returns the nesting depth of a list, following first elements.
+/// Returns the nesting depth of a list, judged by the first element at each depth; 0 if the value
+/// is not a list.
 pub(super) fn depth(value: &Value) -> usize {
     match value {
         Value::Array(list) => 1 + list.first().map_or(0, depth),

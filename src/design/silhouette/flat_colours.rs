@@ -1,11 +1,11 @@
 //! Separates a picture of flat colours into one paint layer per colour.
 //!
 //! A colour is flat if it has pixels whose eight neighbours have almost the same colour. The
-//! background is the transparent area, or the flat colour of most pixels along the border.
-//! The boundary of a colour runs where a pixel is equally close to it and to another flat
-//! colour of the neighbourhood, so anti-aliased edges give sub-pixel accuracy and produce
-//! no third colour between two. Enclosed colours are stacked on top, so they leave no hole
-//! in the colour below.
+//! background is the transparent area, or the flat colour of most pixels along the border. The
+//! boundary of a colour runs where the picture is equally close to this colour and to another flat
+//! colour of the neighbourhood. Anti-aliased edges therefore give sub-pixel accuracy and produce no
+//! third colour between two. Colours that are enclosed by another colour are stacked on top of it,
+//! so they leave no hole in it.
 
 use super::{FigureSamples, SilhouetteError, is_on_border};
 use crate::colour::Rgb;
@@ -16,29 +16,31 @@ use image::{Rgba, RgbaImage};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Maximum number of flat colours; a picture with more counts as shaded (heuristic).
+/// Maximum number of flat colours; a picture with more of them counts as shaded (heuristic).
 const MAX_COLOURS: usize = 16;
 
-/// Colours whose channels differ by less than this, of 255, count as equal (tolerance: JPEG
+/// Difference in a channel, from 0 to 255, below which two colours count as equal (tolerance: JPEG
 /// noise).
 const SAME_COLOUR: u8 = 24;
 
-/// Minimum fraction of the picture that a flat colour covers (heuristic).
+/// Minimum fraction of the picture that a colour must cover to count as a flat colour (heuristic).
 const MIN_COLOUR_AREA: f64 = 0.0005;
 
-/// Minimum fraction of the picture that is flat; portraits in front of a plain wall stay below
-/// one half (heuristic).
+/// Minimum fraction of the picture that flat colours must cover together; if they cover less, the
+/// picture counts as shaded. In portraits in front of a plain wall they cover less than one half
+/// (heuristic).
 const MIN_FLAT_AREA: f64 = 0.6;
 
-/// Width of the border zone in pixels. The background colour is determined there, and
-/// pixels in it that are not flat belong to the background (heuristic).
+/// Width of the border zone in pixels. The background colour is determined in this zone, and pixels
+/// in it without a flat pixel nearby belong to the background (heuristic).
 const BORDER_WIDTH: usize = 4;
 
 /// Radius in pixels in which the candidate colours of a pixel are collected (tolerance: an
 /// anti-aliased edge is two or three pixels wide).
 const NEIGHBOURHOOD: usize = 2;
 
-/// Returns the paint layers of a picture, lowest first; none if its colours are not flat.
+/// Returns one or more paint layers per flat colour of a picture, lowest first; none if the colours
+/// of the picture are not flat.
 ///
 /// # Errors
 /// [`SilhouetteError`] if a boundary has too many points.
@@ -60,7 +62,7 @@ pub(in crate::design) fn flat_colour_layers(
                 paint: Some(Rgb(colours.flat[colour].0).into()),
                 name: String::new(),
             }),
-            // The colour consisted of removed specks only.
+            // The colour had only specks, which have been removed.
             Err(SilhouetteError::Empty { .. }) => {}
             Err(error) => return Err(error),
         }
@@ -72,7 +74,7 @@ pub(in crate::design) fn flat_colour_layers(
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct PixelColour([u8; 3], bool);
 
-/// Colour of a transparent pixel.
+/// Colour of every transparent pixel: one with an opacity below one half.
 const TRANSPARENT: PixelColour = PixelColour([0; 3], false);
 
 impl PixelColour {
@@ -83,7 +85,8 @@ impl PixelColour {
         }
     }
 
-    /// Returns the largest difference of a channel, 0 to 255; 255 if only one is opaque.
+    /// Returns the largest difference in a channel, 0 to 255; 255 if only one of the two pixels is
+    /// opaque.
     fn distance(self, other: Self) -> u8 {
         if self.1 != other.1 {
             return u8::MAX;
@@ -93,21 +96,21 @@ impl PixelColour {
     }
 }
 
-/// Best matching flat colours of a pixel.
+/// Flat colours that best match a pixel.
 #[derive(Clone, Copy)]
 struct ColourMatch {
-    /// Bit mask of the flat colours in the neighbourhood.
+    /// Bit mask of the candidates, the flat colours in the neighbourhood of the pixel.
     candidates: u32,
-    /// Index of the closest candidate.
+    /// Index of the closest candidate in the list of flat colours.
     closest: u8,
-    /// Distance to the closest candidate.
+    /// Distance from the pixel's colour to the closest candidate.
     distance: u8,
-    /// Distance to the second closest candidate, if there are two.
+    /// Distance to the second closest candidate; `None` if there is only one.
     second_distance: Option<u8>,
 }
 
 impl ColourMatch {
-    /// Finds the closest and second closest of the candidate colours.
+    /// Finds the closest and second closest of the candidate colours to a pixel's colour.
     fn of(ink: PixelColour, candidates: u32, flat: &[PixelColour]) -> Self {
         let mut pixel = Self {
             candidates,
@@ -133,7 +136,7 @@ impl ColourMatch {
     }
 }
 
-/// Flat colours of a picture and the matching colours of each pixel.
+/// Flat colours of a picture, and for each pixel the flat colours that match it.
 struct FlatColours {
     /// Width and height in pixels.
     size: (u32, u32),
@@ -168,7 +171,7 @@ impl FlatColours {
             let neighbours = neighbourhood(i, width, count, NEIGHBOURHOOD);
             let candidates = match neighbours.fold(0, |bits, j| bits | own_bits[j]) {
                 0 if is_near_border(i, width, count) => 1 << ground,
-                // A line too thin to contain a flat pixel may have any colour.
+                // A line that is too thin to contain a flat pixel may have any colour.
                 0 => u32::MAX,
                 some => some,
             };
@@ -183,7 +186,8 @@ impl FlatColours {
         })
     }
 
-    /// Returns signed samples whose zero contour is the boundary of one colour.
+    /// Returns signed samples whose zero contour is the boundary of the flat colour with the index
+    /// `colour`; they are positive inside.
     fn figure(&self, colour: usize) -> FigureSamples {
         let sample = |(pixel, ink): (&ColourMatch, &PixelColour)| {
             if pixel.candidates & (1 << colour) == 0 {
@@ -216,8 +220,8 @@ impl FlatColours {
         figure
     }
 
-    /// Fills enclosed areas that contain no background, since the colours in them are stacked
-    /// on top.
+    /// Fills enclosed areas that contain no background, because the colours in them are stacked on
+    /// top of this one.
     fn fill_enclosed(&self, figure: &mut FigureSamples) {
         let (count, width) = (figure.samples.len(), figure.width as usize);
         let across = (1..count).filter(|i| !i.is_multiple_of(width));
@@ -241,7 +245,8 @@ impl FlatColours {
     }
 }
 
-/// Returns the index of the background colour.
+/// Returns the index of the background colour: the transparent one, if there is one, otherwise the
+/// most frequent one in the border zone. Returns `None` if there are no flat colours.
 fn background(
     flat: &[PixelColour],
     inks: &[PixelColour],
@@ -252,7 +257,7 @@ fn background(
         return Some(ground);
     }
     let mut counts = vec![0; flat.len()];
-    // A zone wider than the thin frame that some converters add around a picture.
+    // The zone is wider than the thin frame that some converters add around a picture.
     let is_border = |&i: &usize| is_flat[i] && is_near_border(i, width, inks.len());
     for i in (0..inks.len()).filter(is_border) {
         counts[usize::from(ColourMatch::of(inks[i], u32::MAX, flat).closest)] += 1;
@@ -288,13 +293,14 @@ fn flat_colours(inks: &[PixelColour], is_flat: &[bool]) -> Option<Vec<PixelColou
     is_flat.then(|| flat.into_iter().map(|(ink, _)| ink).collect())
 }
 
-/// Returns whether a pixel lies in the border zone.
+/// Returns whether a pixel, given by its index, lies in the border zone.
 fn is_near_border(i: usize, width: usize, count: usize) -> bool {
     let (x, y) = (i % width, i / width);
     x.min(y).min(width - 1 - x).min(count / width - 1 - y) < BORDER_WIDTH
 }
 
-/// Returns the pixels within `reach` rows and columns of a pixel, itself included.
+/// Returns the indices of the pixels within `reach` rows and columns of the pixel `i`, including
+/// `i`.
 fn neighbourhood(
     i: usize,
     width: usize,
@@ -315,7 +321,8 @@ mod tests {
     const BLUE: [f64; 3] = [20.0, 60.0, 180.0];
     const WHITE: [f64; 3] = [255.0; 3];
 
-    /// Draws overlapping anti-aliased discs (centre, radius, colour) on white or transparent.
+    /// Draws overlapping anti-aliased discs, given as (centre, radius, colour), on a white or
+    /// transparent background.
     fn discs(discs: &[([f64; 2], f64, [f64; 3])], is_clear: bool) -> RgbaImage {
         RgbaImage::from_fn(120, 100, |x, y| {
             let (mut ink, mut alpha) = (WHITE, if is_clear { 0.0 } else { 1.0 });
@@ -331,7 +338,7 @@ mod tests {
         })
     }
 
-    /// Returns colour, area and number of rings of each layer.
+    /// Returns the colour, area and number of rings of each paint layer.
     fn found(picture: &RgbaImage) -> Vec<(Rgb, f64, usize)> {
         let coats = flat_colour_layers(picture, &ImportOptions::default()).expect("traced");
         let summary = |coat: &PaintLayer| {
@@ -361,7 +368,8 @@ mod tests {
 
     #[test]
     fn background_holes_stay_and_blended_edges_add_no_colour() {
-        // Edge pixels between white and red are pink, which is a flat colour elsewhere.
+        // Edge pixels between white and red are pink, and pink is a flat colour elsewhere in the
+        // picture.
         let pink = [228.0, 142.0, 148.0];
         let all = [
             ([40.0, 50.0], 30.0, RED),

@@ -1,13 +1,14 @@
 //! Fits the simplest outline that is consistent with a boundary traced in a picture.
 //!
-//! A traced boundary has a point on each grid edge that it crosses, with an uncertainty
-//! ([`TracedPoint::slack`]); stair steps and noise within it should not appear in the outline.
-//! 1. Find the fewest chords that pass all points within their slack (Imai and Iri 1988,
-//!    "Polygonal approximations of a curve", with wedges as in Chan and Chin 1996); among
-//!    these, minimise the squared distances of the points from fitted lines.
-//! 2. Move corners to the intersections of these lines and round them within the slack,
-//!    both as in Selinger 2003 ("Potrace: a polygon-based tracing algorithm"), but with
-//!    parabolas.
+//! A traced boundary has a point on each grid edge that it crosses, with an uncertainty, the slack
+//! ([`TracedPoint::slack`]). Stair steps and noise within the slack should not appear in the
+//! outline. The fit has two steps:
+//! 1. Find the polygon with the fewest chords that pass within the slack of all points (Imai and
+//!    Iri 1988, "Polygonal approximations of a curve", with wedges as in Chan and Chin 1996); among
+//!    these polygons, choose the one with the smallest squared distances of the points from lines
+//!    that are fitted along the chords.
+//! 2. Move the corners to the intersections of these lines and round them within the slack. Both
+//!    follow Selinger 2003 ("Potrace: a polygon-based tracing algorithm"), but with parabolas.
 
 use crate::geometry::{DMat2, DVec2};
 
@@ -20,25 +21,25 @@ pub(super) struct TracedPoint {
     pub(super) slack: f64,
 }
 
-/// Maximum number of points that a chord spans (resource limit: bounds the quadratic work;
-/// a longer line is split into several chords).
+/// Maximum number of points that a chord spans (resource limit: it bounds the work, which is
+/// quadratic in this number; a longer line is split into several chords).
 const MAX_CHORD_POINTS: usize = 1024;
 
-/// Maximum distance of a corner from its traced point, in multiples of the slack
-/// (heuristic).
+/// Maximum distance by which a corner is moved from its traced point, in multiples of the point's
+/// slack (heuristic).
 const MAX_CORNER_SHIFT: f64 = 2.0;
 
-/// Sine of the minimum angle, 30°, at which two lines are intersected (tolerance: the
-/// intersection of flatter lines is dominated by noise).
+/// Sine of the minimum angle between two lines, 30°, at which their intersection is used
+/// (tolerance: at smaller angles the intersection is dominated by noise).
 const MIN_CORNER_SINE: f64 = 0.5;
 
-/// Minimum reach of a rounding, as a fraction of half the shorter chord; below it the corner
-/// counts as intentional and stays sharp (heuristic).
+/// Minimum length of the part of each chord that a rounded corner replaces, as a fraction of half
+/// the shorter chord; below it the corner counts as intentional and stays sharp (heuristic).
 const MIN_ROUNDING: f64 = 0.5;
 
-/// Inserts points so that neighbours are about one pixel apart, which restores the points
-/// that contour tracing removes from straight runs.
-pub(super) fn resampled(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
+/// Inserts points so that neighbours are about one pixel apart. This restores the points that
+/// contour tracing removes from straight runs.
+pub(super) fn densify(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     let next = boundary.iter().cycle().skip(1);
     let between = |(a, b): (&TracedPoint, &TracedPoint)| {
         let pieces = a.point.distance(b.point).round().max(1.0) as u32;
@@ -54,7 +55,8 @@ pub(super) fn resampled(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     boundary.iter().zip(next).flat_map(between).collect()
 }
 
-/// Fits an outline to a closed boundary. `flatness` is the invisible deviation in pixels.
+/// Fits an outline to a closed boundary. `flatness` is the deviation, in pixels, that counts as
+/// invisible.
 pub(super) fn fit_outline(boundary: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
     if boundary.len() < 4 {
         return boundary.iter().map(|traced| traced.point).collect();
@@ -72,7 +74,7 @@ fn corners(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     let vertices = fewest_chords(count, &traced_at, &sums);
     let line = |k: usize| {
         let to = vertices.get(k + 1).copied().unwrap_or(count);
-        // A chord with fewer inner points does not determine a line.
+        // At least two inner points of the chord are needed to determine a line.
         (to - vertices[k] > 2).then(|| sums.line(vertices[k], to))
     };
     let lines: Vec<Option<FittedLine>> = (0..vertices.len()).map(line).collect();
@@ -83,7 +85,7 @@ fn corners(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
             (Some(before), Some(after)) => intersection(before, after),
             _ => None,
         };
-        // Clamped because nearly parallel lines meet far away.
+        // The shift is clamped, because nearly parallel lines meet far away.
         let shift = meeting_point.map_or(DVec2::ZERO, |met| met - traced.point);
         TracedPoint {
             point: traced.point + shift.clamp_length_max(MAX_CORNER_SHIFT * traced.slack),
@@ -93,15 +95,15 @@ fn corners(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     (0..vertices.len()).map(corner).collect()
 }
 
-/// Returns the indices of the vertices of the polygon with the fewest chords, by dynamic
-/// programming from the first point around to itself.
+/// Returns the indices of the points that are vertices of the polygon with the fewest chords. Uses
+/// dynamic programming along the closed boundary, from the first point back to itself.
 fn fewest_chords(
     count: usize,
     traced_at: &dyn Fn(usize) -> TracedPoint,
     sums: &PrefixSums,
 ) -> Vec<usize> {
-    // Per point: number of chords up to it, their squared deviation, and the start of the
-    // last chord.
+    // For each point, the best chain of chords from the first point to it: number of chords, sum of
+    // their squared deviations, and start of the last chord.
     let mut best = vec![(usize::MAX, f64::INFINITY, 0); count + 1];
     best[0] = (0, 0.0, 0);
     for from in 0..count {
@@ -134,8 +136,8 @@ fn fewest_chords(
     vertices
 }
 
-/// Returns the index of the point with the largest turning angle, measured over a few
-/// points. It is the first vertex, as it would be a vertex of any good polygon.
+/// Returns the index of the point with the largest turning angle, measured over a few points. The
+/// polygon starts there, because this point is a vertex of any good polygon.
 fn sharpest_point(boundary: &[TracedPoint]) -> usize {
     let count = boundary.len();
     let reach = (count / 4).min(4);
@@ -154,8 +156,8 @@ fn sharpest_point(boundary: &[TracedPoint]) -> usize {
     (best.unwrap_or(0) + reach) % count
 }
 
-/// Range of directions from an apex in which a chord passes all points seen so far within
-/// their slack.
+/// Range of the directions in which a chord from the apex passes within the slack of all points so
+/// far.
 struct DirectionWedge {
     apex: DVec2,
     /// Right and left limiting directions; `None` if all directions are allowed.
@@ -174,8 +176,8 @@ impl DirectionWedge {
             .is_none_or(|[right, left]| right.perp_dot(to) >= 0.0 && to.perp_dot(left) >= 0.0)
     }
 
-    /// Restricts the range to directions that pass a point within its slack; returns whether
-    /// any direction remains.
+    /// Restricts the range to directions in which a chord passes within the slack of the point
+    /// `by`; returns whether any direction remains.
     fn narrow(&mut self, by: &TracedPoint) -> bool {
         let to = by.point - self.apex;
         let distance = to.length();
@@ -224,9 +226,9 @@ fn intersection(a: &FittedLine, b: &FittedLine) -> Option<DVec2> {
 /// Prefix sums of coordinates and their products, which give the line through any run of
 /// points in constant time.
 struct PrefixSums {
-    /// Origin of the sums.
+    /// Point that is subtracted from all points before they are summed.
     base: DVec2,
-    /// Prefix sums of the coordinates.
+    /// Prefix sums of the points.
     linear: Vec<DVec2>,
     /// Prefix sums of x², xy and y².
     products: Vec<[f64; 3]>,
@@ -235,7 +237,7 @@ struct PrefixSums {
 impl PrefixSums {
     fn of(points: impl Iterator<Item = DVec2>) -> Self {
         let points: Vec<DVec2> = points.collect();
-        // Relative to the first point, to avoid cancellation with large coordinates.
+        // Points are relative to the first one, to avoid cancellation with large coordinates.
         let base = points[0];
         let (mut linear, mut products) = (vec![DVec2::ZERO], vec![[0.0; 3]]);
         let (mut sum, mut product) = (DVec2::ZERO, [0.0; 3]);
@@ -254,8 +256,8 @@ impl PrefixSums {
         }
     }
 
-    /// Fits a line to the points of a chord. If others remain, excludes the end points, which
-    /// also belong to the neighbouring chords.
+    /// Fits a line to the points `from..=to` of a chord. Excludes the end points, which also belong
+    /// to the neighbouring chords, unless fewer than two points would remain.
     fn line(&self, from: usize, to: usize) -> FittedLine {
         let (from, to) = if to - from > 2 {
             (from + 1, to - 1)
@@ -291,8 +293,8 @@ fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
         let [before, after] = [k + count - 1, k + 1].map(|k| corners[k % count].point - p);
         let [to_before, to_after] = [before.normalize_or_zero(), after.normalize_or_zero()];
         let half = 0.5 * before.length().min(after.length());
-        // A parabola that starts and ends at distance `reach` from the corner stays
-        // 0.25 · cut · reach away from it.
+        // The corner is replaced by a parabola that starts and ends at the distance `reach` from
+        // it. The distance between the corner and the parabola is 0.25 · cut · reach.
         let cut = (to_before + to_after).length();
         let reach = if cut * half > 4.0 * corner.slack {
             4.0 * corner.slack / cut
@@ -304,7 +306,7 @@ fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
             continue;
         }
         let [a, b] = [p + to_before * reach, p + to_after * reach];
-        // The chords of a parabola in n pieces deviate by 1/n² of that distance.
+        // If the parabola is divided into n chords, they deviate from it by 1/n² of that distance.
         let pieces = (0.25 * cut * reach / flatness.max(1e-9))
             .sqrt()
             .ceil()
@@ -333,7 +335,7 @@ mod tests {
 
     #[test]
     fn corners_between_traced_points_are_reconstructed() {
-        // Points as traced between pixels: halfway between pixel centres, never at a corner.
+        // Traced points lie halfway between pixel centres, so none lies at a corner of the square.
         let side =
             |from: DVec2, along: DVec2| (0..20).map(move |k| from + along * (f64::from(k) + 0.5));
         let corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(DVec2::from);

@@ -24,7 +24,7 @@ fn regions(bytes: &[u8], options: &ImportOptions) -> Regions {
     }
 }
 
-/// Draws a picture from ASCII art: `#` is black, `.` white, first line on top.
+/// Draws a picture from ASCII art: `#` is black, `.` is white, and the first line is the top row.
 fn ascii(art: &[&str]) -> GrayImage {
     let (width, height) = (art[0].len() as u32, art.len() as u32);
     GrayImage::from_fn(width, height, |x, y| {
@@ -81,7 +81,7 @@ fn y_points_up_and_a_pixel_is_a_unit() {
     let design = read_with(&bytes, &ImportOptions::default()).expect("silhouette");
     assert_eq!(design.extent.size(), DVec2::splat(6.0));
     let bounds = design.outline(0.0).expect("area").bounds();
-    // The corner of a pixel-art shape is uncertain by half a pixel.
+    // Tracing between pixel centres cuts off the corners by less than half a pixel.
     assert!(bounds.min.distance(DVec2::new(1.0, 2.0)) < 0.5);
     assert!(bounds.max.distance(DVec2::new(5.0, 5.0)) < 0.5);
 }
@@ -182,7 +182,7 @@ fn a_threshold_moves_the_boundary() {
         };
         regions(&bytes, &options).bounds()
     };
-    // The level is 4x at centre x + ½, so 50 − ½ is crossed at 49.5 / 4 + ½.
+    // The grey level is 4x at the pixel centre x + ½, so the ramp crosses 50 − ½ at 49.5 / 4 + ½.
     assert!(
         (bounds_at(50).max.x - 12.875).abs() < 1e-6,
         "{:?}",
@@ -260,7 +260,7 @@ fn noise_is_refused_before_it_is_traced() {
     ));
 }
 
-/// Rasterises an outline by testing pixel centres.
+/// Rasterises an outline by testing pixel centres; returns the pixels row by row, top row first.
 fn redrawn(regions: &Regions, size: u32) -> Vec<bool> {
     let centre = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(size - y) - 0.5);
     let pixels = (0..size).flat_map(|y| (0..size).map(move |x| (x, y)));
@@ -293,7 +293,7 @@ fn stair_steps_are_smoothed_but_pixels_are_preserved() {
     let again = redrawn(&found, size);
     let changed = drawn.iter().zip(&again).filter(|(a, b)| a != b).count();
     assert!(changed <= 34, "{changed} of {} around it", 2 * 170);
-    // Stair steps would turn back about 80 times by 45°.
+    // If stair steps remained, the outline would turn back by 45° about 80 times.
     let turn = |k: usize| {
         let [a, b, c] = [k, k + 1, k + 2].map(|k| ring[k % ring.len()]);
         (b - a).angle_to(c - b)

@@ -1,18 +1,19 @@
-//! Errors of the SVG importer and the limits they mention.
+//! Errors of the SVG importer and the limits that they mention.
 
 use crate::design::flatten::TooManyPoints;
 use crate::geometry::RegionsError;
 use usvg::roxmltree;
 
-/// Maximum number of elements after expanding all copies (resource limit: about one second).
+/// Maximum number of elements after all copies are expanded (resource limit: importing them takes
+/// about one second).
 pub(super) const MAX_ELEMENTS: u64 = 200_000;
 
 /// Maximum number of XML nodes, including text between elements (resource limit: ten times
 /// [`MAX_ELEMENTS`], because files contain many nodes that are not drawn).
 pub(super) const MAX_NODES: u32 = 2_000_000;
 
-/// Maximum nesting depth including copies (resource limit: reading recurses, and the 2 MiB stack
-/// of a thread suffices for twice as many levels even in debug builds).
+/// Maximum nesting depth of elements, including copies (resource limit: reading recurses, and the 2
+/// MiB stack of a thread suffices for twice as many levels even in debug builds).
 pub(super) const MAX_DEPTH: u32 = 96;
 
 /// Error of importing an SVG drawing.
@@ -30,13 +31,13 @@ pub enum SvgError {
         /// Number of attributes.
         attributes: u64,
     },
-    /// Too many namespace declarations; gives the number of prefixes.
+    /// The file declares namespaces too often; holds the number of distinct prefixes.
     #[error("the drawing declares {0} namespaces too often; save it as plain SVG")]
     TooManyNamespaces(usize),
     /// Entities expand into too much text.
     #[error("the entities of the drawing expand into too much text; save it without entities")]
     TooMuchText,
-    /// An entity contains elements; gives its line, counted from 1.
+    /// An entity contains elements; holds its line, counted from 1.
     #[error("line {0}: an entity contains elements; save the drawing without entities")]
     EntityOfElements(usize),
     /// The file is not well-formed XML.
@@ -45,23 +46,23 @@ pub enum SvgError {
     /// The file is not valid SVG or has no size.
     #[error("the drawing cannot be read ({0}); save it as plain SVG")]
     Svg(#[source] usvg::Error),
-    /// The expanded drawing has too many elements; gives the line, counted from 1, of the
-    /// element that exceeded the limit.
+    /// The expanded drawing has too many elements; holds the line, counted from 1, of the element
+    /// that exceeds the limit.
     #[error(
         "line {0}: the drawing expands into more than {MAX_ELEMENTS} elements because of copies (use, patterns, clip paths); remove some copies"
     )]
     TooManyElements(u32),
-    /// Elements are nested too deeply; gives the line of the deepest, counted from 1.
+    /// Elements are nested too deeply; holds the line of the deepest one, counted from 1.
     #[error(
         "line {0}: the drawing is nested more than {MAX_DEPTH} levels deep, including copies; ungroup it"
     )]
     TooDeep(u32),
-    /// An element refers to itself; gives its line, counted from 1.
+    /// An element refers to itself; holds its line, counted from 1.
     #[error(
         "line {0}: an element refers to itself, directly or through others; remove the reference"
     )]
     Circular(u32),
-    /// Matching the style sheet would take too long; gives the number of elements.
+    /// Matching the style sheet would take too long; holds the number of elements.
     #[error(
         "the style sheet is too long for a drawing of {0} elements; save it with plain attributes"
     )]
@@ -72,7 +73,7 @@ pub enum SvgError {
         if *strokes { ", only strokes, and strokes = false" } else { "" }
     )]
     NothingFilled {
-        /// Whether there are strokes, which the options exclude.
+        /// Whether the drawing has strokes that the import options exclude.
         strokes: bool,
     },
     /// No element has the id.
@@ -83,10 +84,10 @@ pub enum SvgError {
     NoElement {
         /// Requested id.
         id: String,
-        /// First ids of the drawing.
+        /// First few ids that the drawing has.
         known: Vec<String>,
     },
-    /// The selected element draws nothing; gives its id.
+    /// The selected element draws nothing; holds its id.
     #[error(
         "the element \"{0}\" draws nothing by itself; choose a shape, a group or a <use> outside of <defs>"
     )]

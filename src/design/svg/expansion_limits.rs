@@ -1,12 +1,11 @@
 //! Refuses drawings that would expand into too many elements, before they are expanded.
 //!
-//! `usvg` copies the targets of `use`, patterns, clip paths and masks, so a file of a few
-//! hundred bytes can expand into 10^10 elements. This module counts the elements including
-//! all copies in one pass over the graph of references, which visits every element once and
-//! copies nothing.
+//! `usvg` copies the targets of `use`, patterns, clip paths and masks, so a file of a few hundred
+//! bytes can expand into 10^10 elements. This module counts the elements, including all copies, in
+//! one pass over the graph of references. The pass visits every element once and copies nothing.
 //!
-//! The count is an upper bound: targets that `usvg` caches are counted once per reference.
-//! Markers and filters are not counted, because [`STYLE`] disables them.
+//! The count is an upper bound: a target that `usvg` caches is nevertheless counted once per
+//! reference. Markers and filters are not counted, because [`STYLE`] disables them.
 
 use super::error::{MAX_DEPTH, MAX_ELEMENTS, SvgError};
 use std::collections::HashMap;
@@ -19,11 +18,11 @@ pub(super) const STYLE: &str = "* { marker: none !important; filter: none !impor
 /// Maximum number of tests of a style rule against an element (resource limit).
 const MAX_STYLE_TESTS: usize = 50_000_000;
 
-/// Maximum estimated cost of laying out all text, in microseconds (resource limit: 2 s).
+/// Maximum estimated time for laying out all text, in microseconds (resource limit: 2 s).
 const MAX_TEXT: u64 = 2_000_000;
 
-/// Checks the expanded size and depth, circular references and the cost of the style sheet;
-/// returns whether the text is short enough to be laid out.
+/// Checks the expanded size and depth, circular references and the cost of the style sheet. Returns
+/// whether the text of the drawing is short enough to be laid out.
 pub(super) fn check_expansion(document: &Document) -> Result<bool, SvgError> {
     let sheet = StyleReferences::of(document);
     let elements = document.descendants().filter(Node::is_element).count();
@@ -47,7 +46,8 @@ pub(super) fn check_expansion(document: &Document) -> Result<bool, SvgError> {
     Ok(size.text <= MAX_TEXT)
 }
 
-/// Returns the length in bytes of the longest list of fonts, which is parsed for every span.
+/// Returns the length in bytes of the longest list of fonts in the drawing. `usvg` parses this list
+/// for every span of text.
 fn longest_font_list(document: &Document) -> u64 {
     let elements = document.descendants();
     let attributes = elements.clone().flat_map(|node| node.attributes());
@@ -67,16 +67,17 @@ fn longest_font_list(document: &Document) -> u64 {
     named.chain(declared).map(str::len).max().unwrap_or(0) as u64
 }
 
-/// References that style sheets add to elements.
+/// References to ids (`url(#id)`) that style sheets add to elements.
 struct StyleReferences<'d> {
-    /// Upper bound of the number of rules.
+    /// Upper bound of the number of rules in all style sheets.
     rules: usize,
-    /// Referenced ids by the last name of the selector (a class, element or id).
+    /// For the last name of a selector (a class, an element or an id): the ids that its rules refer
+    /// to.
     references: HashMap<&'d str, Vec<&'d str>>,
 }
 
 impl<'d> StyleReferences<'d> {
-    /// Collects all style sheets of a document.
+    /// Reads all style sheets of a document.
     fn of(document: &'d Document) -> Self {
         let mut sheet = Self {
             rules: 1, // the one in STYLE
@@ -86,7 +87,7 @@ impl<'d> StyleReferences<'d> {
             .descendants()
             .filter(|n| n.tag_name().name() == "style");
         for text in styles.flat_map(|n| n.children()).filter_map(|n| n.text()) {
-            // An upper bound, because declarations also contain commas.
+            // This is an upper bound, because declarations also contain commas.
             sheet.rules += text.matches(['{', ',']).count();
             sheet.read(text);
         }
@@ -150,11 +151,11 @@ fn urls(text: &str) -> impl Iterator<Item = &str> {
 /// Size of an element after expansion.
 #[derive(Clone, Copy)]
 struct ExpandedSize {
-    /// Number of elements including copies.
+    /// Number of elements, including copies and the element itself.
     elements: u64,
     /// Nesting depth, the element itself included.
     levels: u32,
-    /// Estimated cost of laying out its text, in microseconds.
+    /// Estimated time for laying out the text of the element, in microseconds.
     text: u64,
 }
 
@@ -166,13 +167,13 @@ struct ExpansionCounter<'d, 'a> {
     sheet: StyleReferences<'d>,
     /// Sizes computed so far; `None` for elements in progress.
     sizes: HashMap<usvg::roxmltree::NodeId, Option<ExpandedSize>>,
-    /// Length of the longest list of fonts in bytes.
+    /// Length in bytes of the longest list of fonts in the drawing.
     longest_font_list: u64,
 }
 
 impl<'d, 'a> ExpansionCounter<'d, 'a> {
-    /// Returns the size of an element with its children and references. Recurses at most
-    /// [`MAX_DEPTH`] levels.
+    /// Returns the expanded size of an element with its children and the targets of its references.
+    /// Recurses at most [`MAX_DEPTH`] levels.
     fn expanded_size(&mut self, node: Node<'d, 'a>, depth: u32) -> Result<ExpandedSize, SvgError> {
         let document = self.document;
         let line = || document.text_pos_at(node.range().start).row;
@@ -208,8 +209,8 @@ impl<'d, 'a> ExpansionCounter<'d, 'a> {
         Ok(size)
     }
 
-    /// Estimates the cost of laying out a text: `usvg` shapes the whole text once per span and
-    /// searches all letters for each letter.
+    /// Estimates the time, in microseconds, for laying out a text element: `usvg` shapes the whole
+    /// text once per span and searches all letters for each letter.
     fn cost_of_text(&self, text: Node) -> u64 {
         let nodes = || text.descendants();
         let letters: usize = nodes().filter_map(|node| node.text()).map(str::len).sum();
@@ -221,7 +222,7 @@ impl<'d, 'a> ExpansionCounter<'d, 'a> {
     /// Returns the child elements and the targets of all references of an element.
     fn parts(&self, node: Node<'d, 'a>) -> Vec<Node<'d, 'a>> {
         let mut parts: Vec<_> = node.children().filter(Node::is_element).collect();
-        // The href of a link or image copies nothing.
+        // The `href` of a link or an image makes no copies.
         let copies_href = matches!(
             node.tag_name().name(),
             "use" | "pattern" | "mask" | "clipPath"

@@ -8,27 +8,27 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use usvg::fontdb::{Database, Family, ID, Query, Source};
 use usvg::{FontFamily, FontResolver};
 
-/// Maximum number of searches for a font with a missing character (resource limit: each search
-/// opens every font file).
+/// Maximum number of searches for another font when the chosen font lacks a character (resource
+/// limit: each search opens every font file).
 const MAX_SEARCHES: usize = 64;
 
-/// Font family of text that names none.
+/// Font family for text that names none.
 pub(super) const UNNAMED: &str = "serif";
 
-/// Font selection for one drawing with a record of what is missing.
+/// Font selection for one drawing, with a record of missing fonts and characters.
 #[derive(Default)]
 pub(super) struct FontLookup {
-    /// Number of searches for missing characters so far.
+    /// Number of searches for fonts with a missing character so far.
     searches: AtomicUsize,
     absent: Mutex<MissingFonts>,
 }
 
-/// Fonts and characters that are not installed.
+/// Font families that are not installed, and characters that no font has.
 #[derive(Clone, Default)]
 pub(super) struct MissingFonts {
     /// Names of missing font families.
     pub fonts: BTreeSet<String>,
-    /// Characters that no installed font has.
+    /// Characters for which no font was found, or for which the search was skipped.
     pub characters: BTreeSet<char>,
 }
 
@@ -54,13 +54,13 @@ impl FontLookup {
         }
     }
 
-    /// Returns the missing fonts and characters.
+    /// Returns the record of missing fonts and characters.
     pub(super) fn into_absent(self) -> MissingFonts {
         let absent = self.absent.into_inner();
         absent.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Records the first family of a list if none of the list is installed.
+    /// Records the first family of a list if no family of the list is installed.
     fn note_fonts(&self, families: &[FontFamily], fonts: &Database) {
         let is_available = |family: &FontFamily| match family {
             FontFamily::Named(name) => name == UNNAMED || is_installed(fonts, Family::Name(name)),
@@ -88,7 +88,7 @@ fn is_installed(fonts: &Database, family: Family) -> bool {
     fonts.query(&query).is_some()
 }
 
-/// Returns the bundled font, the only one in memory.
+/// Returns the bundled font, which is the only one with its source in memory.
 fn bundled_font(fonts: &Database) -> Option<ID> {
     let mut faces = fonts.faces();
     faces
@@ -96,7 +96,7 @@ fn bundled_font(fonts: &Database) -> Option<ID> {
         .map(|face| face.id)
 }
 
-/// Returns the installed fonts and the bundled one; loads them on the first call.
+/// Returns a database of the installed fonts and the bundled one; loads it on the first call.
 pub(super) fn fonts() -> Arc<Database> {
     static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
     let found = FONTS.get_or_init(|| {
@@ -136,7 +136,8 @@ const MONOSPACE: [&str; 6] = [
     "Menlo",
 ];
 
-/// Assigns installed fonts to the generic families whose configured font is not installed.
+/// Assigns an installed font to each generic family (serif, sans-serif, monospaced) whose
+/// configured font is not installed.
 fn set_generic_families(fonts: &mut Database) {
     let replacement = |fonts: &Database, kind: Family, names: &[&str]| {
         let found = names

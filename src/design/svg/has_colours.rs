@@ -1,14 +1,14 @@
 //! Detects whether a drawing specifies any colour.
 //!
-//! A drawing without colours is black by SVG's default, so black is not a choice of its author.
-//! Such a drawing is imported as a silhouette that takes any colour.
+//! A drawing without colours is black by SVG's default, so black is not its author's choice. Such a
+//! drawing is imported as a silhouette, without paint layers, and can take any colour.
 
 use usvg::roxmltree::{Document, Node};
 
-/// Names of the attributes and properties that specify a colour.
+/// Names of the attributes and style properties that can specify a colour.
 const PAINTS: [&str; 3] = ["fill", "stroke", "stop-color"];
 
-/// Values that specify no colour.
+/// Values of these attributes and properties that specify no colour.
 const NOTHING: [&str; 6] = ["", "none", "currentColor", "inherit", "initial", "unset"];
 
 /// Returns whether any fill, stroke or gradient stop of a drawing has a colour.
@@ -25,7 +25,7 @@ fn is_colour(value: &str) -> bool {
     !NOTHING.contains(&value.trim())
 }
 
-/// Returns the text of a `style` element.
+/// Returns the text of a `style` element; `None` for other elements.
 fn sheet<'d>(node: &Node<'d, '_>) -> Option<&'d str> {
     let is_sheet = node.tag_name().name() == "style";
     is_sheet.then(|| node.text()).flatten()

@@ -1,10 +1,11 @@
-//! Composes ink and paper shapes into one area with few Boolean operations, and wraps the
-//! polygon library for unions, differences and intersections.
+//! Composes ink shapes (filled) and paper shapes (white, which erase ink below them) into one area
+//! with few Boolean operations. Also wraps the polygon library for unions, differences and
+//! intersections.
 //!
 //! Later shapes cover earlier ones, so each alternation between ink and paper costs a Boolean
-//! operation on everything below. Shapes that do not overlap may be reordered: each goes into
-//! the lowest layer above everything it might cover. Ten thousand dots, alternately black and
-//! white, then form two layers instead of ten thousand.
+//! operation on everything below. Shapes that do not overlap may be reordered, so each shape goes
+//! into the lowest layer of its kind that lies above everything it might cover. Ten thousand dots,
+//! alternately black and white, then form two layers instead of ten thousand.
 
 use super::z_order::ZOrderGrid;
 use crate::geometry::{Bounds, DVec2};
@@ -18,8 +19,8 @@ pub(super) type WindingRings = Vec<Vec<DVec2>>;
 /// Shapes sorted into alternating layers: even layers are ink, odd layers are paper.
 pub(super) struct InkLayers {
     layers: Vec<Vec<WindingRings>>,
-    /// One plus the index of the top layer in each cell of the page.
-    heights: ZOrderGrid,
+    /// For each cell of the page, one plus the index of its top layer; 0 if the cell is empty.
+    z_order: ZOrderGrid,
 }
 
 impl InkLayers {
@@ -27,7 +28,7 @@ impl InkLayers {
     pub(super) fn of_page(size: DVec2) -> Self {
         Self {
             layers: Vec::new(),
-            heights: ZOrderGrid::of_page(size),
+            z_order: ZOrderGrid::of_page(size),
         }
     }
 
@@ -39,25 +40,27 @@ impl InkLayers {
     /// Adds a shape on top of all earlier shapes.
     pub(super) fn add(&mut self, rings: WindingRings, is_paper: bool) {
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
-            // A shape without area creates the layer, so that the drawing is not empty.
+            // A shape without points creates the lowest layer, so that the drawing does not count
+            // as empty.
             return self.grow_to(0);
         };
-        // In the top layer below the shape if it has the same colour, otherwise one above.
-        let top = self.heights.highest(&bounds).saturating_sub(1);
+        // The shape goes into the top layer at its place if that layer is of the same kind, ink or
+        // paper; otherwise into the next layer.
+        let top = self.z_order.highest(&bounds).saturating_sub(1);
         let layer = top + usize::from((top % 2 == 1) != is_paper);
-        self.heights.raise(&bounds, layer + 1);
+        self.z_order.raise(&bounds, layer + 1);
         self.grow_to(layer);
         self.layers[layer].push(rings);
     }
 
-    /// Makes sure that a layer exists.
+    /// Creates the layer with the given index, and all layers below it, if they do not exist.
     fn grow_to(&mut self, layer: usize) {
         let count = self.layers.len().max(layer + 1);
         self.layers.resize_with(count, Vec::new);
     }
 
-    /// Adds ink layers and subtracts paper layers, from bottom to top.
-    pub(super) fn composed(self) -> WindingRings {
+    /// Returns the area of the ink: adds ink layers and subtracts paper layers, from bottom to top.
+    pub(super) fn compose(self) -> WindingRings {
         let layers = self.layers.into_iter().map(union).enumerate();
         layers.fold(Vec::new(), |ink, (layer, rings)| match layer % 2 {
             1 => boolean(&ink, &rings, OverlayRule::Difference),
@@ -67,16 +70,16 @@ impl InkLayers {
     }
 }
 
-/// Intersects rings with a clip path, if there is one.
-pub(super) fn clipped(rings: WindingRings, clip: Option<&WindingRings>) -> WindingRings {
+/// Intersects an area with the area of a clip path, if there is one.
+pub(super) fn clip_rings(rings: WindingRings, clip: Option<&WindingRings>) -> WindingRings {
     match clip {
         Some(clip) => boolean(&rings, clip, OverlayRule::Intersect),
         None => rings,
     }
 }
 
-/// Number of shapes united in one operation (resource limit: uniting 30,000 overlapping squares
-/// at once takes half a minute and gigabytes).
+/// Maximum number of shapes united in one operation (resource limit: uniting 30,000 overlapping
+/// squares at once takes half a minute and gigabytes).
 const UNION_BATCH: usize = 8;
 
 /// Returns the union of shapes. Works in small batches, so that edges inside a batch are removed
@@ -92,12 +95,13 @@ pub(super) fn union(mut shapes: Vec<WindingRings>) -> WindingRings {
     shapes.pop().unwrap_or_default()
 }
 
-/// Subtracts other rings from rings.
+/// Returns the area of `rings` that is not covered by `others`.
 pub(super) fn difference(rings: &WindingRings, others: &WindingRings) -> WindingRings {
     boolean(rings, others, OverlayRule::Difference)
 }
 
-/// Performs a Boolean operation on areas filled by the non-zero rule.
+/// Performs a Boolean operation on two areas, both filled by the non-zero rule. Returns no rings if
+/// `subject` is empty.
 fn boolean(subject: &WindingRings, clip: &WindingRings, rule: OverlayRule) -> WindingRings {
     if subject.is_empty() {
         return Vec::new();
@@ -131,7 +135,7 @@ mod tests {
     }
 
     fn area(layers: InkLayers) -> f64 {
-        let ink = layers.composed();
+        let ink = layers.compose();
         Regions::from_rings(&ink, FillRule::NonZero)
             .expect("ink")
             .area()
@@ -140,7 +144,7 @@ mod tests {
     #[test]
     fn later_shapes_cover_earlier_ones() {
         let mut layers = InkLayers::of_page(DVec2::splat(100.0));
-        layers.add(square(50.0, 50.0, 10.0), true); // paper on an empty page
+        layers.add(square(50.0, 50.0, 10.0), true); // paper below all ink
         layers.add(square(0.0, 0.0, 100.0), false);
         layers.add(square(10.0, 10.0, 40.0), true);
         layers.add(square(20.0, 20.0, 20.0), false);

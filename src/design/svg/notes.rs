@@ -5,21 +5,21 @@ use super::painter::PaintedDrawing;
 use crate::design::note::ImportNote;
 use usvg::roxmltree::Node as Xml;
 
-/// Elements whose content is not drawn in place.
+/// Tags of the elements whose content is not drawn where it is defined.
 const HIDDEN: [&str; 6] = ["defs", "symbol", "clipPath", "mask", "pattern", "marker"];
 
-/// Data for the notes of a drawing.
+/// Data from which the notes of a drawing are made.
 pub(super) struct SvgReport<'p> {
-    /// Result of reading the shapes.
+    /// Shapes of the drawing with the counts of repairs and omissions.
     pub painted: &'p PaintedDrawing,
-    /// Whether strokes are part of the silhouette.
+    /// Whether the import option `strokes` is set: strokes are part of the silhouette.
     pub strokes: bool,
     /// Missing fonts and characters; `None` if the text was not laid out.
     pub absent: Option<MissingFonts>,
 }
 
 impl SvgReport<'_> {
-    /// Returns the notes on an element and its descendants.
+    /// Returns the notes on the imported element `top` and its descendants.
     pub(super) fn notes(self, top: Xml) -> Vec<ImportNote> {
         let repairs = self.painted.repairs.iter();
         let repairs = repairs.flat_map(|(rule, found)| ImportNote::from_repairs(found, *rule));
@@ -28,7 +28,7 @@ impl SvgReport<'_> {
         } else {
             self.painted.bare_strokes
         };
-        let left_out = &self.painted.left_out;
+        let left_out = &self.painted.approximations;
         let texts = self
             .absent
             .as_ref()
@@ -54,12 +54,12 @@ impl SvgReport<'_> {
     }
 }
 
-/// Pairs a count with its note.
+/// Returns a count together with the note that reports it.
 fn counted_note(count: usize, note: fn(usize) -> ImportNote) -> (usize, ImportNote) {
     (count, note(count))
 }
 
-/// Returns the number of drawn elements with a tag name.
+/// Returns the number of drawn elements with the tag `name`.
 fn count_elements(top: Xml, name: &str) -> usize {
     let nodes = drawn_elements(top);
     nodes.filter(|node| node.tag_name().name() == name).count()
@@ -72,7 +72,7 @@ fn count_filtered(top: Xml) -> usize {
         .count()
 }
 
-/// Returns all descendants that are drawn in place.
+/// Returns `top` and all its descendants that are drawn where they are defined.
 fn drawn_elements<'d, 'a: 'd>(top: Xml<'d, 'a>) -> impl Iterator<Item = Xml<'d, 'a>> {
     let is_hidden = |node: Xml| HIDDEN.contains(&node.tag_name().name());
     let nodes = top.descendants();

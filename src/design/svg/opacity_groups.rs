@@ -6,18 +6,19 @@ use super::shape::SvgShape;
 use crate::colour::Paint;
 use crate::geometry::{Bounds, DVec2};
 
-/// Maximum number of shapes in a group whose overlaps are subtracted (resource limit).
+/// Maximum number of shapes in a group for which covered parts are subtracted (resource limit: the
+/// shapes are compared in pairs).
 const MAX_SHAPES: usize = 4096;
 
 /// Maximum total number of points in the Boolean operations on a group (resource limit: about
 /// one second).
 const MAX_POINTS: usize = 1_000_000;
 
-/// Applies a group's opacity to its shapes; returns them and whether the result is exact.
+/// Applies a group's opacity to its shapes; returns the shapes, and whether the result is exact.
 ///
-/// SVG fades the group as a whole, so a shape must not show through another one of the group.
-/// Covered parts are therefore subtracted before the shapes are faded one by one. The result
-/// is inexact if that exceeds the limits or if a covering shape is itself translucent.
+/// SVG fades the group as a whole, so a shape must not show through another shape of the group.
+/// Covered parts are therefore subtracted before the shapes are faded one by one. The result is
+/// inexact if the subtraction would exceed a limit, or if a covering shape is itself translucent.
 pub(super) fn apply_group_opacity(
     shapes: Vec<SvgShape>,
     opacity: f64,
@@ -27,7 +28,7 @@ pub(super) fn apply_group_opacity(
         .into_iter()
         .flat_map(SvgShape::split_stroke)
         .collect();
-    // Shapes of equal paint are united, because overlaps and seams would become visible.
+    // Shapes of equal paint are united, because their overlaps and seams would become visible.
     let mut shapes = merge_shapes(shapes, page);
     let boxes: Vec<Option<Bounds>> = shapes.iter().map(SvgShape::bounds).collect();
     let may_overlap =

@@ -1,7 +1,7 @@
 //! Merges the shapes of a drawing into as few paint layers as the painting order allows.
 //!
-//! Each shape goes into the lowest layer of its paint that is above everything the shape might
-//! cover. All letters of a word thus share one layer.
+//! Each shape goes into the lowest layer with the same paint that lies above everything the shape
+//! might cover. All letters of a word thus share one layer.
 
 use super::ink_layers::{WindingRings, union};
 use super::shape::SvgShape;
@@ -31,14 +31,15 @@ pub(super) fn paint_layers(shapes: Vec<SvgShape>, page: DVec2) -> Vec<PaintLayer
         .collect()
 }
 
-/// Merges shapes into as few shapes as their order allows. A merged shape has no name.
+/// Merges shapes of equal paint into as few shapes as their order allows. A merged shape has no
+/// name. `page` is the size of the drawing.
 pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> {
     let mut stack = PaintStack {
         layers: Vec::new(),
         layers_by_key: BTreeMap::new(),
-        heights: ZOrderGrid::of_page(page),
+        z_order: ZOrderGrid::of_page(page),
     };
-    shapes.into_iter().for_each(|shape| stack.lay(shape));
+    shapes.into_iter().for_each(|shape| stack.push(shape));
     let unite = |(shape, more): (SvgShape, Vec<WindingRings>)| match more.is_empty() {
         true => shape,
         false => SvgShape {
@@ -50,7 +51,7 @@ pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> 
     stack.layers.into_iter().map(unite).collect()
 }
 
-/// Attributes that all shapes of a layer share.
+/// Attributes that all shapes of one layer share; equal keys may share a layer.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct LayerKey {
     is_text: bool,
@@ -102,23 +103,24 @@ fn gradient_bits(gradient: &Gradient) -> Vec<u64> {
 
 /// Layers under construction.
 struct PaintStack {
-    /// Layers from bottom to top: the first shape and the rings of the others.
+    /// Layers from bottom to top: for each, its first shape and the rings of its other shapes.
     layers: Vec<(SvgShape, Vec<WindingRings>)>,
-    /// Indices of the layers with a key, in ascending order.
+    /// For each key, the indices of its layers in ascending order.
     layers_by_key: BTreeMap<LayerKey, Vec<usize>>,
-    /// One plus the index of the top layer in each cell of the page.
-    heights: ZOrderGrid,
+    /// For each cell of the page, one plus the index of its top layer; 0 if the cell is empty.
+    z_order: ZOrderGrid,
 }
 
 impl PaintStack {
     /// Adds a shape on top of all earlier shapes.
-    fn lay(&mut self, shape: SvgShape) {
+    fn push(&mut self, shape: SvgShape) {
         let Some(bounds) = shape.bounds() else {
-            return; // a shape without area
+            return; // a shape without points
         };
-        let above = self.heights.highest(&bounds);
-        // May join a layer that it overlaps, unless it is translucent, where the overlap would
-        // be darker, or has a stroke, which would be visible inside.
+        let above = self.z_order.highest(&bounds);
+        // The shape may join the top layer even if it overlaps shapes of that layer, with two
+        // exceptions: the overlap of translucent shapes would be darker, and the stroke of a shape
+        // would be visible inside the union.
         let may_unite = shape.paint.is_opaque() && shape.stroke.is_none();
         let lowest = above.saturating_sub(usize::from(may_unite));
         let same_key = self.layers_by_key.entry(LayerKey::of(&shape)).or_default();
@@ -126,9 +128,9 @@ impl PaintStack {
         let Some(&index) = same_key.get(first_allowed) else {
             same_key.push(self.layers.len());
             self.layers.push((shape, Vec::new()));
-            return self.heights.raise(&bounds, self.layers.len());
+            return self.z_order.raise(&bounds, self.layers.len());
         };
-        self.heights.raise(&bounds, index + 1);
+        self.z_order.raise(&bounds, index + 1);
         let (first, others) = &mut self.layers[index];
         others.push(shape.rings);
         if let Some((all, more)) = first.stroke.as_mut().zip(shape.stroke) {

@@ -2,7 +2,7 @@
 //! order, with clip paths, transforms and group opacity applied.
 
 use super::error::SvgError;
-use super::ink_layers::{WindingRings, clipped};
+use super::ink_layers::{WindingRings, clip_rings};
 use super::opacity_groups::apply_group_opacity;
 use super::resolved_paint::{ResolvedPaint, affine, resolve_paint};
 use super::shape::SvgShape;
@@ -30,7 +30,7 @@ pub(super) struct PaintedDrawing {
     /// Number of paths with a visible stroke but no fill.
     pub bare_strokes: usize,
     /// Numbers of ignored or approximated features.
-    pub left_out: ApproximationCounts,
+    pub approximations: ApproximationCounts,
 }
 
 /// Numbers of features that were ignored or approximated.
@@ -52,7 +52,7 @@ pub(super) fn page_of(tree: &usvg::Tree) -> DVec2 {
 }
 
 /// Converts a drawing, or only its selected element, to shapes.
-pub(super) fn painted(
+pub(super) fn paint_tree(
     tree: &usvg::Tree,
     options: &SvgReadOptions,
 ) -> Result<PaintedDrawing, SvgError> {
@@ -64,7 +64,7 @@ pub(super) fn painted(
             shapes: Vec::new(),
             repairs: [FillRule::NonZero, FillRule::EvenOdd].map(|rule| (rule, Repairs::default())),
             bare_strokes: 0,
-            left_out: ApproximationCounts::default(),
+            approximations: ApproximationCounts::default(),
         },
         is_drawn: false,
         is_in_text: false,
@@ -105,7 +105,7 @@ impl SvgPainter<'_> {
         let own = match group.clip_path() {
             Some(path) => {
                 let inside = self.clip(path, group.abs_transform())?;
-                Some(clipped(inside, clip))
+                Some(clip_rings(inside, clip))
             }
             None => None,
         };
@@ -124,7 +124,7 @@ impl SvgPainter<'_> {
         if opacity < 1.0 {
             let shapes = self.painted.shapes.split_off(first);
             let (shapes, is_exact) = apply_group_opacity(shapes, opacity, self.page);
-            self.painted.left_out.blends += usize::from(!is_exact);
+            self.painted.approximations.blends += usize::from(!is_exact);
             self.painted.shapes.extend(shapes);
         }
         Ok(())
@@ -132,7 +132,7 @@ impl SvgPainter<'_> {
 
     /// Counts the mask and blend mode of a group.
     fn count_left_out(&mut self, group: &Group) {
-        let left_out = &mut self.painted.left_out;
+        let left_out = &mut self.painted.approximations;
         left_out.masks += usize::from(group.mask().is_some());
         left_out.blends += usize::from(group.blend_mode() != usvg::BlendMode::Normal);
     }
@@ -143,7 +143,7 @@ impl SvgPainter<'_> {
         for node in text.flattened().children() {
             match node {
                 Node::Path(path) => self.path(path, text.id(), clip)?,
-                _ => self.painted.left_out.glyphs += 1,
+                _ => self.painted.approximations.glyphs += 1,
             }
         }
         self.is_in_text = false;
@@ -171,8 +171,9 @@ impl SvgPainter<'_> {
         // Strokes support a single colour only.
         let is_approximated =
             |resolved: &ResolvedPaint| resolved.is_mean || resolved.gradient.is_some();
-        self.painted.left_out.shades += usize::from(fill.as_ref().is_some_and(is_mean));
-        self.painted.left_out.shades += usize::from(stroke.as_ref().is_some_and(is_approximated));
+        self.painted.approximations.shades += usize::from(fill.as_ref().is_some_and(is_mean));
+        self.painted.approximations.shades +=
+            usize::from(stroke.as_ref().is_some_and(is_approximated));
         let gradient = fill.as_mut().and_then(|resolved| resolved.gradient.take());
         let gradient = gradient.map(|gradient| gradient.transformed(self.page_from_path(path)));
         let [fill, stroke] = [fill, stroke].map(|resolved| resolved.map(|resolved| resolved.paint));
@@ -231,7 +232,7 @@ impl SvgPainter<'_> {
         is_stroke: bool,
     ) {
         self.painted.shapes.push(SvgShape {
-            rings: clipped(rings, clip),
+            rings: clip_rings(rings, clip),
             paint,
             gradient: None,
             is_stroke,
@@ -293,7 +294,7 @@ impl SvgPainter<'_> {
         let base = group.pre_concat(clip.transform());
         self.clip_group(clip.root(), base, &mut rings)?;
         let outer = clip.clip_path().map(|outer| self.clip(outer, group));
-        Ok(clipped(rings, outer.transpose()?.as_ref()))
+        Ok(clip_rings(rings, outer.transpose()?.as_ref()))
     }
 
     /// Appends the area of the filled paths in a group of a clip path.
@@ -311,7 +312,7 @@ impl SvgPainter<'_> {
                     self.clip_group(inner, base, &mut own)?;
                     let inner_base = base.pre_concat(inner.abs_transform());
                     let inside = inner.clip_path().map(|clip| self.clip(clip, inner_base));
-                    rings.extend(clipped(own, inside.transpose()?.as_ref()));
+                    rings.extend(clip_rings(own, inside.transpose()?.as_ref()));
                 }
                 _ => {}
             }

@@ -1,4 +1,5 @@
-//! Converts SVG paints: solid colours, gradients, and patterns as their mean colour.
+//! Converts SVG paints: solid colours, gradients, and patterns, which are replaced by their mean
+//! colour.
 
 use crate::colour::{Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb};
 use crate::geometry::{DAffine2, DMat2, DVec2};
@@ -8,7 +9,7 @@ use usvg::{BaseGradient, Color, Group, Node, Opacity, Pattern, SpreadMethod, Tra
 pub(super) struct ResolvedPaint {
     /// Colour and opacity; for a gradient, its mean.
     pub paint: Paint,
-    /// Gradient in the coordinates of the path.
+    /// Gradient in the coordinates of the path; `None` for other paints.
     pub gradient: Option<Gradient>,
     /// Whether the paint is only the mean of a pattern or of a degenerate gradient.
     pub is_mean: bool,
@@ -88,23 +89,24 @@ fn convert_gradient(
     }
 }
 
-/// Converts a point to double precision.
+/// Returns a point in double precision.
 fn point(x: f32, y: f32) -> DVec2 {
     DVec2::new(x.into(), y.into())
 }
 
-/// Converts a transform to double precision.
+/// Converts a `usvg` transform to double precision.
 pub(super) fn affine(t: Transform) -> DAffine2 {
     let columns = [t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from);
     DAffine2::from_cols_array(&columns)
 }
 
-/// Converts a colour.
+/// Converts a `usvg` colour.
 fn rgb(colour: Color) -> Rgb {
     Rgb([colour.red, colour.green, colour.blue])
 }
 
-/// Returns the mean paint of the filled shapes in a pattern, with equal weights.
+/// Returns the mean paint of the filled shapes in a pattern, all with the same weight; `None` if
+/// nothing is visible.
 fn pattern_mean(pattern: &Pattern) -> Option<Paint> {
     let mut paints = Vec::new();
     collect_fills(pattern.root(), &mut paints);

@@ -1,15 +1,15 @@
-//! The shape: one painted area of a drawing.
+//! [`SvgShape`]: one painted area of a drawing.
 
 use super::ink_layers::WindingRings;
 use super::stroke::ShapeStroke;
 use crate::colour::{Gradient, Paint};
 use crate::geometry::Bounds;
 
-/// Area of one fill or one stroke, or a fill with the stroke along its outline.
+/// Area of one fill or of one stroke; or a fill together with the stroke along its outline.
 pub(super) struct SvgShape {
     /// Area, filled by the non-zero rule.
     pub rings: WindingRings,
-    /// Colour and opacity.
+    /// Colour and opacity of the area.
     pub paint: Paint,
     /// Gradient in page coordinates, y up; `paint` is then its mean.
     pub gradient: Option<Gradient>,
@@ -17,14 +17,14 @@ pub(super) struct SvgShape {
     pub is_stroke: bool,
     /// Whether the shape belongs to a text element.
     pub is_text: bool,
-    /// Stroke along the rings, if it stays attached to them.
+    /// Stroke along `rings`, if it is attached to this shape instead of being a shape itself.
     pub stroke: Option<ShapeStroke>,
-    /// Id of the element; may be empty.
+    /// Id of the SVG element; empty if it has none or several shapes were merged.
     pub name: String,
 }
 
 impl SvgShape {
-    /// Returns the bounding box including the stroke, or `None` without points.
+    /// Returns the bounding box including the stroke, or `None` if there are no points.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         let edge = self.stroke.iter().flat_map(|edge| &edge.rings);
         Bounds::of(self.rings.iter().chain(edge).flatten().copied())
@@ -35,7 +35,7 @@ impl SvgShape {
         self.rings.iter().map(Vec::len).sum()
     }
 
-    /// Splits the shape into its visible fill and its stroke.
+    /// Splits the shape into its fill, if visible, and its attached stroke, if any.
     pub(super) fn split_stroke(mut self) -> impl Iterator<Item = Self> {
         let (edge, fill) = (self.stroke.take(), self);
         let stroke = edge.map(|edge| Self {

@@ -1,4 +1,5 @@
-//! Computes the silhouette of a drawing by painting its shapes in two colours, ink and paper.
+//! Computes the silhouette of a drawing: paints its shapes in two colours, ink and paper, and
+//! returns the area of the ink.
 
 use super::error::SvgError;
 use super::ink_layers::{InkLayers, WindingRings};
@@ -7,9 +8,11 @@ use super::shape::SvgShape;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::{DVec2, FillRule, Regions};
 
-/// Returns the area that is ink after all shapes are painted, with or without strokes.
+/// Returns the area that is ink after all shapes are painted; strokes are painted if `strokes` is
+/// true.
 ///
-/// Pure white shapes are paper, unless all shapes are white.
+/// Pure white shapes are painted as paper and all others as ink. If all shapes are white, all are
+/// ink.
 pub(super) fn silhouette(
     painted: &PaintedDrawing,
     page: DVec2,
@@ -30,11 +33,11 @@ pub(super) fn silhouette(
         let strokes = !strokes && painted.bare_strokes > 0;
         return Err(SvgError::NothingFilled { strokes });
     }
-    Ok(Regions::from_rings(&layers.composed(), FillRule::NonZero)?)
+    Ok(Regions::from_rings(&layers.compose(), FillRule::NonZero)?)
 }
 
-/// Returns the fill and the stroke of a shape with their paints; without the stroke if `strokes`
-/// is false, and without an invisible fill.
+/// Returns the areas of a shape with their paints: the fill if it is visible, and the stroke if
+/// `strokes` is true.
 fn visible_areas(shape: &SvgShape, strokes: bool) -> impl Iterator<Item = (&WindingRings, &Paint)> {
     let is_visible = (strokes || !shape.is_stroke) && shape.paint.opacity > 0.0;
     let fill = is_visible.then_some((&shape.rings, &shape.paint));

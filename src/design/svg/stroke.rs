@@ -1,4 +1,4 @@
-//! Strokes that stay attached to the outline of their shape instead of becoming a shape.
+//! Strokes that stay attached to the outline of a shape instead of becoming shapes themselves.
 
 use super::ink_layers::WindingRings;
 use crate::colour::{Paint, StrokeJoin, StrokeStyle};
@@ -13,7 +13,7 @@ pub(super) struct ShapeStroke {
     pub rings: WindingRings,
 }
 
-/// Returns whether every subpath is closed.
+/// Returns whether every subpath of a path is closed.
 pub(super) fn is_closed(path: &Path) -> bool {
     use tiny_skia_path::PathSegment::{Close, MoveTo};
     let mut is_open = false;
@@ -27,8 +27,8 @@ pub(super) fn is_closed(path: &Path) -> bool {
     !is_open
 }
 
-/// Returns the stroke of a path in page units, or `None` if it has dashes or its transform
-/// makes the width depend on the direction.
+/// Returns the stroke of a path in page units, or `None` if the path has no stroke, the stroke has
+/// dashes, or the transform makes the width depend on the direction.
 pub(super) fn uniform_stroke(path: &Path, paint: Paint) -> Option<StrokeStyle> {
     let stroke = path
         .stroke()
@@ -56,6 +56,7 @@ pub(super) fn uniform_stroke(path: &Path, paint: Paint) -> Option<StrokeStyle> {
     })
 }
 
-/// Maximum relative difference of the axis lengths of a similarity, and maximum cosine of the
-/// angle between the axes (tolerance: transforms are `f32`).
+/// Maximum distortion of a transform that counts as a similarity: relative difference between the
+/// lengths of the transformed axes, and cosine of the angle between them (tolerance: transforms are
+/// `f32`).
 const MAX_DISTORTION: f64 = 1e-4;

@@ -20,7 +20,7 @@ fn read(text: &str, tolerance: f64) -> Result<(Regions, Bounds), SvgError> {
     super::read(text, None, &options).map(|found| (found.regions, found.extent))
 }
 
-/// Imports a drawing or one element of it, with strokes.
+/// Imports a drawing, or one element of it, with strokes as part of the silhouette.
 fn stroked(body: &str, element: Option<&str>) -> Result<ImportedOutlines, SvgError> {
     let options = ImportOptions {
         tolerance: 1e-5,
@@ -30,7 +30,7 @@ fn stroked(body: &str, element: Option<&str>) -> Result<ImportedOutlines, SvgErr
     super::read(&page(body), element, &options)
 }
 
-/// Returns the silhouette of the fills only.
+/// Returns the silhouette of a drawing without its strokes.
 fn without_strokes(body: &str) -> Result<Regions, SvgError> {
     let options = ImportOptions {
         strokes: false,
@@ -146,8 +146,8 @@ fn an_ignored_mask_is_reported() {
     assert_eq!(found.notes, [ImportNote::Masks(1)]);
 }
 
-/// Builds `levels` nested groups, each with `copies` references made by `link` to the previous
-/// one.
+/// Builds `levels` nested groups. Each has `copies` references to the previous group, made by
+/// `link` from its level.
 fn bomb(levels: usize, copies: usize, link: impl Fn(usize) -> String) -> String {
     let mut body = String::from(r#"<defs><g id="g0"><rect width="1" height="1"/></g>"#);
     for level in 1..=levels {
@@ -157,7 +157,8 @@ fn bomb(levels: usize, copies: usize, link: impl Fn(usize) -> String) -> String 
     body + &format!(r##"</defs><use href="#g{levels}"/>"##)
 }
 
-/// Returns the error of an exponential drawing, which must be reported quickly.
+/// Imports a drawing that would expand exponentially; asserts that it fails quickly and returns the
+/// error.
 fn refused_quickly(body: &str) -> SvgError {
     let start = Instant::now();
     let error = read_body(body).expect_err("a bomb");
@@ -295,7 +296,7 @@ fn the_depth_limit_prevents_stack_overflow() {
 fn circular_references_are_reported() {
     let body = r##"<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>"##;
     assert!(matches!(read_body(body), Err(SvgError::Circular(1))));
-    // A link copies nothing.
+    // The `href` of a link makes no copies, so it may refer to its own group.
     assert_near(
         regions(r##"<g id="a"><a href="#a"><rect width="9" height="9"/></a></g>"##).area(),
         81.0,
@@ -342,7 +343,7 @@ fn strokes_are_shapes_unless_disabled() {
     );
     let dashed = r#"<path d="M0 50 h100" stroke="black" stroke-width="2" stroke-dasharray="10"/>"#;
     assert_eq!(stroked(dashed, None).expect("an outline").regions.len(), 5);
-    // A white stroke cuts a gap.
+    // A white stroke cuts a gap into the shape below.
     let gap =
         r#"<rect width="60" height="60"/><path d="M0 30 h60" stroke="white" stroke-width="6"/>"#;
     let outline = stroked(gap, None).expect("an outline").regions;
@@ -442,7 +443,7 @@ fn a_stroke_of_countless_dashes_does_not_hang() {
     assert!(start.elapsed() < Duration::from_secs(30));
 }
 
-/// Tries all ways in which a drawing may refer to another file.
+/// Tries all ways in which a drawing could refer to another file.
 #[test]
 fn nothing_outside_the_file_is_opened() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -465,7 +466,7 @@ fn nothing_outside_the_file_is_opened() {
     assert!(read(&entity, 1e-3).is_err());
 }
 
-/// Returns the paint and area of each layer.
+/// Returns the paint and area of each paint layer, lowest first.
 fn layers(body: &str) -> Vec<(Paint, f64)> {
     let found = stroked(body, None).expect("a drawing");
     let layers = found.paint_layers.into_iter();
@@ -486,7 +487,8 @@ fn shapes_of_one_paint_are_one_layer_if_their_order_allows_it() {
         format!(r#"<rect x="{x}" y="10" width="10" height="10" fill="{fill}"/>"#)
     };
     let [red, blue] = [paint([255, 0, 0], 1.0), paint([0, 0, 255], 1.0)];
-    // Disjoint squares merge; a red square over a blue one does not.
+    // Disjoint squares of one colour merge; a red square above a blue one does not merge with a red
+    // one below.
     let body = [(0, "red"), (20, "blue"), (40, "red"), (60, "blue")].map(|(x, f)| square(x, f));
     let found = layers(&body.concat());
     assert_eq!(found.iter().map(|c| c.0).collect::<Vec<_>>(), [red, blue]);
@@ -536,14 +538,14 @@ fn patterns_become_their_mean_colour_and_gradients_stay() {
         <rect x="50" width="20" height="20" fill="url(#p)"/>
         <path d="M0 50h50v9" stroke="url(#g)" fill="none"/>"##;
     let paints: Vec<Paint> = layers(body).iter().map(|layer| layer.0).collect();
-    // Perceptually halfway between black and white.
+    // The mean colour is perceptually halfway between black and white.
     let mean = paint([99; 3], 1.0);
     assert_eq!(paints, [mean, paint([0, 255, 0], 1.0), mean]);
     let found = stroked(body, None).expect("a drawing");
     assert_eq!(found.notes, [ImportNote::MeanColours(2)]);
     let gradient = found.paint_layers[0].gradient.as_ref().expect("a gradient");
     assert_eq!(gradient.stops.len(), 2);
-    // From the left to the right edge of the square, in page coordinates.
+    // The gradient runs from the left to the right edge of the square, in page coordinates.
     let [left, right] = [DVec2::ZERO, DVec2::X].map(|p| gradient.frame.transform_point2(p));
     assert!(left.distance(DVec2::new(0.0, 100.0)) < 1e-5, "{left}");
     assert!(right.distance(DVec2::new(20.0, 100.0)) < 1e-5, "{right}");

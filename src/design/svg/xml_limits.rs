@@ -1,19 +1,19 @@
 //! Refuses XML text that would exhaust the parser, before it is parsed.
 //!
-//! `roxmltree` limits the nesting of entities but not how often a long one is expanded, compares
-//! the attributes of an element and the namespaces in scope pairwise, and allocates memory for
-//! all nodes before it counts them. This module bounds all of these from the raw text, in one
-//! pass each. The bounds may be too high (comments are counted too) but never too low.
+//! `roxmltree` limits the nesting of entities but not how often a long one is expanded; it compares
+//! the attributes of an element, and the namespaces in scope, pair by pair; and it allocates memory
+//! for all nodes before it counts them. This module bounds all of these costs from the raw text, in
+//! one pass each. Its estimates may be too high (comments are counted, too) but never too low.
 
 use super::error::{MAX_NODES, SvgError};
 use std::collections::{HashMap, HashSet};
 
-/// Maximum number of bytes that entities expand into (resource limit: ample for drawings that
-/// store a style in an entity and use it for each shape).
+/// Maximum number of bytes that all entity references expand into (resource limit: ample for
+/// drawings that store a style in an entity and use it for each shape).
 const MAX_EXPANDED: u64 = 64 << 20;
 
-/// Maximum number of name comparisons (resource limit: a fraction of a second, enough for
-/// 20,000 attributes of one element).
+/// Maximum number of comparisons of names, for each kind of name (resource limit: a fraction of a
+/// second, enough for 20,000 attributes of one element).
 const MAX_COMPARISONS: u64 = 200_000_000;
 
 /// Maximum number of references that the parser follows within one entity (defined by
@@ -32,7 +32,7 @@ pub(super) fn check_xml_text(text: &str) -> Result<(), SvgError> {
     check_entities(text)
 }
 
-/// Limits the pairwise comparisons of the attributes of an element.
+/// Returns an error if comparing the attributes of each element pair by pair would take too long.
 fn check_attributes(text: &str) -> Result<(), SvgError> {
     let mut comparisons = 0;
     let mut end = 0;
@@ -50,8 +50,8 @@ fn check_attributes(text: &str) -> Result<(), SvgError> {
     Ok(())
 }
 
-/// Limits the comparisons of namespaces: an element that declares one copies all namespaces in
-/// scope.
+/// Returns an error if comparing namespaces would take too long: an element that declares a
+/// namespace copies all namespaces in scope.
 fn check_namespaces(text: &str) -> Result<(), SvgError> {
     let mut declared = 0_u64;
     let mut prefixes = HashSet::new();
@@ -67,7 +67,8 @@ fn check_namespaces(text: &str) -> Result<(), SvgError> {
     }
 }
 
-/// Limits the expanded size of entities and the searches for their names.
+/// Returns an error if entities would expand into too much text, or searching for their names would
+/// take too long.
 fn check_entities(text: &str) -> Result<(), SvgError> {
     let mut sizes: HashMap<&str, u64> = HashMap::new();
     let mut are_nested = false;
@@ -75,7 +76,7 @@ fn check_entities(text: &str) -> Result<(), SvgError> {
     let mut end = 0;
     for (i, declaration) in text.split(DECLARATION).enumerate() {
         if let (Some((name, value)), true) = (entity(declaration), i > 0) {
-            // Elements in entities would invalidate all other counts.
+            // Entities must not contain elements, which would invalidate all other counts.
             let value = value.filter(|value| !value.contains('<'));
             let line = || line_of(text, end);
             let value = value.ok_or_else(|| SvgError::EntityOfElements(line()))?;
@@ -91,7 +92,8 @@ fn check_entities(text: &str) -> Result<(), SvgError> {
     }
     let (mut expanded, mut reference_count) = (0_u64, 0_u64);
     for size in references(text).filter_map(|name| sizes.get(name)) {
-        // With nested entities, assumes that each reference expands into the longest entity.
+        // If entities are nested, each reference is assumed to follow the maximum number of
+        // references to the longest entity.
         expanded = expanded.saturating_add(match are_nested {
             true => MAX_REFERENCES * longest,
             false => *size,
@@ -106,7 +108,7 @@ fn check_entities(text: &str) -> Result<(), SvgError> {
     }
 }
 
-/// Start of an entity declaration.
+/// Text with which an entity declaration starts.
 const DECLARATION: &str = "<!ENTITY";
 
 /// Parses name and value of an entity from the text after [`DECLARATION`]. The value is `None` if
@@ -122,7 +124,8 @@ fn entity(declaration: &str) -> Option<(&str, Option<&str>)> {
     Some((name, value))
 }
 
-/// Returns the entity names between `&` and `;`, except numeric character references.
+/// Returns the names in all entity references (between `&` and `;`), without numeric character
+/// references.
 fn references(text: &str) -> impl Iterator<Item = &str> {
     let between = text
         .split('&')

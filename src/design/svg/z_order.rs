@@ -1,4 +1,4 @@
-//! A coarse grid over the page with the height of the topmost layer in each cell.
+//! A coarse grid over the page that stores the height of the topmost layer in each cell.
 
 use crate::geometry::{Bounds, DVec2};
 
@@ -6,7 +6,8 @@ use crate::geometry::{Bounds, DVec2};
 /// page take one second; more cells would separate more shapes).
 const CELLS: usize = 64;
 
-/// Height of the topmost layer in each cell of a page; 0 where nothing is painted.
+/// Height of the topmost layer in each cell of a page: one plus the index of that layer, or 0 where
+/// nothing is painted.
 pub(super) struct ZOrderGrid {
     /// Width and height of the page.
     page: DVec2,
@@ -23,21 +24,21 @@ impl ZOrderGrid {
         }
     }
 
-    /// Returns the maximum height below a box.
+    /// Returns the maximum height of the cells that a box touches.
     pub(super) fn highest(&self, bounds: &Bounds) -> usize {
         let heights = self.covered_cells(bounds).map(|cell| self.cells[cell]);
         heights.max().unwrap_or(0)
     }
 
-    /// Raises all cells of a box to at least `to`.
+    /// Raises the height of all cells that a box touches to at least `to`.
     pub(super) fn raise(&mut self, bounds: &Bounds, to: usize) {
         for cell in self.covered_cells(bounds) {
             self.cells[cell] = self.cells[cell].max(to);
         }
     }
 
-    /// Returns the indices of the cells that a box touches; positions outside of the page count
-    /// for the cells at its border.
+    /// Returns the indices of the cells that a box touches. Positions outside of the page belong to
+    /// the nearest cell at its border.
     fn covered_cells(&self, bounds: &Bounds) -> impl Iterator<Item = usize> + use<> {
         let cell = |p: DVec2| {
             let along = p / self.page * CELLS as f64;

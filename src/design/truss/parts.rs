@@ -12,24 +12,24 @@ use std::collections::HashMap;
 pub struct TrussParts {
     /// Node positions, y up.
     pub nodes: Vec<DVec2>,
-    /// Two node indices per bar, counted from 0.
+    /// The two nodes of each bar, as indices into `nodes`.
     pub bars: Vec<[u32; 2]>,
-    /// Supported nodes.
+    /// Supports, each with its node.
     #[serde(default)]
     pub supports: Vec<TrussSupport>,
-    /// Forces at nodes.
+    /// Loads, each with its node.
     #[serde(default)]
     pub loads: Vec<TrussLoad>,
-    /// Cross-sectional area of each bar, or empty.
+    /// Cross-sectional area of each bar, positive; empty if not given.
     #[serde(default)]
     pub areas: Vec<f64>,
-    /// Colour of each bar, or empty.
+    /// Colour of each bar; empty if not given.
     #[serde(default)]
     pub colours: Vec<Rgb>,
-    /// Available materials.
+    /// Materials to which `bar_materials` refers.
     #[serde(default)]
     pub materials: Vec<TrussMaterial>,
-    /// Index into `materials` for each bar, or empty.
+    /// Material of each bar, as an index into `materials`; empty if not given.
     #[serde(default)]
     pub bar_materials: Vec<u32>,
 }
@@ -40,7 +40,8 @@ pub struct TrussParts {
 pub struct TrussSupport {
     /// Node index, counted from 0.
     pub node: u32,
-    /// Whether displacement is fixed along x and along y of the design as drawn.
+    /// Whether the displacement of the node is fixed along the x axis and along the y axis of the
+    /// plane.
     pub fixed: [bool; 2],
 }
 
@@ -68,7 +69,7 @@ pub struct TrussMaterial {
     pub density: Option<f64>,
 }
 
-/// Error of validating a truss. Nodes and bars count from 0, as in the file.
+/// Error of validating a truss. Nodes and bars are counted from 0, as in the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrussInputError {
@@ -81,12 +82,13 @@ pub enum TrussInputError {
         /// Number of nodes.
         nodes: usize,
     },
-    /// A coordinate is not finite or exceeds [`MAX_COORDINATE`].
+    /// A coordinate is not finite, or its absolute value exceeds [`MAX_COORDINATE`]. Holds the
+    /// index of the node.
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("node {0} {RANGE_MESSAGE}")]
     CoordinateRange(usize),
-    /// All nodes coincide, or nearly so.
+    /// All nodes lie in the same place, or nearly so.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
     /// A number is not finite, or not positive although it must be.
@@ -115,12 +117,12 @@ pub enum TrussInputError {
         /// Number of entries of that kind.
         count: usize,
     },
-    /// A bar has no length: its nodes are the same or coincide.
+    /// A bar has no length: both ends are the same node, or two nodes at the same position.
     #[error("bar {bar} joins nodes {} and {} at the same position; move a node or remove the bar", nodes[0], nodes[1])]
     NoLength {
         /// Index of the bar.
         bar: usize,
-        /// Its node indices.
+        /// Indices of the nodes of the bar.
         nodes: [u32; 2],
     },
     /// Two bars join the same nodes.
@@ -131,7 +133,7 @@ pub enum TrussInputError {
         /// Index of the later bar.
         second: usize,
     },
-    /// A node belongs to no bar.
+    /// A node belongs to no bar. Holds the index of the node.
     #[error("node {0} belongs to no bar; add a bar to it or remove it")]
     UnusedNode(usize),
     /// A list has neither one entry per bar nor no entries.
@@ -139,14 +141,15 @@ pub enum TrussInputError {
     PerBar {
         /// Key of the list.
         list: &'static str,
-        /// Number of its entries.
+        /// Number of entries in the list.
         found: usize,
         /// Number of bars.
         bars: usize,
     },
 }
 
-/// Returns an error for the first item that fails `is_valid`.
+/// Returns an error for the first item that is not valid. `what` names the kind of the items,
+/// `rule` advises the user.
 fn check_items<T>(
     what: &'static str,
     rule: &'static str,
@@ -186,7 +189,7 @@ impl TrussParts {
             let nodes = self.nodes.len();
             return Err(TrussInputError::NoBars { nodes });
         }
-        // The order matters: later checks index nodes by numbers validated before.
+        // The order matters: later checks use indices that earlier checks have validated.
         self.check_numbers()?;
         self.check_indices()?;
         self.check_bars()?;
@@ -244,7 +247,8 @@ impl TrussParts {
     fn check_bars(&self) -> Result<(), TrussInputError> {
         let mut seen = HashMap::new();
         for (bar, &[a, b]) in self.bars.iter().enumerate() {
-            // Compares positions: distinct nodes at one position also give no direction.
+            // Compares positions, not indices: a bar between two nodes at one position has no
+            // direction either.
             if self.nodes[a as usize] == self.nodes[b as usize] {
                 let nodes = [a, b];
                 return Err(TrussInputError::NoLength { bar, nodes });

@@ -23,7 +23,7 @@ const DISK_FULL: &str = "No space left on device";
 /// Exit status and messages of a finished ffmpeg.
 pub(super) struct FfmpegOutcome {
     pub status: ExitStatus,
-    pub words: FfmpegMessages,
+    pub messages: FfmpegMessages,
 }
 
 /// Messages of ffmpeg on its standard error.
@@ -54,14 +54,14 @@ pub(super) fn encode_command(size: PixelSize, fps: f64, output: &Path) -> Comman
     let line =
         format!("-y {input} -an -pix_fmt yuv420p {colours} {speed} -movflags +faststart -f mp4");
     let mut command = quiet();
-    command.args(line.split_whitespace()).arg(as_file(output));
+    command.args(line.split_whitespace()).arg(file_url(output));
     command
 }
 
 /// Command that decodes every frame of a file and discards the result.
 pub(super) fn decode_command(file: &Path) -> Command {
     let mut command = quiet();
-    command.args(["-xerror", "-i"]).arg(as_file(file));
+    command.args(["-xerror", "-i"]).arg(file_url(file));
     command.args(["-f", "null", "-"]);
     command
 }
@@ -94,7 +94,7 @@ pub(super) fn run(
     })?;
     Ok(FfmpegOutcome {
         status,
-        words: match progress.is_cancelled() {
+        messages: match progress.is_cancelled() {
             // A child process of ffmpeg may still hold its stderr open, so reading could block.
             true => FfmpegMessages::default(),
             false => words.join().unwrap_or_default(),
@@ -126,7 +126,7 @@ fn quiet() -> Command {
 }
 
 /// Path with the `file:` protocol, so that a colon or a leading dash has no special meaning.
-fn as_file(path: &Path) -> OsString {
+fn file_url(path: &Path) -> OsString {
     let mut url = OsString::from("file:");
     url.push(path);
     url

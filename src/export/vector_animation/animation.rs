@@ -34,7 +34,7 @@ pub struct VectorAnimation {
     pub(super) ground: Option<Rgb>,
     /// Pieces by ascending t, each valid until the next one begins.
     pub(super) pieces: Vec<AnimationPiece>,
-    pub(super) course: FilmTimeline,
+    pub(super) timeline: FilmTimeline,
     pub(super) stops: Vec<(f64, String)>,
 }
 
@@ -58,7 +58,7 @@ impl VectorAnimation {
             size: camera.view.size(),
             ground: camera.ground,
             pieces,
-            course: FilmTimeline::of(film),
+            timeline: FilmTimeline::of(film),
             stops: film.stops().to_vec(),
         })
     }

@@ -22,7 +22,7 @@ const KEYFRAME_INTERVALS: usize = 240;
 
 /// Returns the animation with the given title.
 pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
-    let timeline = &animation.course;
+    let timeline = &animation.timeline;
     let frames = timeline.frames();
     let (width, height) = (animation.size.width(), animation.size.height());
     // Players interpret a remapped time equal to the number of frames as the end, so the

@@ -98,7 +98,7 @@ fn film(animation: &VectorAnimation, title: &str, still_px: f64, bytes: &mut Vec
             json!([piece.from, piece.to, shapes.collect::<Vec<_>>()])
         })
         .collect();
-    let timeline = &animation.course;
+    let timeline = &animation.timeline;
     let [from, to] = animation.time_range();
     json!({
         "title": title, "size": [animation.size.width(), animation.size.height()],
@@ -142,7 +142,7 @@ fn form_json(form: &ShapeForm, points: usize) -> Value {
                     GradientSpread::Reflect => "reflect",
                     GradientSpread::Repeat => "repeat",
                 };
-                fill["ramp"] = json!([ramp.is_round, ramp.stops, spread]);
+                fill["ramp"] = json!([ramp.is_radial, ramp.stops, spread]);
             }
             fill
         }
@@ -184,7 +184,7 @@ fn looks(shape: &MovingShape) -> Vec<Vec<Value>> {
         }
     };
     let look = |look: &Vec<f64>| look.iter().map(number).collect();
-    shape.looks.iter().map(look).collect()
+    shape.appearances.iter().map(look).collect()
 }
 
 /// Appends the series of a shape to `bytes`; returns its number of terms.

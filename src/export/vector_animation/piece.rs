@@ -28,7 +28,7 @@ pub(super) struct MovingShape {
     pub terms: Vec<Vec<DVec2>>,
     /// Colour, width and gradient numbers at uniform times from the beginning to the end of the
     /// piece; at least one set.
-    pub looks: Vec<Vec<f64>>,
+    pub appearances: Vec<Vec<f64>>,
 }
 
 impl AnimationPiece {
@@ -50,16 +50,16 @@ impl MovingShape {
         PosedShape {
             form: self.first.form.clone(),
             points: chebyshev::evaluate(&self.terms, s),
-            look: self.look_at(s),
+            appearance: self.appearance_at(s),
         }
     }
 
     /// Colour, width and gradient numbers at `s`, interpolated linearly.
-    fn look_at(&self, s: f64) -> Vec<f64> {
-        let last = self.looks.len() - 1;
+    fn appearance_at(&self, s: f64) -> Vec<f64> {
+        let last = self.appearances.len() - 1;
         let position = s * last as f64;
         let k = (position as usize).min(last.saturating_sub(1));
-        let (a, b) = (&self.looks[k], &self.looks[(k + 1).min(last)]);
+        let (a, b) = (&self.appearances[k], &self.appearances[(k + 1).min(last)]);
         let fraction = position - k as f64;
         let mix = |(a, b): (&f64, &f64)| a * (1.0 - fraction) + b * fraction;
         a.iter().zip(b).map(mix).collect()

@@ -184,7 +184,7 @@ impl AnimationRecorder<'_> {
             }
             let is_short = to - from <= MIN_LENGTH * range;
             if let Some(shapes) = fit_series(&moments, is_short) {
-                let shapes = self.with_looks([from, to], shapes, &moments);
+                let shapes = self.with_appearances([from, to], shapes, &moments);
                 self.push(from, to, shapes);
                 return None;
             }
@@ -213,7 +213,7 @@ impl AnimationRecorder<'_> {
     }
 
     /// Samples colours and widths at uniform times if any of them changes within the piece.
-    fn with_looks(
+    fn with_appearances(
         &mut self,
         [from, to]: [f64; 2],
         mut shapes: Vec<MovingShape>,
@@ -222,13 +222,13 @@ impl AnimationRecorder<'_> {
         let changes = |k: usize| {
             moments
                 .iter()
-                .any(|m| !is_near(&m[k].look, &moments[0][k].look))
+                .any(|m| !is_near(&m[k].appearance, &moments[0][k].appearance))
         };
         if !(0..shapes.len()).any(changes) {
             return shapes;
         }
         for shape in &mut shapes {
-            shape.looks.clear();
+            shape.appearances.clear();
         }
         for k in 0..=LOOK_INTERVALS {
             let s = k as f64 / LOOK_INTERVALS as f64;
@@ -241,11 +241,11 @@ impl AnimationRecorder<'_> {
                 &moments[0]
             };
             for (shape, posed) in shapes.iter_mut().zip(sampled) {
-                shape.looks.push(posed.look.clone());
+                shape.appearances.push(posed.appearance.clone());
             }
         }
         for shape in &mut shapes {
-            shape.looks = reduce_samples(std::mem::take(&mut shape.looks));
+            shape.appearances = reduce_samples(std::mem::take(&mut shape.appearances));
         }
         shapes
     }
@@ -265,7 +265,7 @@ impl AnimationRecorder<'_> {
 fn static_shape(posed: PosedShape) -> MovingShape {
     MovingShape {
         terms: vec![posed.points.clone()],
-        looks: vec![posed.look.clone()],
+        appearances: vec![posed.appearance.clone()],
         first: posed,
     }
 }
@@ -292,7 +292,7 @@ fn fit_series(moments: &[ShapeSnapshot], must_fit: bool) -> Option<Vec<MovingSha
         (is_near || must_fit).then(|| MovingShape {
             first: moments[0][k].clone(),
             terms,
-            looks: vec![moments[0][k].look.clone()],
+            appearances: vec![moments[0][k].appearance.clone()],
         })
     };
     (0..moments[0].len()).map(fit).collect()

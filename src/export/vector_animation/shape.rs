@@ -56,7 +56,7 @@ impl PathVerb {
 /// Constant data of a gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct GradientForm {
-    pub is_round: bool,
+    pub is_radial: bool,
     /// Number of colour stops.
     pub stops: usize,
     pub spread: GradientSpread,
@@ -75,7 +75,7 @@ pub(super) struct PosedShape {
     pub points: Vec<DVec2>,
     /// Colour, opacity and width, followed by the numbers of the gradient, if any: its affine
     /// frame, its focus and inner radius if it is radial, and its stops.
-    pub look: Vec<f64>,
+    pub appearance: Vec<f64>,
 }
 
 impl PosedShape {
@@ -93,14 +93,22 @@ impl PosedShape {
                 look.extend(gradient.iter().flat_map(gradient_numbers));
                 let (label, ramp) = (label.clone(), gradient.as_ref().map(gradient_form));
                 let form = Arc::new(ShapeForm::Fill { verbs, label, ramp });
-                Self { form, points, look }
+                Self {
+                    form,
+                    points,
+                    appearance: look,
+                }
             }
             DrawingItem::Stroke { outline, line } => {
                 let (verbs, points) = split_outline(outline);
                 let look = plain_numbers(line.paint, line.width);
                 let join = line.join;
                 let form = Arc::new(ShapeForm::Stroke { verbs, join });
-                Self { form, points, look }
+                Self {
+                    form,
+                    points,
+                    appearance: look,
+                }
             }
             DrawingItem::Bars {
                 segments,
@@ -109,7 +117,7 @@ impl PosedShape {
             } => Self {
                 form: Arc::new(ShapeForm::Bars),
                 points: segments.concat(),
-                look: plain_numbers((*colour).into(), *width_px),
+                appearance: plain_numbers((*colour).into(), *width_px),
             },
             DrawingItem::Discs {
                 centres,
@@ -118,7 +126,7 @@ impl PosedShape {
             } => Self {
                 form: Arc::new(ShapeForm::Discs),
                 points: centres.clone(),
-                look: plain_numbers((*colour).into(), *radius_px),
+                appearance: plain_numbers((*colour).into(), *radius_px),
             },
             DrawingItem::Picture { .. } => return None,
         })
@@ -173,12 +181,12 @@ impl PosedShape {
 
     /// Colour and opacity.
     pub(super) fn paint(&self) -> Paint {
-        paint(&self.look)
+        paint(&self.appearance)
     }
 
     /// Width of a stroke or of bars, or radius of discs, in pixels.
     pub(super) fn width(&self) -> f64 {
-        self.look[PLAIN_NUMBERS - 1]
+        self.appearance[PLAIN_NUMBERS - 1]
     }
 
     /// Gradient of a fill, if it has one.
@@ -189,8 +197,8 @@ impl PosedShape {
         else {
             return None;
         };
-        let (frame, rest) = self.look[PLAIN_NUMBERS..].split_at(6);
-        let (focus, stops) = rest.split_at(if ramp.is_round { 3 } else { 0 });
+        let (frame, rest) = self.appearance[PLAIN_NUMBERS..].split_at(6);
+        let (focus, stops) = rest.split_at(if ramp.is_radial { 3 } else { 0 });
         let stop = |stop: &[f64]| GradientStop {
             offset: stop[0],
             paint: paint(&stop[1..]),
@@ -228,7 +236,7 @@ fn paint(numbers: &[f64]) -> Paint {
 /// Constant data of a gradient.
 fn gradient_form(gradient: &Gradient) -> GradientForm {
     GradientForm {
-        is_round: gradient.geometry != GradientGeometry::Linear,
+        is_radial: gradient.geometry != GradientGeometry::Linear,
         stops: gradient.stops.len(),
         spread: gradient.spread,
     }

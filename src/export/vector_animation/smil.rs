@@ -31,7 +31,7 @@ pub(super) fn animated_svg(animation: &VectorAnimation) -> String {
     if let Some(ground) = animation.ground {
         svg += &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n");
     }
-    let timeline = &animation.course;
+    let timeline = &animation.timeline;
     let numbered = timeline.times.iter().enumerate();
     let stations: Vec<(f64, f64)> = numbered.map(|(k, &t)| (k as f64, t)).collect();
     let clock = SmilClock {

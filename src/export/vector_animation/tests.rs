@@ -16,7 +16,8 @@ fn film() -> FilmSpec {
         play: PlayMode::PingPong,
         ..Timing::default()
     };
-    FilmSpec::of_timing(&timing, &[TransitionStop::at(0.5).named("half")], 25.0).expect("a film")
+    FilmSpec::of_timing(&timing, &[TransitionStop::at(0.5).with_name("half")], 25.0)
+        .expect("a film")
 }
 
 fn animation() -> (Camera, VectorAnimation) {
@@ -50,7 +51,7 @@ fn recorded_points_match_the_camera_at_every_t() {
 #[test]
 fn linear_interpolation_between_keys_stays_within_the_tolerance() {
     let (camera, animation) = animation();
-    let course = &animation.course;
+    let course = &animation.timeline;
     let numbered = course.times.iter().enumerate();
     let stations: Vec<(f64, f64)> = numbered.map(|(k, &t)| (k as f64, t)).collect();
     let layers = tracks::layers(&animation, &stations);

@@ -93,7 +93,7 @@ impl SceneLayer {
         self.keyed(
             poses,
             COLOUR_TOLERANCE,
-            |posed| posed.look[..3].to_vec(),
+            |posed| posed.appearance[..3].to_vec(),
             take,
         )
     }
@@ -104,7 +104,12 @@ impl SceneLayer {
         poses: &[PosedShape],
         take: impl Fn(&PosedShape) -> T,
     ) -> KeyedProperty<T> {
-        self.keyed(poses, OPACITY_TOLERANCE, |posed| vec![posed.look[3]], take)
+        self.keyed(
+            poses,
+            OPACITY_TOLERANCE,
+            |posed| vec![posed.appearance[3]],
+            take,
+        )
     }
 
     /// Keyframes of its width or radius.
@@ -113,7 +118,12 @@ impl SceneLayer {
         poses: &[PosedShape],
         take: impl Fn(&PosedShape) -> T,
     ) -> KeyedProperty<T> {
-        self.keyed(poses, WIDTH_TOLERANCE_PX, |posed| vec![posed.look[4]], take)
+        self.keyed(
+            poses,
+            WIDTH_TOLERANCE_PX,
+            |posed| vec![posed.appearance[4]],
+            take,
+        )
     }
 }
 

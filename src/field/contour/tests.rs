@@ -35,8 +35,8 @@ fn a_disc_has_its_area_and_lies_on_its_circle() {
     for p in &disc[0] {
         assert!((p.distance(centre) - 20.0).abs() < 1e-10, "{p}");
     }
-    // An inscribed polygon with chords c up to √2 loses less than c³ / 12r per chord; 0.1 % is
-    // above the sum.
+    // The contour is an inscribed polygon. A chord of length c ≤ √2 cuts off about c³ / 12r of the
+    // disc, and the sum over all chords is below 0.1 % of its area.
     let exact = PI * 400.0;
     assert!(area(&disc[0]) < exact);
     assert!(area(&disc[0]) > exact * 0.999);
@@ -44,7 +44,7 @@ fn a_disc_has_its_area_and_lies_on_its_circle() {
 
 #[test]
 fn crossings_are_roots_of_the_function_and_not_of_a_chord() {
-    // x³ − 0.2 between samples 0 and 1; the root of the chord would be 0.2.
+    // The function x³ − 0.2 has samples at 0 and 1; the chord between them has its root at 0.2.
     let traced = trace(2, 1, |x, _| x.powi(3) - 0.2, 0.0);
     let root = 0.2_f64.cbrt();
     assert_eq!(traced.len(), 1);
@@ -78,7 +78,7 @@ fn an_empty_picture_has_no_contour() {
 
 #[test]
 fn a_shape_at_the_border_is_closed_along_it() {
-    // Left half of the picture, and a part of each border.
+    // The shape reaches the left, the lower and the upper border of the picture.
     let half = trace(4, 4, |x, _| 1.25 - x, 0.0);
     assert_eq!(half.len(), 1);
     assert!((area(&half[0]) - 1.75 * 4.0).abs() < 1e-9);
@@ -98,8 +98,8 @@ fn holes_run_clockwise_and_islands_counter_clockwise() {
     );
     let mut areas: Vec<f64> = traced.iter().map(|c| area(c)).collect();
     areas.sort_by(f64::total_cmp);
-    // Each corner is cut by an eighth of a cell. Sizes between samples: a hole of 5 × 3, an island
-    // of 1 (a diamond of area ½), and 7 × 5 outside.
+    // Contours run midway between samples. The outer contour measures 7 × 5 and the hole 5 × 3,
+    // each less an eighth of a cell per corner. The island of one sample is a diamond of area ½.
     let expected = [-(5.0 * 3.0 - 4.0 / 8.0), 0.5, 7.0 * 5.0 - 4.0 / 8.0];
     assert_eq!(areas.len(), 3, "{areas:?}");
     for (a, e) in areas.iter().zip(expected) {
@@ -109,7 +109,8 @@ fn holes_run_clockwise_and_islands_counter_clockwise() {
 
 #[test]
 fn saddles_are_resolved_by_the_value_at_the_centre() {
-    // xy around the saddle: its sign at the centre decides how the corners are joined.
+    // A saddle with the value `lift` at its centre. The sign of that value decides whether the two
+    // inside corners are joined.
     let saddle = |lift: f64| {
         trace(
             2,
@@ -120,7 +121,7 @@ fn saddles_are_resolved_by_the_value_at_the_centre() {
     };
     assert_eq!(saddle(0.1).len(), 1, "the two corners are joined");
     assert_eq!(saddle(-0.1).len(), 2, "the two corners are apart");
-    // Other diagonal.
+    // The same saddle with its inside corners on the other diagonal.
     let other = |lift: f64| {
         trace(
             2,
@@ -135,8 +136,8 @@ fn saddles_are_resolved_by_the_value_at_the_centre() {
 
 #[test]
 fn the_area_inside_a_random_picture_is_that_of_its_contours() {
-    // Every contour must close, whatever the picture: the total area of the contours equals that of
-    // marching squares, summed square by square.
+    // Every contour must close, whatever the picture: the total area of the contours equals the sum
+    // of the inside areas of all squares.
     let mut state = 12345_u32;
     let mut bit = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -151,8 +152,8 @@ fn the_area_inside_a_random_picture_is_that_of_its_contours() {
     }
 }
 
-/// Area of a ±1 picture by marching squares: each square's area follows from its corners and, for
-/// saddles, its centre.
+/// Oracle: inside area of a picture of samples ±1, summed square by square. The area in a square
+/// follows from its corners and, for a saddle, from its centre.
 fn area_by_squares(samples: &SampledField) -> f64 {
     let (w, h) = (f64::from(samples.width()), f64::from(samples.height()));
     let axis = |count: f64| {

@@ -6,7 +6,8 @@ use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Oracle: the minimum distance over all edges, with the sign of the winding number.
+/// Oracle: for each sample, the minimum distance to all edges in cells, positive if the sample is
+/// inside.
 fn brute_force(regions: &Regions, grid: &Grid) -> Vec<f64> {
     let to_edge = |p: DVec2, (a, b): (DVec2, DVec2)| {
         let s = (p - a).dot(b - a) / (b - a).length_squared();

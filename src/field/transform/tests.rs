@@ -6,7 +6,7 @@ use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// All metrics.
+/// Every metric, for tests that compare all of them with the oracle.
 const METRICS: [Metric; 4] = [
     Metric::Euclidean,
     Metric::CityBlock,
@@ -14,7 +14,8 @@ const METRICS: [Metric; 4] = [
     Metric::QuasiEuclidean,
 ];
 
-/// Distance between two cells by the definition of each metric.
+/// Distance between two cells that are `dx` columns and `dy` rows apart, by the definition of
+/// `metric`.
 fn distance(metric: Metric, dx: f64, dy: f64) -> f64 {
     let (max, min) = (dx.max(dy), dx.min(dy));
     match metric {
@@ -25,8 +26,8 @@ fn distance(metric: Metric, dx: f64, dy: f64) -> f64 {
     }
 }
 
-/// Oracle: for each cell, the nearest of all cells of the other side, in the picture and in the
-/// ring of outside cells around it.
+/// Oracle: signed distance of each cell, found by searching all cells of the mask, and of a ring of
+/// outside cells around it, for the nearest cell of the other side.
 fn brute_force(mask: &Mask, metric: Metric) -> Vec<f64> {
     let (width, height) = (i64::from(mask.width()), i64::from(mask.height()));
     let inside = |x: i64, y: i64| {
@@ -37,7 +38,7 @@ fn brute_force(mask: &Mask, metric: Metric) -> Vec<f64> {
     let nearest = |x: i64, y: i64| {
         let ring = |p: i64, count: i64| p < 0 || p >= count;
         all()
-            // The ring is outside, so it matters only to inside cells.
+            // The ring is outside, so it is skipped for outside cells.
             .filter(|&(i, j)| inside(i, j) != inside(x, y))
             .filter(|&(i, j)| inside(x, y) || !(ring(i, width) || ring(j, height)))
             .map(|(i, j)| distance(metric, (i - x).abs() as f64, (j - y).abs() as f64))
@@ -52,7 +53,7 @@ fn brute_force(mask: &Mask, metric: Metric) -> Vec<f64> {
         .collect()
 }
 
-/// Asserts that a transform equals the oracle.
+/// Asserts that the distances `values` equal those of the oracle.
 fn check(mask: &Mask, metric: Metric, values: &[f32]) {
     let expected = brute_force(mask, metric);
     assert_eq!(values.len(), expected.len());
@@ -70,7 +71,7 @@ fn transform(mask: &Mask, metric: Metric) -> Vec<f32> {
     distance_transform(mask, metric, &Silent).expect("never cancelled")
 }
 
-/// Random masks with few, some or many cells on each side.
+/// Strategy for random masks of at most `side` × `side` cells, of which 2 % to 98 % are inside.
 fn masks(side: u32) -> impl Strategy<Value = Mask> {
     (1..=side, 1..=side, 0.02..0.98_f64).prop_flat_map(|(width, height, inside_fraction)| {
         let cells = (width * height) as usize;
@@ -121,7 +122,7 @@ fn a_small_figure_has_the_distances_counted_by_hand() {
         .####..
         .......",
     );
-    // From the lowest row up; doubled, so that halves are integers.
+    // Distances from the lowest row up, doubled so that halves become integers.
     let doubled = |metric| -> Vec<i32> {
         let values = transform(&figure, metric);
         values.iter().map(|v| (2.0 * v) as i32).collect()
@@ -223,7 +224,7 @@ fn one_thread_and_many_give_equal_results() -> Result<(), rayon::ThreadPoolBuild
     Ok(())
 }
 
-/// Progress that is cancelled after the given number of reports.
+/// Progress that is cancelled after the given number of reports, which it counts down.
 struct CancelAfter(AtomicUsize);
 
 impl Progress for CancelAfter {

@@ -1,27 +1,28 @@
 //! Names of temporary files, and removal of those that killed processes left behind.
 //!
-//! `.film.gif.morphospace-1234-0.part` becomes `film.gif` and belongs to process 1234. Whether
-//! that process still runs is decided by a file lock, which the system releases when a process
-//! ends in any way: a file that can be locked has no owner. Process ids cannot decide it, because
-//! they are reused and differ between machines that share a folder. Without file locks (on
-//! Windows, where they would block ffmpeg, and on some network disks) nothing is removed.
+//! Process 1234 writes `film.gif` as `.film.gif.morphospace-1234-0.part` and keeps that file
+//! locked. The system releases the lock when the process ends in any way, so a temporary file that
+//! can be locked has no owner and is removed. Process ids could not decide this, because they are
+//! reused and differ between machines that share a folder. Without file locks (on Windows, where
+//! they would block ffmpeg, and on some network disks) nothing is removed.
 
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Part of a temporary name between the final name and the process id.
+/// Text in a temporary name between the final name and the process id.
 const MARKER: &str = ".morphospace-";
 
 /// Extension of temporary files.
 const EXTENSION: &str = ".part";
 
-/// Number of characters of the final name used in the temporary name (resource limit: file
-/// systems allow 255 bytes, and a character has up to four).
+/// Maximum number of characters of the final name that are used in the temporary name (resource
+/// limit: file systems allow names of 255 bytes, and a character takes up to four).
 const MAX_NAME_CHARS: usize = 40;
 
-/// Creates and locks a new temporary file in `folder` that is to become `path`.
+/// Creates and locks a new temporary file in `folder` that is to become `path`. Returns the open
+/// file and the path of the temporary file.
 pub(super) fn create_temporary(path: &Path, folder: &Path) -> io::Result<(File, PathBuf)> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let name: String = name.chars().take(MAX_NAME_CHARS).collect();
@@ -30,7 +31,8 @@ pub(super) fn create_temporary(path: &Path, folder: &Path) -> io::Result<(File, 
         let temporary = folder.join(format!(".{name}{MARKER}{owner}-{number}{EXTENSION}"));
         match File::create_new(&temporary) {
             Ok(file) if try_lock(&file)? => return Ok((file, temporary)),
-            // Another process took it for a leftover in the moment before the lock.
+            // Another process took the file for a leftover before it was locked; the next number is
+            // tried.
             Ok(_) => {}
             // The name is used by another thread, or by a process with this id on another machine.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
@@ -77,7 +79,8 @@ pub(crate) fn remove_leftovers(folder: &Path) {
             && file.try_lock().is_ok()
             && is_at(&file, &path)
         {
-            // Removed while locked, so that no new owner can appear in between.
+            // The file is removed while it is locked, so that no process can start using it in
+            // between.
             std::fs::remove_file(path).unwrap_or_default();
         }
     }
@@ -87,13 +90,14 @@ pub(crate) fn remove_leftovers(folder: &Path) {
 #[cfg(unix)]
 fn open_for_lock(path: &Path) -> io::Result<File> {
     let options = File::options().read(true).write(true).open(path);
-    // It has the permissions of the file that it was to replace, which may be read-only.
+    // The temporary file has the permissions of the file it was to replace, which may be read-only.
     options.or_else(|_| File::open(path))
 }
 
-/// Returns whether the open file still has that path.
+/// Returns whether `path` still leads to the open `file`.
 ///
-/// Before it was locked, its owner may have committed it and the path may have been reused.
+/// Before the file was locked, its owner may have renamed it, and another file may have taken the
+/// path.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -143,7 +147,7 @@ mod tests {
         ] {
             fs::write(at(name), "").expect("written");
         }
-        fs::create_dir(at(".d.morphospace-1-0.part")).expect("made");
+        fs::create_dir(at(".d.morphospace-1-0.part")).expect("created");
         remove_leftovers(folder.path());
         assert!(locked_path.exists() && !leftover_path.exists());
         assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 8);

@@ -2,7 +2,8 @@
 
 use std::io::{self, ErrorKind};
 
-/// Returns the reason and what to do about it; the caller adds the path.
+/// Returns why a file could not be written and what to do about it, in one line. The caller adds
+/// the path.
 pub(crate) fn write_error_message(error: &io::Error) -> String {
     match reason_and_remedy(error.kind()) {
         Some((reason, remedy)) => format!("{reason}; {remedy}"),
@@ -10,14 +11,14 @@ pub(crate) fn write_error_message(error: &io::Error) -> String {
     }
 }
 
-/// Returns the reason only, for cases in which the user cannot choose another place.
+/// Returns only why a file could not be written, for files whose place the user cannot choose.
 #[cfg(feature = "app")]
 pub(crate) fn write_error_reason(error: &io::Error) -> String {
     reason_and_remedy(error.kind())
         .map_or_else(|| error.to_string(), |(reason, _)| reason.to_owned())
 }
 
-/// Returns the reason and the remedy for the kinds of error that a user can act on.
+/// Returns the reason and the remedy; `None` for kinds of error that a user cannot act on.
 fn reason_and_remedy(kind: ErrorKind) -> Option<(&'static str, &'static str)> {
     Some(match kind {
         ErrorKind::StorageFull => (
@@ -47,7 +48,7 @@ fn reason_and_remedy(kind: ErrorKind) -> Option<(&'static str, &'static str)> {
             "a part of its path is not a folder",
             "choose an existing folder",
         ),
-        // Occurs when a folder is created.
+        // Occurs when the program creates a folder.
         ErrorKind::AlreadyExists => ("the name is already in use", "choose another name"),
         ErrorKind::IsADirectory => ("it is a folder", "choose another name"),
         _ => return None,

@@ -1,4 +1,4 @@
-//! Finds the cause of a defect of rigid parts from measurements at its place.
+//! Finds the cause of a fold or crossing in a film of rigid parts, from measurements at its place.
 
 use super::finding::FindingCause;
 use crate::content::SolidContent;
@@ -14,11 +14,11 @@ use std::f64::consts::{FRAC_PI_3, PI};
 /// Unevenness of the boundary stretch above which the match is named as the cause (heuristic).
 const MIN_UNEVENNESS: f64 = 3.0;
 
-/// A face counts as flattened by its own homotopy if less than this fraction of its area under the
-/// polar homotopy remains (heuristic).
+/// Fraction of a face's area under the polar homotopy. A face with less area than that under its
+/// own homotopy counts as flattened by this homotopy (heuristic).
 const FLATTENED_AREA_FRACTION: f64 = 0.1;
 
-/// A transition of rigid parts, evaluated at the t of a defect.
+/// A transition of rigid parts, evaluated at the `t` at which a defect is worst.
 pub(super) struct CauseSearch<'a> {
     pub transition: &'a Transition,
     pub arap: &'a Arap,
@@ -28,7 +28,7 @@ pub(super) struct CauseSearch<'a> {
     pub places: Vec<DVec2>,
     /// Rotation of each face from source to target, in radians.
     pub angles: Vec<f64>,
-    /// Index of the part to which each face belongs.
+    /// For each face, the index of its part (a set of faces connected across edges).
     pub part_of: Vec<u32>,
 }
 
@@ -51,7 +51,7 @@ impl<'a> CauseSearch<'a> {
         }
     }
 
-    /// Returns the centroid of a face with the given vertex positions.
+    /// Returns the centroid of a face whose vertices are at `points`.
     pub fn centroid(&self, face: usize, points: &[DVec2]) -> DVec2 {
         let corners = self.arap.mesh().faces()[face].map(|v| points[v as usize]);
         corners.iter().sum::<DVec2>() / 3.0
@@ -64,7 +64,7 @@ impl<'a> CauseSearch<'a> {
         FaceStrain::of(edges(&self.places, corners) * edges(mesh.source(), corners).inverse()).det
     }
 
-    /// Returns the face at a boundary edge.
+    /// Returns the index of the face at a boundary edge.
     pub fn face_at(&self, edge: RingEdge) -> Option<usize> {
         let corners = self.solid.face_vertices_at(edge, &self.places, self.t)?;
         let faces = self.arap.mesh().faces();
@@ -73,7 +73,7 @@ impl<'a> CauseSearch<'a> {
             .position(|face| corners.iter().all(|v| face.contains(v)))
     }
 
-    /// Returns the area-weighted mean rotation of the selected faces.
+    /// Returns the mean rotation of the selected faces, weighted by area, in radians.
     pub fn mean_angle(&self, is_selected: impl Fn(usize) -> bool) -> Option<f64> {
         let mesh = self.arap.mesh();
         let (mut sum, mut total) = (0.0, 0.0);
@@ -90,7 +90,7 @@ impl<'a> CauseSearch<'a> {
         (total > 0.0).then(|| sum / total)
     }
 
-    /// Returns the parts that share a vertex with `part`.
+    /// Returns the indices of the other parts that share a vertex with `part`.
     pub fn neighbouring_parts(&self, part: u32) -> Vec<u32> {
         let faces = self.arap.mesh().faces();
         let mut on_part = vec![false; self.arap.mesh().source().len()];
@@ -109,7 +109,8 @@ impl<'a> CauseSearch<'a> {
     }
 }
 
-/// Names a linear homotopy that flattens the face by itself, regardless of its neighbours.
+/// Returns the homotopy as the cause if it flattens the face by itself, regardless of the
+/// neighbours of the face. Homotopies that cannot turn a face over are ruled out.
 pub(super) fn straight_paths(
     search: &CauseSearch<'_>,
     face: usize,
@@ -123,7 +124,8 @@ pub(super) fn straight_paths(
     let t = search
         .transition
         .part_time_at(search.arap.mesh().faces()[face][0], t);
-    // Compared with the polar homotopy, whose area runs monotonically between the ends.
+    // The area is compared with that of the polar homotopy, which runs monotonically between the
+    // ends.
     let area = homotopy.at(&map, t).determinant();
     let polar_area = Homotopy::Polar.at(&map, t).determinant();
     (area < FLATTENED_AREA_FRACTION * polar_area).then_some(FindingCause::StraightPaths {
@@ -132,9 +134,13 @@ pub(super) fn straight_paths(
     })
 }
 
-/// Names the part of the face, or its neighbour, if they rotate by more than half a turn relative
-/// to each other; of the two, the one that rotates further.
-pub(super) fn far_turn_of_part(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
+/// Returns a rotation as the cause if the part of the face and a neighbouring part rotate by more
+/// than half a turn relative to each other. The cause names the one of the two that rotates
+/// further.
+pub(super) fn large_rotation_of_part(
+    search: &CauseSearch<'_>,
+    face: usize,
+) -> Option<FindingCause> {
     let part = search.part_of[face];
     let mean = |p: u32| search.mean_angle(|f| search.part_of[f] == p);
     let own_angle = mean(part)?;
@@ -153,19 +159,20 @@ pub(super) fn far_turn_of_part(search: &CauseSearch<'_>, face: usize) -> Option<
     })
 }
 
-/// Names the rotation of a face by more than half a turn relative to the whole shape.
-pub(super) fn far_turn(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
+/// Returns the rotation of a face as the cause if it exceeds half a turn relative to the whole
+/// shape.
+pub(super) fn large_rotation(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
     let turn = search.angles[face] - search.mean_angle(|_| true)?;
     (turn.abs() > PI).then_some(FindingCause::FarTurn { part: None, turn })
 }
 
-/// Names an uneven match of the boundary near a face.
+/// Returns an uneven match as the cause if the boundary near a face is stretched very unevenly.
 pub(super) fn uneven_match(search: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
     /// Maximum distance of the boundary from the face, in design diameters (heuristic).
     const MAX_DISTANCE: f64 = 0.1;
     let mesh = search.arap.mesh();
     let (source, target) = (mesh.source(), mesh.target());
-    // Measured in the source, because at t the defect itself distorts the shape.
+    // Distances are measured in the source, because at t the defect itself distorts the shape.
     let centre = search.centroid(face, source);
     let max_distance = MAX_DISTANCE * mesh.diameter();
     let worst = stretch::boundary_stretch(mesh)
@@ -179,8 +186,12 @@ pub(super) fn uneven_match(search: &CauseSearch<'_>, face: usize) -> Option<Find
     })
 }
 
-/// Names the largest difference of rotation across an edge of the given faces, if above 60°.
-pub(super) fn unlike_neighbours(search: &CauseSearch<'_>, faces: &[usize]) -> Option<FindingCause> {
+/// Returns the largest difference of rotation across an edge of the given faces as the cause, if it
+/// exceeds 60°.
+pub(super) fn differing_neighbours(
+    search: &CauseSearch<'_>,
+    faces: &[usize],
+) -> Option<FindingCause> {
     let connectivity = search.arap.mesh().connectivity();
     let neighbour_pairs =
         |f: usize| (0..3).filter_map(move |k| Some((f, connectivity.neighbour(f, k)?)));
@@ -192,8 +203,9 @@ pub(super) fn unlike_neighbours(search: &CauseSearch<'_>, faces: &[usize]) -> Op
     (turn > FRAC_PI_3).then_some(FindingCause::UnlikeNeighbours { turn })
 }
 
-/// Returns whether both edges lie on one ring, less than a tenth of its points apart.
-pub(super) fn near_each_other(search: &CauseSearch<'_>, crossing: &EdgeCrossing) -> bool {
+/// Returns whether the two crossing edges lie on the same ring, less than a tenth of its points
+/// apart.
+pub(super) fn are_near_each_other(search: &CauseSearch<'_>, crossing: &EdgeCrossing) -> bool {
     let [a, b] = crossing.edges;
     let n = search.solid.loops.get(a.ring).map_or(0, Vec::len);
     let between = a.point.abs_diff(b.point);

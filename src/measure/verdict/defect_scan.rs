@@ -1,4 +1,5 @@
-//! Counts the defects of a film at each sampled t, without the more expensive measures.
+//! Counts the folds, crossings, pieces and holes of a film at each sampled t, without the more
+//! expensive measures of a film report.
 
 use crate::content::{Content, SolidContent};
 use crate::geometry::{DVec2, signed_area};
@@ -8,7 +9,7 @@ use crate::transition::Transition;
 use crate::warp::Arap;
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Numbers of defects, pieces and holes at one t.
+/// Numbers of folded faces, crossings, pieces and holes at one t.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct MomentCounts {
     pub t: f64,
@@ -18,11 +19,11 @@ pub(super) struct MomentCounts {
     pub holes: usize,
 }
 
-/// Selects one count of a [`MomentCounts`].
+/// Function that selects one of the counts of a [`MomentCounts`].
 pub(super) type DefectCounts = fn(&MomentCounts) -> usize;
 
 impl MomentCounts {
-    /// Takes the counts from a sample of a measured film.
+    /// Takes the counts from a sample of a film that was measured before.
     pub fn of_sample(sample: &FilmSample) -> Self {
         Self {
             t: sample.t,
@@ -34,7 +35,7 @@ impl MomentCounts {
     }
 }
 
-/// Counts at each of `steps` evenly spaced t, reporting progress as `stage`.
+/// Calls `count_at` at each of `steps` evenly spaced t, and reports progress with the text `stage`.
 fn scan(
     steps: usize,
     stage: &'static str,
@@ -48,8 +49,7 @@ fn scan(
     evenly_spaced_times(steps).map(moment).collect()
 }
 
-/// Scans a transition; returns nothing for pictures.
-
+/// Counts defects at `steps` evenly spaced t of a transition; returns an empty list for pictures.
 pub(super) fn scan_transition(
     transition: &Transition,
     steps: usize,
@@ -76,7 +76,8 @@ pub(super) fn scan_transition(
     }
 }
 
-/// Scans the motion `arap` of the transition's mesh, with the part timing of the transition.
+/// Counts the defects of another interpolation `arap` of the transition's mesh, with the part
+/// timing of the transition.
 pub(super) fn scan_rigid_parts(
     transition: &Transition,
     arap: &Arap,
@@ -107,7 +108,7 @@ pub(super) fn folded_faces<'a>(
         .map(|(f, _)| f)
 }
 
-/// Scans a transition of distance fields.
+/// Counts the pieces and holes of the contours of a transition of distance fields.
 pub(super) fn scan_fields(
     transition: &Transition,
     steps: usize,
@@ -126,13 +127,13 @@ pub(super) fn scan_fields(
     })
 }
 
-/// Returns the maximum of a count over all moments.
+/// Returns the largest value of a count over all moments; 0 without moments.
 pub(super) fn max_count(moments: &[MomentCounts], count: DefectCounts) -> usize {
     moments.iter().map(count).max().unwrap_or(0)
 }
 
-/// Returns where a count exceeds `allowed`: the t of its maximum (the middle one of several), and
-/// the first and last t at which it exceeds it.
+/// Returns when a count exceeds `allowed`: the t of its maximum (the middle one if several t share
+/// it), and the first and last t at which the count exceeds `allowed`. `None` if it never does.
 pub(super) fn worst_moment(
     moments: &[MomentCounts],
     count: DefectCounts,
@@ -142,11 +143,11 @@ pub(super) fn worst_moment(
     let exceeding: Vec<f64> = times_where(moments, |g| count(g) > allowed);
     let at_max = times_where(moments, |g| count(g) == max);
     let span = [*exceeding.first()?, *exceeding.last()?];
-    // A defect is most visible halfway through.
+    // In the middle of its time span, a defect is most visible.
     Some((at_max[at_max.len() / 2], span))
 }
 
-/// Returns the t of the moments that satisfy a condition.
+/// Returns the t of all moments that satisfy a condition.
 pub(super) fn times_where(
     moments: &[MomentCounts],
     condition: impl Fn(&MomentCounts) -> bool,

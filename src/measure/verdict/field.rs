@@ -9,13 +9,15 @@ use crate::geometry::{DVec2, signed_area};
 use crate::transition::Transition;
 use crate::work::progress::{Cancelled, Progress};
 
-/// Overlap below which it is named as the cause, as a fraction of the smaller design (heuristic).
+/// Overlap of the two designs below which the lack of overlap is named as the cause, as a fraction
+/// of the smaller design's area (heuristic).
 const LITTLE_OVERLAP: f64 = 0.5;
 
-/// Makes a defect from a count and the count at the larger end.
+/// Creates a defect from the largest count at any t and the larger of the counts at the two ends.
 type FieldFinding = fn(usize, usize) -> FindingKind;
 
-/// Finds where a field disappears or has extra pieces or holes, and tests the other blend space.
+/// Finds when the contour of a distance field disappears or has extra pieces or holes, and tests
+/// whether the other blend space has fewer of these defects.
 pub(super) fn field_findings(
     transition: &Transition,
     pair: &FieldPair,
@@ -27,7 +29,7 @@ pub(super) fn field_findings(
     };
     let ends = |of: defect_scan::DefectCounts| of(first).max(of(last));
     let mut defects = Vec::new();
-    // `worst` does not apply: here the count is too small, not too large.
+    // `worst_moment` does not apply: here the count is too small, not too large.
     let absent = defect_scan::times_where(moments, |g| g.pieces == 0);
     if let (Some(&begin), Some(&end)) = (absent.first(), absent.last())
         && ends(|g| g.pieces) > 0
@@ -86,7 +88,8 @@ fn finding(
     }
 }
 
-/// Returns the centre of the smallest piece or hole, or of the frame if there is none.
+/// Returns the centre of the smallest piece at `t`, or of the smallest hole if the defect is extra
+/// holes; without any, the centre of the grid.
 fn place_of(transition: &Transition, pair: &FieldPair, trouble: &FindingKind, t: f64) -> DVec2 {
     let orientation = if matches!(trouble, FindingKind::Holes { .. }) {
         -1.0
@@ -104,7 +107,8 @@ fn place_of(transition: &Transition, pair: &FieldPair, trouble: &FindingKind, t:
     )
 }
 
-/// Returns the fraction of the smaller design that overlaps the other, in grid cells.
+/// Returns the area common to both designs as a fraction of the smaller design's area, counted in
+/// grid cells.
 fn overlap(pair: &FieldPair) -> f64 {
     let level = pair.blend().threshold;
     let is_inside = |value: &f32| f64::from(*value) >= level;

@@ -37,35 +37,35 @@ pub enum FindingKind {
     },
     /// The boundary crosses itself.
     Crossings {
-        /// All crossings at that t.
+        /// All crossings at the t at which there are most.
         crossings: Vec<EdgeCrossing>,
     },
     /// A contour has more pieces than at either end.
     Pieces {
-        /// Number of pieces.
+        /// Number of pieces at the t at which there are most.
         count: usize,
-        /// Number of pieces at the larger end.
+        /// Number of pieces at t = 0 or t = 1, whichever is larger.
         at_ends: usize,
     },
     /// A contour has more holes than at either end.
     Holes {
-        /// Number of holes.
+        /// Number of holes at the t at which there are most.
         count: usize,
-        /// Number of holes at the larger end.
+        /// Number of holes at t = 0 or t = 1, whichever is larger.
         at_ends: usize,
     },
     /// A contour disappears completely.
     Gone,
     /// A warp of the plane folds.
     PlaneFolds {
-        /// Fraction of the frame covered by folds.
+        /// Fraction of the frame covered by folds at the worst t.
         share: f64,
     },
-    /// Pins or lines are not at their intended positions.
+    /// The warp does not bring all pins and lines to their intended positions.
     Missed {
-        /// Number of missed features.
+        /// Number of missed pins and sample points of lines.
         count: usize,
-        /// Distance by which the worst one is missed, as a fraction of the frame's diameter.
+        /// Distance by which the worst of them is missed, as a fraction of the frame's diameter.
         by: f64,
     },
 }
@@ -75,11 +75,11 @@ pub enum FindingKind {
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FindingCause {
-    /// The homotopy moves points straight, which flattens rotating faces.
+    /// The homotopy moves points along straight lines, which flattens rotating faces.
     StraightPaths {
-        /// Homotopy of the local maps.
+        /// Homotopy by which the map of each face is interpolated.
         homotopy: Homotopy,
-        /// Rotation of the worst face.
+        /// Rotation of the worst face from source to target.
         turn: f64,
     },
     /// A part rotates by more than half a turn relative to its neighbour or to the whole.
@@ -87,46 +87,49 @@ pub enum FindingCause {
         /// Index of the part, from 0, as in [`crate::warp::ArapOptions::extra_turns`]; `None` if
         /// the rotation is relative to the whole shape.
         part: Option<usize>,
-        /// Relative rotation.
+        /// Rotation relative to the neighbour or to the whole shape.
         turn: f64,
     },
-    /// The boundary is locally stretched or squeezed more than three times relative to its mean.
+    /// Near the defect, the boundary is stretched or squeezed more than three times as much as on
+    /// average.
     UnevenMatch {
-        /// Fraction of the target loop divided by fraction of the source loop.
+        /// Local stretch of the boundary divided by the stretch of its whole loop; below 1 where
+        /// squeezed.
         ratio: f64,
-        /// Position in the source.
+        /// Position in the source of the place with this stretch.
         source: DVec2,
-        /// Position in the target.
+        /// Position in the target of the place with this stretch.
         target: DVec2,
     },
     /// Neighbouring faces rotate by very different angles.
     UnlikeNeighbours {
-        /// Difference of the angles.
+        /// Difference of the two rotations.
         turn: f64,
     },
-    /// Two places of the boundary collide.
+    /// Two places of the boundary move into each other.
     PlacesMeet {
-        /// Rotation of each place.
+        /// Rotation of each place from source to target.
         turns: [f64; 2],
         /// Position of each place in the source.
         source: [DVec2; 2],
     },
     /// The designs hardly overlap.
     LittleOverlap {
-        /// Fraction of the smaller design that overlaps the other.
+        /// Area common to both designs, as a fraction of the smaller design's area.
         share: f64,
     },
-    /// Plain distance fields do not match parts with each other.
+    /// Distance fields do not match the parts of the designs with each other.
     BlindFields,
-    /// Folded faces show parts of a design more than once.
+    /// The warp of the plane folds, so that parts of a design are drawn more than once.
     SeenTwice,
-    /// No map without folds was found that reaches a pin.
+    /// The lattices must not fold, and no warp without folds was found that brings a pin to its
+    /// position.
     OutOfReach,
-    /// Pins come so close to each other that one map cannot meet both.
+    /// Pins come so close to each other that the warp cannot bring both to their positions.
     FeaturesMeet,
-    /// Boundary points move independently; there is no mesh inside that keeps them apart.
+    /// Boundary points move independently: there is no mesh inside the shape that keeps them apart.
     NothingInside,
-    /// None of the above.
+    /// No single cause was found.
     Unclear,
 }
 
@@ -135,41 +138,41 @@ pub enum FindingCause {
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Remedy {
-    /// Change an option; the change was tested.
+    /// Change an option. The change was tested and reduces the defects.
     Change {
-        /// Tested change.
+        /// Option to change, with its new value.
         change: SettingChange,
-        /// Number of folded faces, crossings, extra pieces or extra holes that remain at the worst
-        /// t.
+        /// Number of these defects (folded faces, crossings, extra pieces or extra holes) that
+        /// remain with the change, at the worst t.
         left: usize,
-        /// Number of them without the change.
+        /// Number of these defects without the change, at the worst t.
         of: usize,
     },
     /// Pin a pair of points to each other.
     Pin {
-        /// Position in the source.
+        /// Position of the point in the source.
         source: DVec2,
-        /// Position in the target.
+        /// Position of the point in the target.
         target: DVec2,
     },
-    /// Move vertices of one of the designs.
+    /// Move vertices near a place of one of the designs.
     MoveVertices {
-        /// Position in the source.
+        /// Position of the place in the source.
         source: DVec2,
-        /// Position in the target.
+        /// Position of the place in the target.
         target: DVec2,
     },
-    /// Make the target overlap the source.
+    /// Align the designs so that they overlap more.
     LayOver,
     /// Use rigid parts instead of distance fields or boundary paths.
     RigidParts,
-    /// Use fold-free lattices, or move pins or lines.
+    /// Use lattices that must not fold, or move or delete pins or lines.
     Lattices,
-    /// Allow the lattices to fold, or move pins.
+    /// Allow the lattices to fold, or move or delete pins.
     LetFold,
-    /// Move pins.
+    /// Move or delete pins.
     MovePins,
-    /// Lead the path over the map through other blends.
+    /// Move the path over the map, so that it leads through other blends.
     AnotherWay,
 }
 
@@ -178,13 +181,13 @@ pub enum Remedy {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum SettingChange {
-    /// Sets the homotopy of the local maps.
+    /// Sets the homotopy by which the map of each face is interpolated.
     Homotopy(Homotopy),
-    /// Turns on the symmetric energy.
+    /// Turns on the symmetric energy, which treats source and target alike.
     Symmetric,
-    /// Sets the extra full turns of each part.
+    /// Sets the number of extra full turns of each part.
     ExtraTurns(Vec<i32>),
-    /// Sets the space in which distances are blended.
+    /// Sets whether distances or their logarithms are blended.
     Space(BlendSpace),
 }
 

@@ -1,4 +1,4 @@
-//! Defects of warps of the plane: folds, and pins or lines that the warp misses.
+//! Finds the defects of warps of the plane: folds, and pins or lines that the warp misses.
 
 use super::finding::{Finding, FindingCause, FindingKind, Remedy};
 use crate::content::Content;
@@ -8,19 +8,20 @@ use crate::transition::{Frame, Transition};
 use crate::warp::{MissedFeatures, WarpKind};
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Folds covering a smaller fraction of the frame are ignored. In a window of 1000 by 1000 pixels,
+/// Fraction of the frame: folds that cover less are ignored. In a window of 1000 by 1000 pixels,
 /// this is a spot 22 pixels across (heuristic).
 const MIN_FOLD_FRACTION: f64 = 5e-4;
 
-/// Worst finding of one kind so far, with its size; the finding's span covers all of that kind.
+/// Worst finding of one kind so far, with its size. Its `span` covers all findings of that kind so
+/// far.
 type WorstFold = Option<(f64, Finding)>;
 
-/// Keeps the larger of two findings and joins their spans.
+/// Keeps the larger of the worst finding so far and a new one, and joins their spans.
 fn keep_worst(worst: &mut WorstFold, size: f64, mut finding: Finding) {
     if let Some((largest_size, largest)) = worst {
         largest.span[1] = finding.t;
         finding.span = largest.span;
-        // Of equal findings the earlier stays; its span is already extended.
+        // If both have the same size, the earlier one stays; its span is already extended.
         if size <= *largest_size {
             return;
         }
@@ -28,7 +29,8 @@ fn keep_worst(worst: &mut WorstFold, size: f64, mut finding: Finding) {
     *worst = Some((size, finding));
 }
 
-/// Finds folds and missed features of a warp of the plane; nothing for other warps.
+/// Finds folds of a warp of the plane and features (pins and lines) that it misses. Returns nothing
+/// for other warps.
 pub(super) fn plane_findings(
     transition: &Transition,
     steps: usize,
@@ -71,7 +73,7 @@ pub(super) fn plane_findings(
         .collect())
 }
 
-/// Describes features missed at `t`; `diameter` is that of the frame.
+/// Creates the finding for features that are missed at `t`; `diameter` is that of the frame.
 fn missed_finding(missed: &MissedFeatures, t: f64, diameter: f64) -> Finding {
     let (cause, remedy) = if missed.fold_free {
         (FindingCause::OutOfReach, Remedy::LetFold)
@@ -91,8 +93,9 @@ fn missed_finding(missed: &MissedFeatures, t: f64, diameter: f64) -> Finding {
     }
 }
 
-/// Returns whether something is drawn at `t` where the source and target are sampled at the given
-/// points; a field draws only its inside.
+/// Returns whether a point of the frame is painted at `t`, where `samples` are the points of source
+/// and target that the warp brings there. A distance field paints only its inside, a picture
+/// everything.
 fn is_visible(content: &Content, t: f64, samples: [DVec2; 2]) -> bool {
     let Content::Field(fields) = content else {
         return true;
@@ -106,8 +109,8 @@ fn is_visible(content: &Content, t: f64, samples: [DVec2; 2]) -> bool {
     pair.blend().value(a, b, t) >= pair.blend().level()
 }
 
-/// Returns the fraction of the frame covered by faces that are folded in the frame or in either
-/// design, and the centre of the largest such face.
+/// Returns the fraction of the frame covered by visible faces that are folded in the frame or in
+/// either design, and the centre of the largest such face.
 fn folded_fraction(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
     let placement = frame.placement();
     let (mut sum, mut largest, mut place) = (0.0, 0.0, bounds.centre());
@@ -123,7 +126,7 @@ fn folded_fraction(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
         let area = |[a, b, c]: [DVec2; 3]| twice_signed_area(a, b, c);
         let in_frame = area(corners(&placement.in_frame));
         let in_designs = [&placement.in_source, &placement.in_target].map(|p| area(corners(p)));
-        // A face drawn correctly has positive area in the frame and in both designs.
+        // A face that is not folded has positive area in the frame and in both designs.
         if in_frame < 0.0 || in_designs.iter().any(|area| *area < 0.0) {
             sum += in_frame.abs();
             if in_frame.abs() > largest {
@@ -143,7 +146,8 @@ mod tests {
     use crate::project::gallery;
     use crate::work::progress::Silent;
 
-    /// Two pins that exchange their positions between four fixed pins.
+    /// Checks a transition in which two pins exchange their positions, between four pins that stay
+    /// in place.
     fn verdict_with_exchanged_pins(warp: WarpKind, fold_free: bool) -> Verdict {
         let mut loaded = gallery::load("portraits-points").expect("a project");
         let pair = |from: (f64, f64), to: (f64, f64)| PointPair {

@@ -1,4 +1,5 @@
-//! Remedies for defects: changed options are tested on the same film, edits are only suggested.
+//! Finds remedies for defects: changed options are tested on the same film, edits are only
+//! suggested.
 
 use super::cause::CauseSearch;
 use super::defect_scan;
@@ -11,18 +12,19 @@ use crate::warp::homotopy::Homotopy;
 use crate::warp::{Arap, ArapError};
 use crate::work::progress::{Cancelled, Progress, ProgressShares};
 
-/// Maximum number of faces of a mesh for which changed options are tested (resource limit: one
-/// test of this size takes about a quarter of a second).
+/// Maximum number of faces of a mesh on which changed options are tested (resource limit: one test
+/// of this size takes about a quarter of a second).
 const MAX_TESTED_FACES: usize = 20_000;
 
-/// Suggests moving the vertices near a face, for defects that no option removes.
+/// Returns the suggestion to move the vertices near a face, for defects that no option removes.
 pub(super) fn move_vertices_at(search: &CauseSearch<'_>, face: usize) -> Remedy {
     let mesh = search.arap.mesh();
     let [source, target] = [mesh.source(), mesh.target()].map(|p| search.centroid(face, p));
     Remedy::MoveVertices { source, target }
 }
 
-/// Tests changed options, and suggests pins instead of vertex edits if a design is an outline.
+/// Updates the remedies of all findings: suggests pins instead of vertex edits if a design is an
+/// outline, and tests changed options.
 pub(super) fn try_rigid_part_options(
     transition: &Transition,
     arap: &Arap,
@@ -62,7 +64,8 @@ pub(super) fn try_rigid_part_options(
     Ok(())
 }
 
-/// Returns the remedy with a pin in place of vertex edits, at the uneven match or at the defect.
+/// Returns the remedy of a finding, with a pin instead of vertex edits: at the uneven match if that
+/// is the cause, otherwise at the defect.
 fn with_pin(finding: &Finding) -> Remedy {
     match (&finding.cause, &finding.remedy) {
         (&FindingCause::UnevenMatch { source, target, .. }, _)
@@ -71,7 +74,7 @@ fn with_pin(finding: &Finding) -> Remedy {
     }
 }
 
-/// Returns the changes to test, the most promising first.
+/// Returns the changes of options to test, the most promising first.
 fn changes(arap: &Arap, findings: &[Finding]) -> Vec<SettingChange> {
     let options = arap.options();
     let mut changes = Vec::new();
@@ -95,14 +98,15 @@ fn changes(arap: &Arap, findings: &[Finding]) -> Vec<SettingChange> {
     changes
 }
 
-/// Changes the extra turns of a part by one, so that it rotates in the other direction.
+/// Returns the change of a part's extra turns by one, so that the part rotates in the other
+/// direction.
 fn turn_other_way(arap: &Arap, part: usize, turn: f64) -> SettingChange {
     let current_turns = &arap.options().extra_turns;
     let each = |p: usize| match current_turns.as_slice() {
         [all] => *all,
         each => each.get(p).copied().unwrap_or(0),
     };
-    // One number per part, because a single number would apply to all parts.
+    // The list has one number per part, because a single number would apply to all parts.
     let mut turns: Vec<i32> = (0..arap.part_count()).map(each).collect();
     if let Some(part_turns) = turns.get_mut(part) {
         *part_turns -= if turn > 0.0 { 1 } else { -1 };
@@ -110,7 +114,7 @@ fn turn_other_way(arap: &Arap, part: usize, turn: f64) -> SettingChange {
     SettingChange::ExtraTurns(turns)
 }
 
-/// Scans the film with a change applied; returns `None` if it cannot be built.
+/// Counts the defects of the film with a changed option; returns `None` if it cannot be built.
 fn scan_with(
     change: &SettingChange,
     transition: &Transition,
@@ -133,34 +137,37 @@ fn scan_with(
     }
 }
 
-/// Adopts a change as the remedy if it leaves fewer defects of the finding's kind than the best
-/// change so far, and no more of the other kind than without it.
+/// Adopts a change as the remedy of a finding of folds or crossings, on two conditions: it leaves
+/// fewer defects of the finding's kind than the best change so far, and no more defects of the
+/// other kind than there are without it.
 fn adopt_if_better(
     finding: &mut Finding,
     change: &SettingChange,
     before: &[MomentCounts],
     after: &[MomentCounts],
 ) {
-    let (own, other): (defect_scan::DefectCounts, defect_scan::DefectCounts) = match finding.trouble
-    {
-        FindingKind::Folds { .. } => (|g| g.folds, |g| g.crossings),
-        _ => (|g| g.crossings, |g| g.folds),
-    };
-    let of = defect_scan::max_count(before, own);
+    let (same_kind, other_kind): (defect_scan::DefectCounts, defect_scan::DefectCounts) =
+        match finding.trouble {
+            FindingKind::Folds { .. } => (|g| g.folds, |g| g.crossings),
+            _ => (|g| g.crossings, |g| g.folds),
+        };
+    let of = defect_scan::max_count(before, same_kind);
     let best = match finding.remedy {
         Remedy::Change { left, .. } => left,
         _ => of,
     };
-    let left = defect_scan::max_count(after, own);
+    let left = defect_scan::max_count(after, same_kind);
     // Removing folds at the cost of new crossings is not a remedy.
-    if left < best && defect_scan::max_count(after, other) <= defect_scan::max_count(before, other)
+    if left < best
+        && defect_scan::max_count(after, other_kind) <= defect_scan::max_count(before, other_kind)
     {
         let change = change.clone();
         finding.remedy = Remedy::Change { change, left, of };
     }
 }
 
-/// Tests the other blend space: distances or their logarithms.
+/// Tests whether blending distances instead of their logarithms, or the reverse, leaves fewer
+/// defects; if so, makes this the remedy.
 pub(super) fn try_other_blend_space(
     transition: &Transition,
     pair: &FieldPair,

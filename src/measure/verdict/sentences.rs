@@ -1,4 +1,4 @@
-//! Texts of findings: headline, cause and remedy in plain English.
+//! Texts of findings: the headline, the cause and the remedy in plain English.
 
 use super::finding::{Finding, FindingCause, FindingKind, Remedy, SettingChange};
 use crate::content::BlendSpace;
@@ -44,7 +44,7 @@ impl fmt::Display for FindingKind {
     }
 }
 
-/// Formats a fraction as a percentage with enough digits to tell it from zero.
+/// Formats a fraction as a percentage, with enough digits that small fractions do not read as zero.
 fn percent(fraction: f64) -> String {
     let percent = 100.0 * fraction;
     if percent >= 10.0 {
@@ -82,7 +82,7 @@ impl fmt::Display for VerdictNumber {
     }
 }
 
-/// Formats a ratio to the mean as "3.2 times longer" or "3.2 times shorter".
+/// Formats a ratio of stretches as "3.2 times longer" or "3.2 times shorter".
 fn stretched(ratio: f64) -> String {
     if ratio >= 1.0 {
         format!("{ratio:.1} times longer")
@@ -104,10 +104,10 @@ impl fmt::Display for FindingCause {
                     Some(part) => (format!("part {}", part + 1), "its neighbour"),
                     None => ("this place".to_owned(), "the whole shape"),
                 };
-                let by = degrees(turn.abs());
+                let angle = degrees(turn.abs());
                 write!(
                     f,
-                    "{place} rotates by {by} relative to {other}, more than half a turn"
+                    "{place} rotates by {angle} relative to {other}, more than half a turn"
                 )
             }
             Self::UnevenMatch { ratio, source, .. } => write!(
@@ -169,7 +169,7 @@ impl fmt::Display for Remedy {
             ),
             Self::LayOver => write!(
                 f,
-                "make the designs overlap (fit centred or same-area, or move one of them)"
+                "make the designs overlap (align them as centred or same area, or move one of them)"
             ),
             Self::RigidParts => write!(f, "choose rigid parts as the method"),
             Self::Lattices => write!(

@@ -1,4 +1,4 @@
-//! Defects of solids: folded faces and crossing boundaries, with their causes.
+//! Finds the defects of solids, folded faces and crossing boundaries, with their causes.
 
 use super::cause;
 use super::cause::CauseSearch;
@@ -41,7 +41,7 @@ pub(super) fn solid_findings(
     Ok(findings)
 }
 
-/// Finds crossings of boundaries without a mesh inside.
+/// Finds crossings of boundaries whose inside has no mesh.
 fn boundary_crossings(
     transition: &Transition,
     solid: &SolidContent,
@@ -60,7 +60,7 @@ fn boundary_crossings(
     })
 }
 
-/// Finds folds and crossings of a film along a path through the blends of many designs.
+/// Finds folds and crossings of a film that follows a path through the blends of many designs.
 fn path_findings(
     transition: &Transition,
     mesh: &CompatibleMesh,
@@ -92,7 +92,7 @@ fn path_findings(
     folds.into_iter().chain(crossings).collect()
 }
 
-/// Describes the folds at `t`; place and cause are those of the worst face.
+/// Creates the finding for the folds at `t`. Place and cause are those of the worst face.
 fn fold_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
     let faces: Vec<usize> =
         defect_scan::folded_faces(search.arap.mesh().faces(), &search.places).collect();
@@ -101,10 +101,10 @@ fn fold_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Find
     // Causes that an option can fix come first, then those that a pin can fix, and last those
     // that only describe the place.
     let cause = cause::straight_paths(search, worst, t)
-        .or_else(|| cause::far_turn_of_part(search, worst))
+        .or_else(|| cause::large_rotation_of_part(search, worst))
         .or_else(|| cause::uneven_match(search, worst))
-        .or_else(|| cause::unlike_neighbours(search, &faces))
-        .or_else(|| cause::far_turn(search, worst));
+        .or_else(|| cause::differing_neighbours(search, &faces))
+        .or_else(|| cause::large_rotation(search, worst));
     Some(Finding {
         place: search.centroid(worst, &search.places),
         trouble: FindingKind::Folds { faces },
@@ -115,7 +115,7 @@ fn fold_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Find
     })
 }
 
-/// Describes the crossings at `t`; place and cause are those of the first one.
+/// Creates the finding for the crossings at `t`. Place and cause are those of the first crossing.
 fn crossing_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
     let crossings = search.solid.crossings_at(&search.places, t);
     let first = *crossings.first()?;
@@ -129,10 +129,10 @@ fn crossing_finding(search: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<
     };
     let cause = cause::straight_paths(search, a, t)
         .or_else(|| cause::straight_paths(search, b, t))
-        .or_else(|| cause::far_turn_of_part(search, a))
-        .or_else(|| cause::far_turn_of_part(search, b))
+        .or_else(|| cause::large_rotation_of_part(search, a))
+        .or_else(|| cause::large_rotation_of_part(search, b))
         .or_else(|| {
-            let is_near = cause::near_each_other(search, &first);
+            let is_near = cause::are_near_each_other(search, &first);
             is_near.then(|| cause::uneven_match(search, a)).flatten()
         });
     let places_meet = || FindingCause::PlacesMeet {

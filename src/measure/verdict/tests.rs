@@ -17,7 +17,7 @@ use crate::work::progress::Silent;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Number of sampled t.
+/// Number of t at which a film is checked.
 const STEPS: usize = 65;
 
 /// Distance between two sampled t.
@@ -38,7 +38,8 @@ fn options_with(homotopy: Homotopy) -> ArapOptions {
     }
 }
 
-/// Half a turn with a stretch: with the linear homotopy det M(t) = (1−2t)(1−4t).
+/// A sheet that rotates by half a turn and becomes three times as high. With the linear homotopy,
+/// the map M(t) of each face has det M(t) = (1−2t)(1−4t).
 fn half_turn(homotopy: Homotopy) -> Transition {
     let (faces, source) = sheet(4, 2);
     let map = DMat2::from_angle(PI) * DMat2::from_diagonal(DVec2::new(1.0, 3.0));
@@ -73,7 +74,8 @@ fn straight_paths_fold_where_the_determinant_is_negative() {
     assert!(verdict(&half_turn(Homotopy::Polar)).is_clear());
 }
 
-/// Two triangles joined at a hinge, equal in both designs except for extra full turns.
+/// Two triangles joined at one vertex. Source and target are equal, except for `extra_turns` full
+/// turns of each triangle.
 fn hinge(extra_turns: Vec<i32>) -> Transition {
     let points = [
         (0.0, 0.0),
@@ -120,7 +122,8 @@ fn a_part_that_rotates_too_far_is_rotated_the_other_way() {
     }
 }
 
-/// A thin band of length 1 whose curvature changes linearly from `begin` to `end` full turns.
+/// Vertices of a thin band of length 1 whose curvature changes linearly from `begin` to `end`, in
+/// full turns per unit of length.
 fn band(begin: f64, end: f64) -> Vec<DVec2> {
     /// Number of quads along the band.
     const SEGMENTS: u32 = 60;
@@ -137,8 +140,8 @@ fn band(begin: f64, end: f64) -> Vec<DVec2> {
     rows.concat()
 }
 
-/// A spiral that becomes one coiled at the other end; in between it is a circle traced more than
-/// once.
+/// A spiral band that is coiled at one end in the source and at the other end in the target. In
+/// between it is a circle, traced more than once.
 fn recoiled() -> Transition {
     let (faces, _) = sheet(60, 1);
     let (source, target) = (band(0.2, 2.6), band(2.6, 0.2));
@@ -165,7 +168,7 @@ fn colliding_places_are_reported_with_both_rotations() {
     ));
 }
 
-/// Runs `test` on the transition at t = 0.5.
+/// Runs `test` on the transition of rigid parts, evaluated at t = 0.5.
 fn with_search(transition: &Transition, test: impl FnOnce(&CauseSearch<'_>)) {
     let (Some(arap), Content::Solid(solid)) = (transition.arap(), transition.content()) else {
         panic!("rigid parts");
@@ -184,11 +187,12 @@ fn a_large_rotation_within_one_part_is_measured_relative_to_the_whole() {
     );
     with_search(&uncoiled, |search| {
         // The faces at the ends rotate by about a full turn relative to the middle.
-        let Some(FindingCause::FarTurn { part: None, turn }) = cause::far_turn(search, 0) else {
-            panic!("{:?}", cause::far_turn(search, 0));
+        let Some(FindingCause::FarTurn { part: None, turn }) = cause::large_rotation(search, 0)
+        else {
+            panic!("{:?}", cause::large_rotation(search, 0));
         };
         assert!(turn.abs() > PI);
-        assert_eq!(cause::far_turn(search, 60), None);
+        assert_eq!(cause::large_rotation(search, 60), None);
     });
 }
 
@@ -241,7 +245,8 @@ fn neighbours_that_rotate_differently_are_reported() {
     let target: Vec<_> = source.iter().map(shear).collect();
     let sheared = transition(&faces, &source, &target, ArapOptions::default());
     with_search(&sheared, |search| {
-        let Some(FindingCause::UnlikeNeighbours { turn }) = cause::unlike_neighbours(search, &[1])
+        let Some(FindingCause::UnlikeNeighbours { turn }) =
+            cause::differing_neighbours(search, &[1])
         else {
             panic!("no cause");
         };

@@ -1,35 +1,36 @@
-//! Polynomials in Bernstein form, whose coefficients bound them.
+//! Polynomials in Bernstein form with error bounds: products, halving, and proofs of positivity.
 //!
-//! On [0, 1] a polynomial lies between the smallest and the largest of its Bernstein coefficients;
-//! its values at the ends are the first and the last. De Casteljau's algorithm gives the
-//! coefficients of both halves.
+//! On [0, 1] a polynomial lies between the smallest and the largest of its Bernstein coefficients.
+//! Its values at 0 and 1 are the first and the last coefficient. De Casteljau's algorithm computes
+//! the coefficients of the two halves of the interval.
 
 use crate::recording::nodes::MAX_NODES;
 
-/// Largest degree of a coordinate (derived: nodes and both ends of an interval).
+/// Largest degree of a vertex coordinate as a polynomial of s (derived: the nodes and both ends of
+/// an interval determine it).
 const MAX_DEGREE: usize = MAX_NODES + 1;
 /// Largest degree of a product of two coordinates (derived).
 pub(super) const MAX_PRODUCT_DEGREE: usize = 2 * MAX_DEGREE;
 
-/// Bound on the relative rounding error of one operation (derived: double precision).
+/// Bound on the relative rounding error of one floating-point operation.
 pub(super) const EPS: f64 = f64::EPSILON;
 
-/// Returns a binomial coefficient; exact for n up to 50.
+/// Returns the binomial coefficient of `n` over `k`; exact for n up to 50.
 fn binomial(n: usize, k: usize) -> f64 {
     (0..k.min(n - k)).fold(1.0, |c, i| (c * (n - i) as f64 / (i + 1) as f64).round())
 }
 
-/// Returns the basis of a recording in degree n + 1: for each k below `n`, the Bernstein
-/// coefficients of 4s(1 − s) T_k(2s − 1).
+/// Returns the Bernstein coefficients of the basis functions of a recording, 4s(1 − s) T_k(2s − 1)
+/// for each k below `n`, all in degree n + 1.
 pub(super) fn bernstein_basis(n: usize) -> Vec<Vec<f64>> {
     let degree = n + 1;
     let of = |k: usize| -> Vec<f64> {
-        // T_k(2s − 1) in degree k has the coefficients (−1)^(k−i) C(2k, 2i) / C(k, i).
+        // In degree k, T_k(2s − 1) has the Bernstein coefficients (−1)^(k−i) C(2k, 2i) / C(k, i).
         let sign = |i: usize| if (k - i).is_multiple_of(2) { 1.0 } else { -1.0 };
         let mut coefficients: Vec<f64> = (0..=k)
             .map(|i| sign(i) * binomial(2 * k, 2 * i) / binomial(k, i))
             .collect();
-        // Multiply by 4s(1 − s), whose coefficients in degree 2 are 0, 2, 0.
+        // Multiplies by 4s(1 − s), whose Bernstein coefficients in degree 2 are 0, 2, 0.
         let inner = coefficients
             .iter()
             .enumerate()
@@ -43,7 +44,7 @@ pub(super) fn bernstein_basis(n: usize) -> Vec<Vec<f64>> {
     (0..n).map(of).collect()
 }
 
-/// Returns the coefficients of the same polynomial in the next higher degree.
+/// Returns the Bernstein coefficients of the same polynomial in the next higher degree.
 fn degree_elevated(coefficients: &[f64]) -> Vec<f64> {
     let degree = coefficients.len();
     let at = |i: usize| coefficients.get(i).copied().unwrap_or(0.0);
@@ -55,14 +56,14 @@ fn degree_elevated(coefficients: &[f64]) -> Vec<f64> {
     (0..=degree).map(coefficient).collect()
 }
 
-/// The weights for multiplying two polynomials of one degree in Bernstein form.
+/// Weights for multiplying two polynomials of the same degree in Bernstein form.
 pub(super) struct BernsteinProducts {
     degree: usize,
     weights: Vec<f64>,
 }
 
 impl BernsteinProducts {
-    /// Computes the weights for factors of this degree.
+    /// Computes the weights for factors of the given degree.
     pub(super) fn of_degree(degree: usize) -> Self {
         let weight = |i: usize, j: usize| {
             binomial(degree, i) * binomial(degree, j) / binomial(2 * degree, i + j)
@@ -74,7 +75,8 @@ impl BernsteinProducts {
         }
     }
 
-    /// Returns the weighted sum of `of(i, j)`: the product of u and v if `of(i, j)` is uᵢ vⱼ.
+    /// Returns the polynomial whose coefficients are weighted sums of `of(i, j)`. If `of(i, j)` is
+    /// uᵢ vⱼ, this is the product of the polynomials u and v. The error bound is left at 0.
     pub(super) fn sum(&self, of: impl Fn(usize, usize) -> f64) -> BernsteinPolynomial {
         let mut sum = BernsteinPolynomial::zero(2 * self.degree);
         for i in 0..=self.degree {
@@ -86,17 +88,17 @@ impl BernsteinProducts {
     }
 }
 
-/// A polynomial in Bernstein form with a bound on the error of its coefficients.
+/// Polynomial in Bernstein form with an error bound.
 #[derive(Clone, Copy)]
 pub(super) struct BernsteinPolynomial {
     degree: usize,
     c: [f64; MAX_PRODUCT_DEGREE + 1],
-    /// Bound on the error of each coefficient.
+    /// Bound on the absolute error of each coefficient.
     pub(super) error: f64,
 }
 
 impl BernsteinPolynomial {
-    /// Returns the zero polynomial.
+    /// Returns the zero polynomial of the given degree.
     fn zero(degree: usize) -> Self {
         Self {
             degree,
@@ -110,13 +112,13 @@ impl BernsteinPolynomial {
         &self.c[..=self.degree]
     }
 
-    /// Returns the polynomial with the opposite sign.
+    /// Returns the polynomial multiplied by −1.
     pub(super) fn negated(mut self) -> Self {
         self.c.iter_mut().for_each(|c| *c = -*c);
         self
     }
 
-    /// Returns the polynomial on both halves of its interval, each rescaled to [0, 1].
+    /// Returns the polynomial on the two halves of its interval, each rescaled to [0, 1].
     pub(super) fn halves(&self) -> [Self; 2] {
         let (mut left, mut right) = (*self, *self);
         let largest = self
@@ -134,8 +136,8 @@ impl BernsteinPolynomial {
         [left, right]
     }
 
-    /// Returns whether the polynomial is proved to be positive on [0, 1]. `ends` gives the signs at
-    /// both ends where they are known exactly.
+    /// Returns whether the polynomial is proved to be positive on [0, 1]. `ends` contains the signs
+    /// at both ends, as far as they are known exactly.
     pub(super) fn is_positive(&self, ends: [EndSign; 2]) -> bool {
         let c = self.coefficients();
         let last = self.degree;
@@ -144,24 +146,24 @@ impl BernsteinPolynomial {
             EndSign::NotPositive => false,
             EndSign::Unknown => c > self.error,
         };
-        // Comparisons with NaN are false: not proved.
+        // Comparisons with NaN are false, so a polynomial with NaN is not proved.
         end(ends[0], c[0]) && end(ends[1], c[last]) && c[1..last].iter().all(|&c| c > self.error)
     }
 }
 
-/// The sign of a polynomial at an end of its interval, if it is known exactly.
+/// Sign of a polynomial at an end of its interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum EndSign {
-    /// Only the coefficient is known.
+    /// Not known exactly; the computed coefficient decides.
     Unknown,
-    /// Strictly positive.
+    /// Known to be positive.
     Positive,
-    /// Zero or negative.
+    /// Known to be zero or negative.
     NotPositive,
 }
 
 impl EndSign {
-    /// Returns the sign of an exact value.
+    /// Returns the sign of a number that has the exact sign of the polynomial.
     pub(super) fn of(exact: f64) -> Self {
         if exact > 0.0 {
             Self::Positive

@@ -1,12 +1,12 @@
-//! Boundary loops to be examined for meetings.
+//! Boundary loop that is examined for meetings with others.
 
-/// A closed boundary loop of a drawn shape.
+/// Closed boundary loop of a shape that is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnLoop {
     /// Vertex indices in order along the loop.
     pub vertices: Vec<u32>,
-    /// Paint layer; loops on different layers may cross.
+    /// Index of the loop's paint layer; loops of different layers may cross.
     pub layer: usize,
-    /// First and last t at which the loop is drawn.
+    /// First and last t between which the loop is drawn.
     pub visible_interval: [f64; 2],
 }

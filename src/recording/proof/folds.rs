@@ -1,4 +1,5 @@
-//! The first face of an interval that may fold: its signed area is not proved to be positive.
+//! Finds the first face in a time interval that may fold: its signed area is not proved to be
+//! positive.
 
 use super::bernstein::{BernsteinPolynomial, BernsteinProducts, EPS, EndSign};
 use super::vertex_curve::{IntervalCurves, VertexCurve};
@@ -10,9 +11,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Maximum number of halvings (tolerance: 2⁻³⁰, about 1e-9 of an interval).
 pub(super) const MAX_HALVINGS: u32 = 30;
 
-/// Returns the first s in the interval at which a face is not proved to be positively oriented, and
-/// the index of that face. `at_ends` says which ends of the interval are the designs, whose
-/// orientations are exact.
+/// Returns the smallest s in the interval at which a face is not proved to be positively oriented,
+/// and the index of that face. `at_ends` marks the ends of the interval that are t = 0 or t = 1;
+/// there the vertices have the exact positions of the designs.
 pub(super) fn first_fold(
     curves: &IntervalCurves,
     faces: &[[u32; 3]],
@@ -35,7 +36,7 @@ pub(super) fn first_fold(
         if progress.is_cancelled() {
             return None;
         }
-        let s = not_positive(&area, ends, [0.0, 1.0], MAX_HALVINGS, &earliest)?;
+        let s = first_not_positive(&area, ends, [0.0, 1.0], MAX_HALVINGS, &earliest)?;
         Some((s, face))
     };
     let failures = faces.par_iter().enumerate().filter_map(of_face);
@@ -44,7 +45,8 @@ pub(super) fn first_fold(
     Ok(first)
 }
 
-/// The earliest failure found so far by any thread; later parts of the interval can be skipped.
+/// Smallest s of all failures that any thread has found so far. Later parts of the interval need
+/// not be examined.
 pub(super) struct EarliestFailure(AtomicU64);
 
 impl Default for EarliestFailure {
@@ -54,10 +56,10 @@ impl Default for EarliestFailure {
 }
 
 impl EarliestFailure {
-    /// Returns whether a failure earlier than `s` is known.
+    /// Returns whether a failure before `s` is known.
     pub(super) fn is_before(&self, s: f64) -> bool {
-        // Relaxed suffices: it only saves work. Bits of non-negative floats are ordered like the
-        // floats.
+        // Relaxed ordering suffices, because the number only saves work. The bits of non-negative
+        // floats are ordered like the floats.
         self.0.load(Ordering::Relaxed) < s.to_bits()
     }
 
@@ -68,7 +70,7 @@ impl EarliestFailure {
     }
 }
 
-/// Returns the polynomial of twice the signed area of three vertices.
+/// Returns twice the signed area of the triangle of three vertices, as a polynomial.
 pub(super) fn twice_area(
     products: &BernsteinProducts,
     [a, b, c]: [&VertexCurve; 3],
@@ -76,8 +78,8 @@ pub(super) fn twice_area(
     product(products, [a, b], [a, c], DVec2::perp_dot)
 }
 
-/// Returns a bilinear product, such as a dot product, of two edge vectors as a polynomial with an
-/// error bound. Each pair of curves is the beginning and the end of an edge vector.
+/// Returns the bilinear product `of` (such as the dot product) of two edge vectors, as a polynomial
+/// with an error bound. Each edge vector runs from the first to the second curve of its pair.
 pub(super) fn product(
     products: &BernsteinProducts,
     first: [&VertexCurve; 2],
@@ -95,17 +97,18 @@ pub(super) fn product(
     };
     let [(u, max_u, error_u), (v, max_v, error_v)] = [first, second].map(between);
     let mut sum = products.sum(|i, j| of(u[i], v[j]));
-    // Each of the two products of coordinates carries the errors of its factors, and the sum as
-    // many roundings as it has terms.
+    // Each of the two products of coordinates has the errors of its factors. The sum has as many
+    // roundings as terms.
     let factor_error = error_u * max_v + error_v * max_u + error_u * error_v;
     let rounding = (2 * u.len() + 8) as f64 * EPS * max_u * max_v;
     sum.error = 2.0 * (factor_error + rounding);
     sum
 }
 
-/// Returns the first s at which a polynomial on `[from, to]` is not proved to be positive, by
-/// bisection; `None` if it is positive throughout.
-pub(super) fn not_positive(
+/// Returns the smallest s in `[from, to]` at which a polynomial is not proved to be positive, by
+/// bisection; `None` if it is positive throughout. Returns `None` as well if a failure before
+/// `from` is known.
+pub(super) fn first_not_positive(
     of: &BernsteinPolynomial,
     ends: [EndSign; 2],
     [from, to]: [f64; 2],
@@ -121,7 +124,7 @@ pub(super) fn not_positive(
     let middle = from.midpoint(to);
     let [left, right] = of.halves();
     let in_half = |of: &BernsteinPolynomial, ends: [EndSign; 2], times: [f64; 2]| {
-        not_positive(of, ends, times, halvings - 1, earliest)
+        first_not_positive(of, ends, times, halvings - 1, earliest)
     };
     in_half(&left, [ends[0], EndSign::Unknown], [from, middle])
         .or_else(|| in_half(&right, [EndSign::Unknown, ends[1]], [middle, to]))

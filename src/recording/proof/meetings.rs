@@ -1,9 +1,10 @@
-//! The first outlines of an interval that may meet.
+//! Finds the earliest time in an interval at which outlines may meet.
 //!
-//! Outlines that start apart first meet where a vertex touches an edge. Boxes around the curves of
-//! edges find the pairs that come near each other; where there are too many, the interval is
-//! halved. A pair is apart as long as the vertex stays on one side of the edge's line, or ahead of
-//! the edge, or behind it; each is the sign of a polynomial.
+//! If outlines are apart at first, their first contact is that of a vertex with an edge. The search
+//! takes two steps. Boxes around the moving edges find the vertex–edge pairs that come near each
+//! other; if there are too many, the interval is halved. A pair is then proved to be apart by the
+//! sign of a polynomial: the vertex stays on one side of the edge's line, or beyond one end of the
+//! edge. Loops that cross from the beginning are found directly.
 
 use super::bernstein::{BernsteinProducts, EndSign};
 use super::drawn_loop::DrawnLoop;
@@ -14,17 +15,19 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Largest number of nearby pairs per edge before an interval is halved (resource limit).
+/// Maximum number of nearby vertex–edge pairs for each edge; an interval with more is halved
+/// (resource limit).
 const MAX_PAIRS_PER_EDGE: usize = 12;
-/// Maximum number of halvings for fewer pairs (resource limit: 2¹⁰ parts).
+/// Maximum number of times that an interval is halved to reduce the number of pairs (resource
+/// limit: 2¹⁰ parts).
 const MAX_INTERVAL_HALVINGS: u32 = 10;
 
-/// Length in t, next to an end of the motion, in which pairs that touch at that end are not tested
-/// (tolerance: the sides of a cut need some time to come apart).
+/// Length in t, next to t = 0 and t = 1, in which pairs that touch at that end are not tested
+/// (tolerance: the two sides of a cut need some time to come apart).
 const UNTESTED_LENGTH: f64 = 1.0 / 1024.0;
 
-/// Returns the ends of the pieces into which an interval is divided: next to an end of the motion
-/// lies a short piece of its own. `length` is the length of the interval in t.
+/// Returns the values of s at which the sections of an interval end. Next to t = 0 and t = 1 lies a
+/// short section of its own. `length` is the length of the interval in t.
 fn piece_ends(at_ends: [bool; 2], length: f64) -> Vec<f64> {
     let near = (UNTESTED_LENGTH / length).min(0.25);
     let begin = at_ends[0].then_some(near);
@@ -32,30 +35,31 @@ fn piece_ends(at_ends: [bool; 2], length: f64) -> Vec<f64> {
     begin.into_iter().chain(end).chain([1.0]).collect()
 }
 
-/// s of the meeting, vertex, edge, and the position of the vertex.
+/// Meeting of a vertex and an edge: its s, the vertex, the edge, and the position of the vertex.
 type VertexEdgeMeeting = (f64, u32, [u32; 2], DVec2);
 
-/// The meetings in one interval.
+/// Result of the search in one interval.
 #[derive(Default)]
 pub(super) struct IntervalMeetings {
-    /// The earliest meeting.
+    /// The earliest meeting; `None` if all outlines are proved to be apart.
     pub first: Option<VertexEdgeMeeting>,
-    /// Number of vertex–edge pairs that touch at an end of the motion and were not tested there.
+    /// Number of vertex–edge pairs that touch at t = 0 or t = 1 and were not tested next to that
+    /// end.
     pub touching: usize,
 }
 
-/// An edge of a boundary loop; its vertices are indices into [`MeetingSearch::vertices`].
+/// Edge of a boundary loop; its ends are indices into [`MeetingSearch::vertices`].
 #[derive(Clone, Copy)]
 struct LoopEdge {
     ends: [usize; 2],
-    level: usize,
+    layer: usize,
 }
 
-/// A vertex and the ends of an edge that it must not meet.
+/// Vertex and the two ends of an edge that it must not meet.
 type VertexEdgePair = (usize, [usize; 2]);
 
-/// Returns the earliest meeting of the given loops in an interval. `at_ends` says which ends of the
-/// interval are the designs.
+/// Returns the earliest meeting of the given loops in an interval. `at_ends` marks the ends of the
+/// interval that are t = 0 or t = 1, where the positions are those of the designs.
 pub(super) fn first_meeting(
     curves: &IntervalCurves,
     loops: &[&DrawnLoop],
@@ -82,8 +86,8 @@ pub(super) fn first_meeting(
             false => std::mem::take(&mut remaining),
         };
         let ends = [at_ends[0] && from == 0.0, at_ends[1] && to == 1.0];
-        // Crossings at the beginning of a piece are tested directly, except at t = 0, where the
-        // sides of a cut lie on each other.
+        // Crossings at the beginning of a section are tested directly, except at t = 0, where the
+        // two sides of a cut lie on each other.
         let crossed = (!ends[0]).then(|| search.first_crossing(&piece, loops, from));
         let next = match crossed.flatten() {
             Some(first) => IntervalMeetings {
@@ -106,19 +110,20 @@ pub(super) fn first_meeting(
     Ok(found)
 }
 
-/// The state of the search for meetings in one interval.
+/// State of the search for meetings in one interval.
 struct MeetingSearch<'a> {
     products: BernsteinProducts,
     edges: Vec<LoopEdge>,
-    /// The vertex indices of all loops.
+    /// Indices of the vertices of all loops in the recording, each once.
     vertices: Vec<u32>,
-    /// For each vertex its index in `vertices`.
+    /// For each vertex of the recording that is in a loop, its index in `vertices`.
     numbers: BTreeMap<u32, usize>,
     progress: &'a dyn Progress,
 }
 
 impl<'a> MeetingSearch<'a> {
-    /// Collects the edges and vertices of the loops. `degree` is that of the curves.
+    /// Collects the edges and vertices of the loops. `degree` is the polynomial degree of the
+    /// vertex curves.
     fn of(loops: &[&DrawnLoop], degree: usize, progress: &'a dyn Progress) -> Self {
         let mut numbers = BTreeMap::new();
         for boundary_loop in loops {
@@ -134,7 +139,7 @@ impl<'a> MeetingSearch<'a> {
             let ends = boundary_loop.vertices.iter().zip(next);
             ends.map(|(a, b)| LoopEdge {
                 ends: [numbers[a], numbers[b]],
-                level: boundary_loop.layer,
+                layer: boundary_loop.layer,
             })
         });
         Self {
@@ -146,7 +151,8 @@ impl<'a> MeetingSearch<'a> {
         }
     }
 
-    /// Returns a crossing of the loops at the beginning of the curves, which lies at `s`.
+    /// Returns a crossing of loops of the same layer at the beginning of the curves, which is at
+    /// `s`.
     fn first_crossing(
         &self,
         curves: &[VertexCurve],
@@ -173,7 +179,8 @@ impl<'a> MeetingSearch<'a> {
         Some((s, vertex, edge, crossing.place))
     }
 
-    /// Returns the earliest meeting in the part `[from, to]` of the interval.
+    /// Returns the earliest meeting in the part `[from, to]` of the interval, to which `curves`
+    /// belong. The part may be halved up to `halvings` times.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled.
@@ -212,7 +219,8 @@ impl<'a> MeetingSearch<'a> {
             }
             let s = self.first_contact(triple, at_ends, [from, to], MAX_HALVINGS, &earliest)?;
             let edge = [a as u32, b as u32];
-            // The position at the beginning of the part is accurate enough for display.
+            // The position of the vertex at the beginning of the part is accurate enough for
+            // display.
             Some((s, v as u32, edge, curves[v].control_points[0]))
         };
         let found = apart.par_iter().filter_map(meets);
@@ -225,8 +233,8 @@ impl<'a> MeetingSearch<'a> {
         })
     }
 
-    /// Returns the vertex–edge pairs of one layer whose boxes overlap; `None` if there are more
-    /// than `max_pairs`. Sweeps along x.
+    /// Returns the vertex–edge pairs of the same layer whose boxes overlap, by a sweep along x;
+    /// `None` if there are more than about `max_pairs`.
     fn near_pairs(&self, curves: &[VertexCurve], max_pairs: usize) -> Option<Vec<VertexEdgePair>> {
         let boxes: Vec<[DVec2; 2]> = curves.par_iter().map(VertexCurve::bounds).collect();
         let edge_box = |edge: &LoopEdge| {
@@ -244,13 +252,13 @@ impl<'a> MeetingSearch<'a> {
             let ahead = sorted[k + 1..].iter();
             for (that, other) in ahead.take_while(|(that, _)| that[0].x <= this[1].x) {
                 let overlap = this[0].y <= that[1].y && that[0].y <= this[1].y;
-                if overlap && edge.level == other.level {
+                if overlap && edge.layer == other.layer {
                     let of = |a: &LoopEdge, b: &LoopEdge| a.ends.map(|v| (v, b.ends));
                     let both = of(edge, other).into_iter().chain(of(other, edge));
                     pairs.extend(both.filter(|(v, ends)| !ends.contains(v)));
                 }
             }
-            // Duplicates are removed below; up to four copies of a pair are expected.
+            // Duplicates are removed below; a pair is expected up to four times.
             if pairs.len() > max_pairs.saturating_mul(4) {
                 return None;
             }
@@ -260,7 +268,8 @@ impl<'a> MeetingSearch<'a> {
         Some(pairs)
     }
 
-    /// Returns whether the vertex lies on the edge at an end of the motion.
+    /// Returns whether the vertex of a pair lies on its edge at t = 0 or t = 1. `at_ends` marks
+    /// which of these are ends of the curves.
     fn touches(
         &self,
         curves: &[VertexCurve],
@@ -273,14 +282,15 @@ impl<'a> MeetingSearch<'a> {
             let tolerance = curves[v].error + curves[edge[0]].error + curves[edge[1]].error;
             let along = b - a;
             let fraction = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-            // An edge of length zero counts only if the vertex is that very point.
+            // An edge of length zero gives NaN; only a vertex at the same point touches it.
             p.distance(a + along * fraction) <= tolerance || p == a || p == b
         };
         (at_ends[0] && touches_at(0)) || (at_ends[1] && touches_at(last))
     }
 
-    /// Returns the first s at which the third curve is not proved to be off the edge between the
-    /// other two, by bisection of `[from, to]`.
+    /// Returns the smallest s in `[from, to]` at which the third curve is not proved to be off the
+    /// edge between the first two, by bisection; `None` if it is off the edge throughout. Returns
+    /// `None` as well if an earlier failure is known.
     fn first_contact(
         &self,
         curves: [VertexCurve; 3],

@@ -1,4 +1,5 @@
-//! Planted folds and meetings are found; recordings without any are proved.
+//! Tests of the certificates: planted folds and meetings are found, recordings without any are
+//! proved.
 
 use super::*;
 use crate::recording::RecordingOptions;
@@ -6,7 +7,8 @@ use crate::warp::{Placement, Placer, Warp};
 use crate::work::progress::Silent;
 use std::sync::Arc;
 
-/// A warp of points that move as a function of index and t: faces, number of points, function.
+/// Warp of points that move as a function of their index and t. The fields are the faces, the
+/// number of points and the function.
 struct FunctionWarp<F>(Vec<[u32; 3]>, usize, F);
 
 impl<F> std::fmt::Debug for FunctionWarp<F> {
@@ -44,7 +46,7 @@ fn drawn_loop(vertices: &[u32]) -> DrawnLoop {
     }
 }
 
-/// A parabola that is negative exactly between two times, by very little.
+/// Parabola in t that is slightly negative between two times and positive elsewhere.
 fn dips(t: f64, from: f64, to: f64) -> f64 {
     (t - from) * (t - to)
 }
@@ -63,15 +65,15 @@ fn a_fold_between_two_samples_is_found() {
         let fold = folds(from, from + 1e-4).expect("a fold");
         assert_eq!(fold.face, 0);
         assert!((fold.t - from).abs() < 1e-7, "{} for {from}", fold.t);
-        // Even a dip close to rounding is found, if less accurately.
+        // A dip that is barely larger than rounding is found too, but less accurately.
         let fold = folds(from, from + 1e-6).expect("a fold");
         assert!((fold.t - from).abs() < 1e-4, "{} for {from}", fold.t);
     }
     assert_eq!(folds(1.2, 1.3), None);
 }
 
-/// Two triangles, the tip of the second of which approaches a side of the first up to `gap`, less
-/// the dip between the two times.
+/// Recording of two triangles. The tip of the second approaches a side of the first: the distance
+/// is `gap` plus a parabola that is negative between the two times.
 fn tip(gap: f64, from: f64, to: f64) -> Recording {
     recording_of(vec![[0, 1, 2], [3, 4, 5]], 6, move |k, t| {
         let turn = DVec2::from_angle(0.7 * t);
@@ -123,7 +125,7 @@ fn loops_on_different_layers_may_cross() {
 
 #[test]
 fn pairs_that_touch_at_an_end_are_counted() {
-    // The two sides of a slit that opens.
+    // The two loops touch along a slit at t = 0; then the slit opens.
     let recording = recording_of(vec![], 6, |k, t| match k {
         0 => DVec2::new(0.0, 0.1 * t),
         1 => DVec2::new(1.0, 0.1 * t),
@@ -165,7 +167,7 @@ fn the_proof_is_the_same_on_any_number_of_threads() {
 
 #[test]
 fn outlines_that_cross_from_the_beginning_are_found() {
-    // Two bars that cross; no vertex meets anything.
+    // Two thin triangles cross like bars. At no time does a vertex meet an edge.
     let recording = recording_of(vec![], 6, |k, t| {
         let at = match k {
             0 => DVec2::new(-5.0, -0.1),
@@ -183,7 +185,7 @@ fn outlines_that_cross_from_the_beginning_are_found() {
 
 #[test]
 fn outlines_that_touch_at_an_end_and_then_cross_are_found() {
-    // The base of the first triangle stands on the second, sinks in and comes out again.
+    // The base of the first triangle lies on a side of the second, sinks in and comes out again.
     let recording = recording_of(vec![], 6, |k, t| {
         let sinks = -0.2 * t * (1.0 - t);
         match k {

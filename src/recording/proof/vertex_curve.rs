@@ -1,24 +1,25 @@
-//! The curves of vertices in one interval, in Bernstein form (Bézier curves).
+//! Curves along which vertices move in one time interval, in Bernstein form (Bézier curves).
 
 use super::bernstein::{EPS, bernstein_basis};
 use crate::geometry::DVec2;
 use crate::recording::interval::RecordingInterval;
 
-/// The curve of one vertex in a part of an interval.
+/// Curve along which one vertex moves during an interval or a part of it.
 #[derive(Clone, Debug)]
 pub(super) struct VertexCurve {
-    /// Bernstein coefficients: the control points.
+    /// Bernstein coefficients of the curve: its control points.
     pub(super) control_points: Vec<DVec2>,
-    /// Bound on the error of each coordinate, both of the recording as played and of the control
-    /// points.
+    /// Bound on the error of each coordinate: the rounding of the recording as it is played plus
+    /// that of the control points.
     pub(super) error: f64,
 }
 
-/// Converts the coefficients of an interval to vertex curves.
+/// Converts the polynomials of an interval to vertex curves.
 pub(super) struct IntervalCurves<'a> {
     interval: &'a RecordingInterval,
     basis: Vec<Vec<f64>>,
-    /// Largest Bernstein coefficient of each basis function; scales the rounding error.
+    /// For each basis function, its largest absolute Bernstein coefficient; it scales the rounding
+    /// error.
     largest: Vec<f64>,
 }
 
@@ -34,17 +35,17 @@ impl<'a> IntervalCurves<'a> {
         }
     }
 
-    /// Returns the length of the interval in t.
+    /// Returns the length of the time interval in t.
     pub(super) fn length(&self) -> f64 {
         self.interval.to - self.interval.from
     }
 
-    /// Returns the degree of the curves.
+    /// Returns the polynomial degree of the curves.
     pub(super) fn degree(&self) -> usize {
         self.basis.len() + 1
     }
 
-    /// Returns the curve of a vertex, by its index in the recording.
+    /// Returns the curve of the vertex with the index `vertex` in the recording's blocks.
     pub(super) fn curve(&self, vertex: usize) -> VertexCurve {
         let degree = self.degree();
         let [begin, end] = self.interval.ends(vertex);
@@ -57,8 +58,8 @@ impl<'a> IntervalCurves<'a> {
             at.iter_mut().zip(own).for_each(|(at, own)| *at += c * *own);
         }
         [at[0], at[degree]] = [begin, end];
-        // One rounding per term of each sum, some for the straight line and the basis; and the same
-        // again for the recording as it is played.
+        // One rounding for each term of each sum, some for the straight line and the basis; and the
+        // same again for the recording as it is played.
         let error = (4 * degree + 16) as f64 * EPS * scale;
         VertexCurve {
             control_points: at,
@@ -73,7 +74,7 @@ impl VertexCurve {
         self.cut(0.5)
     }
 
-    /// Splits the curve at `s` by de Casteljau's algorithm.
+    /// Splits the curve at the parameter `s` in [0, 1] by de Casteljau's algorithm.
     pub(super) fn cut(&self, s: f64) -> [Self; 2] {
         let (mut left, mut right) = (self.clone(), self.clone());
         let last = self.control_points.len() - 1;
@@ -85,13 +86,14 @@ impl VertexCurve {
             left.control_points[k] = right.control_points[0];
         }
         let scale = self.control_points.iter().map(|p| p.abs().max_element());
-        // At most three roundings per step.
+        // At most three roundings for each step of the algorithm.
         let error = self.error + (3 * last) as f64 * EPS * scale.fold(0.0, f64::max);
         [left.error, right.error] = [error; 2];
         [left, right]
     }
 
-    /// Returns the lower left and upper right corner of a box around the curve.
+    /// Returns the lower left and the upper right corner of a box that contains the curve, error
+    /// included.
     pub(super) fn bounds(&self) -> [DVec2; 2] {
         let first = [self.control_points[0]; 2];
         let [min, max] =

@@ -37,7 +37,7 @@ fn line(centre: [f64; 2]) -> [DVec2; 2] {
     [centre - DVec2::X * 9.0, centre + DVec2::X * 9.0]
 }
 
-/// Specification with the balls of the given indices, in this order.
+/// Specification of a space of the pictures with the given indices, in this order.
 fn spec(order: &[usize], warp: WarpKind) -> SpaceSpec {
     let colours = [[250, 40, 40], [40, 220, 60], [60, 80, 250]];
     let designs = order.iter().map(|&k| ball("ball", PLACES[k], colours[k]));
@@ -65,13 +65,13 @@ fn render(space: &DesignSpace, weights: &[f64]) -> RgbaImage {
     frame.picture(&raster()).expect("pictures")
 }
 
-/// Returns the largest difference of two images in a channel.
+/// Returns the largest difference between two images in any channel of any pixel.
 fn max_difference(a: &RgbaImage, b: &RgbaImage) -> u8 {
     let each = a.iter().zip(b.iter()).map(|(a, b)| a.abs_diff(*b));
     each.max().expect("pixels")
 }
 
-/// Warps that can align pictures, and none.
+/// All warps that pictures allow, including no warp.
 const WARPS: [WarpKind; 4] = [
     WarpKind::None,
     WarpKind::Lines,

@@ -24,7 +24,7 @@
 //! outlines (see [`sliding`](super::sliding)), and the better result is chosen.
 
 use super::candidate::MatchCandidate;
-use super::group::{GroupSearch, MatchVariant, PieceResult, piece};
+use super::group::{GroupSearch, MatchVariant, PieceResult, piece_of_result};
 use super::sliding::{LOW_DISTORTION, slide_and_choose};
 use crate::correspondence::{HolePolicy, HoleRule, MatchOptions, MatchSettings};
 use crate::transition::error::BuildError;
@@ -85,7 +85,7 @@ struct Attempt {
 /// Result of the search that an attempt improves. There are two, which share their beginning.
 enum SearchBranch {
     /// Both results.
-    Common,
+    Both,
     /// The result in which holes may be matched.
     PairedHoles,
     /// The result in which all holes are unmatched.
@@ -116,7 +116,7 @@ enum PieceCondition {
     Dissimilar,
     /// The best candidate folds or distorts much, or the piece cannot be triangulated. Crossings do
     /// not count: including them would double the work and hardly ever help.
-    Poor,
+    HighDistortion,
 }
 
 /// Match options that an attempt tries, as changes to the requested ones.
@@ -165,7 +165,7 @@ const ATTEMPTS: [Attempt; 8] = [
         conditions: &[
             PieceCondition::UnpairedHoles,
             PieceCondition::FreeCosts,
-            PieceCondition::Poor,
+            PieceCondition::HighDistortion,
         ],
         progress: [0.66, ATTEMPTS_PROGRESS],
         ..WITHOUT_THICKNESS
@@ -174,7 +174,7 @@ const ATTEMPTS: [Attempt; 8] = [
 
 /// Cuts unmatched holes open or closes them, instead of letting them appear or disappear.
 const CUT_HOLES: Attempt = Attempt {
-    branch: SearchBranch::Common,
+    branch: SearchBranch::Both,
     conditions: &[
         PieceCondition::FreeHoles,
         PieceCondition::Unstroked,
@@ -220,7 +220,7 @@ const OTHER_COSTS: Attempt = Attempt {
 /// Ignores thickness: such matches are worse and a last resort.
 const WITHOUT_THICKNESS: Attempt = Attempt {
     branch: SearchBranch::PairedHoles,
-    conditions: &[PieceCondition::FreeCosts, PieceCondition::Poor],
+    conditions: &[PieceCondition::FreeCosts, PieceCondition::HighDistortion],
     options: TriedOptions::WithoutThickness,
     holes: None,
     max_work: MAX_WORK,
@@ -252,10 +252,10 @@ pub(in crate::transition) fn best_of_group(
         None => group.requested_pieces(&ProgressSpan::new(progress, 0.0, REQUESTED_PROGRESS))?,
     };
     let mut unpaired: Vec<PieceResult> = Vec::new();
-    if !group.prepared.has_many_rings() {
+    if !group.plan.has_many_rings() {
         for attempt in &ATTEMPTS {
             match attempt.branch {
-                SearchBranch::Common => {
+                SearchBranch::Both => {
                     attempt.run(group, &mut paired, progress)?;
                     unpaired = paired.clone();
                 }
@@ -284,7 +284,7 @@ pub(in crate::transition) fn drafts_of_group(
 ) -> Result<Vec<PieceResult>, BuildError> {
     let requesting = ProgressSpan::new(progress, 0.0, REQUESTED_DRAFT_PROGRESS);
     let mut drafts = group.requested_pieces(&requesting)?;
-    if !group.prepared.has_many_rings() {
+    if !group.plan.has_many_rings() {
         DRAFT.run(group, &mut drafts, progress)?;
     }
     Ok(drafts)
@@ -315,7 +315,11 @@ impl Attempt {
             .map(|result| self.hole_policy(group, result))
             .collect();
         // The pieces of a group are matched together, all with one policy.
-        for policy in [group.first_holes(), CUT_OR_CLOSE, HolePolicy::Unpaired] {
+        for policy in [
+            group.initial_hole_policy(),
+            CUT_OR_CLOSE,
+            HolePolicy::Unpaired,
+        ] {
             let wants: Vec<bool> = (policies.iter().zip(&included))
                 .map(|(own_policy, is_included)| *is_included && *own_policy == policy)
                 .collect();
@@ -334,7 +338,7 @@ impl Attempt {
         match (self.holes, result) {
             (Some(policy), _) => policy,
             (None, Ok(best)) => best.holes,
-            (None, Err(_)) => group.first_holes(),
+            (None, Err(_)) => group.initial_hole_policy(),
         }
     }
 }
@@ -343,16 +347,16 @@ impl PieceCondition {
     /// Returns whether a piece of the group with this result so far meets the condition.
     fn holds(self, group: &GroupSearch, result: &PieceResult) -> bool {
         let settings = &group.spec.options.matching;
-        let matched = piece(result);
+        let matched = piece_of_result(result);
         let best = result.as_ref().ok();
         match self {
             Self::FreeHoles => settings.holes == HoleRule::Auto,
             Self::FreeOrientation => !settings.keep_up,
             Self::FreeCosts => settings.stretch.is_none(),
-            Self::Unstroked => !group.prepared.is_lined(group.index),
-            Self::UnmatchedHoles => matched.is_in_both() && !matched.lone.is_empty(),
+            Self::Unstroked => !group.plan.is_stroked(group.index),
+            Self::UnmatchedHoles => matched.is_matched() && !matched.lone.is_empty(),
             Self::FoldsWithHoles => {
-                let has_matched_holes = matched.is_in_both() && matched.rings.len() > 1;
+                let has_matched_holes = matched.is_matched() && matched.rings.len() > 1;
                 has_matched_holes && best.is_none_or(MatchCandidate::folds)
             }
             Self::UnpairedHoles => best.is_some_and(|best| best.holes == HolePolicy::Unpaired),
@@ -360,8 +364,10 @@ impl PieceCondition {
                 best.is_some_and(|best| !best.stays_upright() && best.distortion > LOW_DISTORTION)
             }
             Self::Dissimilar => best
-                .is_none_or(|best| best.matched.is_in_both() && best.matched.cost > SIMILAR_COST),
-            Self::Poor => best.is_none_or(|best| best.folds() || best.distortion > HIGH_DISTORTION),
+                .is_none_or(|best| best.matched.is_matched() && best.matched.cost > SIMILAR_COST),
+            Self::HighDistortion => {
+                best.is_none_or(|best| best.folds() || best.distortion > HIGH_DISTORTION)
+            }
         }
     }
 }
@@ -408,7 +414,7 @@ fn affordable(
     max_work: usize,
 ) -> Vec<bool> {
     let work = |k: usize| {
-        let rings = piece(&results[k]).rings.iter();
+        let rings = piece_of_result(&results[k]).rings.iter();
         let vertices: usize = rings.map(|ring| ring.source.len()).sum();
         candidates_per_piece * vertices * vertices
     };

@@ -97,7 +97,7 @@ impl MatchCandidate {
             .map(|(from, to)| ProgressSpan::new(progress, from, to));
         let mesh = mesh_of_piece(&matched, &options.triangulation, &meshing)
             .map_err(CandidateError::Mesh)?;
-        let defects = if matched.is_in_both() {
+        let defects = if matched.is_matched() {
             // The piece is rated on its own, with default weights and anchor, because the requested
             // ones refer to the whole design. The polar path stands in for bounded distortion,
             // which is expensive and has the same ends.

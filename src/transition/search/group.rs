@@ -23,7 +23,7 @@ pub(in crate::transition) struct MatchVariant {
 }
 
 /// Returns the piece as matched by the best candidate so far.
-pub(in crate::transition) fn piece(chosen: &PieceResult) -> &PieceMatch {
+pub(in crate::transition) fn piece_of_result(chosen: &PieceResult) -> &PieceMatch {
     match chosen {
         Ok(best) => &best.matched,
         Err((piece, _)) => piece,
@@ -32,7 +32,7 @@ pub(in crate::transition) fn piece(chosen: &PieceResult) -> &PieceMatch {
 
 /// A group of parts that is being matched.
 pub(in crate::transition) struct GroupSearch<'a> {
-    pub(in crate::transition) prepared: &'a MatchPlan<'a>,
+    pub(in crate::transition) plan: &'a MatchPlan<'a>,
     /// Index of the group.
     pub(in crate::transition) index: usize,
     pub(in crate::transition) spec: &'a TransitionSpec,
@@ -41,7 +41,7 @@ pub(in crate::transition) struct GroupSearch<'a> {
 impl GroupSearch<'_> {
     /// Returns how unmatched holes are treated first: as requested, or, with automatic treatment,
     /// such that they appear or disappear without bending anything.
-    pub(in crate::transition) fn first_holes(&self) -> HolePolicy {
+    pub(in crate::transition) fn initial_hole_policy(&self) -> HolePolicy {
         HolePolicy::Paired(match self.spec.options.matching.holes {
             HoleRule::Auto => HoleRule::Transient,
             rule => rule,
@@ -56,10 +56,11 @@ impl GroupSearch<'_> {
         &self,
         progress: &dyn Progress,
     ) -> Result<Vec<PieceResult>, BuildError> {
-        let (costs, holes) = (self.spec.options.matching.options(), self.first_holes());
-        let pieces = self
-            .prepared
-            .matched_group(self.index, &costs, holes, progress)?;
+        let (costs, holes) = (
+            self.spec.options.matching.options(),
+            self.initial_hole_policy(),
+        );
+        let pieces = self.plan.match_group(self.index, &costs, holes, progress)?;
         let shares = ProgressShares::new(progress, pieces.len());
         let pieces = pieces.into_par_iter().enumerate();
         pieces
@@ -103,8 +104,8 @@ impl GroupSearch<'_> {
             let [matching, rating] = [(0.0, MATCH_PROGRESS), (MATCH_PROGRESS, 1.0)]
                 .map(|(a, b)| ProgressSpan::new(&share, a, b));
             let matched =
-                self.prepared
-                    .matched_group(self.index, &variant.options, variant.holes, &matching);
+                self.plan
+                    .match_group(self.index, &variant.options, variant.holes, &matching);
             check_cancelled(progress)?;
             // A variant that fails is no better: each piece has a result already.
             let pieces = matched.unwrap_or_default();

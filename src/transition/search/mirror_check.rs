@@ -5,7 +5,7 @@
 
 use super::candidate::MatchCandidate;
 use super::group::{GroupSearch, PieceResult};
-use crate::correspondence::{MatchPlan, PartLooks};
+use crate::correspondence::{MatchPlan, PartAppearances};
 use crate::geometry::{Regions, Similarity, perimeter};
 use crate::transition::drawing_pair::DrawingPair;
 use crate::transition::error::BuildError;
@@ -41,7 +41,7 @@ pub(in crate::transition) fn mirror_note(
     }
     let [source, target] = &drawings.outlines;
     let target = mirror(target);
-    let draft = draft(spec, [source, &target], &drawings.looks, progress);
+    let draft = draft(spec, [source, &target], &drawings.appearances, progress);
     check_cancelled(progress)?;
     // A draft without folds is required: more search can find a better match than a draft.
     let draft = draft.filter(|draft| !draft.iter().any(MatchCandidate::folds));
@@ -54,13 +54,13 @@ pub(in crate::transition) fn mirror_note(
 fn draft(
     spec: &TransitionSpec,
     designs: [&Regions; 2],
-    looks: &PartLooks,
+    looks: &PartAppearances,
     progress: &dyn Progress,
 ) -> Option<Vec<MatchCandidate>> {
     let prepared = MatchPlan::new(designs, looks, &spec.options.matching, progress).ok()?;
     let groups = (0..prepared.groups().len()).map(|group| {
         let group = GroupSearch {
-            prepared: &prepared,
+            plan: &prepared,
             index: group,
             spec,
         };
@@ -74,7 +74,7 @@ fn draft(
 /// their outlines; 1 if there are none.
 fn distortion<'a>(pieces: impl Iterator<Item = &'a MatchCandidate>) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
-    for piece in pieces.filter(|piece| piece.matched.is_in_both()) {
+    for piece in pieces.filter(|piece| piece.matched.is_matched()) {
         let outer = piece.matched.rings.first();
         let length = outer.map_or(0.0, |ring| perimeter(&ring.source));
         (sum, total) = (sum + length * piece.distortion, total + length);

@@ -74,7 +74,7 @@ fn slide_while_better(
     progress: &dyn Progress,
 ) -> Result<MatchCandidate, BuildError> {
     for round in 0..MAX_SLIDES {
-        if !best.matched.is_in_both() || best.distortion < LOW_DISTORTION {
+        if !best.matched.is_matched() || best.distortion < LOW_DISTORTION {
             break;
         }
         let fraction_after = |k: u32| f64::from(k) / f64::from(MAX_SLIDES);

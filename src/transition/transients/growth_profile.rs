@@ -16,7 +16,7 @@ impl GrowthProfile {
     pub(in crate::transition) const NONE: Self = Self([[0.0; 2]; SIZE_STEPS + 1]);
 
     /// Returns the profile of a shape that is scaled up; `diameter` is that of the whole design.
-    pub(in crate::transition) fn scaled(rings: &[Vec<DVec2>], diameter: f64) -> Self {
+    pub(in crate::transition) fn of_scaling(rings: &[Vec<DVec2>], diameter: f64) -> Self {
         let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
         Self::by(rings.len(), |size| {
             [total_turning(rings, diameter / size), area * size * size]
@@ -25,7 +25,7 @@ impl GrowthProfile {
 
     /// Returns the profile of a shape whose outlines at each size step are given by `at`;
     /// `diameter` is that of the whole design.
-    pub(in crate::transition) fn sampled<'a>(
+    pub(in crate::transition) fn of_steps<'a>(
         at: impl Fn(usize) -> &'a [Vec<DVec2>],
         diameter: f64,
     ) -> Self {

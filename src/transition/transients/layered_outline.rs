@@ -36,7 +36,7 @@ impl LayeredOutline {
                 min: a.min(b),
                 max: a.max(b),
             };
-            edges.any_near(&edge, &|other| segments_cross([a, b], other))
+            edges.any_edge_near(&edge, &|other| segments_cross([a, b], other))
         })
     }
 

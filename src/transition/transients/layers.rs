@@ -1,6 +1,6 @@
 //! Which pieces of a film are in each other's way: those that are painted alike.
 
-use crate::correspondence::{PartLooks, PieceMatch, RegionMatch};
+use crate::correspondence::{PartAppearances, PieceMatch, RegionMatch};
 use crate::geometry::Side;
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ pub(in crate::transition) struct PieceLayers {
 }
 
 impl PieceLayers {
-    pub(in crate::transition) fn of(matched: &RegionMatch, looks: &PartLooks) -> Self {
+    pub(in crate::transition) fn of(matched: &RegionMatch, looks: &PartAppearances) -> Self {
         let parts = |piece: &PieceMatch| [piece.source_part, piece.target_part];
         Self::of_parts(matched.pieces.iter().map(parts), looks)
     }
@@ -22,7 +22,7 @@ impl PieceLayers {
     /// Of pieces that go from one part to one part.
     pub(in crate::transition) fn of_parts(
         pieces: impl Iterator<Item = [Option<usize>; 2]>,
-        looks: &PartLooks,
+        looks: &PartAppearances,
     ) -> Self {
         let coats = |parts: [Option<usize>; 2]| -> [Option<usize>; 2] {
             Side::BOTH.map(|side| parts[side].map(|part| looks.paint_layer(side, part)))

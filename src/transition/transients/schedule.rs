@@ -178,7 +178,7 @@ impl TransientSchedule {
         let (sums, stretch): (Vec<[f64; 2]>, Vec<Vec<f64>>) =
             steps.map_init(|| film.placer(), at).unzip();
         let of_hole = |(k, hole): (usize, &&TransientHole)| ScheduledTransient {
-            growth: GrowthProfile::scaled(std::slice::from_ref(hole.design_ring()), diameter),
+            growth: GrowthProfile::of_scaling(std::slice::from_ref(hole.design_ring()), diameter),
             stretch: Some(stretch.iter().map(|at| at[k]).collect()),
             place: Bounds::of(hole.design_ring().iter().copied())
                 .map_or(DVec2::ZERO, |b| b.centre()),
@@ -186,7 +186,7 @@ impl TransientSchedule {
             prices: Vec::new(),
         };
         let of_part = |&(side, place, rings): &(Side, DVec2, &[Vec<DVec2>])| ScheduledTransient {
-            growth: GrowthProfile::scaled(rings, diameter),
+            growth: GrowthProfile::of_scaling(rings, diameter),
             stretch: None,
             place,
             life: TimeWindow::whole(side),

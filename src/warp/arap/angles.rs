@@ -1,7 +1,7 @@
 //! Consistent rotation angles of all faces.
 //!
-//! A polar decomposition determines the angle θ only modulo 2π. Across a shared edge the two angles
-//! differ by less than π, because a stretch rotates no vector by a right angle or more.
+//! A polar decomposition determines the angle θ only modulo 2π. The angles of two faces with a
+//! shared edge differ by less than π, because a stretch rotates no vector by a right angle or more.
 //! Propagating from face to face and taking the representative nearest to the neighbour's therefore
 //! gives a unique result, independent of the order. A whole number of turns remains free for each
 //! edge-connected component (here called a part).
@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 #[non_exhaustive]
 pub enum AngleError {
     /// The angle changes by whole turns around a hole, so that no continuous choice exists. Holds
-    /// two adjacent faces with a jump.
+    /// the indices of two adjacent faces between which the angle jumps.
     #[error(
         "the rotation jumps between faces {} and {}, because the target winds around a hole of the source; cut the ring open there",
         .0[0] + 1, .0[1] + 1
@@ -71,9 +71,10 @@ fn first_jump(connectivity: &Connectivity, angles: &[f64]) -> Option<[usize; 2]>
 
 /// Chooses the whole turns of each part.
 ///
-/// The mean angle of the first part is brought into (−π, π], those of the others nearest to the
-/// best-fit rotation `whole` of the design. `extra_turns` are added afterwards. Returns `whole`
-/// on the branch of the first part.
+/// The mean angle of the first part is brought into (−π, π]; the mean angles of the other parts are
+/// brought nearest to the best-fit rotation `whole` of the design. `extra_turns` are added
+/// afterwards. Returns `whole` plus the whole turns that bring it nearest to the first part's
+/// angle.
 pub(super) fn choose_turns(
     angles: &mut [f64],
     areas: &[f64],
@@ -98,8 +99,8 @@ pub(super) fn choose_turns(
             reduced
         }
     });
-    // The other parts follow the whole, which follows the first part. Otherwise two parts at +170°
-    // and −170° would rotate in opposite directions.
+    // The other parts follow the whole design, which follows the first part. Otherwise two parts at
+    // +170° and −170° would rotate in opposite directions.
     let whole = nearest_branch(whole, first);
     let extra = |part: usize| match extra_turns {
         [all] => f64::from(*all),

@@ -1,12 +1,14 @@
 //! Assembly of the energy: local maps, weights and the matrix K.
 //!
-//! The weight of a face is W_T = w_A I in the one-sided energy and
-//! W_T = ½ (w_A I + w_B (MᵀM)⁻¹) in the symmetric one. The factor (MᵀM)⁻¹ converts gradients in the
-//! source to gradients in the target, so that a single matrix serves both directions.
+//! With the weights w_A and w_B of a face in source and target and its local map M, the weight
+//! matrix is W_T = w_A I in the one-sided energy and W_T = ½ (w_A I + w_B (MᵀM)⁻¹) in the symmetric
+//! one. The factor (MᵀM)⁻¹ converts gradients in the source to gradients in the target, so that a
+//! single matrix serves both directions.
 //!
 //! A bar that belongs to no face is a two-point element. Its local map is the similarity that takes
-//! the bar from source to target. With area weights its energy is ½ |Δv − e(t)|², which corresponds
-//! to an area of length²/2 times a squared relative stretch.
+//! the bar from source to target. With area weights its energy is ½ |Δv − e(t)|², where Δv is the
+//! vector between its ends and e(t) the vector that the local map requires. This corresponds to an
+//! area of length²/2 times a squared relative stretch.
 
 use super::angles::{self, choose_turns};
 use super::options::{ArapError, ArapOptions, FaceWeights};
@@ -29,7 +31,8 @@ pub(super) struct FaceMap {
     pub weighted: DMat2,
     /// Gradients of the same hat functions in the target.
     pub target_gradients: DMat2,
-    /// Factors of |∇|² in source and target, whose sum makes up W.
+    /// Weights of the squared gradients in source and in target; the two terms add up to the
+    /// energy.
     pub weights: [f64; 2],
 }
 
@@ -52,7 +55,7 @@ impl FaceMap {
     /// Source and target contributions are computed separately and added. This stays positive
     /// for extremely thin faces, for which rounding would destroy the smaller stiffness in W.
     fn energy(&self) -> [[f64; 3]; 3] {
-        let sides = [self.gradients, self.target_gradients].map(with_first);
+        let sides = [self.gradients, self.target_gradients].map(all_gradients);
         let entry = |i: usize, j: usize| {
             let of_side = |s: usize| self.weights[s] * sides[s][i].dot(sides[s][j]);
             of_side(0) + of_side(1)
@@ -72,11 +75,13 @@ pub(super) struct ElementMap {
     pub angle: f64,
     /// Ratio of the length in the target to the length in the source.
     pub stretch: f64,
-    /// Factor of |Δv − e(t)|² in the energy.
+    /// Factor of |Δv − e(t)|² in the energy: Δv is the vector between the ends, e(t) the required
+    /// one.
     pub stiffness: f64,
 }
 
-/// All quantities of the energy that do not depend on t.
+/// All quantities of the energy that do not depend on t: local maps, elements, masses and
+/// stiffness.
 #[derive(Clone, Debug)]
 pub(super) struct LocalMaps {
     pub faces: Vec<FaceMap>,
@@ -86,9 +91,10 @@ pub(super) struct LocalMaps {
     pub part_count: usize,
     /// Rotation of the whole design in radians.
     pub whole_angle: f64,
-    /// Mass of each vertex: the lumped area, normalised in each design and averaged.
+    /// Mass of each vertex: a third of the area of its faces and half of that of its bars, as a
+    /// fraction of the total area, averaged over both designs.
     pub masses: Vec<f64>,
-    /// Factor of each face's weight; 1 beyond the end of the list.
+    /// For each face, the factor of its weight; 1 for faces beyond the end of the list.
     pub stiffness: Vec<f64>,
 }
 
@@ -150,7 +156,7 @@ impl LocalMaps {
         })
     }
 
-    /// Replaces the stiffness factors of the faces.
+    /// Replaces the stiffness factors of the faces by `by`; faces beyond its end get the factor 1.
     pub(super) fn with_stiffness(mut self, by: &[f64]) -> Self {
         let before = std::mem::replace(&mut self.stiffness, by.to_vec());
         let factor = |stiffness: &[f64], face: usize| stiffness.get(face).copied().unwrap_or(1.0);
@@ -162,7 +168,8 @@ impl LocalMaps {
         self
     }
 
-    /// Replaces the angles by the negated angles of the interpolation in the other direction.
+    /// Replaces all angles by the negated angles of `forward`, the interpolation in the other
+    /// direction.
     pub(super) fn with_reversed_angles(mut self, forward: &Self) -> Self {
         for (face, other) in self.faces.iter_mut().zip(&forward.faces) {
             face.map.angle = -other.map.angle;
@@ -195,7 +202,8 @@ impl LocalMaps {
         matrix
     }
 
-    /// Returns K without grounding, which is singular: components may translate freely.
+    /// Returns K without grounding. This matrix is singular, because components may translate
+    /// freely.
     pub(super) fn free_matrix(
         &self,
         mesh: &CompatibleMesh,
@@ -209,7 +217,8 @@ impl LocalMaps {
     /// Returns the contributions of faces and elements to K, and their diagonal.
     fn energy(&self, mesh: &CompatibleMesh) -> (SymmetricMatrix, Vec<f64>) {
         let n = mesh.source().len();
-        // Six entries per face; three per element and one for grounding.
+        // Capacity: six entries per face and three per element; the fourth leaves room for
+        // grounding.
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
         let mut diagonal = vec![0.0; n];
         for (face, map) in mesh.faces().iter().zip(&self.faces) {
@@ -233,8 +242,9 @@ impl LocalMaps {
     }
 }
 
-/// Returns the gradients of all three vertices from those of the second and third.
-pub(super) fn with_first(of_second_and_third: DMat2) -> [DVec2; 3] {
+/// Returns the gradients of the three hat functions of a face, given those of the second and third
+/// vertex.
+pub(super) fn all_gradients(of_second_and_third: DMat2) -> [DVec2; 3] {
     let (second, third) = (of_second_and_third.x_axis, of_second_and_third.y_axis);
     [-second - third, second, third]
 }
@@ -255,7 +265,8 @@ fn gradients(corners: [DVec2; 3]) -> DMat2 {
     edges(corners).inverse().transpose()
 }
 
-/// Returns the map M = D_Q D_P⁻¹ of a face, with its edge matrices D in source and target.
+/// Returns the map M = D_Q D_P⁻¹ of a face, with its edge matrices D_P in the source and D_Q in the
+/// target.
 fn local_map(mesh: &CompatibleMesh, face: [u32; 3]) -> DMat2 {
     edges(corners(mesh.target(), face)) * edges(corners(mesh.source(), face)).inverse()
 }
@@ -271,7 +282,8 @@ fn element_map(
     let along = |points: &[DVec2]| points[ends[1] as usize] - points[ends[0] as usize];
     let (p, q) = (along(mesh.source()), along(mesh.target()));
     let (length_p, length_q) = (p.length_squared(), q.length_squared());
-    // The weight in each design is length²/2 or 1, and |Δv − e|² is divided by length².
+    // In each design the weight is length²/2 or 1, and the squared relative error is |Δv − e|² /
+    // length².
     let side = |length: f64| if by_area { 0.5 } else { 1.0 / length };
     let stiffness = if symmetric {
         0.5 * (side(length_p) + side(length_q))
@@ -340,10 +352,10 @@ impl MeshAreas {
     }
 }
 
-/// Returns the masses with those of transient parts set to zero.
+/// Returns the vertex masses, with those of transient parts set to zero.
 ///
-/// Parts that are points in one of the designs have no information about its rotation. If all
-/// parts are transient, the masses are unchanged.
+/// A part that is a point in one of the designs says nothing about the rotation of the whole
+/// design. If all parts are transient, the masses are unchanged.
 fn permanent_masses(
     mesh: &CompatibleMesh,
     masses: &[f64],

@@ -1,16 +1,17 @@
 //! Boundary edges as additional elements of the energy.
 //!
-//! Faces along an outline that are sheared differently rotate its edges to incompatible
-//! directions, so that an outline that is smooth in both designs becomes jagged in between. To
-//! prevent this, each boundary edge is an element with the energy ½ k |Δv − e(t)|². Its vector e
-//! rotates at constant speed, with the whole turns of its face, and its length comes from
-//! `edge_lengths`. The angle between two such vectors then changes linearly from source to target,
-//! so that the total turning of the outline does not exceed that of the designs.
+//! Faces along an outline that are sheared differently rotate its edges to incompatible directions,
+//! so that an outline that is smooth in both designs becomes jagged in between. To prevent this,
+//! each boundary edge is an element with the energy k |Δv − e(t)|², where Δv is the vector between
+//! its ends and e(t) the vector that it should have. The vector e(t) rotates at constant speed,
+//! with the whole turns of the edge's face; its length comes from `edge_lengths`. The angle between
+//! two such vectors then changes linearly from source to target, so that the total turning of the
+//! outline does not exceed that of the designs.
 //!
-//! The stiffness k is proportional to 1/length, so that the sum approximates an integral along the
-//! outline, independent of its subdivision. It is also proportional to the diameter of the part,
-//! which makes the result independent of scale. The stiffness is averaged over both designs, so
-//! that the reversed motion is the same.
+//! The stiffness k is proportional to 1/length, so that the sum over all edges approximates an
+//! integral along the outline, independent of its subdivision. It is also proportional to the
+//! diameter of the part, which makes the result independent of scale. The stiffness is averaged
+//! over both designs, so that the reversed motion is the same.
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
 use super::options::ArapOptions;
@@ -68,8 +69,8 @@ fn edges(
     edges
 }
 
-/// Returns the element of one boundary edge of a face. `diameters` are those of its part in source
-/// and target.
+/// Returns the element of one boundary edge of a face. `diameters` holds the diameters of the
+/// face's part in source and target.
 fn edge(
     mesh: &CompatibleMesh,
     ends: [u32; 2],
@@ -120,7 +121,8 @@ mod tests {
     use crate::work::progress::Silent;
     use std::f64::consts::TAU;
 
-    /// Returns a mesh from a disc with a wavy upper half to one with a wavy lower half.
+    /// Returns a compatible mesh whose source is a disc with a wavy upper half and whose target is
+    /// a disc with a wavy lower half.
     ///
     /// The outline has `points` vertices and the interior a parallel ring and a centre.
     fn waves(points: u32) -> CompatibleMesh {
@@ -157,7 +159,8 @@ mod tests {
         placer.placement().in_frame.clone()
     }
 
-    /// Returns the overshoot of the outline's total turning.
+    /// Returns the largest relative excess of the outline's total turning over the straight line
+    /// between its values at t = 0 and t = 1.
     fn overshoot(arap: &Arap) -> f64 {
         let outlines = arap.mesh().boundary_loops();
         let samples = (0..=16).map(|k| {

@@ -19,7 +19,8 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 /// Number of alternations between positions and lengths (heuristic).
 const ROUNDS: u32 = 5;
 
-/// Fits the lengths at t = ½ of all boundary edges, the elements after the bars of the mesh.
+/// Fits the lengths of all boundary edges at t = ½. Boundary edges are the elements that follow the
+/// bars of the mesh.
 pub(super) fn fit_halfway_lengths(
     stresses: &mut ForceAssembly,
     mesh: &CompatibleMesh,
@@ -54,9 +55,9 @@ pub(super) fn fit_halfway_lengths(
             let element = &stresses.elements()[edge];
             let even = element.even_vector(homotopy, HALFWAY);
             let [from, to] = element.ends.map(position);
-            // The optimal length is the projection onto the element's direction.
+            // The optimal length is that of the projection onto the element's direction.
             let ratio = (to - from).dot(even) / even.length_squared();
-            // NaN for an edge that vanishes halfway; its length then does not matter.
+            // The ratio is NaN for an edge that vanishes halfway, whose length does not matter.
             let ratio = if ratio.is_nan() { 1.0 } else { ratio };
             stresses.set_halfway_length(edge, ratio);
         }
@@ -72,8 +73,8 @@ mod tests {
     use crate::warp::{Arap, ArapOptions, Warp};
     use crate::work::progress::Silent;
 
-    /// Returns a mesh from a bar to a bar with a downward limb. In the source the limb's outline
-    /// lies along the bar's lower side.
+    /// Returns a compatible mesh whose source is a bar and whose target is a bar with a downward
+    /// limb. In the source, the limb's outline lies along the bar's lower side.
     fn growing_limb() -> CompatibleMesh {
         let divided = |corners: &[DVec2]| -> Vec<DVec2> {
             let sides = corners.iter().zip(corners.iter().cycle().skip(1));

@@ -11,13 +11,13 @@ pub(super) enum EvaluationTimes<'a> {
     PerPart {
         /// Time of each part.
         parts: &'a [f64],
-        /// Time of the part of each vertex.
+        /// For each vertex, the time of its part.
         vertices: &'a [f64],
     },
 }
 
 impl EvaluationTimes<'_> {
-    /// Returns the time of a connected part.
+    /// Returns the time at which a connected part is evaluated.
     pub(super) fn of_part(self, part: usize) -> f64 {
         match self {
             Self::Uniform(t) => t,
@@ -25,7 +25,7 @@ impl EvaluationTimes<'_> {
         }
     }
 
-    /// Returns the time of a vertex.
+    /// Returns the time at which a vertex is evaluated.
     pub(super) fn of_vertex(self, vertex: usize) -> f64 {
         match self {
             Self::Uniform(t) => t,
@@ -44,8 +44,8 @@ pub(super) struct PartTimeBuffer {
 impl PartTimeBuffer {
     /// Sets the times of `count` parts.
     ///
-    /// `time` returns the time of a part. `runs` are ranges of vertices with their parts, which
-    /// together cover every vertex.
+    /// `time` returns the time of a part. `runs` yields ranges of vertices, each with its part;
+    /// together they cover every vertex.
     pub(super) fn set(
         &mut self,
         count: usize,

@@ -1,14 +1,16 @@
-//! Vectorised right-hand sides of a frame: Σ (M(t) − M_linear(t)) W g.
+//! Vectorised right-hand sides of a frame: Σ (M(t) − M_linear(t)) W g, in the notation of the
+//! parent module.
 //!
 //! M_linear(t) = (1−t) M(0) + t M(1), so its sum at a vertex is interpolated between the sums for
 //! M(0) and M(1), which are precomputed. They are computed with the same operations as any other
 //! frame, so that the difference is exactly zero at both ends.
 //!
-//! Faces are processed in blocks whose layout matches the loop. Quantities that are cheap to
-//! compute are not stored, because frames of large meshes are limited by memory bandwidth. The loop
-//! is compiled for several vector widths, with identical results, and one is chosen at run time.
-//! [`crate::warp::homotopy::Homotopy::at`] is the scalar form of the same formulas; the tests
-//! compare the two. Maps with bounded distortion depend on all faces and come from [`Bounded`].
+//! Faces are stored and processed in blocks, so that the loop reads memory in order. Quantities
+//! that are cheap to compute are not stored, because frames of large meshes are limited by memory
+//! bandwidth. The loop is compiled for several vector widths, with identical results, and one is
+//! chosen at run time. [`crate::warp::homotopy::Homotopy::at`] is the scalar form of the same
+//! formulas; the tests compare the two. Local maps with bounded distortion depend on all faces and
+//! are computed by [`Bounded`].
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
 use super::bounded::{Bounded, Memory};
@@ -39,14 +41,15 @@ pub(super) struct ForceAssembly {
     arch: Arch,
     faces: Arc<[[u32; 3]]>,
     blocks: Vec<FaceBlock>,
-    /// Logarithms of the larger and smaller stretch; empty unless the homotopy is exponential.
+    /// For each block, the logarithms of the larger and the smaller stretch; empty unless the
+    /// homotopy is exponential.
     logs: Vec<[FaceLanes; 2]>,
     elements: Vec<ElementMap>,
     /// Length of each element at t = ½, relative to its linearly interpolated length.
-    halfway: Vec<f64>,
+    halfway_lengths: Vec<f64>,
     /// Computation of the maps with bounded distortion, if the homotopy requires it.
     bounded: Option<Arc<Bounded>>,
-    /// Σ M(0) W g and Σ M(1) W g of each vertex.
+    /// For each vertex, Σ M(0) W g and Σ M(1) W g.
     ends: Vec<[DVec2; 2]>,
 }
 
@@ -124,7 +127,7 @@ impl MapCoefficients {
 }
 
 impl ForceAssembly {
-    /// Precomputes the blocks and both ends.
+    /// Precomputes the blocks and the sums at t = 0 and t = 1.
     pub(super) fn new(mesh: &CompatibleMesh, maps: &LocalMaps, homotopy: Homotopy) -> Self {
         let blocks = maps.faces.chunks(LANES);
         let logs = if homotopy == Homotopy::Exponential {
@@ -142,12 +145,12 @@ impl ForceAssembly {
                 .collect(),
             logs,
             elements: maps.elements.clone(),
-            halfway: vec![1.0; maps.elements.len()],
+            halfway_lengths: vec![1.0; maps.elements.len()],
             bounded: (homotopy == Homotopy::Bounded).then(|| Arc::new(Bounded::new(mesh, maps))),
             ends: Vec::new(),
         };
         let mut memory = stresses.memory();
-        // Uses the operations of a frame, so that both ends cancel exactly.
+        // Both ends are computed with the operations of a frame, so that they cancel exactly.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
             stresses.forces(EvaluationTimes::Uniform(t), &mut memory, &mut forces);
@@ -162,9 +165,10 @@ impl ForceAssembly {
         &self.elements
     }
 
-    /// Sets the length of an element at t = ½, relative to its linearly interpolated length.
+    /// Sets the length of an element at t = ½, relative to its linearly interpolated length. The
+    /// ratio is clamped to [`LENGTH_RATIOS`].
     pub(super) fn set_halfway_length(&mut self, element: usize, ratio: f64) {
-        self.halfway[element] = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
+        self.halfway_lengths[element] = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
     }
 
     /// Returns the memory needed for a frame.
@@ -178,7 +182,8 @@ impl ForceAssembly {
         self.bounded.as_deref()
     }
 
-    /// Writes both right-hand sides to `rhs`, all x and then all y, with vertex v at `place[v]`.
+    /// Writes both right-hand sides to `rhs`: first all x, then all y, with the entry of vertex v
+    /// at index `place[v]`.
     ///
     /// `forces` is working memory with one entry per vertex.
     pub(super) fn right_hand_sides(
@@ -211,7 +216,7 @@ impl ForceAssembly {
         }
         // There are few elements compared to faces, so the scalar form is sufficient.
         if self.homotopy != Homotopy::Linear {
-            for (element, &halfway) in self.elements.iter().zip(&self.halfway) {
+            for (element, &halfway) in self.elements.iter().zip(&self.halfway_lengths) {
                 let t = times.of_vertex(element.ends[0] as usize);
                 element.add(self.homotopy, t, halfway, forces);
             }
@@ -334,7 +339,7 @@ fn scatter([x2, y2, x3, y3]: &[FaceLanes; 4], faces: &[[u32; 3]], forces: &mut [
     }
 }
 
-/// Transposes N numbers of each face of a block into rows.
+/// Collects N numbers per face of a block into N rows, with one entry per face.
 fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) -> [FaceLanes; N] {
     let mut rows = [[0.0; LANES]; N];
     for (lane, face) in faces.iter().enumerate() {
@@ -346,7 +351,8 @@ fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) ->
 }
 
 impl ElementMap {
-    /// Returns the element's vector at t if it followed the homotopy without length correction.
+    /// Returns the element's vector at t according to the homotopy alone, without the length
+    /// correction.
     pub(super) fn even_vector(&self, homotopy: Homotopy, t: f64) -> DVec2 {
         let map = PolarDecomposition {
             angle: self.angle,
@@ -355,7 +361,8 @@ impl ElementMap {
         homotopy.at(&map, t) * self.vector
     }
 
-    /// Adds the element's forces at t, given its relative length at t = ½.
+    /// Adds the element's forces at t. `halfway` is its length at t = ½, relative to the linearly
+    /// interpolated length.
     fn add(&self, homotopy: Homotopy, t: f64, halfway: f64, forces: &mut [DVec2]) {
         // The length correction is a parabola that vanishes at both ends.
         let ratio = 1.0 + (halfway - 1.0) * (4.0 * t * (1.0 - t));

@@ -39,7 +39,8 @@ pub(super) struct FactoredArap {
 /// Evaluator of an interpolation, with the memory for one frame.
 pub(super) struct FrameSolver {
     arap: Arc<FactoredArap>,
-    /// Right-hand sides and then the deviation U: all x, then all y, in elimination order.
+    /// First the right-hand sides, after the solve the deviation U: all x, then all y, in
+    /// elimination order.
     deviation: Vec<f64>,
     workspace: CholeskyWorkspace,
     memory: Memory,
@@ -65,7 +66,7 @@ impl FrameSolver {
         }
     }
 
-    /// Moves the placement to the given times.
+    /// Moves the placement to the positions at the given times.
     pub(super) fn place(&mut self, times: EvaluationTimes, placement: &mut Placement) {
         let Self {
             arap,

@@ -31,7 +31,7 @@ mod tests;
 pub use along::AlongBlend;
 
 use super::angles::nearest_branch;
-use super::assembly::{ElementMap, LocalMaps, with_first};
+use super::assembly::{ElementMap, LocalMaps, all_gradients};
 use super::options::{ArapError, ArapOptions};
 use super::ridge::factor_with_ridge;
 use crate::compatible::{BarElement, CompatibleFamily};
@@ -266,7 +266,7 @@ impl ArapBlendData {
             }
             let [angle, xx, xy, yy] = sum;
             let map = DMat2::from_angle(angle) * exponential(xx, xy, yy) * *carried;
-            for (&v, pull) in face.iter().zip(with_first(map)) {
+            for (&v, pull) in face.iter().zip(all_gradients(map)) {
                 pulls[v as usize] += pull;
             }
         }
@@ -395,7 +395,7 @@ impl Assembly {
     }
 
     fn add_face(&mut self, face: [u32; 3], gradients: DMat2, weighted: DMat2) {
-        let (g, wg) = (with_first(gradients), with_first(weighted));
+        let (g, wg) = (all_gradients(gradients), all_gradients(weighted));
         for i in 0..3 {
             self.diagonal[face[i] as usize] += g[i].dot(wg[i]);
             for j in 0..=i {

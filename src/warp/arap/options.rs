@@ -16,8 +16,8 @@ pub enum FaceWeights {
     /// Area, so that the result hardly depends on the triangulation.
     #[default]
     Area,
-    /// Equal weights, so that small faces count as much as large ones. "Design-Space Representation
-    /// through Blended Transitions", §3.2, uses these.
+    /// Equal weights, so that small faces count as much as large ones, as in "Design-Space
+    /// Representation through Blended Transitions", §3.2.
     Uniform,
     /// One positive weight for each face before subdivision; larger weights make a face stiffer.
     PerFace(Vec<f64>),
@@ -68,7 +68,7 @@ pub enum ArapPath {
 }
 
 impl ArapPath {
-    /// Checks that an anchor is one of `vertices` vertices.
+    /// Checks that the index of an anchor is less than `vertices`, the number of vertices.
     ///
     /// # Errors
     /// [`ArapError::Anchor`] if it is not.
@@ -87,12 +87,13 @@ impl ArapPath {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ArapOptions {
-    /// Path of the local maps.
+    /// Path of each face's local map from the identity to its end.
     pub homotopy: Homotopy,
     /// Weights of the faces.
     pub weights: FaceWeights,
-    /// Whether the energy includes both directions. Otherwise it is the one-sided energy of
-    /// "Design-Space Representation through Blended Transitions", §3.2.
+    /// Whether the energy includes both directions, source to target and target to source.
+    /// Otherwise it is the one-sided energy of "Design-Space Representation through Blended
+    /// Transitions", §3.2.
     pub symmetric: bool,
     /// Additional whole turns: one number for all parts, or one for each edge-connected component
     /// in the order of its first face.
@@ -117,10 +118,11 @@ impl Default for ArapOptions {
 }
 
 impl ArapOptions {
-    /// Checks the options as far as this is possible without a mesh.
+    /// Checks the options that can be checked without a mesh.
     ///
     /// # Errors
-    /// [`TooManyVertices`] if even a single face would get too many vertices.
+    /// [`TooManyVertices`] if the requested subdivision would give even a single face too many
+    /// vertices.
     pub fn check(&self) -> Result<(), TooManyVertices> {
         match self.subdivisions {
             rounds if rounds > MAX_ROUNDS => Err(TooManyVertices { rounds }),
@@ -136,7 +138,8 @@ pub enum ArapError {
     /// The rotation angles of the faces are inconsistent.
     #[error(transparent)]
     Angles(#[from] AngleError),
-    /// There is not one positive weight for each face.
+    /// The number of weights differs from the number of faces, or a weight is not positive and
+    /// finite.
     #[error("weights must be one positive number for each of the {faces} faces; {problem}")]
     Weights {
         /// Number of faces.
@@ -144,7 +147,7 @@ pub enum ArapError {
         /// Description of the first wrong weight.
         problem: String,
     },
-    /// The anchor is not a vertex.
+    /// The index of the anchor is not that of a vertex.
     #[error("anchor vertex {anchor} does not exist; choose one from 0 to {last}")]
     Anchor {
         /// Index of the requested vertex.
@@ -155,8 +158,8 @@ pub enum ArapError {
     /// The mesh would become too large.
     #[error(transparent)]
     TooManyVertices(#[from] TooManyVertices),
-    /// Faces are too thin, or too different from their neighbours, for the equations; with a
-    /// position in the source and in the target.
+    /// Faces are so thin, or so different in size from their neighbours, that the equations cannot
+    /// be solved. Holds the position of an affected vertex in source and target.
     #[error(
         "the shape {} in the source and {} in the target is too thin to compute its motion; thicken it, change its match, or choose another method",
         ApproxPoint(.0[0]), ApproxPoint(.0[1])

@@ -16,28 +16,31 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(super) struct PartTranslations {
     parts: Vec<PartPath>,
-    /// Time windows of the parts that are points in one of the designs.
+    /// For each part that is a point in one of the designs, its time window; `None` for other
+    /// parts.
     time_windows: Vec<Option<TimeWindow>>,
     /// Centroid of each part in source and target.
     centres: Vec<[DVec2; 2]>,
     /// Centroid of the design in source and target.
     centroid: [DVec2; 2],
-    /// Ranges of consecutive vertices of one part.
+    /// Runs of consecutive vertices that belong to the same part.
     vertices: Vec<PartRun>,
-    /// Ranges of consecutive unknowns, in elimination order, of one part.
+    /// Runs of consecutive unknowns, in elimination order, that belong to the same part.
     unknowns: Vec<PartRun>,
-    /// Fraction of the part's mass of each unknown in elimination order.
+    /// For each unknown, in elimination order: its share of the mass of its part.
     shares: Vec<f64>,
     /// Rotation of the design in radians.
     whole_angle: f64,
     /// Index of the anchor in elimination order, and its part.
     anchor: Option<(u32, u32)>,
-    /// Whether the design rotates about its pole instead of its centroid.
-    is_about_pole: bool,
+    /// Whether the design rotates about its pole (the fixed point of its rigid motion) instead of
+    /// its centroid.
+    rotates_about_pole: bool,
 }
 
-/// Sine of half the rotation below which the path is taken as straight (tolerance: the pole is
-/// farther away than a hundred times the translation, or does not exist).
+/// Sine of half the rotation below which the design's centroid moves on a straight line instead of
+/// an arc about the pole (tolerance: the pole does not exist or is more than a hundred times as far
+/// away as the centroid moves).
 const NO_POLE: f64 = 5e-3;
 
 /// Range of consecutive items that belong to one part.
@@ -48,7 +51,7 @@ struct PartRun {
 }
 
 impl PartRun {
-    /// Returns all runs, given the part of each item.
+    /// Returns the runs of a list in which entry i is the part of item i.
     fn all(part_of: &[u32]) -> Vec<Self> {
         let mut end = 0;
         let runs = part_of.chunk_by(|a, b| a == b).map(|run| {
@@ -89,7 +92,7 @@ impl PartTranslations {
             ArapPath::Centroid | ArapPath::Pole => None,
             ArapPath::Anchor(v) => Some((place[v as usize], component[v as usize])),
         };
-        // Transient parts must not affect the position of the whole.
+        // Transient parts must not affect the position of the whole design.
         let is_permanent = |part: usize| time_windows.get(part).is_none_or(Option::is_none);
         if (0..count).any(is_permanent) {
             let transient = (0..count).filter(|&part| !is_permanent(part));
@@ -105,7 +108,7 @@ impl PartTranslations {
             shares,
             whole_angle: maps.whole_angle,
             anchor,
-            is_about_pole: path == ArapPath::Pole,
+            rotates_about_pole: path == ArapPath::Pole,
         }
     }
 
@@ -116,7 +119,7 @@ impl PartTranslations {
     /// moved by R((t − 1) θ/2) d · sin(tθ/2) / sin(θ/2).
     fn bend(&self, t: f64) -> DVec2 {
         let half = 0.5 * self.whole_angle;
-        if !self.is_about_pole || half.sin().abs() < NO_POLE {
+        if !self.rotates_about_pole || half.sin().abs() < NO_POLE {
             return DVec2::ZERO;
         }
         let chord = self.centroid[1] - self.centroid[0];
@@ -135,7 +138,8 @@ impl PartTranslations {
         self.parts.len()
     }
 
-    /// Returns the time window of a part that is a point in one of the designs.
+    /// Returns the time window of a part, or `None` unless the part is a point in one of the
+    /// designs.
     pub(super) fn time_window(&self, part: usize) -> Option<TimeWindow> {
         self.time_windows.get(part).copied().flatten()
     }
@@ -154,8 +158,8 @@ impl PartTranslations {
         self.centre(t) + path.offset_at_fraction(t, share, self.whole_angle)
     }
 
-    /// Returns the positions in source and target that the motion of the design carries to `place`
-    /// at t.
+    /// Returns the position in the source and the position in the target that the motion of the
+    /// design carries to `place` at t.
     pub(super) fn uncarried_ends(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         let [from, to] = self.centroid;
         let offset = place - self.centre(t);
@@ -170,13 +174,13 @@ impl PartTranslations {
             .map(|run| (run.range.clone(), run.part))
     }
 
-    /// Computes the translation to add to the deviations of each part.
+    /// Computes, for each part, the translation to be added to its deviations.
     ///
     /// `deviation` holds all x and then all y in elimination order.
     pub(super) fn shifts(&self, times: EvaluationTimes, deviation: &[f64], shifts: &mut [DVec2]) {
         let (dx, dy) = deviation.split_at(deviation.len() / 2);
         shifts.fill(DVec2::ZERO);
-        // Runs let `dot` read contiguous numbers without looking up the part of each.
+        // Within a run, `dot` reads contiguous numbers and need not look up the part of each.
         for PartRun { range, part } in &self.unknowns {
             let [shares, dx, dy] = [&self.shares, dx, dy].map(|all| &all[range.clone()]);
             shifts[*part] -= DVec2::new(dot(shares, dx), dot(shares, dy));
@@ -184,7 +188,7 @@ impl PartTranslations {
         for (part, shift) in shifts.iter_mut().enumerate() {
             let t = times.of_part(part);
             match self.time_window(part) {
-                // Exact ends.
+                // Makes both ends exact.
                 Some(_) if t == 0.0 || t == 1.0 => *shift = DVec2::ZERO,
                 Some(window) => {
                     let ([from, to], share) = (self.centres[part], window.fraction_done(t));
@@ -195,7 +199,8 @@ impl PartTranslations {
             }
         }
         if let Some((at, part)) = self.anchor {
-            // All parts are shifted alike; otherwise those without the anchor would separate.
+            // All parts are shifted by the same vector; otherwise the parts without the anchor
+            // would drift away from the anchored part.
             let anchor_shift = DVec2::new(dx[at as usize], dy[at as usize]) + shifts[part as usize];
             shifts.iter_mut().for_each(|shift| *shift -= anchor_shift);
         }

@@ -20,7 +20,8 @@ const RIDGES: [f64; 5] = [1e-13, 1e-11, 1e-9, 1e-7, 1e-5];
 pub struct Ridge {
     /// Relative increase of each diagonal entry.
     pub share: f64,
-    /// Index of the first vertex of the interpolated mesh whose pivot was not positive without it.
+    /// Index of the first vertex of the interpolated mesh whose pivot was not positive without a
+    /// ridge.
     pub vertex: usize,
 }
 

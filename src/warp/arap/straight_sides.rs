@@ -1,9 +1,9 @@
-//! Constraints that keep sides straight which are straight in both designs.
+//! Constraints that keep a side straight during the motion if it is straight in both designs.
 //!
-//! A vertex that divides a side in the same ratio s in both designs also does so on its straight
-//! path. It is therefore enough to constrain the deviation U: the energy is augmented by
-//! |U_v − (1−s) U_a − s U_b|² with a large stiffness, where a and b are the ends of the side. This
-//! term is zero at both ends of the motion, and its matrix does not depend on t.
+//! If a vertex v divides a side from vertex a to vertex b in the same ratio s in both designs, it
+//! also does so while all three move on straight paths. It is therefore enough to constrain the
+//! deviation U from these paths: the energy is augmented by |U_v − (1−s) U_a − s U_b|² with a large
+//! stiffness. This term is zero at both ends of the motion, and its matrix does not depend on t.
 
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
@@ -14,8 +14,9 @@ use crate::warp::homotopy::Homotopy;
 /// enough to dominate, small enough for an accurate factorisation).
 const STIFFNESS: f64 = 1e4;
 
-/// Sine of an angle, and difference of two ratios, below which a vertex is on a straight side
-/// (tolerance: coordinates in files have about seven digits).
+/// A vertex is on a straight side if neither the sine of its turning angle nor the difference of
+/// its ratios s in the two designs exceeds this value (tolerance: coordinates in files have about
+/// seven digits).
 const STRAIGHT: f64 = 1e-6;
 
 /// Whether a mesh has the constraints of drawn outlines.
@@ -42,8 +43,8 @@ struct SideVertex {
 impl OutlineConstraints {
     /// Returns the constraints for a homotopy.
     ///
-    /// Bounded distortion has none, because faces that must not be sheared further only fit
-    /// together if sides may bend.
+    /// With bounded distortion there are none: faces whose shear is limited fit together only if
+    /// the sides may bend.
     pub(super) fn for_homotopy(self, homotopy: Homotopy) -> Self {
         match homotopy {
             Homotopy::Bounded => Self::Off,
@@ -51,7 +52,7 @@ impl OutlineConstraints {
         }
     }
 
-    /// Adds the constraints to a matrix with the given diagonal, if they are enabled.
+    /// Adds the constraints to `matrix`, if they are enabled. `diagonal` is the diagonal of K.
     pub(super) fn add_to_matrix(
         self,
         mesh: &CompatibleMesh,
@@ -64,7 +65,8 @@ impl OutlineConstraints {
     }
 }
 
-/// Adds the constraint of each vertex of a straight side, relative to its diagonal entry.
+/// Adds the constraint of each vertex inside a straight side, with a stiffness relative to the
+/// vertex's diagonal entry.
 fn add_constraints(mesh: &CompatibleMesh, diagonal: &[f64], matrix: &mut SymmetricMatrix) {
     for SideVertex {
         vertex,
@@ -109,8 +111,8 @@ fn vertices_on_sides(mesh: &CompatibleMesh) -> Vec<SideVertex> {
     side_vertices
 }
 
-/// Returns whether the middle one of three vertices lies straight between the others, with the
-/// same ratio in both designs.
+/// Returns whether the middle one of three vertices lies on the straight line between the others
+/// and divides it in the same ratio in both designs.
 fn is_straight(mesh: &CompatibleMesh, vertices: [u32; 3]) -> bool {
     let share = |points: &[DVec2]| {
         let [a, p, b] = vertices.map(|v| points[v as usize]);
@@ -149,8 +151,8 @@ mod tests {
         CompatibleMesh::from_piece(&[a], &[b], &PolygonOptions::default(), &Silent).expect("a mesh")
     }
 
-    /// Returns the largest distance of the upper side (vertices 3 to 7) from a straight line
-    /// halfway, relative to its length.
+    /// Returns the largest distance of vertices 4 to 6 from the line through vertices 3 and 7 at t
+    /// = ½, relative to the distance of those two.
     fn deviation(arap: &Arap) -> f64 {
         let mut placer = arap.placer();
         placer.place(0.5);

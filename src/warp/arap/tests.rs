@@ -28,7 +28,8 @@ fn strip(n: usize, length: f64, width: f64) -> (Vec<[u32; 3]>, Vec<DVec2>) {
     (faces, points)
 }
 
-/// Returns a generic mesh: a strip and its bent, stretched and sheared image.
+/// Returns a mesh without symmetry: a strip in the source and its bent, stretched and sheared image
+/// in the target.
 fn bent_pair() -> CompatibleMesh {
     let (faces, source) = strip(12, 6.0, 1.0);
     let target = source
@@ -50,7 +51,8 @@ fn bent_pair() -> CompatibleMesh {
     }
 }
 
-/// Returns a mesh of two separate strips, with a bar attached to the first.
+/// Returns a mesh whose source is two separate strips, with a bar attached to the first;
+/// `target_of` maps source points to target points.
 fn parts(target_of: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     let (mut faces, mut source) = strip(3, 3.0, 1.0);
     let first = source.len() as u32;
@@ -63,7 +65,7 @@ fn parts(target_of: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     CompatibleMesh::new(faces, source, target, vec![[0, bar_end]]).unwrap()
 }
 
-/// Returns the function from t to the vertex positions.
+/// Returns a function that maps t to the vertex positions of the interpolation.
 fn motion(mesh: &CompatibleMesh, options: &ArapOptions) -> impl FnMut(f64) -> Vec<DVec2> + use<> {
     let mut placer = Arap::build(mesh, options, &Silent).unwrap().placer();
     move |t| {
@@ -195,7 +197,7 @@ fn the_one_sided_energy_is_not_symmetric() {
     assert!(error > 1e-6, "the symmetry test could not fail: {error:e}");
 }
 
-/// Evaluates E(A→B, t) by its definition, with the source areas as weights.
+/// Evaluates the one-sided energy E(A→B, t) by its definition, with the source areas as weights.
 fn one_sided_energy(
     mesh: &CompatibleMesh,
     angles: &[f64],
@@ -262,7 +264,8 @@ fn the_symmetric_solution_minimises_the_sum_of_both_energies() {
     }
 }
 
-/// Returns a mesh from a strip rolled up by `turns` turns to the straight strip.
+/// Returns a mesh whose source is a strip rolled up by `turns` turns and whose target is the
+/// straight strip.
 fn spiral(turns: f64) -> CompatibleMesh {
     let n = 240;
     let (faces, straight) = strip(n, 60.0, 0.5);

@@ -3,14 +3,14 @@
 //! A part that exists in only one design is a tiny seed shape in the other. It moves with the whole
 //! design from the first frame to the last, like every other part, but changes its size and its
 //! relative position only within its time window. A part that appears can thus wait until its place
-//! is free, and one that disappears can make room in time. Outside [0, 1] it keeps the size of the
-//! nearer end.
+//! is free, and a part that disappears can make room in time. At times outside [0, 1] a part keeps
+//! the size that it has at the nearer end.
 
 use crate::geometry::Side;
 use serde::{Deserialize, Serialize};
 
-/// Curvature of the size over time, from 0 (constant speed) to 1 (parabola that ends at rest)
-/// (heuristic).
+/// Curvature of the size as a function of time: 0 means growth at constant speed, 1 a parabola
+/// whose speed drops to zero at full size (heuristic).
 const GROWTH_CURVATURE: f64 = 0.75;
 
 /// Time window within [0, 1] in which a transient part changes its size and relative position.
@@ -23,14 +23,14 @@ const GROWTH_CURVATURE: f64 = 0.75;
 pub struct TimeWindow {
     /// Design in which the part exists.
     pub side: Side,
-    /// Start of the change.
+    /// Time at which the change starts, at least 0.
     pub from: f64,
-    /// End of the change, later than `from`.
+    /// Time at which the change ends, later than `from` and at most 1.
     pub to: f64,
 }
 
 impl TimeWindow {
-    /// Returns the window [0, 1] for a part of the given design.
+    /// Returns the window [0, 1] for a part that exists only in the given design.
     #[must_use]
     pub fn whole(side: Side) -> Self {
         Self {
@@ -45,7 +45,8 @@ impl TimeWindow {
         0.0 <= self.from && self.from < self.to && self.to <= 1.0
     }
 
-    /// Returns the diameter at `t` relative to the diameter in the part's own design.
+    /// Returns the diameter of the part at `t`, relative to its diameter in the design in which it
+    /// exists.
     ///
     /// It is exactly 0 or 1 outside the window, so that extrapolation cannot turn the part inside
     /// out.
@@ -79,7 +80,7 @@ impl TimeWindow {
 
     /// Returns the interval of frame times in which the part is visible.
     ///
-    /// `when` maps a time of the part's clock to the frame time.
+    /// `when` maps a time on the part's clock to the frame time.
     pub(crate) fn visible_interval(self, when: impl Fn(f64) -> f64) -> [f64; 2] {
         match self.side {
             Side::Source => [0.0, when(self.to)],

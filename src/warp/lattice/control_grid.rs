@@ -11,24 +11,25 @@ const SHIFT: usize = 3;
 /// stencil touches at most four blocks).
 const SIDE: usize = 1 << SHIFT;
 
-/// Grid of control points with allocated and empty blocks.
+/// Grid of control points, stored in blocks that are allocated only where a feature needs them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ControlGrid {
-    /// Number of blocks in a row.
+    /// Number of blocks in a row of blocks.
     columns: usize,
-    /// Number of each block, from 1; 0 for an empty block.
+    /// For each block, row by row: its index in `blocks` plus 1, or 0 if it is not allocated.
     directory: Vec<u32>,
-    /// Indices of the nonzero entries of the directory.
+    /// Indices of the nonzero entries of `directory`.
     occupied: Vec<usize>,
     blocks: Vec<ControlBlock>,
 }
 
-/// 8 × 8 control points.
+/// Block of 8 × 8 control points, indexed by row and then column.
 #[derive(Clone, Debug)]
 struct ControlBlock {
-    /// Weighted sums of requested displacements; after [`ControlGrid::divide`] the displacements.
+    /// For each control point, the weighted sum of requested displacements; after
+    /// [`ControlGrid::divide`], the displacement.
     controls: [[DVec2; SIDE]; SIDE],
-    /// Sums of the weights.
+    /// For each control point, the sum of the weights of its requests.
     weights: [[f64; SIDE]; SIDE],
 }
 
@@ -43,7 +44,7 @@ impl ControlBlock {
 impl ControlGrid {
     /// Resizes the grid to `[columns, rows]` control points and sets all of them to zero.
     pub(super) fn reset(&mut self, size: [usize; 2]) {
-        // Clears only the used entries, because the directory of a fine layer is long.
+        // Clears only the nonzero entries, because the directory of a fine layer is long.
         for entry in self.occupied.drain(..) {
             self.directory[entry] = 0;
         }
@@ -53,7 +54,7 @@ impl ControlGrid {
         self.directory.resize(columns * rows, 0);
     }
 
-    /// Returns the number of columns and rows, rounded up to whole blocks.
+    /// Returns the number of columns and rows of control points, rounded up to whole blocks.
     #[inline(always)]
     pub(super) fn size(&self) -> [usize; 2] {
         let rows = self.directory.len() / self.columns.max(1);
@@ -78,7 +79,7 @@ impl ControlGrid {
         &mut self.blocks[self.directory[entry] as usize - 1]
     }
 
-    /// Divides the sums by their weights and clamps each coordinate to ±`bound`.
+    /// Replaces each sum by the weighted mean, with each coordinate clamped to ±`bound`.
     pub(super) fn divide(&mut self, bound: f64) {
         for block in &mut self.blocks {
             let rows = block.controls.iter_mut().zip(&block.weights);
@@ -95,7 +96,7 @@ impl ControlGrid {
     pub(super) fn sum(&self, [i0, j0]: [usize; 2], bx: &[f64; 4], by: &[f64; 4]) -> DVec2 {
         let number =
             |i: usize, j: usize| self.directory[(j >> SHIFT) * self.columns + (i >> SHIFT)];
-        // The stencil only touches the blocks of its four corners.
+        // The stencil overlaps only the blocks that contain its four corners.
         let corners = [(0, 0), (3, 0), (0, 3), (3, 3)].map(|(i, j)| number(i0 + i, j0 + j));
         // Fast path: in fine layers most points lie in empty blocks.
         if corners == [0; 4] {
@@ -105,7 +106,8 @@ impl ControlGrid {
             let number = (corners[corner] as usize).checked_sub(1)?;
             Some(&self.blocks[number].controls)
         };
-        // `split` of the four columns lie in the left blocks.
+        // The first `split` of the four columns lie in the left blocks, the others in the right
+        // blocks.
         let (i, split) = (i0 % SIDE, (SIDE - i0 % SIDE).min(4));
         let (left, right) = bx.split_at(split);
         let dot = |controls: &[DVec2], basis: &[f64]| -> DVec2 {

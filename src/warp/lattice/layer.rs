@@ -1,8 +1,9 @@
 //! One displacement layer: a uniform cubic B-spline fitted to the features.
 //!
 //! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel B-splines" (1997), §3.1: each
-//! feature requests the smallest displacements of its 16 control points that interpolate it. A
-//! control point takes the mean of the requests, weighted by its influence on each feature.
+//! feature requests the smallest displacements of the 16 control points around it that move it as
+//! required. A control point takes the mean of all requests, weighted by its influence on each
+//! feature.
 //!
 //! The layer is twice continuously differentiable and zero away from the features.
 
@@ -14,31 +15,33 @@ use crate::geometry::{Bounds, DVec2};
 pub(super) struct FeaturePull {
     /// Position of the feature.
     pub(super) at: DVec2,
-    /// Requested displacement.
+    /// Displacement that the feature requests.
     pub(super) by: DVec2,
-    /// Weight relative to other features.
+    /// Weight of the feature relative to other features.
     pub(super) weight: f64,
 }
 
 /// Displacement field on one lattice.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SplineLayer {
-    /// Distance of neighbouring control points.
+    /// Distance between neighbouring control points, in plane units.
     spacing: f64,
-    /// Lower left corner of the cell of the first control point.
+    /// Lower left corner of the lattice's first cell, on which control points 0 to 3 of each axis
+    /// act.
     origin: DVec2,
     controls: ControlGrid,
 }
 
 /// The 4 × 4 control points that affect a point.
 struct SplineStencil {
-    /// Column and row of the first control point.
+    /// Lowest column and lowest row of the 16 control points.
     first: [usize; 2],
     /// Values of the four basis functions along x and y.
     basis: [[f64; 4]; 2],
 }
 
-/// Returns the values of the four cubic B-splines that do not vanish at `s` in [0, 1).
+/// Returns the values of the four cubic B-splines that are nonzero in a cell, at the fraction `s`
+/// in [0, 1) of that cell.
 #[inline(always)]
 fn basis(s: f64) -> [f64; 4] {
     let r = 1.0 - s;
@@ -63,7 +66,8 @@ impl SplineLayer {
         self.origin = domain.min;
     }
 
-    /// Returns the stencil of a point, or `None` if it is not completely inside the lattice.
+    /// Returns the stencil of a point, or `None` if a control point of the stencil is outside the
+    /// lattice.
     #[inline(always)]
     fn stencil(&self, p: DVec2) -> Option<SplineStencil> {
         let at = (p - self.origin) / self.spacing;
@@ -99,7 +103,10 @@ impl SplineLayer {
         self.controls.divide(bound);
     }
 
-    /// Adds one feature to the sums: w² φ and w² with φ = w z / Σ w² (eqs. 3 to 5).
+    /// Adds the requests of one feature to the sums of its control points.
+    ///
+    /// With the basis value w of a control point and the feature's displacement z, the request is φ
+    /// = w z / Σ w². The sums grow by w² φ and w², times the feature's weight (eqs. 3 to 5).
     fn add(&mut self, pull: &FeaturePull) {
         let Some(SplineStencil { first, basis }) = self.stencil(pull.at) else {
             return;

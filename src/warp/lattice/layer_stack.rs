@@ -1,4 +1,5 @@
-//! A sequence of displacement layers from coarse to fine that moves the features to their goals.
+//! A map of the plane built from displacement layers, coarse to fine, that moves the features from
+//! their positions in the frame to those in a design.
 
 use super::layer::{FeaturePull, SplineLayer};
 use super::options::LatticeOptions;
@@ -10,19 +11,19 @@ use crate::geometry::{Bounds, DVec2};
 /// of 2D and 3D uniform cubic B-spline functions", 2000).
 const MAX_DISPLACEMENT: f64 = 0.48;
 
-/// Maximum number of composed layers in the first level, in each other requested level, and in
-/// each added level.
+/// Maximum number of composed layers: in the first level, in each other requested level, and in
+/// each added level (resource limit).
 ///
-/// With a bound of about half a spacing, ten layers with a spacing of ¼ move a feature across the
-/// frame (resource limit).
+/// A layer moves a point by up to about half a lattice spacing. With the default spacing of a
+/// quarter of the frame, the first level needs ten layers to move a feature across the frame.
 const MAX_LAYERS: [u32; 3] = [16, 4, 8];
 
-/// Residual at which no further layers are added, as a fraction of the tolerance (tolerance: one
-/// layer more or less must not cause a visible jump between frames).
+/// Largest error of all features, as a fraction of the permitted error, at which no further layer
+/// is added (tolerance: one layer more or less must not cause a visible jump between frames).
 const TARGET_RESIDUAL: f64 = 0.1;
 
-/// Distances from the frame at which the influence of features starts to fade and at which it
-/// vanishes, in lengths of the frame's longer side (heuristic).
+/// Distances from the frame, in lengths of its longer side, at which the influence of a feature
+/// starts to fade and at which it vanishes (heuristic).
 const FADE: [f64; 2] = [0.5, 1.0];
 
 /// Extent and resolution of the lattices.
@@ -31,21 +32,24 @@ pub(super) struct LatticeDomain {
     frame: Bounds,
     /// Area covered by the lattices.
     domain: Bounds,
-    /// Length of the frame's longer side.
+    /// Length of the frame's longer side; 1 for a frame of zero size.
     side: f64,
-    /// Tolerance as a length; the options hold it as a fraction of the diameter.
+    /// Permitted error of a feature in plane units; `options.tolerance` is a fraction of the
+    /// frame's diameter.
     pub(super) tolerance: f64,
     pub(super) options: LatticeOptions,
 }
 
 impl LatticeDomain {
-    /// Creates the domain around `frame`; `unit` replaces the side of a frame of zero size.
+    /// Creates the domain around `frame`; `unit` is the frame's diameter, or 1 for a frame of zero
+    /// size.
     pub(super) fn new(frame: &Bounds, unit: f64, options: LatticeOptions) -> Self {
         let side = frame.size().max_element();
         let side = if side > 0.0 { side } else { unit };
         Self {
             frame: *frame,
-            // The control points of a feature at the margin extend beyond it.
+            // A feature moves control points up to two lattice spacings away from it. The domain is
+            // that much wider than the region in which features have influence.
             domain: frame.padded((FADE[1] + 2.0 / f64::from(options.coarsest)) * side),
             side,
             tolerance: options.tolerance * unit,
@@ -53,7 +57,8 @@ impl LatticeDomain {
         }
     }
 
-    /// Returns the weight of a feature at a point: 1 near the frame, fading to 0 outside.
+    /// Returns the weight of a feature at `p`: 1 up to the first distance in [`FADE`], falling to 0
+    /// at the second.
     fn weight(&self, p: DVec2) -> f64 {
         let outside = (p - p.clamp(self.frame.min, self.frame.max)).length() / self.side;
         let s = ((FADE[1] - outside) / (FADE[1] - FADE[0])).clamp(0.0, 1.0);
@@ -61,12 +66,12 @@ impl LatticeDomain {
     }
 }
 
-/// Map of the plane, the composition or the sum of displacement layers.
+/// Map of the plane: the composition or the sum of displacement layers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LayerStack {
     /// Allocated layers, reused from frame to frame.
     layers: Vec<SplineLayer>,
-    /// Number of layers in use.
+    /// Number of leading entries of `layers` that are in use.
     height: usize,
     /// Whether layers are composed; otherwise they are summed.
     is_composed: bool,
@@ -83,7 +88,8 @@ struct LatticeFeature {
     now: DVec2,
     /// Position in the design.
     expected: DVec2,
-    /// Position to reach: the displacement to `expected` times the weight.
+    /// Position to which the layers move the feature: `from` plus `weight` times the displacement
+    /// to `expected`.
     goal: DVec2,
 }
 
@@ -110,7 +116,8 @@ impl LayerStack {
         let levels = ground.options.levels;
         for level in 0..ground.options.max_levels() {
             let residual = self.max_residual();
-            // Added levels are only built while a feature is missed by the full tolerance.
+            // Levels beyond the requested ones are built only while an error exceeds the full
+            // tolerance.
             let target = if level < levels { TARGET_RESIDUAL } else { 1.0 };
             if residual <= target * ground.tolerance {
                 return;
@@ -125,7 +132,8 @@ impl LayerStack {
         let spacing = ground.side / cells;
         let layers = match (self.is_composed, level) {
             (false, _) => 1,
-            // Twice the number of cells suffices: each layer moves by up to half a spacing.
+            // Twice the number of cells suffices, because each layer moves a point by about half a
+            // spacing.
             (true, 0) => MAX_LAYERS[0].min(2 * ground.options.coarsest + 2),
             (true, _) if level < ground.options.levels => MAX_LAYERS[1],
             (true, _) => MAX_LAYERS[2],
@@ -151,8 +159,8 @@ impl LayerStack {
         }
         let layer = &mut self.layers[self.height];
         let is_composed = self.is_composed;
-        // A composed layer acts on the result of the previous layers, a summed one on the
-        // original plane.
+        // A composed layer displaces the result of the previous layers; a summed layer displaces
+        // the original positions.
         let argument = |f: &LatticeFeature| if is_composed { f.now } else { f.from };
         let features = self.features.iter().filter(|f| f.weight > 0.0);
         let pulls = features.map(|f| FeaturePull {
@@ -178,7 +186,7 @@ impl LayerStack {
         self.features.iter().map(|f| f.now.distance(f.expected))
     }
 
-    /// Maps each point.
+    /// Writes the image of each point of `places` to `out`.
     pub(super) fn apply(&self, places: &[DVec2], out: &mut [DVec2]) {
         out.copy_from_slice(places);
         for layer in &self.layers[..self.height] {

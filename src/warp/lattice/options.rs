@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 /// limit: each level doubles the resolution).
 pub const MAX_EXTRA_LEVELS: u32 = 3;
 
-/// Maximum number of cells along the longer side of the frame (resource limit).
+/// Maximum number of cells of the finest lattice along the longer side of the frame (resource
+/// limit).
 pub const MAX_LATTICE_CELLS: u32 = 1024;
 
 /// Options of the lattice warp.
@@ -22,8 +23,8 @@ pub struct LatticeOptions {
     pub coarsest: u32,
     /// Permitted error of features as a fraction of the frame's diameter, above 0 and at most 1.
     pub tolerance: f64,
-    /// Whether bounded layers are composed, so that the plane never folds; otherwise layers are
-    /// summed.
+    /// Whether the plane must not fold. If so, layers with bounded displacements are composed;
+    /// otherwise unbounded layers are summed.
     pub fold_free: bool,
 }
 
@@ -51,7 +52,7 @@ pub enum LatticeError {
     /// The number of cells of the first lattice is out of range.
     #[error("the coarsest lattice has {0} cells, but must have 1 to 32; the default is 4")]
     Coarsest(u32),
-    /// The last lattice is too fine.
+    /// The finest requested lattice would have more than [`MAX_LATTICE_CELLS`] cells along a side.
     #[error(
         "the finest lattice would have {0} cells along a side, but at most {MAX_LATTICE_CELLS} are possible; use fewer levels or a coarser first lattice"
     )]

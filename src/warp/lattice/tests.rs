@@ -1,4 +1,5 @@
-//! Tests of the lattice warp: interpolation, exact ends, absence of folds, invalid input.
+//! Tests of the lattice warp: interpolation, exact ends, absence of folds, features outside the
+//! frame, exchanged designs, invalid input.
 
 use super::*;
 use crate::warp::FeatureError;

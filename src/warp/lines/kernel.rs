@@ -1,10 +1,10 @@
-//! Vectorised evaluation of Σ w D / Σ w over the lines at many points.
+//! Vectorised evaluation of the mean displacement Σ w D / Σ w over all lines, at many points.
 //!
 //! The vector width is chosen at run time; results for different widths agree up to the last
 //! digits.
 //!
-//! Guaranteed: weights and all intermediate results are positive and finite for points within
-//! [`MAX_SCALED_COORDINATE`] and a between [`MIN_A`] and [`MAX_A`].
+//! Guaranteed: weights are positive and all intermediate results finite if a is between [`MIN_A`]
+//! and [`MAX_A`]; points beyond [`MAX_SCALED_COORDINATE`] are clamped to it.
 
 use super::line::{AffineFunction, FieldLine};
 use super::scaled_plane::ScaledPlane;
@@ -12,41 +12,46 @@ use crate::geometry::DVec2;
 use crate::warp::elementary::{exp, ln};
 use pulp::{Arch, Simd, WithSimd, bytemuck};
 
-/// Number of vectors that share one division (resource limit: four exceed the registers).
+/// Number of vectors that share one division (resource limit: four vectors would exceed the
+/// registers).
 const GROUP: usize = 2;
 
-/// Vectors that are processed together.
+/// Vectors that are processed together and share a division.
 type VectorGroup<S> = [<S as Simd>::f64s; GROUP];
 
-/// Number of points in a block (resource limit: fits into the first-level cache).
+/// Number of points in a block (resource limit: the data of a block fit into the first-level
+/// cache).
 const BLOCK: usize = 128;
 
-/// Number of groups that pass through the lines together (derived: one block for vectors of
-/// four numbers).
+/// Number of groups of points for which the lines are traversed together (derived: one block if a
+/// vector holds four numbers).
 const CELLS: usize = BLOCK / GROUP / 4;
 
-/// Limit of scaled point coordinates (tolerance: weights must not underflow).
+/// Largest absolute value of a scaled point coordinate; larger values are clamped (derived: at this
+/// distance the weight 1 / distᵇ is still a normal number for the largest exponent b, which is 8).
 const MAX_SCALED_COORDINATE: f64 = 1e36;
 
-/// Smallest a in scaled units (tolerance: far below the resolution of the coordinates).
+/// Lower bound of the constant a in scaled units (tolerance: far below the resolution of the
+/// coordinates).
 pub(super) const MIN_A: f64 = 1e-30;
 
-/// Largest a in scaled units (tolerance: beyond it all distances are negligible).
+/// Upper bound of the constant a in scaled units (tolerance: already so large that distances are
+/// negligible in a + dist).
 pub(super) const MAX_A: f64 = 1e30;
 
-/// Lower bound of Σ w, which replaces the zero sum of an empty set of lines (derived: every
-/// other sum is larger).
+/// Lower bound of the divisor Σ w, which is zero if there are no lines (derived: smaller than the
+/// sum for any line).
 const MIN_WEIGHT: f64 = 1e-300;
 
 /// One number per point of a block.
 type PlaceLanes = [f64; BLOCK];
 
-/// Decrease of the weight, strength / q^b, with q = a + dist.
+/// Decrease of a line's weight with distance: strength / qᵇ with q = a + dist.
 ///
-/// Points come in pairs of vectors, and one division serves both weights:
-/// 1/q₁ = q₂ / (q₁ q₂) and 1/q₂ = q₁ / (q₁ q₂).
+/// Two vectors of points are processed together, and one division gives both weights: 1/q₁ = q₂ /
+/// (q₁ q₂) and 1/q₂ = q₁ / (q₁ q₂).
 trait WeightFalloff: Copy {
-    /// Returns `strength` / q^b for both vectors.
+    /// Returns `strength` / qᵇ for both vectors of q.
     fn weights<S: Simd>(self, simd: S, strength: S::f64s, q: VectorGroup<S>) -> VectorGroup<S>;
 }
 
@@ -102,7 +107,7 @@ impl WeightFalloff for InversePowerFalloff {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScaledLines<'a> {
     pub(super) lines: &'a [FieldLine],
-    /// Transformation to the lines' coordinates.
+    /// Transformation from plane coordinates to the scaled coordinates of `lines`.
     pub(super) plane: ScaledPlane,
     /// The paper's constant a in scaled units.
     pub(super) a: f64,
@@ -110,7 +115,7 @@ pub(super) struct ScaledLines<'a> {
     pub(super) b: f64,
 }
 
-/// Displaces each point by Σ w D / Σ w, into both designs.
+/// Writes each point displaced by Σ w D / Σ w, for both designs.
 ///
 /// Without lines the points stay where they are.
 pub(super) fn look_up(
@@ -165,7 +170,7 @@ struct PlaceBlock {
     /// x and y coordinates. A short block is padded with its last point; the results of the
     /// padding are not used.
     places: [PlaceLanes; 2],
-    /// Displacements by design and axis.
+    /// Displacement of each point, indexed by design and axis.
     mapped: [[PlaceLanes; 2]; 2],
 }
 
@@ -185,7 +190,7 @@ impl PlaceBlock {
         block
     }
 
-    /// Loads group `at` in scaled coordinates, with empty sums.
+    /// Returns group `at` of the points in scaled coordinates, with all sums zero.
     #[inline(always)]
     fn cell<S: Simd>(&self, simd: S, at: usize, plane: &ScaledPlane) -> LaneCell<S> {
         let [x, y] = self.places.each_ref().map(|row| groups::<S>(row)[at]);
@@ -196,7 +201,7 @@ impl PlaceBlock {
         }
     }
 
-    /// Stores the displacements `unit` · Σ w D / Σ w of group `at`.
+    /// Stores the displacements Σ w D / Σ w of group `at`, multiplied by `unit`.
     #[inline(always)]
     fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &LaneCell<S>, unit: f64) {
         // Without lines all sums are 0, and 0 / 10⁻³⁰⁰ gives zero displacement.
@@ -214,7 +219,7 @@ impl PlaceBlock {
         }
     }
 
-    /// Writes the displaced points into both designs.
+    /// Writes the displaced points of the block to both designs.
     #[inline(always)]
     fn write(&self, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
         for (design, [dx, dy]) in designs.into_iter().zip(&self.mapped) {
@@ -225,10 +230,10 @@ impl PlaceBlock {
     }
 }
 
-/// Sums over all lines.
+/// Adds the contributions of all lines to the sums of each cell.
 ///
-/// Square roots have a long latency. They are therefore computed one line ahead for all cells,
-/// so that the processor does not have to look far ahead to hide it.
+/// Square roots have a long latency. The distances to the next line are therefore computed before
+/// the current line is added, so that the processor can overlap the two.
 #[inline(always)]
 fn sum<S: Simd>(
     simd: S,
@@ -263,11 +268,11 @@ fn sum<S: Simd>(
 struct LaneCell<S: Simd> {
     x: VectorGroup<S>,
     y: VectorGroup<S>,
-    /// q = a + dist of the next line.
+    /// q = a + dist for the line that is added next.
     q: VectorGroup<S>,
-    /// Σ w.
+    /// Sum of the weights w so far.
     weight: VectorGroup<S>,
-    /// Σ w D by design and axis.
+    /// Sum of w D so far, indexed by design and axis.
     mapped: [[VectorGroup<S>; 2]; 2],
 }
 
@@ -284,7 +289,7 @@ impl<S: Simd> LaneCell<S> {
         }
     }
 
-    /// Returns q = a + dist for a line.
+    /// Returns q = a + dist of each point for a line.
     #[inline(always)]
     fn reach(&self, simd: S, a: f64, line: &FieldLine) -> VectorGroup<S> {
         let all = |value| simd.splat_f64s(value);
@@ -335,7 +340,8 @@ fn scale_group<S: Simd>(
     ];
     for value in &mut group {
         *value = simd.sub_f64s(simd.mul_f64s(*value, per_unit), centre);
-        // In this order max and min turn NaN into a number, which protects the other lanes.
+        // In this order `max` and `min` turn NaN into a number, so that a NaN point does not affect
+        // the sums of other points.
         *value = simd.max_f64s(*value, simd.neg_f64s(farthest));
         *value = simd.min_f64s(*value, farthest);
     }

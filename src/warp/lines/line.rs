@@ -1,19 +1,21 @@
 //! A line as affine functions of the frame point, the form that the kernel evaluates.
 //!
-//! The coordinates along and across the line and the displacement D are affine in the point X.
-//! With direction e and normal n of the frame's line, e′ and n′ of the design's line, and the
-//! midpoints m and m′,
+//! The coordinates along and across the line and the displacement D are affine functions of the
+//! point X. Let e, n and m be the direction, normal and midpoint of the line PQ in the frame, and
+//! e′, n′ and m′ those of the line P′Q′ in the design. Then
 //! D = m′ − m + ((|P′Q′| e′ / |PQ| − e) eᵀ + (n′ − n) nᵀ) (X − m).
 //!
-//! Guaranteed: D is exactly 0 if both lines are equal, and all numbers are finite. Extension of
-//! the paper: a line whose length differs extremely between frame and design turns into a point.
+//! Guaranteed: D is exactly 0 if both lines are equal, and all coefficients are finite. As an
+//! extension of the paper, a line whose length differs extremely between frame and design is
+//! treated as a point.
 
 use crate::geometry::{DMat2, DVec2};
 
-/// The end points of a line.
+/// Start and end point of a line.
 pub(super) type LineEnds = [DVec2; 2];
 
-/// Ratio of the two lengths below which a line turns gradually into a point (heuristic).
+/// Ratio of the shorter to the longer length of a line, in frame and design, below which the line
+/// gradually turns into a point (heuristic).
 const POINT_LENGTH_RATIO: f64 = 1e-3;
 
 /// Scaled length below which a line is a point (tolerance: squares of larger lengths are normal
@@ -35,15 +37,15 @@ pub(super) type AffineFunction = [f64; 3];
 /// A line in scaled coordinates as the kernel evaluates it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FieldLine {
-    /// Signed distance from the midpoint along the line.
+    /// Signed distance of the point from the line's midpoint, measured along the line.
     pub(super) along: AffineFunction,
-    /// Signed distance to the left of the line.
+    /// Signed distance of the point from the line; positive on the left.
     pub(super) across: AffineFunction,
-    /// Half the length.
+    /// Half the length of the line in the frame.
     pub(super) half: f64,
-    /// (length / greatest length)^(b p).
+    /// Factor of the weight: (length / greatest length of all lines)^(b p).
     pub(super) strength: f64,
-    /// Displacement D into each design, as x and y.
+    /// For each design, the x and y component of the displacement D.
     pub(super) carries: [[AffineFunction; 2]; 2],
 }
 
@@ -101,7 +103,7 @@ impl FieldLine {
         } else {
             DVec2::X
         };
-        // The coordinate of a point along `axis`, relative to the midpoint.
+        // Coordinate of a point along `axis`, relative to the midpoint of the line.
         let coordinate = |axis: DVec2| [-axis.dot(frame.middle), axis.x, axis.y];
         Self {
             along: coordinate(direction),
@@ -113,7 +115,7 @@ impl FieldLine {
     }
 }
 
-/// Returns the displacement D from the frame's line to a design's line.
+/// Returns the x and y component of the displacement D from the frame to a design.
 ///
 /// All coefficients are exactly zero if the two lines are equal.
 fn carry(frame: &MidpointLine, design: &MidpointLine) -> [AffineFunction; 2] {

@@ -2,10 +2,10 @@
 //!
 //! Both variants are in Beier, Neely (1992), §3.3.
 //!
-//! Guaranteed: at t = 0 and t = 1 the line of the design, bit for bit. Exchanging the designs
-//! mirrors the motion in time, up to rounding. For a rotation by π the direction is chosen such
-//! that the line points to a fixed side halfway, so that neither rounding nor an exchange of the
-//! designs changes it. Outside [0, 1] a length that has reached zero stays zero.
+//! Guaranteed: at t = 0 the line is exactly that of the source, at t = 1 exactly that of the
+//! target. Exchanging the designs mirrors the motion in time, up to rounding. A line that rotates
+//! by π points to a fixed side halfway, so that neither rounding nor an exchange of the designs
+//! changes the direction of rotation. Outside [0, 1], a length that reaches zero stays zero.
 
 use super::line::LineEnds;
 use super::options::LineInterpolation;
@@ -16,8 +16,10 @@ use std::f64::consts::TAU;
 /// similarity are off by about 1e-15).
 const HALF_TURN_TOLERANCE: f64 = 1e-9;
 
-/// Direction to which a line points halfway through a rotation by π: up, and for upright lines
-/// to the right. Slightly tilted, so that no common direction is perpendicular to it.
+/// Halfway through a rotation by π, a line is perpendicular to its start. Of the two perpendicular
+/// directions, it takes the one with a positive component along this vector: up, and for upright
+/// lines to the right. The vector is slightly tilted, so that no common direction is perpendicular
+/// to it.
 const HALFWAY_DIRECTION: DVec2 = DVec2::new(0.123, 1.0);
 
 /// A line pair prepared for interpolation.
@@ -78,11 +80,11 @@ impl MovingLine {
     }
 }
 
-/// Returns the unit direction, or `None` for a point, and the length.
+/// Returns the unit direction of a line (`None` for a point) and its length.
 fn polar([from, to]: LineEnds) -> (Option<DVec2>, f64) {
     let along = to - from;
     let length = along.x.hypot(along.y);
-    // The reciprocal of a tiny length would overflow.
+    // Divides, because the reciprocal of a tiny length would overflow.
     let direction = (length > 0.0).then(|| along / length);
     (direction.filter(|d| d.is_finite()), length)
 }
@@ -91,11 +93,11 @@ fn polar([from, to]: LineEnds) -> (Option<DVec2>, f64) {
 fn smaller_angle(first: DVec2, last: DVec2) -> f64 {
     let (sine, cosine) = (first.perp_dot(last), first.dot(last));
     let turn = sine.atan2(cosine);
-    // Near ±π the sign depends on rounding and is chosen below.
+    // Near ±π the sign depends on rounding; it is chosen below.
     if cosine > 0.0 || sine.abs() > HALF_TURN_TOLERANCE {
         return turn;
     }
-    // The direction halfway through a counter-clockwise rotation.
+    // Direction of the line halfway through a counter-clockwise rotation.
     let halfway = (first - last).perp();
     let is_counter_clockwise = halfway.dot(HALFWAY_DIRECTION) > 0.0;
     match (is_counter_clockwise, turn > 0.0) {

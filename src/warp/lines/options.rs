@@ -9,8 +9,8 @@ use crate::settings::named;
 use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
-/// Largest b (derived: the weights at the nearest and at the farthest distinguishable point are
-/// still normal numbers).
+/// Largest permitted exponent b (derived: the weights at the nearest and at the farthest
+/// distinguishable point are still normal numbers).
 const MAX_FALLOFF: f64 = 8.0;
 
 /// Interpolation of a line between the designs.
@@ -42,13 +42,13 @@ named! { LineInterpolation {
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LineOptions {
     /// Constant a > 0 as a fraction of the frame's diameter. Points closer to a line than this
-    /// mainly follow it.
+    /// mainly follow that line.
     pub smoothness: f64,
     /// Exponent b in (0, 8] with which the weight falls off with distance.
     pub falloff: f64,
-    /// Exponent p ≥ 0 of the line's length in the weight.
+    /// Exponent p ≥ 0 of the line's length in the weight; 0 ignores the length.
     pub length_exponent: f64,
-    /// Interpolation of lines between the designs.
+    /// Interpolation of a line between its positions in the designs.
     pub between: LineInterpolation,
 }
 
@@ -67,13 +67,13 @@ impl Default for LineOptions {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinesError {
-    /// a is not a positive finite number.
+    /// The constant a, `smoothness`, is not a positive finite number.
     #[error("the smoothness of the lines is {0}, but must be above 0; the default is 0.01")]
     Smoothness(f64),
-    /// b is out of range.
+    /// The exponent b, `falloff`, is out of range.
     #[error("the falloff of the lines is {0}, but must be above 0 and at most 8; the default is 2")]
     Falloff(f64),
-    /// p is negative or not finite.
+    /// The exponent p, `length_exponent`, is negative or not finite.
     #[error("the length exponent of the lines is {0}, but must be at least 0; the default is 0.5")]
     LengthExponent(f64),
     /// The features are invalid.
@@ -90,7 +90,7 @@ pub(super) struct BeierNeelyConstants {
 }
 
 impl LineOptions {
-    /// Validates the constants and converts a to a length in a frame of this diameter.
+    /// Validates the constants and converts a to a length in a frame with the given diameter.
     pub(super) fn constants(&self, diameter: f64) -> Result<BeierNeelyConstants, LinesError> {
         let (a, b, p) = (self.smoothness, self.falloff, self.length_exponent);
         if !(a > 0.0 && a.is_finite()) {

@@ -1,4 +1,4 @@
-//! Coordinates scaled by a power of two so that feature coordinates are at most about 1.
+//! Coordinates scaled by a power of two so that those of features are of the order of 1.
 //!
 //! Scaling by a power of two is exact, and products of several coordinates neither overflow nor
 //! underflow.
@@ -13,7 +13,7 @@ pub(super) struct ScaledPlane {
     pub(super) unit: f64,
     /// Reciprocal of `unit`.
     pub(super) per_unit: f64,
-    /// Point that becomes the origin, in plane units times `per_unit`.
+    /// Point that becomes the origin, already multiplied by `per_unit`.
     pub(super) centre: DVec2,
 }
 
@@ -53,7 +53,7 @@ impl ScaledPlane {
     }
 }
 
-/// Returns the power of two at or below a magnitude, or 1 for 0.
+/// Returns the largest power of two that does not exceed `magnitude`, or 1 if that is 0.
 ///
 /// The exponent is clamped so that the result and its reciprocal are normal numbers.
 fn power_of_two_at(magnitude: f64) -> f64 {

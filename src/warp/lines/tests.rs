@@ -1,5 +1,5 @@
-//! Tests of the line warp: exact identities, the paper's formula as an oracle, and features that
-//! meet.
+//! Tests of the line warp: exact identities, comparison with the paper's formula, features that
+//! meet, extreme coordinates and invalid input.
 
 use super::line::LineEnds;
 use super::*;
@@ -49,8 +49,8 @@ fn looked_up(lines: &LineWarp, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     actual
 }
 
-/// Map from the frame into one design, given line pairs `[in_frame, in_design]` and a in plane
-/// units.
+/// Map from the frame into one design, given line pairs `[in_frame, in_design]` and the constant a
+/// in plane units.
 struct OneWayMap(LinesAtTime);
 
 impl OneWayMap {
@@ -116,7 +116,7 @@ fn pairs() -> impl Strategy<Value = Vec<[LineEnds; 2]>> {
     prop::collection::vec([segment(), segment()], 1..20)
 }
 
-/// Points of a 3 × 3 grid, which often coincide or are collinear.
+/// Generates points of a 3 × 3 grid, which often coincide or are collinear.
 fn corner() -> impl Strategy<Value = DVec2> {
     (-1..2, -1..2).prop_map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)))
 }
@@ -321,7 +321,7 @@ fn extreme_coordinates_neither_panic_nor_overflow() -> LinesTestResult {
                 looked_up(&lines, t, &points);
             }
         }
-        // Ordinary features with extreme frame points.
+        // Features with ordinary coordinates, evaluated at extreme frame points.
         let lines = LineWarp::new(
             &FRAME,
             &[],

@@ -70,7 +70,7 @@ impl IntrinsicPaths {
     }
 }
 
-/// Returns the sum of each part's fractions of the area of both designs.
+/// Returns the mass of each part: the sum of its fractions of the total area in source and target.
 ///
 /// If a design has no area, all parts have the same mass.
 fn masses(outer: &[&RingPair]) -> Vec<f64> {

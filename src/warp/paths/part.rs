@@ -20,7 +20,7 @@ pub(super) struct IntrinsicPart {
 #[derive(Clone, Debug)]
 struct BridgedHole {
     ring: IntrinsicRing,
-    /// Index of the vertex in the outer ring.
+    /// Index of the bridge's vertex in the outer ring.
     vertex: usize,
     /// Length of the bridge in source and target.
     lengths: [f64; 2],
@@ -33,11 +33,12 @@ struct BridgedHole {
 impl IntrinsicPart {
     /// Creates a part from its rings, the outer ring first; `None` if there are no rings.
     ///
-    /// Of all equivalent rotations the part takes the one nearest to `whole_angle` in radians.
+    /// Of all rotations that differ by whole turns, the part takes the one nearest to
+    /// `whole_angle`, in radians.
     pub(super) fn new(rings: &[RingPair], whole_angle: f64) -> Option<Self> {
         let (first, rest) = rings.split_first()?;
         let mut outer = IntrinsicRing::new(&first.source, &first.target, whole_angle);
-        outer.turn_near(whole_angle);
+        outer.choose_whole_turns(whole_angle);
         let hole = |pair: &RingPair| BridgedHole::new(&outer, first, pair);
         Some(Self {
             holes: rest.iter().map(hole).collect(),
@@ -90,12 +91,13 @@ impl BridgedHole {
         if is_point(&pair.source) || is_point(&pair.target) {
             ring = IntrinsicRing::new(&pair.source, &pair.target, turn);
         }
-        ring.turn_near(turn);
+        ring.choose_whole_turns(turn);
         Self {
             ring,
             vertex,
             lengths: bridges.map(DVec2::length),
-            // Without a direction in the source, it follows from the target's.
+            // A bridge without a direction in the source takes its direction in the target, rotated
+            // back.
             angle: if bridges[0] == DVec2::ZERO {
                 end - turn
             } else {
@@ -117,7 +119,8 @@ pub(super) fn centres(pair: &RingPair, ring: &IntrinsicRing) -> [DVec2; 2] {
     })
 }
 
-/// Returns the vertex with the smallest sum of distances to a point in both designs.
+/// Returns the index of the vertex of `ring` with the smallest sum of distances to `points`, one
+/// point in each design.
 ///
 /// Distances are relative to the ring's diameter in each design.
 fn nearest_vertex(ring: &RingPair, points: [DVec2; 2]) -> usize {

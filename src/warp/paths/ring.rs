@@ -1,9 +1,10 @@
 //! Intrinsic interpolation of one ring.
 //!
-//! Sederberg, Gao, Wang, Mu, "2-D shape blending: an intrinsic solution to the vertex path
-//! problem" (1993), §3 and §4: the lengths and directions of the edges are interpolated. The
-//! resulting polygon has a gap, which is closed by length changes S that minimise Σ (S/w)² with
-//! w = max(|L_A − L_B|, tolerance). Two Lagrange multipliers make this a 2×2 system.
+//! Sederberg, Gao, Wang, Mu, "2-D shape blending: an intrinsic solution to the vertex path problem"
+//! (1993), §3 and §4: the lengths and directions of the edges are interpolated. The resulting
+//! polygon has a gap. It is closed by changing the length of each edge by S, such that Σ (S/w)² is
+//! minimal with w = max(|L_A − L_B|, tolerance), where L_A and L_B are the lengths of the edge in
+//! the two designs. Two Lagrange multipliers make this a 2×2 system.
 //!
 //! Guaranteed: a closed, finite ring at every finite t. Similar rings stay similar. Exchanging
 //! the rings mirrors the motion in time. Not guaranteed: that the ring does not cross itself.
@@ -13,9 +14,9 @@ use crate::geometry::{DMat2, DVec2};
 
 /// Minimum of an edge's weight w, as a fraction of its mean length.
 ///
-/// The paper uses 1e-4 of the largest length change. With so small a value the edges of a bending
-/// arm would shrink to nothing before its end edge, equally long in both designs, could close a
-/// gap across the arm (heuristic).
+/// The paper uses 1e-4 of the largest length change. With so small a value, the end edge of a
+/// bending arm, which is equally long in both designs, could hardly change; the sides of the arm
+/// would shrink to nothing in order to close a gap across it (heuristic).
 const MIN_RELATIVE_CHANGE: f64 = 0.1;
 
 /// Regularisation of the 2×2 system, as a fraction of its trace (tolerance: parallel edges make
@@ -37,10 +38,10 @@ struct IntrinsicEdge {
     angle: f64,
     /// Rotation from source to target, in radians.
     turn: f64,
-    /// Compliance of the length, w² relative to the largest.
+    /// Compliance of the length: w² relative to the largest w² of the ring.
     freedom: f64,
-    /// Mass of the start vertex as a fraction of the ring's mass: half of the two adjacent
-    /// edges, averaged over both designs.
+    /// Mass of the start vertex as a fraction of the ring's mass: half the length of the two
+    /// adjacent edges, averaged over both designs.
     mass: f64,
     /// Fraction of the ring's length before the start vertex.
     before: f64,
@@ -103,7 +104,7 @@ impl IntrinsicRing {
     }
 
     /// Adds whole turns to all edges so that the mean rotation is nearest to `angle` in radians.
-    pub(super) fn turn_near(&mut self, angle: f64) {
+    pub(super) fn choose_whole_turns(&mut self, angle: f64) {
         let added = turning::whole_turns(self.mean_turn(), angle);
         self.edges.iter_mut().for_each(|edge| edge.turn += added);
     }
@@ -182,7 +183,7 @@ fn shares(lengths: &[[f64; 2]]) -> Vec<f64> {
     lengths.iter().map(mean_share).collect()
 }
 
-/// Returns the compliance w² of each edge, relative to the largest.
+/// Returns the compliance w² of each edge, relative to the largest one of the ring.
 ///
 /// An edge that has no length in either design keeps length zero.
 fn freedoms(lengths: &[[f64; 2]]) -> Vec<f64> {

@@ -21,9 +21,9 @@ pub(super) fn edges(ring: &[DVec2]) -> impl Iterator<Item = DVec2> + Clone + '_ 
 
 /// Returns `[angle in the source, rotation from source to target]` of each edge, in radians.
 ///
-/// The rotations are consistent along the ring but only determined up to a common multiple of
-/// 2π. An edge of zero length in one of the rings rotates like the edge before it. If no edge has
-/// a length in both rings, all rotate by `default_turn`.
+/// The rotations are consistent along the ring, but determined only up to a common multiple of 2π.
+/// An edge of zero length in one of the rings rotates like the edge before it. If no edge has a
+/// length in both rings, all rotate by `default_turn`.
 pub(super) fn turns(source: &[DVec2], target: &[DVec2], default_turn: f64) -> Vec<[f64; 2]> {
     let directions = [continuous_angles(source), continuous_angles(target)];
     let turn_of = |k: usize| Some(directions[1][k]? - directions[0][k]?);
@@ -80,7 +80,7 @@ fn fix_reversals(turning: &mut [f64], ring: &[DVec2]) {
     let expected = TAU.copysign(twice_area);
     let mut missing = ((expected - turning.iter().sum::<f64>()) / TAU).round();
     for turn in turning.iter_mut() {
-        // Only at a reversal are both signs possible.
+        // Both signs are possible only at a reversal.
         let can_flip = PI - turn.abs() < REVERSAL_TOLERANCE && *turn * missing < 0.0;
         if can_flip {
             *turn += TAU.copysign(missing);

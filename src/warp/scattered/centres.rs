@@ -3,17 +3,18 @@
 //! Coincident centres are merged, slopes between close centres are limited, coordinates are
 //! normalised, and the best-fit similarity is subtracted from the displacements.
 //!
-//! Slope limit: two features at distance d whose displacements differ by D require a slope of
-//! D / d between them. Up to a limit K nothing is changed. Above it, the difference is multiplied
-//! by (K d / D)², so that the slope returns to zero as the features meet. Without this, the slope
-//! would grow without bound and tear the plane. The system additionally couples the coefficients
-//! of such a pair more and more; otherwise the map would jump at the moment the two merge.
+//! Slope limit: two features at distance d whose displacements differ by D require a slope of D / d
+//! between them. Up to a limit K nothing is changed. Above it, the difference is multiplied by (K d
+//! / D)², so that the slope returns to zero as the features meet. Without this, the slope would
+//! grow without bound and tear the plane. In addition, the linear system couples the coefficients
+//! of such a pair, the more strongly the closer the two are; otherwise the map would jump at the
+//! moment they merge.
 
 use super::kernel::{KernelCentres, RadialSum};
 use crate::geometry::DVec2;
 
-/// Distance below which features are merged, as a fraction of the frame's diameter (tolerance: a
-/// thousandth of a pixel).
+/// Distance below which features are merged, as a fraction of the frame's diameter (tolerance:
+/// about a thousandth of a pixel).
 const MERGE_DISTANCE: f64 = 1e-6;
 
 /// Maximum slope K of the displacement between two features (heuristic).
@@ -22,28 +23,28 @@ const MERGE_DISTANCE: f64 = 1e-6;
 /// design and still be interpolated exactly.
 pub(super) const MAX_SLOPE: f64 = 20.0;
 
-/// Two features whose displacements exceed the slope limit.
+/// Two centres whose displacements would exceed the slope limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ClosePair {
     /// Indices of the two centres, in increasing order.
     pub(super) pair: [usize; 2],
     /// Factor (K d / D)² < 1 by which the difference is multiplied.
     pub(super) shrink_factor: f64,
-    /// Coupling μ of the two coefficients; 0 until the system computes it.
+    /// Coupling μ of the coefficients of the two centres; 0 until the linear system is assembled.
     pub(super) coupling: f64,
 }
 
 /// Centres and displacements of one frame, with reusable memory.
 #[derive(Debug, Default)]
 pub(super) struct CentreData {
-    /// Positions of the centres; normalised by [`Self::centre`].
+    /// Positions of the centres; in plane coordinates until [`Self::normalise`] converts them.
     pub(super) positions: Vec<DVec2>,
-    /// Displacements to the source and to the target.
+    /// Displacements of each centre to the source and to the target.
     pub(super) values: Vec<[DVec2; 2]>,
     /// Pairs that exceed the slope limit, in lexicographic order.
-    pub(super) too_near: Vec<ClosePair>,
+    pub(super) close_pairs: Vec<ClosePair>,
     /// Displacements before the slopes are limited.
-    memory: Vec<[DVec2; 2]>,
+    previous_values: Vec<[DVec2; 2]>,
     /// Number of features merged into each centre.
     counts: Vec<f64>,
 }
@@ -63,7 +64,8 @@ impl CentreData {
         let first = features.clone().next().map_or(DVec2::ZERO, |(p, _)| p);
         let distances = features.clone().map(|(p, _)| p.distance_squared(first));
         let extent = distances.fold(0.0, f64::max).sqrt();
-        // Features far outside the frame have coarser coordinates.
+        // Coordinates far outside the frame are less precise, so the merge distance grows with the
+        // extent of the features.
         let near = MERGE_DISTANCE * unit.max(1e-3 * extent);
         for (place, value) in features {
             let mut centres = self.positions.iter();
@@ -93,10 +95,10 @@ impl CentreData {
     pub(super) fn limit_slopes(&mut self) {
         let Self {
             positions: at,
-            memory,
+            previous_values: memory,
             ..
         } = self;
-        self.too_near.clear();
+        self.close_pairs.clear();
         memory.clear();
         // Uses the original displacements, so that the result is independent of the order.
         memory.extend_from_slice(&self.values);
@@ -110,7 +112,8 @@ impl CentreData {
                     // Strict comparison: equal displacements never need shrinking.
                     if allowed < difference {
                         let shrunk = allowed / difference;
-                        // A mutual weight w shrinks the difference by (1 − w) / (1 + w).
+                        // If each value is averaged with the other at weight w, their difference is
+                        // multiplied by (1 − w) / (1 + w).
                         let weight = (1.0 - shrunk) / (1.0 + shrunk);
                         sums[k] += weight * memory[j][k];
                         weights[k] += weight;
@@ -118,7 +121,7 @@ impl CentreData {
                     }
                 }
                 if min_factor < 1.0 && i < j {
-                    self.too_near.push(ClosePair {
+                    self.close_pairs.push(ClosePair {
                         pair: [i, j],
                         shrink_factor: min_factor,
                         coupling: 0.0,
@@ -131,10 +134,10 @@ impl CentreData {
         }
     }
 
-    /// Normalises the centres and computes their radii rᵢ².
+    /// Normalises the centres and computes their squared radii rᵢ².
     ///
-    /// The origin is the mean of the centres and the scale their largest distance from it, or
-    /// `unit` if all centres coincide.
+    /// The origin is the mean of the centres, and the scale is their largest distance from the
+    /// origin, or `unit` if all centres coincide.
     pub(super) fn normalise(&mut self, unit: f64, sum: &mut RadialSum) {
         let n = self.positions.len();
         sum.origin = self.positions.iter().sum::<DVec2>() / n.max(1) as f64;
@@ -155,31 +158,33 @@ impl CentreData {
         }
         own.resize(n, f64::INFINITY);
         // The recorded pairs have the same order as these loops.
-        let mut too_near = self.too_near.iter().peekable();
+        let mut too_near = self.close_pairs.iter().peekable();
         for i in 0..n {
             for j in i + 1..n {
                 let mut squared = self.positions[i].distance_squared(self.positions[j]);
                 if let Some(near) = too_near.next_if(|near| near.pair == [i, j]) {
-                    // A neighbour about to merge with this centre gradually stops counting.
+                    // A neighbour that is about to merge with this centre gradually stops counting.
                     squared /= near.shrink_factor * near.shrink_factor;
                 }
                 own[i] = own[i].min(squared);
                 own[j] = own[j].min(squared);
             }
         }
-        // A centre without neighbours uses the extent of all centres, at most 2.
+        // Normalised distances are at most 2. A single centre, which has no neighbour, gets this
+        // bound.
         own.iter_mut().for_each(|own| *own = own.min(4.0));
     }
 
     /// Subtracts the best-fit similarity from the displacements and returns it.
     ///
-    /// For each design the result is the constant and the factors of x and y, each as [x, y].
+    /// For each design, the result holds the constant term, the coefficient of x and the
+    /// coefficient of y, each as a vector [x, y].
     pub(super) fn remove_similarity(&mut self) -> [[[f64; 2]; 3]; 2] {
         let n = self.positions.len().max(1) as f64;
         let spread: f64 = self.positions.iter().map(|p| p.length_squared()).sum();
         std::array::from_fn(|k| {
             let mean = self.values.iter().map(|v| v[k]).sum::<DVec2>() / n;
-            // Σ z̄ v / Σ z̄ z, as complex numbers.
+            // The best fit is v ≈ mean + z · Σ z̄ v / Σ z̄ z, with vectors as complex numbers.
             let turns = self.positions.iter().zip(&self.values).map(|(&z, v)| {
                 let v = v[k] - mean;
                 DVec2::new(z.dot(v), z.perp_dot(v))

@@ -10,13 +10,13 @@ use pulp::{Simd, WithSimd};
 /// Number of points evaluated together (resource limit: their sums fit into the first-level
 /// cache).
 ///
-/// Loops over only eight points would be unrolled by the compiler before it vectorises them.
+/// With only eight points, the compiler would unroll the loops instead of vectorising them.
 const LANES: usize = 64;
 
 /// One number per point of a block.
 type SumLanes = [f64; LANES];
 
-/// Radial function φ of the squared distance r² and the centre's squared radius.
+/// Radial function φ, evaluated from the squared distance r² and the centre's squared radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum RadialKernel {
     /// r² log r.
@@ -34,7 +34,8 @@ pub(super) enum RadialKernel {
 }
 
 impl RadialKernel {
-    /// Returns the sign with which the function is (conditionally) positive definite.
+    /// Returns the sign by which the function must be multiplied to be (conditionally) positive
+    /// definite.
     pub(super) fn sign(self) -> f64 {
         match self {
             Self::Multiquadric { exponent } if exponent > 0.0 => -1.0,
@@ -62,10 +63,10 @@ struct RootKernel;
 #[derive(Clone, Copy)]
 struct PowerKernel(f64);
 
-// These are methods with forced inlining, because a closure that remains a call is not
-// vectorised.
+// These are methods with forced inlining instead of closures, because a loop with a closure that is
+// not inlined is not vectorised.
 impl RadialFunction for ThinPlate {
-    /// Returns 0 at 0, because `ln` is finite there.
+    /// Returns r² log r, which is 0 for r = 0 because this `ln` is finite there.
     #[inline(always)]
     fn of(self, r2: f64, _: f64) -> f64 {
         0.5 * r2 * ln(r2)
@@ -155,9 +156,10 @@ pub(super) struct RadialSum {
     /// Scale of the normalised coordinates.
     pub(super) scale: f64,
     pub(super) centres: KernelCentres,
-    /// Coefficients of each centre, as [x, y] for each design.
+    /// Coefficients of each centre: for each design, the vector [x, y].
     pub(super) coefficients: Vec<[[f64; 2]; 2]>,
-    /// For each design the constant and the factors of both coordinates, each as [x, y].
+    /// For each design: the constant term, the coefficient of x and the coefficient of y, each as a
+    /// vector [x, y].
     pub(super) affine: [[[f64; 2]; 3]; 2],
 }
 
@@ -170,7 +172,7 @@ impl RadialSum {
         ));
     }
 
-    /// Computes the displacements at up to [`LANES`] points in normalised coordinates.
+    /// Computes the displacements of up to [`LANES`] points, given in normalised coordinates.
     #[inline(always)]
     fn block<P: RadialFunction>(
         &self,

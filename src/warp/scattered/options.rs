@@ -30,10 +30,10 @@ named! { RadialBasis {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ScatteredOptions {
-    /// Radial function.
+    /// Radial basis function φ.
     pub basis: RadialBasis,
-    /// Radius of the Gaussian as a fraction of the frame's diameter, above 0 and at most 10. A
-    /// radius much larger than the distances of the features loses accuracy.
+    /// Radius of the Gaussian as a fraction of the frame's diameter, above 0 and at most 10.
+    /// Accuracy drops if the radius is much larger than the distances between features.
     pub width: f64,
     /// Exponent μ of the multiquadric in [−1, 1) without 0; Ruprecht and Müller use ½.
     pub exponent: f64,
@@ -65,10 +65,10 @@ pub enum ScatteredError {
     /// The Gaussian's radius is out of range.
     #[error("the width is {0}, but must be above 0 and at most 10 frame diameters")]
     Width(f64),
-    /// μ is out of range.
+    /// The exponent μ is out of range.
     #[error("the exponent is {0}, but must be in [-1, 1) and not 0; the default is 0.5")]
     Exponent(f64),
-    /// λ is out of range.
+    /// The smoothing parameter λ is negative or not finite.
     #[error("the smoothing is {0}, but must be at least 0 and finite; 0 follows every pin exactly")]
     Smoothing(f64),
 }

@@ -25,11 +25,11 @@ use crate::geometry::DVec2;
 use crate::numerics::DenseLu;
 use pulp::Arch;
 
-/// Minimum of E (tolerance: affine maps are reproduced to 1e-12 by centres whose spread in one
-/// direction is a tenth of that in the other).
+/// Smallest value of the regularisation E (tolerance: affine maps are reproduced to 1e-12 by
+/// centres whose spread in one direction is a tenth of that in the other).
 const MIN_SLACK: f64 = 1e-13;
 
-/// Maximum of E.
+/// Largest value added to the regularisation E.
 ///
 /// Derived: for centres within a unit circle the system of r² log r stays positive definite
 /// (Williams and Fitzgibbon, "Gaussian process implicit surfaces", 2006, eq. 9 with R = 2:
@@ -40,16 +40,16 @@ const MAX_SLACK: f64 = 0.4;
 /// error).
 const RIDGES: [f64; 7] = [0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4];
 
-/// Maximum residual relative to the largest displacement before a larger ridge is tried
-/// (tolerance).
+/// Residual of the solved system, relative to the largest displacement, above which the next larger
+/// ridge is tried (tolerance: far below a pixel).
 const MAX_RESIDUAL: f64 = 1e-9;
 
-/// Solver for one frame after another, with reusable memory.
+/// Solver for the coefficients of one frame after another, with reusable memory.
 #[derive(Debug)]
 pub(super) struct RadialSolver {
     pub(super) arch: Arch,
     options: ScatteredOptions,
-    /// Frame diameter, the unit of width, smoothing and merge distance.
+    /// Diameter of the frame: the unit of width, smoothing and merge distance.
     unit: f64,
     places: CentreData,
     system: RidgedSystem,
@@ -83,7 +83,8 @@ impl RadialSolver {
         }
     }
 
-    /// Solves for finite positions and displacements of the features; cannot fail.
+    /// Computes `sum` for the given features: position and displacements to source and target, all
+    /// finite. Cannot fail.
     pub(super) fn solve(&mut self, features: impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone) {
         self.places.merge(features, self.unit);
         self.places.limit_slopes();
@@ -93,7 +94,8 @@ impl RadialSolver {
         let n = self.places.positions.len();
         self.sum.coefficients.clear();
         self.sum.coefficients.resize(n, [[0.0; 2]; 2]);
-        // The similarity may explain everything, as for one feature; then nothing is solved.
+        // If the similarity alone explains all displacements, as for a single feature, nothing is
+        // left to solve.
         let mut remainders = self.places.values.iter().flatten();
         if remainders.any(|r| *r != DVec2::ZERO) {
             self.assemble();
@@ -121,7 +123,7 @@ impl RadialSolver {
         }
     }
 
-    /// Returns λ in normalised coordinates.
+    /// Returns the smoothing parameter λ in normalised coordinates.
     ///
     /// Normalisation multiplies the radial functions by a constant factor, apart from polynomials
     /// that the affine part absorbs.
@@ -136,11 +138,11 @@ impl RadialSolver {
         (self.options.smoothing * factor).min(1e12)
     }
 
-    /// Returns E as [xx, xy, yy].
+    /// Returns the regularisation E as the matrix entries [xx, xy, yy].
     ///
-    /// It is [`MIN_SLACK`], and larger across a line to which the centres are too close for their
-    /// displacements.
-    fn slack(&self) -> [f64; 3] {
+    /// E is [`MIN_SLACK`] in every direction. If the centres nearly lie on a line and their
+    /// displacements require a slope above [`MAX_SLOPE`] across it, E is larger in that direction.
+    fn admissible_slack(&self) -> [f64; 3] {
         let n = self.places.positions.len().max(1) as f64;
         let [mut xx, mut xy, mut yy] = [0.0; 3];
         for p in &self.places.positions {
@@ -199,17 +201,17 @@ impl RadialSolver {
         for i in 0..n {
             self.system.matrix[i * size + i] += lambda;
         }
-        let [xx, xy, yy] = self.slack();
+        let [xx, xy, yy] = self.admissible_slack();
         for (i, j, e) in [(1, 1, xx), (1, 2, xy), (2, 1, xy), (2, 2, yy)] {
             self.system.matrix[(n + j) * size + n + i] = -e;
         }
     }
 
-    /// Adds the coupling μ of close pairs: (1 / shrunk − 1) times the energy of two opposite
-    /// coefficients.
+    /// Adds the coupling μ of close pairs: 1 / `shrink_factor` − 1, times the energy of two
+    /// opposite coefficients.
     fn couple_close_pairs(&mut self) {
         let size = self.places.positions.len() + 3;
-        for near in &mut self.places.too_near {
+        for near in &mut self.places.close_pairs {
             let [i, j] = near.pair;
             let entry = |i: usize, j: usize| self.system.matrix[j * size + i];
             let energy = 0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i));
@@ -218,7 +220,7 @@ impl RadialSolver {
                 energy.abs() + self.places.positions[i].distance_squared(self.places.positions[j]);
             near.coupling = (bounded * (1.0 / near.shrink_factor - 1.0)).min(1e12);
         }
-        for near in &self.places.too_near {
+        for near in &self.places.close_pairs {
             let [i, j] = near.pair;
             for (i, j, mu) in [(i, i, 1.0), (j, j, 1.0), (i, j, -1.0), (j, i, -1.0)] {
                 self.system.matrix[j * size + i] += mu * near.coupling;
@@ -226,7 +228,8 @@ impl RadialSolver {
         }
     }
 
-    /// Copies the solution into `sum`, with the sign of the radial function.
+    /// Copies the solution into `sum` and multiplies the coefficients by the sign of the radial
+    /// function.
     fn store_solution(&mut self) {
         let n = self.places.positions.len();
         let size = n + 3;

@@ -61,7 +61,7 @@ fn stops_outside_the_film_are_reached_and_waited_at() {
     let mut playback = Playback::default();
     let mut visited = Vec::new();
     for _ in 0..4 {
-        playback.act(&Intent::PlayToNextStop, &timing, &stops);
+        playback.apply_intent(&Intent::PlayToNextStop, &timing, &stops);
         playback.advance(100.0, &timing, &stops);
         assert!(!playback.is_playing());
         visited.push(playback.t());
@@ -74,9 +74,9 @@ fn pressing_next_on_the_way_goes_one_stop_further() {
     let timing = timing(PlayMode::Once);
     let stops = [stop(0.25), stop(0.5)];
     let mut playback = Playback::default();
-    playback.act(&Intent::PlayToNextStop, &timing, &stops);
+    playback.apply_intent(&Intent::PlayToNextStop, &timing, &stops);
     playback.advance(0.1, &timing, &stops);
-    playback.act(&Intent::PlayToNextStop, &timing, &stops);
+    playback.apply_intent(&Intent::PlayToNextStop, &timing, &stops);
     playback.advance(100.0, &timing, &stops);
     assert_eq!(playback.t(), 0.5);
 }
@@ -89,7 +89,7 @@ fn reversing_on_the_way_to_a_stop_returns() {
             ..timing(PlayMode::Once)
         };
         let mut playback = Playback::default();
-        playback.act(&Intent::PlayToNextStop, &timing, &[]);
+        playback.apply_intent(&Intent::PlayToNextStop, &timing, &[]);
         playback.advance(0.5, &timing, &[]);
         let t = playback.t();
         playback.reverse();
@@ -106,8 +106,8 @@ fn non_finite_values_are_ignored() {
     let mut playback = Playback::default();
     let before = playback.clone();
     for t in [f64::NAN, f64::INFINITY] {
-        playback.act(&Intent::Seek(t), &timing, &[]);
-        playback.act(&Intent::Speed(t), &timing, &[]);
+        playback.apply_intent(&Intent::Seek(t), &timing, &[]);
+        playback.apply_intent(&Intent::SetSpeed(t), &timing, &[]);
     }
     assert_eq!(playback, before);
 }
@@ -127,25 +127,25 @@ fn speed_steps_through_the_list_and_stays_within_it() {
 
 #[test]
 fn a_film_may_change_only_at_rest_or_near_a_design() {
-    let whole_film = timing(PlayMode::Loop);
+    let full_film = timing(PlayMode::Loop);
     let mut playback = Playback::default();
-    playback.toggle(&whole_film, &[]);
-    assert!(playback.can_swap_film(&whole_film), "at its start");
-    playback.advance(1.0, &whole_film, &[]);
-    assert!(!playback.can_swap_film(&whole_film), "in its midst");
-    playback.advance(0.98, &whole_film, &[]);
-    assert!(playback.can_swap_film(&whole_film), "near its end");
+    playback.toggle(&full_film, &[]);
+    assert!(playback.can_swap_film(&full_film), "at its start");
+    playback.advance(1.0, &full_film, &[]);
+    assert!(!playback.can_swap_film(&full_film), "in between");
+    playback.advance(0.98, &full_film, &[]);
+    assert!(playback.can_swap_film(&full_film), "near its end");
     let middle_part = Timing {
         from: 0.2,
         to: 0.8,
-        ..whole_film
+        ..full_film
     };
     playback.seek(0.5, &middle_part, &[]);
     assert!(
         playback.can_swap_film(&middle_part),
         "it never comes to an end"
     );
-    playback.seek(0.5, &whole_film, &[]);
-    playback.toggle(&whole_film, &[]);
-    assert!(playback.can_swap_film(&whole_film), "at rest");
+    playback.seek(0.5, &full_film, &[]);
+    playback.toggle(&full_film, &[]);
+    assert!(playback.can_swap_film(&full_film), "at rest");
 }

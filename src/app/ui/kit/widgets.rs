@@ -109,7 +109,7 @@ pub fn slider(
 }
 
 /// Number field: drag or type a value within `range`; `speed` is the change per point dragged.
-pub fn drag<N: Numeric>(
+pub fn drag_value<N: Numeric>(
     value: &mut N,
     range: RangeInclusive<N>,
     speed: f64,

@@ -4,7 +4,7 @@ use bevy_egui::egui::epaint::Vertex;
 use bevy_egui::egui::{Align2, Color32, Id, Mesh, Painter, Pos2, Rect, Shape, Vec2, pos2, vec2};
 
 use crate::app::editing::panes::PaneView;
-use crate::app::editing::polyline::spans;
+use crate::app::editing::polyline::inside_intervals;
 use crate::app::editing::sheet::{MatchSheet, PieceFate, SheetPiece};
 use crate::app::editing::sheet_ring::SheetRing;
 use crate::app::input::editor_action::{EditorPointer, EditorTool};
@@ -62,17 +62,17 @@ impl DesignPane {
     }
 
     /// Returns the offset from the pane's centre to the centre of the fitted area.
-    pub fn room_offset(&self) -> Vec2 {
+    pub fn content_offset(&self) -> Vec2 {
         self.content_rect.center() - self.rect.center()
     }
 
     /// Returns the rectangle of the other design's pane.
     pub fn opposite_pane(&self) -> Rect {
-        let by = match self.side {
+        let dx = match self.side {
             Side::Source => self.rect.width(),
             Side::Target => -self.rect.width(),
         };
-        self.rect.translate(vec2(by, 0.0))
+        self.rect.translate(vec2(dx, 0.0))
     }
 
     /// Maps a point of the common frame to the window.
@@ -130,8 +130,8 @@ impl DesignPane {
         let texture = texture(painter.ctx(), id, picture.pixels(), MAX_IMAGE_PX);
         let (width, height) = picture.pixels().dimensions();
         let corner = |x: f64, y: f64| {
-            let own = DVec2::new(x * f64::from(width), y * f64::from(height));
-            self.px(picture.place().apply(own))
+            let place = DVec2::new(x * f64::from(width), y * f64::from(height));
+            self.px(picture.place().apply(place))
         };
         let mut quad = Mesh::with_texture(texture.id());
         for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
@@ -199,7 +199,7 @@ impl DesignPane {
             let is_unmatched = piece.is_some_and(|piece| piece.fate != PieceFate::Paired);
             let points = self.line(&ring.sides[self.side]);
             if ring.kind == RingKind::Matched && !is_unmatched {
-                boundary_stripe::stripe(painter, &points, &ring.places, k, colours.is_light);
+                boundary_stripe::stripe(painter, &points, &ring.positions, k, colours.is_light);
             } else {
                 draw_unmatched_ring(painter, points, colours);
                 if !is_unmatched {
@@ -237,7 +237,7 @@ impl DesignPane {
     /// Hatches a piece that has no partner.
     fn hatch(&self, painter: &Painter, sheet: &MatchSheet, piece: usize, colour: Color32) {
         // Rotated by 45 degrees, so that the hatch lines become horizontal.
-        let turned = |p: &DVec2| {
+        let rotate = |p: &DVec2| {
             let p = self.px(*p);
             DVec2::new(f64::from(p.x + p.y), f64::from(p.y - p.x))
         };
@@ -245,7 +245,7 @@ impl DesignPane {
             .rings
             .iter()
             .filter(|ring| ring.piece == piece)
-            .map(|ring| ring.sides[self.side].iter().map(turned).collect())
+            .map(|ring| ring.sides[self.side].iter().map(rotate).collect())
             .collect();
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return;
@@ -262,7 +262,7 @@ impl DesignPane {
             .y
             .min(f64::from(visible.bottom() - visible.left()));
         while y <= max_y {
-            for [a, b] in spans(rings.iter().map(Vec::as_slice), y) {
+            for [a, b] in inside_intervals(rings.iter().map(Vec::as_slice), y) {
                 let unrotated = |x: f64| pos2(((x - y) / 2.0) as f32, ((x + y) / 2.0) as f32);
                 painter.line_segment([unrotated(a), unrotated(b)], (1.0, colour));
             }

@@ -8,7 +8,7 @@ use crate::app::input::editor_action::EditorPane;
 use crate::app::input::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, SMALL};
 use crate::app::ui::match_editor::colours::EditorColours;
-use crate::app::ui::match_editor::toolbar::{ADVICE_HEIGHT, BAR_HEIGHT};
+use crate::app::ui::match_editor::toolbar::{BAR_HEIGHT, INSTRUCTIONS_HEIGHT};
 use crate::app::ui::stage::area::{self, zoom_factor};
 use crate::app::ui::stage::{checks, onion};
 use crate::app::ui::ui_state::{Intents, UiState};
@@ -24,7 +24,7 @@ pub fn show(
 ) -> Rect {
     let film_rect = Rect::from_min_max(
         column.min + vec2(0.0, BAR_HEIGHT + 4.0 * GRID),
-        column.max - vec2(0.0, ADVICE_HEIGHT),
+        column.max - vec2(0.0, INSTRUCTIONS_HEIGHT),
     );
     let painter = root.painter().with_clip_rect(column);
     let (above, rest) = column.split_top_bottom_at_y(film_rect.top());

@@ -11,7 +11,7 @@ use crate::app::ui::kit::theme::{GRID, SMALL};
 use crate::app::ui::kit::widgets::text_card;
 use crate::app::ui::match_editor::colours::EditorColours;
 use crate::app::ui::match_editor::design_pane::DesignPane;
-use crate::app::ui::match_editor::toolbar::{ADVICE_HEIGHT, BAR_HEIGHT};
+use crate::app::ui::match_editor::toolbar::{BAR_HEIGHT, INSTRUCTIONS_HEIGHT};
 use crate::app::ui::ui_state::UiState;
 use crate::geometry::{DVec2, Side};
 
@@ -53,7 +53,7 @@ fn features(
 ) {
     for (k, pair) in sheet.features.iter().enumerate() {
         let handle = EditorHandle::Feature(k);
-        let colour = if editor.is_lit(handle) {
+        let colour = if editor.is_highlighted(handle) {
             colours.ink
         } else {
             colours.ground.lerp_to_gamma(colours.ink, 0.65)
@@ -61,7 +61,7 @@ fn features(
         let at = pane.px(pair[pane.side]);
         painter.circle(at, FEATURE_RADIUS, colours.ground, (1.0, colour));
         let letter = sheet.letters.get(k).copied().unwrap_or(k);
-        disc_label(painter, at, labels::of_point(letter), colour);
+        disc_label(painter, at, labels::point_label(letter), colour);
     }
 }
 
@@ -78,7 +78,7 @@ fn pins(painter: &Painter, state: &UiState, pane: &DesignPane, colours: &EditorC
             PIN_RADIUS
         };
         let at = pane.px(pin[pane.side]);
-        let is_faulty = sheet.faulty.contains(&k);
+        let is_faulty = sheet.faulty_pins.contains(&k);
         let fill = match (is_faulty, is_selected) {
             (true, _) => colours.problem,
             (false, true) => colours.accent,
@@ -135,7 +135,7 @@ fn cuts(
     colours: &EditorColours,
 ) {
     for (k, shown) in sheet.cuts.iter().enumerate() {
-        let cut = sheet.drawn(shown, editor.grabbed.map(|(_, grab)| grab));
+        let cut = sheet.cut_to_draw(shown, editor.grabbed.map(|(_, grab)| grab));
         if cut.side != pane.side {
             continue;
         }
@@ -144,7 +144,7 @@ fn cuts(
         let stroke = (2.0, colours.accent);
         painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 3.0));
         for (at, end) in ends.into_iter().zip([CutEnd::Outer, CutEnd::Hole]) {
-            let is_lit = editor.is_lit(EditorHandle::Cut(k, end));
+            let is_lit = editor.is_highlighted(EditorHandle::Cut(k, end));
             let size = if is_lit { 13.0 } else { 10.0 };
             let fill = if shown.requested_index.is_some() {
                 colours.accent
@@ -174,7 +174,7 @@ fn link(
         _ => editor.hovered,
     };
     let of_handle = |handle: EditorHandle| -> Option<[DVec2; 2]> {
-        let [source, target] = Side::BOTH.map(|side| sheet.place(handle, side));
+        let [source, target] = Side::BOTH.map(|side| sheet.handle_position(handle, side));
         Some([source?, target?])
     };
     let ends = highlighted.and_then(of_handle);
@@ -206,14 +206,18 @@ fn problem_card(
     // In the pane that is being edited, because the edit caused the problem.
     let side = editor.grabbed.map_or(Side::Source, |(side, _)| side);
     let pane = &panes[side];
-    let faulty = state.sheet.faulty.last().map(|k| EditorHandle::Pin(*k));
-    let selected_faulty = editor
-        .selected
-        .filter(|handle| matches!(handle, EditorHandle::Pin(k) if state.sheet.faulty.contains(k)));
+    let faulty = state
+        .sheet
+        .faulty_pins
+        .last()
+        .map(|k| EditorHandle::Pin(*k));
+    let selected_faulty = editor.selected.filter(
+        |handle| matches!(handle, EditorHandle::Pin(k) if state.sheet.faulty_pins.contains(k)),
+    );
     let at = selected_faulty
         .or(faulty)
         .or(editor.selected)
-        .and_then(|handle| state.sheet.place(handle, side))
+        .and_then(|handle| state.sheet.handle_position(handle, side))
         .map(|p| pane.px(p) + vec2(2.0 * GRID, GRID));
     let unchanged = if state.session.transition().is_some() {
         " The transition is unchanged."
@@ -227,7 +231,7 @@ fn problem_card(
     let area = pane.rect.shrink(GRID);
     let area = Rect::from_min_max(
         area.min + vec2(0.0, BAR_HEIGHT + GRID),
-        area.max - vec2(0.0, ADVICE_HEIGHT),
+        area.max - vec2(0.0, INSTRUCTIONS_HEIGHT),
     );
     // No pin is to blame: a corner, where the card covers least.
     let corner = at.unwrap_or_else(|| area.left_bottom() - vec2(0.0, size.y));

@@ -15,7 +15,7 @@ use crate::app::ui::match_editor::design_pane::DesignPane;
 use crate::app::ui::match_editor::film_pane;
 use crate::app::ui::match_editor::handles;
 use crate::app::ui::match_editor::toolbar;
-use crate::app::ui::match_editor::toolbar::{ADVICE_HEIGHT, BAR_HEIGHT};
+use crate::app::ui::match_editor::toolbar::{BAR_HEIGHT, INSTRUCTIONS_HEIGHT};
 use crate::app::ui::stage::area::zoom_factor;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::design::Picture;
@@ -36,7 +36,7 @@ pub fn show(root: &mut Ui, state: &UiState, full_rect: Rect, intents: &mut Inten
     for pane in &design_panes {
         pane.draw(&painter, state, &colours);
     }
-    let between = stage.top() + BAR_HEIGHT + GRID..=stage.bottom() - ADVICE_HEIGHT;
+    let between = stage.top() + BAR_HEIGHT + GRID..=stage.bottom() - INSTRUCTIONS_HEIGHT;
     let right = column.map(|column| column.left());
     for x in right.into_iter().chain([stage.center().x]) {
         painter.vline(x, between.clone(), (1.0, colours.faint));
@@ -73,7 +73,7 @@ fn design_panes(state: &UiState, stage: Rect, sides: &[SheetSide; 2]) -> [Design
     let pane = |side: Side, rect: Rect| {
         let room = Rect::from_min_max(
             rect.min + vec2(3.0 * GRID, BAR_HEIGHT + 4.0 * GRID),
-            rect.max - vec2(3.0 * GRID, ADVICE_HEIGHT + GRID),
+            rect.max - vec2(3.0 * GRID, INSTRUCTIONS_HEIGHT + GRID),
         );
         let design = &sides[side];
         let picture = design
@@ -161,7 +161,7 @@ fn has_left(state: &UiState, pane: &DesignPane, response: &Response) -> bool {
 fn zoom(ui: &Ui, pane: &DesignPane, from_middle: egui::Vec2, send: &mut impl FnMut(EditorAction)) {
     if let Some(factor) = zoom_factor(ui) {
         // The view zooms about the centre of the fitted area, which lies below the toolbar.
-        let at = from_middle - pane.room_offset();
+        let at = from_middle - pane.content_offset();
         send(EditorAction::Zoom {
             pane: EditorPane::Design(pane.side),
             at: Vec2::new(at.x, at.y),

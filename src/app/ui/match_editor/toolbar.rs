@@ -12,7 +12,7 @@ use crate::app::ui::ui_state::{Intents, UiState};
 pub const BAR_HEIGHT: f32 = 48.0;
 
 /// Height of the line of instructions at the lower edge, in points.
-pub const ADVICE_HEIGHT: f32 = 40.0;
+pub const INSTRUCTIONS_HEIGHT: f32 = 40.0;
 
 /// Draws the toolbar.
 pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
@@ -55,7 +55,7 @@ fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     ];
     for (tool, applies, name, tip) in tools {
         if applies && choice_button(ui, state.editor.tool == tool, name, tip, 52.0) {
-            intents.push(Intent::Editor(EditorAction::Tool(tool)));
+            intents.push(Intent::Editor(EditorAction::SelectTool(tool)));
         }
     }
     if !state.sheet.shows_pictures() {
@@ -79,8 +79,8 @@ fn views(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
         send(EditorAction::ShowFilm(!panes.film));
     }
     let tip = "On: all panes pan and zoom together. Off: each separately.";
-    if choice_button(ui, panes.together, "Link views", tip, 68.0) {
-        send(EditorAction::LinkPanes(!panes.together));
+    if choice_button(ui, panes.are_linked, "Link views", tip, 68.0) {
+        send(EditorAction::LinkPanes(!panes.are_linked));
     }
 }
 
@@ -91,7 +91,7 @@ fn outline_tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     ui.add_space(GRID);
     let tip = "Snaps pins to nearby corners. Hold Shift to place a pin freely.";
     if choice_button(ui, editor.snaps, "Snap", tip, 52.0) {
-        send(EditorAction::Snap(!editor.snaps));
+        send(EditorAction::SetSnapping(!editor.snaps));
     }
     let tip = "Shows the triangles that divide both designs, the same ones on either side.";
     if choice_button(ui, editor.triangles, "Triangles", tip, 68.0) {

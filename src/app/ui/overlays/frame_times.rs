@@ -25,10 +25,10 @@ fn line(ui: &mut Ui, state: &UiState) {
         .on_hover_text("Median of the last frames");
     let total = ("Total", &state.frame_intervals.0);
     let stages = match state.map.is_shown {
-        true => vec![("Blend and draw", state.map.times()), total],
+        true => vec![("Blend and draw", state.map.draw_times()), total],
         false => vec![
-            ("Solve", &state.times.solve),
-            ("Draw", &state.times.draw),
+            ("Solve", &state.frame_times.solve),
+            ("Draw", &state.frame_times.draw),
             total,
         ],
     };
@@ -50,7 +50,7 @@ fn frame_source(state: &UiState) -> (String, String) {
     match state.session.transition().and_then(Transition::recording) {
         Some(Ok(film)) => {
             let megabytes = film.bytes() as f64 / 1e6;
-            let (kind, source) = match state.times.is_gpu_played {
+            let (kind, source) = match state.frame_times.is_gpu_played {
                 true => ("GPU recording", "the GPU"),
                 false => ("Recording", "memory"),
             };
@@ -63,7 +63,10 @@ fn frame_source(state: &UiState) -> (String, String) {
             (format!("{kind} {megabytes:.1} MB"), details)
         }
         Some(Err(error)) => (solved(), error.to_string()),
-        None => match (state.recording.progress(), state.recording.refused()) {
+        None => match (
+            state.recording.progress(),
+            state.recording.recording_error(),
+        ) {
             (Some((stage, fraction)), _) => (
                 format!("Solved, {stage} {:.0} %", 100.0 * fraction),
                 "Frames are solved until the transition has been recorded".to_owned(),

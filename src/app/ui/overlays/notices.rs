@@ -38,14 +38,14 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
 fn exceeds_limits(state: &UiState, notice: &Notice) -> bool {
     let problem = state.session.problem();
     notice.kind == NoticeKind::Problem(NoticeTopic::Transition)
-        && problem.is_some_and(TransitionProblem::is_too_much)
+        && problem.is_some_and(TransitionProblem::exceeds_limits)
 }
 
 fn message(ui: &mut Ui, notice: &Notice, exceeds_limits: bool, width: f32, intents: &mut Intents) {
     let palette = ThemePalette::of(ui);
     let (icon, colour) = match notice.kind {
         NoticeKind::Problem(_) => (icons::WARNING, palette.problem),
-        NoticeKind::Done | NoticeKind::FileWritten => (icons::TICK, palette.accent),
+        NoticeKind::Confirmation | NoticeKind::FileWritten => (icons::TICK, palette.accent),
         NoticeKind::Note => (icons::WARNING, palette.amber),
     };
     card(ui, egui::Margin::symmetric(12, 8), |ui| {

@@ -18,9 +18,9 @@ const PREVIEW_SIDE: f32 = 120.0;
 pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
     let build = state.session.visible_work();
     let build = build.map(|work| (work, Intent::CancelWork));
-    let export = state.recorder.work();
+    let export = state.exporter.work();
     let export = export.map(|work| (work, Intent::CancelExport));
-    let choice = state.choosing.visible_progress();
+    let choice = state.method_search.visible_progress();
     let choice = choice.map(|fraction| (("Trying methods", fraction), Intent::CancelMethodSearch));
     let all: Vec<_> = build.into_iter().chain(choice).chain(export).collect();
     if all.is_empty() {
@@ -30,7 +30,7 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
     fixed_layer("work", Align2::CENTER_TOP, at).show(ctx, |ui| {
         for ((stage, fraction), cancel) in all {
             let picture = match cancel {
-                Intent::CancelExport => state.recorder.preview(),
+                Intent::CancelExport => state.exporter.preview(),
                 _ => None,
             };
             progress_card(ui, stage, fraction, picture, cancel, intents);

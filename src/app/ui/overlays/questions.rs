@@ -17,7 +17,7 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
         ask_before_closing(ctx, kind, words, intents);
     } else if let Some((title, age)) = state.autosave.recoverable() {
         ask_recover(ctx, title, age, intents);
-    } else if let Some(path) = state.drop.undecided() {
+    } else if let Some(path) = state.dropped_design.undecided() {
         ask_drop(ctx, state, path, intents);
     }
 }

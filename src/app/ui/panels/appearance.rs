@@ -5,7 +5,7 @@ use bevy_egui::egui::{Ui, vec2};
 use crate::app::input::intent::Intent;
 use crate::app::input::preferences::Preferences;
 use crate::app::ui::kit::widgets::{
-    choice, choice_row, drag, number, row, section, slider, toggle, with_tooltip,
+    choice, choice_row, drag_value, number, row, section, slider, toggle, with_tooltip,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
@@ -156,7 +156,7 @@ fn colour(ui: &mut Ui, label: &str, tip: &str, value: &mut Rgb) {
 }
 
 fn bars(ui: &mut Ui, draft: &mut Project) {
-    let width = drag(&mut draft.options.bar_width, 0.001..=0.2, 0.0002, 4);
+    let width = drag_value(&mut draft.options.bar_width, 0.001..=0.2, 0.0002, 4);
     let tip = "Thickness of the bars, as a fraction of the design's size. Also used for their \
                distance field.";
     number(ui, "Bar width", tip, width);

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::Ui;
 
-use crate::app::ui::kit::widgets::{choice_list, choice_row, drag, number, section, slider};
+use crate::app::ui::kit::widgets::{choice_list, choice_row, drag_value, number, section, slider};
 use crate::content::{BlendSpace, ColourMix, FieldBlend};
 use crate::field::Metric;
 use crate::transition::FieldOptions;
@@ -16,14 +16,14 @@ pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
         let tip = "How fast one picture fades into the other.";
         choice_list(ui, "Curve", tip, &mut mix.curve);
         // The limits keep both ends apart.
-        let from = drag(&mut mix.from, 0.0..=mix.to - MIN_RANGE, 0.005, 2);
+        let from = drag_value(&mut mix.from, 0.0..=mix.to - MIN_RANGE, 0.005, 2);
         number(
             ui,
             "From t",
             "Before this moment only the source is visible.",
             from,
         );
-        let to = drag(&mut mix.to, mix.from + MIN_RANGE..=1.0, 0.005, 2);
+        let to = drag_value(&mut mix.to, mix.from + MIN_RANGE..=1.0, 0.005, 2);
         number(
             ui,
             "To t",
@@ -46,7 +46,7 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
         ui.add_enabled_ui(is_euclidean, |ui| {
             choice_row(ui, "Outline", tip, &mut field.boundary)
         });
-        let cells = drag(&mut field.cells, 32..=4096, 4.0, 0);
+        let cells = drag_value(&mut field.cells, 32..=4096, 4.0, 0);
         let tip = "Number of cells along the longer side. More cells give finer detail; softness \
                    and threshold then mean smaller distances.";
         number(ui, "Cells", tip, cells);

@@ -11,7 +11,7 @@ use crate::app::ui::kit::icons;
 use crate::app::ui::kit::text::capitalised;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{
-    automatic_toggle, choice_row, drag, from_right, icon_button, number, row, secondary_text,
+    automatic_toggle, choice_row, drag_value, from_right, icon_button, number, row, secondary_text,
     section, slider, toggle,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
@@ -252,7 +252,7 @@ fn import_options(ui: &mut Ui, entry: &mut DesignEntry) {
         MIDDLE_GREY,
     );
     if let Some(threshold) = &mut import.threshold {
-        let level = drag(threshold, 1..=255, 0.5, 0);
+        let level = drag_value(threshold, 1..=255, 0.5, 0);
         let tip = "Grey level that separates shape from background, 1 to 255. Higher values add \
                    more to the shape.";
         number(ui, "Threshold", tip, level);
@@ -262,7 +262,7 @@ fn import_options(ui: &mut Ui, entry: &mut DesignEntry) {
     let min_area = DragValue::new(&mut import.specks_px).speed(0.2);
     let tip = "Ignores spots and holes with fewer pixels than this.";
     number(ui, "Ignore spots", tip, min_area);
-    let tolerance = drag(&mut import.tolerance, 0.0..=0.1, 0.0001, 4);
+    let tolerance = drag_value(&mut import.tolerance, 0.0..=0.1, 0.0001, 4);
     let tip = "Maximum distance between the traced outline and the exact edge, as a fraction of \
                the longer side. Larger values give fewer corners.";
     number(ui, "Tolerance", tip, tolerance);

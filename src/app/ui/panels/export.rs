@@ -8,7 +8,7 @@ use crate::app::playback::player::landmarks;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
 use crate::app::ui::kit::widgets::{
-    choice_row, choices, choices_row, choices_where, drag, from_right, hint, icon_button,
+    choice_row, choices, choices_row, choices_where, drag_value, from_right, hint, icon_button,
     primary_button, row, secondary_text, section, slider, toggle,
 };
 use crate::app::ui::ui_state::{Intents, UiState};
@@ -58,7 +58,7 @@ pub fn foot(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         ui.set_width(ui.available_width());
         summary(ui, state);
         ui.add_space(GRID);
-        let is_free = state.recorder.work().is_none() && state.film.0.is_some();
+        let is_free = state.exporter.work().is_none() && state.film_framing.0.is_some();
         ui.add_enabled_ui(is_free, |ui| {
             if primary_button(ui, "Export").clicked() {
                 intents.push(Intent::ExportFilm);
@@ -75,7 +75,7 @@ fn film(ui: &mut Ui, state: &UiState, draft: &mut Preferences, intents: &mut Int
     choice_row(ui, "Aspect ratio", tip, &mut layout.aspect);
     let tip = "Pixels along the shorter side. Choose a size, or type one.";
     row(ui, "Size", tip, |ui| {
-        let custom = drag(&mut layout.lines, 16..=4320, 4.0, 0);
+        let custom = drag_value(&mut layout.lines, 16..=4320, 4.0, 0);
         let custom = ui.add_sized([48.0, CONTROL_HEIGHT], custom);
         custom | choices(ui, &mut layout.lines, &STANDARD_SIZES)
     });
@@ -227,14 +227,14 @@ fn save_preset(ui: &mut Ui, intents: &mut Intents) {
 fn range(ui: &mut Ui, state: &UiState, options: &mut FilmExportOptions) {
     let tip = "Stops at which the film starts and ends. Add stops with M.";
     row(ui, "Range", tip, |ui| {
-        let mut places = options.places(state.session.timing(), state.session.stops());
+        let mut places = options.valid_range(state.session.timing(), state.session.stops());
         let before = places;
         let [from, to] = &mut places;
         let width = (ui.available_width() - GRID) / 2.0;
         let first = end_list(ui, state, "film from", from, "Start", width);
         let last = end_list(ui, state, "film to", to, "End", width);
         if places != before {
-            options.span = places;
+            options.range = places;
         }
         first | last
     });
@@ -284,7 +284,7 @@ fn format_advice(ui: &mut Ui, state: &UiState, draft: &Preferences) {
 
 /// Describes the file that would be exported.
 fn summary(ui: &mut Ui, state: &UiState) {
-    let Some(framed) = &state.film.0 else {
+    let Some(framed) = &state.film_framing.0 else {
         let text = match state.session.transition() {
             Some(_) => "Nothing to export: the film would end where it starts.",
             None => "Nothing to export yet.",

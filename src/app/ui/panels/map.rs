@@ -9,7 +9,7 @@ use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, RADIUS, ThemePalette};
 use crate::app::ui::kit::widgets::{from_right, hint, icon_button, section};
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
-use crate::project::{MapSettings, SavedPlace};
+use crate::project::{MapSettings, SavedBlend};
 use crate::space::MapPath;
 
 /// Width of a row's number, in points.
@@ -104,7 +104,7 @@ fn saved_blends(ui: &mut Ui, state: &UiState, draft: &mut MapSettings, intents: 
 }
 
 /// Draws the thumbnail of a blend; a click moves the marker there.
-fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedPlace, intents: &mut Intents) {
+fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedBlend, intents: &mut Intents) {
     let side = 2.0 * CONTROL_HEIGHT + ui.spacing().item_spacing.y;
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     let Rgb([r, g, b]) = state.session.style().ground;
@@ -126,7 +126,7 @@ fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedPlace, intents: 
 }
 
 /// Draws name, rating and note of a blend; returns whether it is to be removed.
-fn entry(ui: &mut Ui, place: &mut SavedPlace) -> bool {
+fn entry(ui: &mut Ui, place: &mut SavedBlend) -> bool {
     let mut is_removed = false;
     ui.horizontal(|ui| {
         from_right(ui, |ui| {
@@ -144,10 +144,10 @@ fn entry(ui: &mut Ui, place: &mut SavedPlace) -> bool {
 }
 
 /// Draws the rating: a click on a star sets it, a click on the last filled star clears it.
-fn stars(ui: &mut Ui, place: &mut SavedPlace) {
+fn stars(ui: &mut Ui, place: &mut SavedBlend) {
     ui.spacing_mut().item_spacing.x = 0.0;
     let rating = place.stars;
-    for star in 1..=SavedPlace::MOST_STARS {
+    for star in 1..=SavedBlend::MOST_STARS {
         let palette = ThemePalette::of(ui);
         let (icon, ink) = match star <= rating {
             true => (icons::STAR, palette.amber),

@@ -62,7 +62,7 @@ fn choose(ui: &mut Ui, state: &UiState, content: ContentKind, intents: &mut Inte
         return;
     }
     let is_idle =
-        state.choosing.visible_progress().is_none() && state.session.transition().is_some();
+        state.method_search.visible_progress().is_none() && state.session.transition().is_some();
     let button = ui.add_enabled(is_idle, Button::new("Choose the best method"));
     let tip = "Tries rigid parts, distance fields carried by them and the plain field blend, and \
                chooses the film with the fewest defects.";
@@ -122,7 +122,7 @@ fn cell(
     width: f32,
     intents: &mut Intents,
 ) {
-    let available = state.session.available(warp, content);
+    let available = state.session.check_method(warp, content);
     let is_chosen = (project.warp, project.content) == (Some(warp), Some(content));
     // Not disabled: an unavailable cell must still show its tooltip.
     let sense = if available.is_ok() {

@@ -47,7 +47,7 @@ pub fn show(ui: &mut Ui, state: &UiState, times: &mut Vec<PartTime>) {
                 for piece in rows {
                     let before = entries[piece].map_or(PartClock::WHOLE, |k| times[k].clock());
                     if let Some(clock) = row(ui, sheet, before, piece) {
-                        part_times::set(sheet, times, piece, clock);
+                        part_times::set_part_time(sheet, times, piece, clock);
                         break; // `entries` no longer matches `times`
                     }
                 }
@@ -67,7 +67,7 @@ fn stagger(ui: &mut Ui, sheet: &MatchSheet, times: &mut Vec<PartTime>) {
                 let item = ui.button(name.title);
                 tooltip_left(&item, item.rect.left(), name.sentence);
                 if item.clicked() {
-                    *times = part_times::staggered(sheet, order);
+                    *times = part_times::staggered_times(sheet, order);
                 }
             }
         });

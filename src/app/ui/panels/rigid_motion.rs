@@ -5,7 +5,9 @@ use std::ops::RangeInclusive;
 use bevy_egui::egui::{DragValue, Ui};
 
 use crate::app::ui::kit::theme::CONTROL_HEIGHT;
-use crate::app::ui::kit::widgets::{choice_list, choices, drag, number, row, section, toggle};
+use crate::app::ui::kit::widgets::{
+    choice_list, choices, drag_value, number, row, section, toggle,
+};
 use crate::app::ui::ui_state::UiState;
 use crate::warp::{ArapOptions, ArapPath, FaceWeights};
 
@@ -29,7 +31,7 @@ pub fn show(ui: &mut Ui, state: &UiState, arap: &mut ArapOptions) {
         toggle(ui, "Symmetric", tip, &mut arap.symmetric);
         path(ui, &mut arap.path);
         extra_turns(ui, &mut arap.extra_turns, state.session.parts());
-        let subdivisions = drag(&mut arap.subdivisions, 0..=MAX_SUBDIVISIONS, 0.02, 0);
+        let subdivisions = drag_value(&mut arap.subdivisions, 0..=MAX_SUBDIVISIONS, 0.02, 0);
         let tip = "Splits each triangle into four, this many times. Parts bend more softly, frames \
                    take longer.";
         number(ui, "Subdivide", tip, subdivisions);
@@ -105,11 +107,16 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
     if is_per_part {
         for (part, turn) in turns.iter_mut().enumerate().take(MAX_PARTS) {
             let label = format!("Turns, part {}", part + 1);
-            number(ui, &label, tip, drag(turn, TURN_RANGE, 0.02, 0));
+            number(ui, &label, tip, drag_value(turn, TURN_RANGE, 0.02, 0));
         }
     } else {
         let mut all = first;
-        number(ui, "Extra turns", tip, drag(&mut all, TURN_RANGE, 0.02, 0));
+        number(
+            ui,
+            "Extra turns",
+            tip,
+            drag_value(&mut all, TURN_RANGE, 0.02, 0),
+        );
         if all != first {
             *turns = if all == 0 { Vec::new() } else { vec![all] };
         }

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::Ui;
 
-use crate::app::ui::kit::widgets::{choice_list, choice_row, drag, number, section, toggle};
+use crate::app::ui::kit::widgets::{choice_list, choice_row, drag_value, number, section, toggle};
 use crate::warp::{
     FeatureTravel, LatticeOptions, LineOptions, PathOptions, RadialBasis, ScatteredOptions,
 };
@@ -39,14 +39,14 @@ pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
     section(ui, "Lines", |ui| {
         let tip = "How a line is interpolated between source and target.";
         choice_row(ui, "Interpolation", tip, &mut lines.between);
-        let smoothness = drag(&mut lines.smoothness, 1e-4..=1.0, 0.001, 3);
+        let smoothness = drag_value(&mut lines.smoothness, 1e-4..=1.0, 0.001, 3);
         let tip = "How smoothly the plane follows the lines, in frame diagonals. Small values \
                    follow them to the pixel.";
         number(ui, "Smoothness", tip, smoothness);
-        let falloff = drag(&mut lines.falloff, 0.1..=8.0, 0.02, 2);
+        let falloff = drag_value(&mut lines.falloff, 0.1..=8.0, 0.02, 2);
         let tip = "How fast a line's influence decreases with distance.";
         number(ui, "Falloff", tip, falloff);
-        let exponent = drag(&mut lines.length_exponent, 0.0..=2.0, 0.01, 2);
+        let exponent = drag_value(&mut lines.length_exponent, 0.0..=2.0, 0.01, 2);
         let tip = "How much more long lines weigh. 0: not at all. 1: in proportion to length.";
         number(ui, "Length weight", tip, exponent);
     });
@@ -60,12 +60,12 @@ pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
         match scattered.basis {
             RadialBasis::ThinPlate => {}
             RadialBasis::Gaussian => {
-                let width = drag(&mut scattered.width, 0.005..=1.0, 0.002, 3);
+                let width = drag_value(&mut scattered.width, 0.005..=1.0, 0.002, 3);
                 let tip = "How far a pin reaches, in frame diagonals.";
                 number(ui, "Radius", tip, width);
             }
             RadialBasis::Multiquadric => {
-                let exponent = drag(&mut scattered.exponent, 0.1..=0.95, 0.01, 2);
+                let exponent = drag_value(&mut scattered.exponent, 0.1..=0.95, 0.01, 2);
                 number(
                     ui,
                     "Spread",
@@ -74,7 +74,7 @@ pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
                 );
             }
         }
-        let smoothing = drag(&mut scattered.smoothing, 0.0..=10.0, 0.001, 3);
+        let smoothing = drag_value(&mut scattered.smoothing, 0.0..=10.0, 0.001, 3);
         let tip = "How far pins may be missed for a smoother warp. 0 reaches every pin exactly.";
         number(ui, "Smoothing", tip, smoothing);
     });
@@ -86,10 +86,10 @@ pub fn lattice(ui: &mut Ui, lattice: &mut LatticeOptions) {
         let tip = "On: the plane never folds, and pins that would fold it are not reached. Off: \
                    all pins are reached, and the plane may fold.";
         toggle(ui, "Fold-free", tip, &mut lattice.fold_free);
-        let coarsest = drag(&mut lattice.coarsest, 1..=MAX_CELLS, 0.05, 0);
+        let coarsest = drag_value(&mut lattice.coarsest, 1..=MAX_CELLS, 0.05, 0);
         let tip = "Cells of the coarsest lattice. With fewer cells a pin moves more of the plane.";
         number(ui, "Coarse cells", tip, coarsest);
-        let levels = drag(&mut lattice.levels, 1..=MAX_LEVELS, 0.05, 0);
+        let levels = drag_value(&mut lattice.levels, 1..=MAX_LEVELS, 0.05, 0);
         let tip = "Number of lattices, each twice as fine as the one before.";
         number(ui, "Levels", tip, levels);
     });

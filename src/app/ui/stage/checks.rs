@@ -25,7 +25,7 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     if state.session.transition().is_none() {
         return;
     }
-    let measures = state.measured.measures();
+    let measures = state.measures.measures();
     let lines = measures.map_or(1, |measures| {
         let verdict = &measures.verdict;
         // Without findings one line says so; otherwise one more line offers fixes.
@@ -47,7 +47,7 @@ fn pending_row(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.horizontal(|ui| {
         ui.label(secondary_text(ui, unmeasured_reason(state)));
         let tip = "Check the whole film for folds, crossings and distortion.";
-        if state.measured.was_stopped() && ui.small_button("Check").on_hover_text(tip).clicked() {
+        if state.measures.was_stopped() && ui.small_button("Check").on_hover_text(tip).clicked() {
             intents.push(Intent::MeasureAgain);
         }
     });
@@ -55,9 +55,9 @@ fn pending_row(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
 
 /// Returns why there are no results.
 pub fn unmeasured_reason(state: &UiState) -> String {
-    match state.measured.visible_progress() {
+    match state.measures.visible_progress() {
         _ if state.session.transition().is_none() => "Nothing to check yet.".to_owned(),
-        _ if state.measured.was_stopped() => "The check was stopped.".to_owned(),
+        _ if state.measures.was_stopped() => "The check was stopped.".to_owned(),
         Some(share) => format!("Checking, {:.0} % … Press Esc to stop.", 100.0 * share),
         None => "Checking …".to_owned(),
     }
@@ -92,7 +92,7 @@ fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Int
 fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents) {
     let sampled = format!("Checked {} moments from source to target.", verdict.steps);
     let clear_text = capitalised(verdict.clear);
-    let Some(proof) = state.recording.proved() else {
+    let Some(proof) = state.recording.proof() else {
         ui.label(RichText::new(clear_text).small())
             .on_hover_text(sampled);
         return;
@@ -149,8 +149,8 @@ fn headline(ui: &mut Ui, state: &UiState, finding: &Finding, intents: &mut Inten
     if response.clicked() {
         intents.push(Intent::Seek(state.session.whole_t(finding.t)));
     }
-    let here = state.session.segment_t(state.playback.t());
-    let hint = if (here - finding.t).abs() <= NEAR_T {
+    let t = state.session.segment_t(state.playback.t());
+    let hint = if (t - finding.t).abs() <= NEAR_T {
         "The place is marked on the stage."
     } else {
         "Click to go there."
@@ -164,7 +164,7 @@ fn headline(ui: &mut Ui, state: &UiState, finding: &Finding, intents: &mut Inten
 
 /// Draws a button for each tested fix that helps.
 fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let suggestions = &state.helping;
+    let suggestions = &state.suggestions;
     ui.horizontal(|ui| {
         ui.set_min_height(ROW_HEIGHT);
         ui.spacing_mut().item_spacing.x = 6.0;
@@ -190,7 +190,7 @@ fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
                 rating if rating.is_flawless() => "no defects".to_owned(),
                 rating => rating.to_string(),
             };
-            let text = format!("{} ({remaining})", suggestion.what.label());
+            let text = format!("{} ({remaining})", suggestion.change.label());
             let tip = format!(
                 "Tested: {} instead of {current}. Can be undone.",
                 suggestion.rating
@@ -218,7 +218,7 @@ fn fix_button(ui: &mut Ui, index: usize, finding: &Finding, intents: &mut Intent
 
 /// Marks the place of each finding on the stage while t is near the finding's moment.
 pub fn mark(ui: &Ui, state: &UiState, stage: Rect) {
-    let Some(measures) = state.measured.measures() else {
+    let Some(measures) = state.measures.measures() else {
         return;
     };
     let colour = ThemePalette::on(is_light(state.session.style().ground)).amber;

@@ -92,8 +92,8 @@ fn second_name(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
         .height(400.0)
         .show_ui(ui, |ui| {
             for method in ComparisonMethod::all() {
-                let cell = method.cell();
-                let available = state.session.available(cell.warp(), cell.content());
+                let cell = method.method();
+                let available = state.session.check_method(cell.warp(), cell.content());
                 let mut name = RichText::new(capitalised(method.name()));
                 if available.is_err() {
                     name = name.color(ThemePalette::of(ui).disabled_text());
@@ -117,6 +117,6 @@ fn tip(method: ComparisonMethod) -> &'static str {
         ComparisonMethod::Straight => {
             "Each point moves straight to its target. Rotating parts shrink on the way."
         }
-        ComparisonMethod::Cell(cell) => method::description(cell.warp(), cell.content()),
+        ComparisonMethod::Method(cell) => method::description(cell.warp(), cell.content()),
     }
 }

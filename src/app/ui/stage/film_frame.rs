@@ -11,7 +11,7 @@ const SHADE: u8 = 40;
 
 /// Draws the frame and shades everything outside it.
 pub fn frame(ui: &Ui, state: &UiState, stage: Rect) {
-    let Some(framed) = &state.film.0 else {
+    let Some(framed) = &state.film_framing.0 else {
         return;
     };
     let bounds = framed.bounds();

@@ -11,7 +11,7 @@ use image::RgbaImage;
 
 use crate::app::input::intent::Intent;
 use crate::app::map::pictures::MapPictures;
-use crate::app::map::thumbnails::REACH;
+use crate::app::map::thumbnails::MAP_HALF_SIDE;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{GRID, ThemePalette};
@@ -90,7 +90,7 @@ fn map_status(ui: &Ui, state: &UiState, rect: Rect, ink: Color32) {
 
 /// Converts map coordinates to the window; the map fills `square`.
 fn on_screen(square: Rect, place: DVec2) -> Pos2 {
-    let fraction = (place / REACH).as_vec2() * 0.5;
+    let fraction = (place / MAP_HALF_SIDE).as_vec2() * 0.5;
     let offset = vec2(fraction.x, -fraction.y) * square.width();
     square.center() + offset
 }
@@ -98,7 +98,7 @@ fn on_screen(square: Rect, place: DVec2) -> Pos2 {
 /// Converts a position in the window to map coordinates.
 fn on_map(square: Rect, at: Pos2) -> DVec2 {
     let offset = (at - square.center()) / square.width() * 2.0;
-    DVec2::new(f64::from(offset.x), f64::from(-offset.y)) * REACH
+    DVec2::new(f64::from(offset.x), f64::from(-offset.y)) * MAP_HALF_SIDE
 }
 
 /// Handles dragging: moves the marker, draws the path or, with Shift, moves a design.

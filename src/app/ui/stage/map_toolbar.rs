@@ -51,19 +51,20 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
 
 /// Draws the list of measures whose contours the map can show.
 fn measures(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
-    let measure_name = |shown: Option<MapMeasure>| shown.map_or("No contours", |m| m.name().title);
-    let mut shown = state.map.measure;
+    let measure_name =
+        |measure: Option<MapMeasure>| measure.map_or("No contours", |m| m.name().title);
+    let mut selected = state.map.measure;
     let all = MapMeasure::CHOICES.iter().copied().map(Some);
-    let list = ComboBox::from_id_salt("contours").selected_text(measure_name(shown));
+    let list = ComboBox::from_id_salt("contours").selected_text(measure_name(selected));
     list.width(112.0).show_ui(ui, |ui| {
         for measure in std::iter::once(None).chain(all) {
             let tip = measure.map_or("Only the blends between the designs", |m| m.name().sentence);
-            ui.selectable_value(&mut shown, measure, measure_name(measure))
+            ui.selectable_value(&mut selected, measure, measure_name(measure))
                 .on_hover_text(tip);
         }
     });
-    if shown != state.map.measure {
-        intents.push(Intent::ShowMapMeasure(shown));
+    if selected != state.map.measure {
+        intents.push(Intent::ShowMapMeasure(selected));
     }
 }
 

@@ -16,8 +16,8 @@ pub fn show(root: &Ui, state: &UiState, full_rect: Rect, intents: &mut Intents) 
         intents.push(Intent::PlayToPreviousStop);
     }
     let mut stage = full_rect;
-    if let Some(captions) = state.presenting.captions(&state.session) {
-        let band = Captions::BAND as f32 * full_rect.size().min_elem();
+    if let Some(captions) = state.presentation.captions(&state.session) {
+        let band = Captions::BAND_HEIGHT as f32 * full_rect.size().min_elem();
         stage.max.y -= band;
         if let Some((text, opacity)) = captions.at(state.playback.t()) {
             let [r, g, b] = captions.colour().0;
@@ -25,7 +25,7 @@ pub fn show(root: &Ui, state: &UiState, full_rect: Rect, intents: &mut Intents) 
             caption(root, text, full_rect, ink);
         }
     }
-    if state.presenting.is_black() {
+    if state.presentation.is_black() {
         root.painter().rect_filled(full_rect, 0.0, Color32::BLACK);
     }
     stage
@@ -38,13 +38,14 @@ fn caption(root: &Ui, text: &str, full_rect: Rect, ink: Color32) {
         let font = FontId::proportional(height);
         root.painter().layout_no_wrap(text.to_owned(), font, ink)
     };
-    let height = Captions::LETTERS as f32 * shorter;
+    let height = Captions::TEXT_HEIGHT as f32 * shorter;
     let mut line = layout(height);
-    let max_width = Captions::WIDEST as f32 * full_rect.width();
+    let max_width = Captions::MAX_WIDTH as f32 * full_rect.width();
     if line.size().x > max_width {
         line = layout(height * max_width / line.size().x);
     }
-    let centre = full_rect.center_bottom() - vec2(0.0, 0.5 * Captions::BAND as f32 * shorter);
+    let centre =
+        full_rect.center_bottom() - vec2(0.0, 0.5 * Captions::BAND_HEIGHT as f32 * shorter);
     let place = Align2::CENTER_CENTER.anchor_size(centre, line.size());
     root.painter().galley(place.min, line, ink);
 }

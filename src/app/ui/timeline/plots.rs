@@ -24,7 +24,7 @@ pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         .exact_size(HEIGHT)
         .resizable(false)
         .frame(frame)
-        .show(root, |ui| match state.measured.measures() {
+        .show(root, |ui| match state.measures.measures() {
             Some(measures) => graphs_row(ui, state, &measures.film, intents),
             None => pending(ui, state),
         });

@@ -149,7 +149,7 @@ fn speed(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
                 .selectable_label(speed == current, format!("{speed}×"))
                 .clicked()
             {
-                intents.push(Intent::Speed(speed));
+                intents.push(Intent::SetSpeed(speed));
             }
         }
     });

@@ -1,11 +1,12 @@
-//! Compatible triangulation of pieces with holes and slits.
+//! Tests of the compatible triangulation of pieces with holes and slits.
 
 use super::*;
 
 /// Boundary rings of a piece, the outer one first.
 type TestPiece = Vec<Vec<DVec2>>;
 
-/// Random star-shaped ring around a centre, counter-clockwise.
+/// Random star-shaped ring with `n` points around a centre, counter-clockwise; the first point has
+/// the direction `turn`, in radians.
 fn ring(centre: DVec2, radius: f64, n: usize, turn: f64, random: &mut Random) -> Vec<DVec2> {
     let at = |k: usize| {
         let angle = turn + TAU * k as f64 / n as f64;
@@ -14,19 +15,20 @@ fn ring(centre: DVec2, radius: f64, n: usize, turn: f64, random: &mut Random) ->
     (0..n).map(at).collect()
 }
 
-/// Reverses a ring, since holes run clockwise.
+/// Returns the ring reversed, because holes run clockwise.
 fn hole(mut ring: Vec<DVec2>) -> Vec<DVec2> {
     ring.reverse();
     ring
 }
 
-/// Regular polygon around a centre, counter-clockwise.
+/// Regular polygon with `n` points around a centre, counter-clockwise; the first point has the
+/// direction `turn`, in radians.
 fn circle(centre: DVec2, radius: f64, n: usize, turn: f64) -> Vec<DVec2> {
     let at = |k: usize| centre + polar(radius, turn + TAU * k as f64 / n as f64);
     (0..n).map(at).collect()
 }
 
-/// Mesh of the guaranteed base alone.
+/// Builds the guaranteed base mesh alone.
 fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
     let base = from_base(
         &BoundaryRings::of(source),
@@ -38,7 +40,8 @@ fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
     CompatibleMesh::new(faces, p, q, vec![]).expect("valid")
 }
 
-/// Checks the full pipeline and the guaranteed base alone, in both orders of the designs.
+/// Checks the meshes of the full pipeline and of the guaranteed base alone, in both orders of the
+/// designs.
 fn assert_all_ways(source: &TestPiece, target: &TestPiece) {
     let options = PolygonOptions::default();
     for (p, q) in [(source, target), (target, source)] {
@@ -48,7 +51,8 @@ fn assert_all_ways(source: &TestPiece, target: &TestPiece) {
     }
 }
 
-/// Ring between two circles; the hole's points are turned against the outline's.
+/// Ring-shaped piece between two circles. The points of the hole are rotated by `turn` radians
+/// against those of the outline.
 fn annulus(turn: f64) -> TestPiece {
     let outer = circle(DVec2::ZERO, 2.0, 24, 0.0);
     vec![outer, hole(circle(DVec2::ZERO, 1.0, 16, turn))]
@@ -74,7 +78,7 @@ fn a_hole_that_closes_to_a_point() {
     assert_all_ways(&p, &q);
 }
 
-/// Letter B: a piece with two holes.
+/// Letter B, a piece with two holes: `waist` is the x coordinate of its waist, `lean` shears it.
 fn b(waist: f64, lean: f64) -> TestPiece {
     let outer = [
         (0.0, 0.0),
@@ -106,7 +110,8 @@ fn a_letter_with_two_holes() {
     assert_all_ways(&b(3.8, 0.0), &exchanged);
 }
 
-/// Thick ring that is cut open at one place, and a bent strip with the same number of points.
+/// Thick ring that is cut open at the point with the index `cut`, and a bent strip with the same
+/// number of points.
 fn d_cut_open(cut: usize) -> (TestPiece, TestPiece) {
     let m = 16;
     let at = |k: usize, r: f64| polar(r, TAU * ((cut + k) % m) as f64 / m as f64);
@@ -169,8 +174,8 @@ fn a_hole_close_to_the_boundary() {
 
 fn random_piece(counts: &[usize], random: &mut Random) -> TestPiece {
     let outer = ring(DVec2::ZERO, 4.0, counts[0], 0.0, random);
-    // Points this close to the centre lie inside the outline, whose inner radius is at least 0.6 ·
-    // 4 cos(π/n).
+    // Holes around these places lie inside the outline, whose distance from the centre is at least
+    // 0.6 · 4 cos(π/n).
     let places = [(0.0, 0.0), (1.2, 0.0), (0.0, 1.2), (-0.9, -0.9)];
     let mut rings = vec![outer];
     let first = (4.0 * random.next()) as usize;

@@ -168,7 +168,7 @@ impl TransientPart {
 
     /// What it is while it swells; `diameter` is that of the whole.
     pub(super) fn swelling(&self, diameter: f64) -> GrowthProfile {
-        GrowthProfile::sampled(|size| self.swelling.level(size, &self.rings), diameter)
+        GrowthProfile::of_steps(|size| self.swelling.level(size, &self.rings), diameter)
     }
 
     /// What would meet something in all times comes or goes at once.

@@ -18,7 +18,7 @@ fn comb(x: f64) -> Vec<DVec2> {
 /// Combs of these designs, side by side, beside something that stays as it is.
 fn combs(sides: &[Side]) -> TransientSchedule {
     let coming = |(x, &side): (usize, &Side)| ScheduledTransient {
-        growth: GrowthProfile::scaled(&[comb(x as f64)], 10.0),
+        growth: GrowthProfile::of_scaling(&[comb(x as f64)], 10.0),
         stretch: None,
         place: DVec2::X * x as f64,
         life: TimeWindow::whole(side),
