@@ -74,7 +74,7 @@ fn spawn_pair(mut commands: Commands) -> Result {
                 ground: Rgb([0x1b, 0x1f, 0x27]),
                 ..default()
             },
-            show: StageVisibility {
+            visibility: StageVisibility {
                 wireframe: true,
                 ..default()
             },

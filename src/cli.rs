@@ -72,7 +72,7 @@ enum CliCommand {
     Gallery(gallery::GalleryArgs),
 }
 
-/// Arguments of the command line without a subcommand: the window is opened.
+/// Arguments for opening the window: those of a command line without a subcommand.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowRequest {
     /// A project (.morph, or gallery:NAME), or two or more designs, to open in the window

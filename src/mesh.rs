@@ -1,9 +1,10 @@
 //! Triangle meshes in the plane: connectivity, components, subdivision, triangulation and
 //! natural-neighbour coordinates.
 //!
-//! A [`TriangleMesh`] guarantees that positions are in range and that the vertex indices of each
-//! face exist and differ. It does not guarantee positive orientation: that is a property of a pair
-//! of embeddings, checked by [`crate::compatible::CompatibleMesh`].
+//! A [`TriangleMesh`] guarantees that positions are in range, that the vertex indices of each face
+//! exist and differ, and that faces meet edge to edge. It does not guarantee that faces are
+//! positively oriented: that is a property of a pair of embeddings, which
+//! [`crate::compatible::CompatibleMesh`] checks.
 
 mod components;
 mod connectivity;
@@ -28,19 +29,21 @@ pub struct TriangleMesh {
     connectivity: Connectivity,
 }
 
-/// Reason why points and faces do not form a [`TriangleMesh`]. Indices start at 0.
+/// Reason why points and faces do not form a [`TriangleMesh`]. Indices start at 0 in fields and at
+/// 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
     /// The list of faces is empty.
     #[error("the mesh has no faces; give at least one triangle")]
     NoFaces,
-    /// A coordinate is not finite, or beyond [`MAX_COORDINATE`].
+    /// A coordinate of the vertex with this index is not finite, or its absolute value exceeds
+    /// [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("vertex {} {RANGE_MESSAGE}", .0 + 1)]
     Place(usize),
-    /// All vertices coincide, or almost.
+    /// The mesh is too small, or too far from the origin for its size.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
     /// A face names a vertex that does not exist.
@@ -53,7 +56,7 @@ pub enum MeshError {
         /// Number of vertices.
         vertices: usize,
     },
-    /// A face names a vertex twice.
+    /// The face with this index names a vertex twice.
     #[error("face {} names one vertex twice; remove or correct the face", .0 + 1)]
     Repeated(usize),
     /// Faces do not meet edge to edge.
@@ -82,7 +85,7 @@ impl TriangleMesh {
             return Err(MeshError::Place(bad));
         }
         check_faces(&faces, positions.len())?;
-        // There is a face, so there are vertices with a bounding box.
+        // There is a face, so there is a vertex, and the vertices have a bounding box.
         Bounds::of(positions.iter().copied())
             .map_or(Ok(0.0), |all| DesignSizeError::check(&all))?;
         let connectivity = Connectivity::new(&faces)?;
@@ -105,14 +108,14 @@ impl TriangleMesh {
         &self.faces
     }
 
-    /// Returns which faces meet at which edges.
+    /// Returns the connectivity: which faces meet at which edges.
     #[must_use]
     pub fn connectivity(&self) -> &Connectivity {
         &self.connectivity
     }
 
-    /// Returns the closed boundary loops as vertex indices. Counter-clockwise faces lie on their
-    /// left.
+    /// Returns the closed boundary loops as vertex indices. If the faces are counter-clockwise, the
+    /// mesh lies to the left of each loop.
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
         self.connectivity.boundary_loops(&self.faces)
@@ -144,7 +147,7 @@ impl TriangleMesh {
     }
 }
 
-/// Checks that vertex indices are in range and differ within each face.
+/// Checks that the vertex indices of each face are less than `vertices` and differ from each other.
 ///
 /// # Errors
 /// [`MeshError`] for the first face that is invalid.

@@ -1,16 +1,16 @@
 //! Numerical methods: linear algebra, L-BFGS minimisation ([`lbfgs`]) and the assignment problem
 //! ([`assignment`]). The only module that uses `faer`.
 //!
-//! [`Cholesky`] factors a sparse symmetric positive definite matrix once and solves with it in
+//! [`Cholesky`] factors a sparse symmetric positive definite matrix once and then solves with it in
 //! every frame. [`PatternCholesky`] is for sparse matrices whose values change while the pattern of
-//! their entries stays, [`DenseLu`] for small dense systems that are factored in every frame, and
-//! [`symmetric_eigen`] for the eigenvectors of small symmetric matrices.
+//! their entries stays the same, [`DenseLu`] is for small dense systems that are factored in every
+//! frame, and [`symmetric_eigen`] is for the eigenvectors of small symmetric matrices.
 //!
 //! A [`Cholesky`] uses a fill-reducing permutation (approximate minimum degree) and a simplicial
 //! LLᵀ factorisation, or a supernodal one for large systems. [`Cholesky::solve_ordered`] works in
-//! elimination order, allocates nothing and cannot fail, so callers that assemble in that order pay
-//! for no permutation. Everything runs on the calling thread, because triangular solves get slower
-//! on several threads.
+//! elimination order, so callers that assemble right-hand sides in that order pay for no
+//! permutation. It allocates nothing and cannot fail. Each call uses a single thread, because
+//! triangular solves get slower on several threads.
 
 pub(crate) mod assignment;
 mod dense_lu;
@@ -35,17 +35,17 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side};
 
-/// Symmetric matrix under assembly; entries at the same place add up.
+/// Symmetric matrix to which entries can be added; entries at the same row and column add up.
 #[derive(Clone, Debug)]
 pub struct SymmetricMatrix {
-    /// Number of rows and columns.
+    /// Number of rows and of columns.
     n: usize,
-    /// (row, column, value) with row ≥ column.
+    /// Entries as added: (row, column, value) with row ≥ column.
     lower: Vec<Triplet<u32, u32, f64>>,
 }
 
 impl SymmetricMatrix {
-    /// The n×n zero matrix, with room for `entries` additions.
+    /// Creates the n×n zero matrix, with room for `entries` calls of [`Self::add`].
     #[must_use]
     pub fn zero(n: usize, entries: usize) -> Self {
         Self {
@@ -54,19 +54,19 @@ impl SymmetricMatrix {
         }
     }
 
-    /// Number of rows and columns.
+    /// Returns the number of rows, which equals the number of columns.
     #[must_use]
     pub fn size(&self) -> usize {
         self.n
     }
 
-    /// Adds `value` at (i, j), and by symmetry at (j, i); once on the diagonal.
+    /// Adds `value` at (i, j) and, by symmetry, at (j, i). On the diagonal it is added once.
     pub fn add(&mut self, i: u32, j: u32, value: f64) {
         // The factorisation reads only the lower triangle.
         self.lower.push(Triplet::new(i.max(j), i.min(j), value));
     }
 
-    /// Entries as added: row, column and value, with row ≥ column.
+    /// Returns the entries as added: row, column and value, with row ≥ column.
     pub fn entries(&self) -> impl Iterator<Item = (u32, u32, f64)> + '_ {
         self.lower
             .iter()
@@ -83,11 +83,11 @@ impl SymmetricMatrix {
     }
 }
 
-/// Minimum number of unknowns for which columns are factored in dense blocks: factoring becomes
-/// several times faster, each solve somewhat slower (heuristic).
+/// Minimum number of unknowns for which columns are factored in dense blocks. For such large
+/// systems, blocks make factoring several times faster and each solve somewhat slower (heuristic).
 const SUPERNODAL_FROM: usize = 200_000;
 
-/// Kind of factorisation for a system with this many unknowns.
+/// Returns the kind of factorisation for a system with this many unknowns.
 const fn in_blocks(unknowns: usize) -> SupernodalThreshold {
     if unknowns >= SUPERNODAL_FROM {
         SupernodalThreshold::FORCE_SUPERNODAL
@@ -96,8 +96,8 @@ const fn in_blocks(unknowns: usize) -> SupernodalThreshold {
     }
 }
 
-/// Minimum number of unknowns for which a factorisation runs on another thread, so that a cancel is
-/// answered at once (heuristic: about 50 ms for a mesh of this size).
+/// Minimum number of unknowns for which a factorisation runs on another thread, so that it can be
+/// cancelled at once (heuristic: to factor the system of a mesh of this size takes about 50 ms).
 const BACKGROUND_FROM: usize = 20_000;
 
 /// Reason why a matrix could not be factored.
@@ -125,7 +125,7 @@ pub struct Cholesky {
     place: Vec<u32>,
 }
 
-/// Scratch memory for [`Cholesky::solve_ordered`].
+/// Scratch memory for [`Cholesky::solve_ordered`] and [`Cholesky::solve_in_place`].
 pub struct CholeskyWorkspace(MemBuffer);
 
 impl std::fmt::Debug for Cholesky {
@@ -144,7 +144,7 @@ impl std::fmt::Debug for CholeskyWorkspace {
 }
 
 impl Cholesky {
-    /// Factors the matrix, which is the expensive step.
+    /// Factors the matrix, which takes much longer than a solve.
     ///
     /// # Errors
     /// [`FactorError`] if the matrix is not positive definite or too large.
@@ -199,8 +199,8 @@ impl Cholesky {
             params,
         )
         .map_err(|_| FactorError::OutOfMemory)?;
-        // Inverse permutation, from unknowns to positions; without a permutation it is the
-        // identity.
+        // Take the inverse permutation, from unknowns to positions in elimination order. Without a
+        // permutation, it is the identity.
         let place = match symbolic.perm() {
             Some(perm) => perm.arrays().1.to_vec(),
             None => (0..n as u32).collect(),
@@ -214,7 +214,7 @@ impl Cholesky {
         Ok(factored)
     }
 
-    /// Computes the values of the factor.
+    /// Computes the values of the factor from the matrix.
     fn factor_values(&mut self, lower: &SparseColMat<u32, f64>) -> Result<(), FactorError> {
         let request = self
             .symbolic
@@ -242,20 +242,21 @@ impl Cholesky {
         }
     }
 
-    /// Number of unknowns.
+    /// Returns the number of unknowns.
     #[must_use]
     pub fn size(&self) -> usize {
         self.place.len()
     }
 
-    /// Position of each unknown in elimination order, in which [`Self::solve_ordered`] takes
-    /// right-hand sides and returns solutions.
+    /// Returns the position of each unknown in elimination order. [`Self::solve_ordered`] takes
+    /// right-hand sides and returns solutions in this order.
     #[must_use]
     pub fn elimination_places(&self) -> &[u32] {
         &self.place
     }
 
-    /// Scratch memory for [`Self::solve_ordered`] with the given number of right-hand sides.
+    /// Allocates scratch memory for [`Self::solve_ordered`] with the given number of right-hand
+    /// sides.
     #[must_use]
     pub fn workspace(&self, columns: usize) -> CholeskyWorkspace {
         let request = self
@@ -314,7 +315,7 @@ impl Cholesky {
         );
     }
 
-    /// Right-hand sides as columns of a matrix; `None` if there are no unknowns.
+    /// Returns the right-hand sides as columns of a matrix; `None` if there are no unknowns.
     fn columns<'a>(&self, rhs: &'a mut [f64]) -> Option<MatMut<'a, f64>> {
         let n = self.size();
         let columns = rhs.len().checked_div(n)?;
@@ -340,7 +341,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Oracle: plain Gaussian elimination.
+    /// Returns the solution by plain Gaussian elimination (oracle).
     fn dense_solve(a: &SymmetricMatrix, rhs: &[f64]) -> Vec<f64> {
         let n = a.size();
         let mut columns = vec![vec![0.0; n]; n];
@@ -371,7 +372,7 @@ mod tests {
         x
     }
 
-    /// Grounded Laplacian of a random graph.
+    /// Returns the Laplacian of a graph with weighted edges, plus 0.1 on the diagonal.
     fn laplacian(n: usize, edges: &[(usize, usize, f64)]) -> SymmetricMatrix {
         let mut a = SymmetricMatrix::zero(n, 4 * edges.len());
         for i in 0..n as u32 {

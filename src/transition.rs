@@ -1,9 +1,9 @@
 //! Transitions: a warp and a content, built from two designs, and the frames between them.
 //!
 //! Everything that can fail fails in [`Transition::build`]; a [`Frame`] then moves to any t without
-//! allocating. A frame is unevaluated: a placement and the t at which contents are mixed. The stage
-//! evaluates it on the GPU, export and tests on the CPU through [`Frame::figure`], so that both
-//! share one definition of a frame and can be compared.
+//! allocating. A frame holds only the placement of the vertices and the t at which contents are
+//! mixed. The stage evaluates frames on the GPU; export and tests evaluate them on the CPU through
+//! [`Frame::figure`]. Both thus share one definition of a frame and can be compared.
 //!
 //! - `options`, `spec`: the inputs of a transition; `common_frame`: placing designs in one frame
 //! - `build`: from a specification to a transition, through `solids` (rigid parts),

@@ -1,8 +1,9 @@
-//! User interface around the stage. Only this file and the files below it use egui.
+//! User interface of the window: panels, overlays and dialogs around the stage. Only this folder
+//! uses egui.
 //!
-//! Panels read the [`ui_state::UiState`] and send [`Intent`](crate::app::Intent)s; they compute
-//! nothing and change nothing themselves. Unless text is being edited egui gets no key events, so
-//! Space and the arrow keys cannot drive a widget and the playback at once.
+//! The user interface reads the [`ui_state::UiState`] and sends [`Intent`](crate::app::Intent)s; it
+//! does not change the application's state itself. Unless the user edits text, egui receives no key
+//! events, so that a key such as Space cannot act on a widget and on the playback at once.
 
 pub mod draw;
 mod gallery;

@@ -33,7 +33,8 @@ pub enum CompatibleError {
     /// The faces form no valid mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// All faces have opposite orientation: one design is a mirror image of the other.
+    /// All faces have opposite orientation in the two designs: one design is a mirror image of the
+    /// other.
     #[error(
         "the target is a mirror image of the source; mirror one of them (placement, mirror = true)"
     )]
@@ -46,7 +47,7 @@ pub enum CompatibleError {
     Flat {
         /// Design in which the faces are flat.
         side: Side,
-        /// Indices of the faces.
+        /// Indices of the flat faces.
         faces: Vec<usize>,
     },
     /// The vertex with this index belongs to no face and no bar.

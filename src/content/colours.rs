@@ -1,13 +1,13 @@
-//! Two pictures, cross-dissolved and carried by a warp: the content *colours*.
+//! Two pictures that are cross-dissolved while a warp moves them: the content *colours*.
 //!
 //! Pictures are mixed in linear light, because light is additive and sRGB values are not. Alpha is
-//! premultiplied, so the colour of transparent pixels does not bleed. The mix follows its own
-//! easing curve over t, independent of the motion.
+//! premultiplied, so the colours of transparent pixels have no effect. The fraction of the target
+//! in the mix follows its own easing over t, independent of the motion.
 //!
-//! Guaranteed: at t = 0 and t = 1, where an output pixel coincides with a pixel of the picture,
-//! both have the same value. Beyond its edges a picture continues as its mirror image; repeating
-//! the edge colours would smear. The output is cropped to a rectangle that moves from the bounds of
-//! the source to those of the target.
+//! Guaranteed: at t = 0 and t = 1, an output pixel that coincides with a pixel of the picture has
+//! the same value. Beyond its edges a picture continues as its mirror image; repeated edge colours
+//! would show as smears. The output is cropped to a rectangle that moves from the bounds of the
+//! source to those of the target.
 
 mod layer;
 mod linear_light;
@@ -26,7 +26,7 @@ use layer::PictureSampler;
 use linear_light::{LinearLight, SrgbEncoder, mix};
 use serde::{Deserialize, Serialize};
 
-/// How the mix of two pictures changes over t.
+/// Mix of two pictures: how the fraction of the target changes over t.
 ///
 /// ```
 /// use morphospace::content::ColourMix;
@@ -36,15 +36,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ColourMix {
-    /// Easing of the mix between `from` and `to`.
+    /// Easing of the target's fraction between `from` and `to`.
     pub curve: NamedEasing,
     /// The t at which the mix starts, in [0, 1). Before it only the source is visible.
     pub from: f64,
-    /// The t at which the mix ends, in (from, 1]. After it only the target is visible.
+    /// The t at which the mix ends, in (`from`, 1]. After it only the target is visible.
     pub to: f64,
 }
 
-/// Error of [`ColourMix::check`]: the range of t is empty or exceeds [0, 1].
+/// Error of [`ColourMix::check`]: the interval of the mix is empty or extends beyond [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "colours cannot change from t = {from} to t = {to}; enter values with 0 \u{2264} from < to \u{2264} 1"
@@ -55,7 +55,7 @@ pub struct ColourMixError {
 }
 
 impl Default for ColourMix {
-    /// A linear mix over all of [0, 1].
+    /// Returns a linear mix over all of [0, 1].
     fn default() -> Self {
         Self {
             curve: NamedEasing::Linear,
@@ -69,7 +69,7 @@ impl ColourMix {
     /// Checks that 0 ≤ `from` < `to` ≤ 1.
     ///
     /// # Errors
-    /// Returns an error if the range is empty or exceeds [0, 1].
+    /// [`ColourMixError`] if the interval is empty or extends beyond [0, 1].
     pub fn check(&self) -> Result<(), ColourMixError> {
         let Self { from, to, .. } = *self;
         if from >= 0.0 && from < to && to <= 1.0 {
@@ -79,7 +79,8 @@ impl ColourMix {
         }
     }
 
-    /// Returns the fraction of the target in the mix at `t`, in [0, 1]; constant beyond the ends.
+    /// Returns the fraction of the target in the mix at `t`, in [0, 1]. It is 0 before the mix
+    /// starts and 1 after it ends.
     #[must_use]
     pub fn target_fraction(&self, t: f64) -> f64 {
         let fraction = ((t - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
@@ -87,26 +88,27 @@ impl ColourMix {
     }
 }
 
-/// Two pictures and how they are mixed. Cloning is cheap.
+/// Two pictures, and how they are mixed. Cloning is cheap.
 #[derive(Clone, Debug)]
 pub struct PicturePair {
     layers: [PictureLayer; 2],
     mix: ColourMix,
 }
 
-/// Size and position of an output image in the plane.
+/// Pixel grid of an output image: its size, and its position in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct PictureRaster {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Upper left corner of the upper left pixel, in the plane.
+    /// Position in the plane of the image's upper left corner, a corner of the first pixel.
     pub corner: DVec2,
     /// Side length of a pixel, in units of the plane.
     pub pixel_size: f64,
 }
 
 impl PictureRaster {
-    /// Converts a point of the plane to pixels from the upper left corner, y down.
+    /// Converts a point of the plane to pixel coordinates in the output image: from its upper left
+    /// corner, y down.
     fn pixel_from_plane(&self, p: DVec2) -> DVec2 {
         let d = (p - self.corner) / self.pixel_size;
         DVec2::new(d.x, -d.y)
@@ -114,13 +116,13 @@ impl PictureRaster {
 }
 
 impl PicturePair {
-    /// Decodes two pictures.
+    /// Decodes two pictures to linear light.
     ///
     /// # Errors
-    /// Returns an error if the range of the mix is invalid.
+    /// [`ColourMixError`] if the interval of the mix is invalid.
     pub fn new(source: &Picture, target: &Picture, mix: ColourMix) -> Result<Self, ColourMixError> {
         mix.check()?;
-        // In parallel: decoding one picture takes as long as several frames.
+        // Decoded in parallel, because decoding one picture takes as long as several frames.
         let (source, target) =
             rayon::join(|| PictureLayer::new(source), || PictureLayer::new(target));
         Ok(Self {
@@ -129,22 +131,23 @@ impl PicturePair {
         })
     }
 
-    /// Pictures of source and target.
+    /// Decoded pictures of source and target.
     #[must_use]
     pub fn layers(&self) -> &[PictureLayer; 2] {
         &self.layers
     }
 
-    /// How the pictures are mixed.
+    /// Mix of the two pictures.
     #[must_use]
     pub fn mix(&self) -> &ColourMix {
         &self.mix
     }
 
-    /// Returns the visible rectangle at `t`: the bounds of source and target, interpolated.
+    /// Returns the rectangle to which the output is cropped at `t`: the bounds of source and
+    /// target, interpolated.
     #[must_use]
     pub fn window(&self, t: f64) -> Bounds {
-        // Clamped, because an extrapolated rectangle may turn inside out.
+        // Clamped, because in an extrapolated rectangle the minimum may exceed the maximum.
         let t = t.clamp(0.0, 1.0);
         let [a, b] = [self.layers[0].bounds(), self.layers[1].bounds()];
         Bounds {
@@ -153,10 +156,10 @@ impl PicturePair {
         }
     }
 
-    /// Renders the picture at `t` in sRGB with straight alpha, transparent where there is nothing.
-    /// Costs one bilinear lookup per pixel and picture.
+    /// Renders the picture at `t` in sRGB with straight alpha; pixels that no face covers are
+    /// transparent. Takes one bilinear lookup for each pixel and picture.
     ///
-    /// `placement` must be the placement at the same `t`.
+    /// `placement` must be the placement of the warp at the same `t`.
     ///
     /// # Panics
     /// Panics if a face of the placement has a vertex without a position.
@@ -173,17 +176,17 @@ impl PicturePair {
     }
 }
 
-/// Number of pixels sampled from one picture before switching to the other (resource limit: their
-/// light takes 512 bytes, and the cost of switching is negligible).
+/// Number of pixels that are sampled from one picture before the other picture is sampled (resource
+/// limit: the light of these pixels takes 512 bytes; the cost of switching is negligible).
 const CHUNK: usize = 32;
 
-/// Renders runs of pixels of one output image.
+/// Renders one output image, run by run: a run is a part of a row of pixels.
 struct PicturePaint<'a> {
-    /// Source and target, at the resolution of the output.
+    /// Source and target, sampled at the resolution of the output.
     layers: [PictureSampler<'a>; 2],
-    /// Fraction of the target in the mix.
+    /// Fraction of the target in the mix, from 0 to 1.
     share: f32,
-    /// Visible fraction of each column and of each row.
+    /// For each column and for each row, the fraction of it that lies in the visible rectangle.
     coverages: [Vec<f32>; 2],
     encoder: SrgbEncoder,
 }
@@ -198,22 +201,24 @@ impl<'a> PicturePaint<'a> {
         }
     }
 
-    /// Returns the function that fills the pixels of a face, one run of a row at a time.
+    /// Returns the function that fills the pixels of a face. It is called with the column and the
+    /// row of the first pixel of a run, and with the pixels of the run.
     fn filler(&self, facet: SourceFacet) -> impl FnMut(usize, usize, &mut [[u8; 4]]) {
         let [columns, rows] = &self.coverages;
-        // Maximum distance, in samples, between two samples of the output.
+        // Maximum number of columns or rows between two samples of the output.
         let max_offset = columns.len().max(rows.len());
         let [source, target] = &self.layers;
         let source = source.footprint(&facet.source, facet.first_sample, max_offset);
         let target = target.footprint(&facet.target, facet.first_sample, max_offset);
         let mut lights = [LinearLight::ZERO; CHUNK];
         move |x, y, pixels| {
-            // One picture after the other, so that the rows of only one stay in the cache.
+            // The pictures are sampled one after the other, so that the pixels of only one picture
+            // must fit into the cache.
             let columns = columns[x..].chunks(CHUNK);
             let starts = (x..).step_by(CHUNK);
             for ((x, pixels), columns) in starts.zip(pixels.chunks_mut(CHUNK)).zip(columns) {
                 let lights = &mut lights[..pixels.len()];
-                // At the ends of the mix only one picture is sampled.
+                // Where the mix is all source or all target, only one picture is sampled.
                 if self.share == 1.0 {
                     target.sample_row([x, y], lights, |_, light| light);
                 } else {
@@ -232,8 +237,8 @@ impl<'a> PicturePaint<'a> {
     }
 }
 
-/// Returns the fraction of each column and of each row that a rectangle covers. The covered
-/// fraction of a pixel is the product of the two.
+/// Returns, for each column and for each row, the fraction of it that lies in a rectangle. The
+/// fraction of a pixel in the rectangle is the product of the two.
 fn coverage(window: Bounds, raster: &PictureRaster) -> [Vec<f32>; 2] {
     let low = raster.pixel_from_plane(DVec2::new(window.min.x, window.max.y));
     let high = raster.pixel_from_plane(DVec2::new(window.max.x, window.min.y));
@@ -248,10 +253,10 @@ fn coverage(window: Bounds, raster: &PictureRaster) -> [Vec<f32>; 2] {
     ]
 }
 
-/// Fraction of pixel `k` between two edges.
+/// Returns the fraction of column or row `k` that lies between two coordinates.
 fn pixel_coverage(k: u32, from: f64, to: f64) -> f32 {
     let (low, high) = (f64::from(k), f64::from(k) + 1.0);
-    // An edge within rounding of a pixel border counts as lying on it.
+    // An edge that is within rounding of a pixel boundary counts as lying on it.
     let share = high.min(to) - low.max(from);
     if share > 1.0 - 1e-9 {
         1.0

@@ -4,7 +4,6 @@
 //! shape is filled where F ≥ L(τ), with the threshold τ. Both CPU and GPU interpolate the fields
 //! bilinearly between samples *before* they apply L.
 //!
-//!
 //! The paper uses L(x) = sgn(x) log(|x| + ε). For ε < 1 its sign is wrong near the boundary, and
 //! for every ε except 1 it jumps there. This implementation uses L(x) = sgn(x) log(1 + |x| / ε). It
 //! is the same for ε = 1, and it is continuous, odd and monotone for every ε > 0.

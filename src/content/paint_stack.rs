@@ -9,9 +9,9 @@ use crate::geometry::{DVec2, Side, fit_affine};
 pub struct PaintLayerStack {
     /// All layers, in no particular order; their `z_indices` give the drawing order.
     pub layers: Vec<PlacedPaintLayer>,
-    /// For each boundary loop, the index of its layer.
+    /// For each boundary loop, the index of its layer in `layers`.
     pub of_loops: Vec<usize>,
-    /// For each hole, the index of its layer.
+    /// For each hole, the index of its layer in `layers`.
     pub of_holes: Vec<usize>,
     /// For each boundary loop, the only design that has the loop's part; `None` if both have it.
     pub unmatched_loops: Vec<Option<Side>>,

@@ -23,7 +23,7 @@ const MAX_SHIFT: f64 = 0.025;
 /// as a fraction of the target's length (heuristic).
 const MAX_DISTANCE: f64 = 0.01;
 
-/// Maximum number of registration rounds (resource limit).
+/// Maximum number of rounds of the iterated closest point method (resource limit).
 const MAX_ROUNDS: usize = 8;
 
 /// Half-length of the window over which a curve's direction is averaged, as a fraction of the
@@ -56,7 +56,7 @@ pub(super) fn registered_knots(
             .map(|&nearest| target.point_at(nearest))
             .collect();
         let fit = SimilarityFit::of(&points, &landed)?;
-        // Only the first residual is decisive: later rounds reduce it.
+        // Check only the first residual: later rounds reduce it.
         if round == 0 && fit.residual(&points, &landed) > MAX_RESIDUAL * length {
             return None;
         }

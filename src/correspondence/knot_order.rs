@@ -13,8 +13,8 @@ pub(super) fn is_pin(pins: &[[f64; 2]], knot: [f64; 2]) -> bool {
 /// Returns the moved knots without those that would break monotonicity; pins take precedence.
 ///
 /// `original` are the knots before the move, in cyclic order; `moved` are the same knots after it.
-/// No knot moves by half a round or more, so its round is unambiguous. The result ascends in the
-/// source.
+/// No knot may move by half a round or more, so that its round is unambiguous. The result ascends
+/// in the source.
 pub(super) fn ordered_knots(
     original: &[[f64; 2]],
     moved: &[[f64; 2]],

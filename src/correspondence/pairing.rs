@@ -46,8 +46,8 @@ pub enum PairError {
 const POSITION: f64 = 1.0;
 /// Weight of the absolute logarithm of the ratio of the parts' sizes (heuristic).
 const SIZE: f64 = 0.15;
-/// Weight of each difference in shape, which are three: roundness, slenderness and number of holes
-/// (heuristic).
+/// Weight of each of the three differences in shape: in roundness, in slenderness and in the number
+/// of holes (heuristic).
 const SHAPE: f64 = 0.25;
 
 /// Cost of leaving all parts of a design unmatched; a single part costs its fraction of the area
@@ -70,7 +70,8 @@ pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
 /// not matter.
 ///
 /// # Errors
-/// [`PairError`] if a fixed pair names no part, or a part twice.
+/// [`PairError`] if a fixed pair names a part that does not exist, or if a part is in two fixed
+/// pairs.
 pub(super) fn pair_parts(
     designs: [&Regions; 2],
     looks: &PartAppearances,
@@ -245,8 +246,8 @@ fn pair(
         .cmp(&b.len())
         .then_with(|| lexicographic(keys(source, &a), keys(target, &b)));
     let mut pairs = fixed.to_vec();
-    // Every row is paired, so only columns are left over. To subtract the unmatched cost of each
-    // paired column is the same, up to a constant, as to add that of each column left over.
+    // Every row is paired, so only columns are left over. Adding the unmatched cost of each column
+    // left over equals, up to a constant, subtracting the unmatched cost of each paired column.
     if order == Ordering::Greater {
         let unmatched_cost = unmatched_costs(source);
         let cost =

@@ -45,7 +45,7 @@ pub struct MatchSettings {
     /// Parts that must stay unmatched, even if the other design has a similar part.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lone: Vec<UnmatchedPart>,
-    /// Cuts that open parts with a hole.
+    /// Cuts that open the rings around holes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cuts: Vec<RingCut>,
 }

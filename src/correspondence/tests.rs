@@ -46,7 +46,7 @@ fn across(found: &BoundaryMatch, place: f64) -> f64 {
     (from[1] + along * gap(1)).rem_euclid(1.0)
 }
 
-/// Returns a shoe: no symmetry, corners and bends.
+/// Returns the outline of a shoe, which has corners and bends but no symmetry.
 fn shoe() -> Ring {
     let points = [
         (0.0, 0.0),

@@ -13,7 +13,7 @@ use crate::io::sanitize::SanitizedLine;
 #[derive(Debug, thiserror::Error)]
 #[error("{}", SanitizedLine(format_args!("{file}: {problem}")))]
 pub struct ImportError {
-    /// The file or source, as the caller wrote it.
+    /// Name of the file, or notation of the source, as the caller gave it.
     pub file: String,
     /// The reason why the import failed.
     pub problem: ImportProblem,
@@ -29,7 +29,7 @@ pub enum ImportProblem {
     /// The file has no bytes.
     #[error("the file is empty; export it again")]
     Empty,
-    /// A text format whose bytes are not valid UTF-8.
+    /// The file has a text format, but its bytes are not valid UTF-8.
     #[error("line {line} is not valid UTF-8; save the file as UTF-8 text")]
     NotUtf8 {
         /// First invalid line, counted from 1.

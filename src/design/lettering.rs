@@ -46,7 +46,7 @@ pub enum TextError {
         u32::from(*character)
     )]
     NoGlyph {
-        /// First missing character.
+        /// First character of the text that has no glyph in the font.
         character: char,
     },
     /// A glyph is a bitmap or is damaged.
@@ -105,7 +105,7 @@ pub(super) fn read(
 
 /// Parses a font file; returns the first font of a font collection.
 fn parsed_font(bytes: &[u8]) -> Result<FontRef<'_>, TextError> {
-    // A specific message, because users regard WOFF files as valid fonts.
+    // WOFF files get a message of their own, because users regard them as valid fonts.
     if bytes.starts_with(b"wOF") {
         return Err(TextError::Font("it is a packed web font"));
     }

@@ -26,7 +26,7 @@ pub enum ObjError {
         /// Fault of the line.
         fault: ObjFault,
     },
-    /// A vertex belongs to no face.
+    /// A vertex belongs to no face. Holds the number of the vertex.
     #[error("vertex {0} belongs to no face; remove it or add the missing face")]
     Unused(usize),
     /// The file has no vertices or no faces.
@@ -49,10 +49,11 @@ pub enum ObjError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjFault {
-    /// A `v` line does not begin with two or three numbers.
+    /// A `v` line does not begin with two or three numbers. Holds the number of the vertex.
     #[error("vertex {0} needs the numbers x y z; correct the line")]
     Vertex(usize),
-    /// A coordinate is not finite or exceeds [`MAX_COORDINATE`].
+    /// A coordinate is not finite, or the absolute value of x or y exceeds [`MAX_COORDINATE`].
+    /// Holds the number of the vertex.
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("vertex {0} {RANGE_MESSAGE}")]
@@ -73,7 +74,7 @@ pub enum ObjFault {
     /// shortened.
     #[error("face {0} has \"{1}\" in place of a vertex number; correct the line")]
     Face(usize, String),
-    /// A face has fewer than three vertices.
+    /// A face has fewer than three vertices. Holds the number of the face.
     #[error("face {0} has fewer than three vertices; remove it or complete it")]
     TooFewCorners(usize),
     /// A face refers to a vertex that does not exist.
@@ -239,7 +240,8 @@ impl ObjParser {
             let corners = &self.corners[first..end];
             let checked = self.check_corners(face, corners, &mut used);
             checked.map_err(|fault| ObjError::Line { line, fault })?;
-            // A fan about the first corner; `face` made sure that there are three.
+            // Triangulates the face as a fan about its first vertex; `face` has checked that it has
+            // at least three.
             let fan = corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]);
             faces.extend(fan.map(|corners| corners.map(|c| c as u32)));
         }

@@ -86,8 +86,8 @@ const MAX_POINTS: usize = 2_000_000;
 /// is, as entirely figure or entirely background (tolerance: JPEG noise).
 const SATURATED: f32 = 0.9;
 
-/// Uncertainty of a boundary point between two saturated pixels, in pixels (derived: it may lie
-/// anywhere between the two pixel centres).
+/// Uncertainty of a boundary point between two saturated pixels, in pixels (derived: the true
+/// boundary may run anywhere between the two pixel centres).
 const SATURATED_SLACK: f64 = 0.5;
 
 /// Length of the longer side, in pixels, below which a picture counts as pixel art and keeps

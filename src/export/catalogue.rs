@@ -29,7 +29,7 @@ const LONGER_SIDE_PX: u32 = 960;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum CatalogueOrder {
-    /// In the order in which they were saved.
+    /// In the order in which the blends were saved.
     #[default]
     Saved,
     /// Highest rating first.

@@ -31,7 +31,7 @@ pub const JOINT_RADIUS: f64 = 0.9;
 /// Radius of the lighter core of a joint, in bar widths (heuristic).
 pub const JOINT_CORE_RADIUS: f64 = 0.5;
 
-/// Mixing fraction in [0, 1] from the bars' colour to white for a joint's core, in linear light
+/// Fraction of white that is mixed into the bars' colour for the core of a joint, in linear light
 /// (heuristic).
 const JOINT_CORE_LIGHTNESS: f64 = 0.6;
 
@@ -60,25 +60,25 @@ pub enum DrawingItem {
     Bars {
         /// End points of each bar, in pixels.
         segments: Vec<[DVec2; 2]>,
-        /// Width in pixels.
+        /// Width of each bar, in pixels.
         width_px: f64,
-        /// Common colour.
+        /// Colour of all these bars.
         colour: Rgb,
     },
     /// Discs of equal radius.
     Discs {
-        /// Centres in pixels.
+        /// Centre of each disc, in pixels.
         centres: Vec<DVec2>,
-        /// Radius in pixels.
+        /// Radius of each disc, in pixels.
         radius_px: f64,
-        /// Common colour.
+        /// Colour of all these discs.
         colour: Rgb,
     },
     /// A raster image, copied pixel for pixel.
     Picture {
         /// Pixels with straight (not premultiplied) alpha.
         image: RgbaImage,
-        /// Pixel of the drawing at which its upper left corner lies.
+        /// Pixel of the drawing at which the upper left corner of the image lies.
         corner: UVec2,
     },
 }
@@ -203,8 +203,8 @@ impl Drawing {
             let bars = inked.bars.iter().map(|&bar| figure.bars[bar]);
             let segments: Vec<[DVec2; 2]> = bars
                 .map(|bar| bar.map(|p| view.to_px(p)))
-                // Like rings, bars far outside are omitted: 32-bit rasterisers lose all precision
-                // there.
+                // Like rings, bars far outside the image are omitted: 32-bit rasterisers lose all
+                // precision there.
                 .filter(|bar| bar.iter().copied().all(is_drawable))
                 .collect();
             (segments, style.paint_at(inked.paints, t).colour)
@@ -349,7 +349,7 @@ pub fn joint_core(colour: Rgb) -> Rgb {
     colour.mixed(Rgb([255; 3]), JOINT_CORE_LIGHTNESS)
 }
 
-/// Distinct end points of the bars, in the order of the bars.
+/// Returns the distinct end points of the bars, in the order of the bars.
 fn joint_centres(segments: &[[DVec2; 2]]) -> Vec<DVec2> {
     let mut seen = HashSet::new();
     // Bars that share a node have bit-identical end points.

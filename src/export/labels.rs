@@ -14,11 +14,11 @@ pub(super) const ERROR_COLOUR: Rgb = Rgb([0xc0, 0x3a, 0x20]);
 /// Area in which a label is wrapped.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LabelBox {
-    /// Upper left corner, in pixels.
+    /// Upper left corner of the area, in pixels.
     pub corner: DVec2,
-    /// Width in pixels.
+    /// Width of the area, in pixels.
     pub width_px: f64,
-    /// Maximum number of lines.
+    /// Maximum number of lines of the label.
     pub max_lines: usize,
 }
 

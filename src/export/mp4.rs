@@ -137,7 +137,8 @@ impl FfmpegJob<'_> {
         self.progress.report(CHECKING_STAGE, DRAWN_FRACTION);
         let reason =
             match File::open(self.temporary).and_then(|mut file| boxes::frame_count(&mut file)) {
-                // All frames are present; whether they are valid images only a decoder can determine.
+                // All frames are present, but only a decoder can find out whether they are valid
+                // images.
                 Ok(frame_count) if frame_count == count => {
                     let decoding = ffmpeg::decode_command(self.temporary);
                     return self.run(decoding, drop).map(drop);

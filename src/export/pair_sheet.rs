@@ -2,8 +2,8 @@
 //!
 //! Guarantees: names, remarks and frames do not overlap, whatever their length; text that does not
 //! fit ends in an ellipsis; the sheet stays within [`MAX_SHEET_SIDE_PX`], first by smaller frames,
-//! then by omitting the last strips, which it reports. Strips run down in blocks that make the
-//! sheet a little wider than high.
+//! then by omitting the last strips; the number of strips drawn is returned. Strips are stacked in
+//! blocks, which stand next to each other so that the sheet is a little wider than high.
 
 use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};

@@ -128,7 +128,7 @@ impl DistanceField {
         progress: &dyn Progress,
     ) -> Result<Self, FieldError> {
         grid.check()?;
-        // In lattice coordinates, so that distances are in cells.
+        // The edges are in lattice coordinates, so that distances are in cells.
         let edges = inside::lattice_edges(regions, &grid);
         let mut values = polygon_distance::distances(&edges, &grid, progress)?;
         for (value, inside) in values.iter_mut().zip(inside::inside_samples(&edges, &grid)) {

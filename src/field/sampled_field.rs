@@ -90,8 +90,8 @@ impl<'a> SampledField<'a> {
         self.height as u32
     }
 
-    /// Returns the value at (`x`, `y`), in units of samples with sample (0, 0) at (0, 0). Positions
-    /// outside, and NaN, are clamped to the lattice.
+    /// Returns the interpolated value at (`x`, `y`), where sample (i, j) lies at (i, j). Positions
+    /// outside the lattice are clamped to it; NaN counts as 0.
     #[must_use]
     pub fn bilinear(&self, x: f64, y: f64) -> f64 {
         let (left, right, u) = bracket(x, self.width);

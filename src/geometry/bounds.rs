@@ -28,37 +28,37 @@ impl Bounds {
         }))
     }
 
-    /// Diagonal of the smallest box around the points; 0 for no points.
+    /// Returns the length of the diagonal of the smallest box around the points; 0 for no points.
     #[must_use]
     pub fn diameter_of(points: &[DVec2]) -> f64 {
         Self::of(points.iter().copied()).map_or(0.0, |bounds| bounds.diameter())
     }
 
-    /// Box that contains a single point.
+    /// Returns the box that contains only the point `p`.
     #[must_use]
     pub const fn at(p: DVec2) -> Self {
         Self { min: p, max: p }
     }
 
-    /// Width and height.
+    /// Returns the width and the height of the box.
     #[must_use]
     pub fn size(&self) -> DVec2 {
         self.max - self.min
     }
 
-    /// Centre of the box.
+    /// Returns the centre of the box.
     #[must_use]
     pub fn centre(&self) -> DVec2 {
         self.min.midpoint(self.max)
     }
 
-    /// Length of the diagonal.
+    /// Returns the length of the box's diagonal.
     #[must_use]
     pub fn diameter(&self) -> f64 {
         self.size().length()
     }
 
-    /// Smallest box around both boxes.
+    /// Returns the smallest box around both boxes.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         Self {
@@ -67,10 +67,11 @@ impl Bounds {
         }
     }
 
-    /// The box grown by `by` on every side. A negative `by` shrinks it, at most to its centre.
+    /// Returns the box grown by `by` on every side. A negative `by` shrinks it, at most to its
+    /// centre.
     #[must_use]
     pub fn padded(&self, by: f64) -> Self {
-        // A side shorter than twice the shrinkage becomes 0, never negative.
+        // A width or height of less than twice the shrinkage becomes 0, never negative.
         let centre = self.centre();
         Self {
             min: (self.min - by).min(centre),
@@ -90,7 +91,7 @@ impl Bounds {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
-    /// Corners, counter-clockwise from the lower left.
+    /// Returns the corners, counter-clockwise from the lower left.
     #[must_use]
     pub fn corners(&self) -> [DVec2; 4] {
         [

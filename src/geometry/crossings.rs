@@ -1,9 +1,9 @@
-//! Proper crossings of closed polygons with themselves and with each other.
+//! Finds the proper crossings of closed polygons with themselves and with each other.
 //!
-//! A plane sweep over edges sorted along the axis on which they overlap less (Shamos, Hoey 1976,
-//! without their status structure): O(n log n + k) for k pairs of edges that overlap along that
-//! axis. Guaranteed: every proper crossing is found, by exact predicates. Not counted: touching
-//! edges, coincident edges, and edges that run exactly through a vertex.
+//! Sweeps the plane over the edges, sorted along the axis on which they overlap less (Shamos, Hoey
+//! 1976, without their status structure). This takes O(n log n + k) for k pairs of edges that
+//! overlap along that axis. Guaranteed: every proper crossing is found, by exact predicates. Not
+//! counted: touching edges, coincident edges, and edges that run exactly through a vertex.
 
 use super::{DVec2, orient2d, segments_cross};
 use serde::Serialize;
@@ -13,16 +13,16 @@ use serde::Serialize;
 pub struct RingEdge {
     /// Index of the ring.
     pub ring: usize,
-    /// Index of the point at which the edge starts.
+    /// Index in the ring of the point at which the edge starts.
     pub point: usize,
 }
 
 /// Crossing of two edges at a point inside both.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EdgeCrossing {
-    /// The edges, ordered by ring and point.
+    /// The two edges, ordered by ring and point.
     pub edges: [RingEdge; 2],
-    /// Point of the crossing.
+    /// Point at which the edges cross, up to rounding.
     pub place: DVec2,
 }
 
@@ -41,7 +41,7 @@ pub fn count_crossings(rings: &[Vec<DVec2>]) -> usize {
     count
 }
 
-/// Returns the proper crossings, ordered by their edges.
+/// Returns the proper crossings among the edges of all rings, ordered by their edges.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, crossings};
@@ -71,11 +71,12 @@ struct SweepEdge {
 /// Calls `report` for each pair of edges that cross.
 fn sweep(rings: &[Vec<DVec2>], mut report: impl FnMut(RingEdge, RingEdge)) {
     let mut spans = spans(rings);
-    // `total_cmp` sorts NaN to an end, and `<=` is false for NaN.
+    // NaN does no harm: `total_cmp` sorts it to an end, and `<=` is false for it.
     spans.sort_unstable_by(|a, b| a.along[0].total_cmp(&b.along[0]));
     for (i, span) in spans.iter().enumerate() {
         let later = spans[i + 1..].iter();
-        // Sorted by their starts, so the first edge that starts too far along ends the search.
+        // The edges are sorted by their starts, so the first one that starts beyond the end of this
+        // edge ends the search.
         for other in later.take_while(|other| other.along[0] <= span.along[1]) {
             let is_apart = other.across[0] > span.across[1] || span.across[0] > other.across[1];
             if !is_apart && segments_cross(span.ends, other.ends) {
@@ -85,7 +86,7 @@ fn sweep(rings: &[Vec<DVec2>], mut report: impl FnMut(RingEdge, RingEdge)) {
     }
 }
 
-/// Edges of all rings, with the sweep along the axis on which they overlap less.
+/// Returns the edges of all rings. The sweep runs along the axis on which they overlap less.
 fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
     let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
     let mut spans: Vec<SweepEdge> = ring_edges(rings)
@@ -96,7 +97,7 @@ fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
             ends,
         })
         .collect();
-    // Mean number of edges over a point of the axis.
+    // Returns the mean number of edges that overlap at a point of an axis.
     let overlap = |of: fn(&SweepEdge) -> [f64; 2]| {
         let all = spans.iter().map(of);
         let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
@@ -105,7 +106,7 @@ fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
         }
         sum / (high - low)
     };
-    // The cost of the sweep grows with the overlap along it.
+    // The time of the sweep grows with the overlap along its axis.
     if overlap(|s| s.along) > overlap(|s| s.across) {
         for span in &mut spans {
             std::mem::swap(&mut span.along, &mut span.across);
@@ -114,7 +115,7 @@ fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
     spans
 }
 
-/// Edges of all rings with their ends.
+/// Returns the edges of all rings with their ends.
 fn ring_edges(rings: &[Vec<DVec2>]) -> impl Iterator<Item = (RingEdge, [DVec2; 2])> {
     rings.iter().enumerate().flat_map(|(ring, points)| {
         let next = points.iter().cycle().skip(1);
@@ -124,14 +125,15 @@ fn ring_edges(rings: &[Vec<DVec2>]) -> impl Iterator<Item = (RingEdge, [DVec2; 2
     })
 }
 
-/// Crossing of two edges that are known to cross.
+/// Returns the crossing of two edges that are known to cross.
 fn crossing(rings: &[Vec<DVec2>], a: RingEdge, b: RingEdge) -> EdgeCrossing {
     let ends = |e: RingEdge| {
         let ring = &rings[e.ring];
         [ring[e.point], ring[(e.point + 1) % ring.len()]]
     };
     let ([p, q], [r, s]) = (ends(a), ends(b));
-    // Signed heights of the ends above the other edge give the fraction along this one.
+    // The signed heights of p and q over the line from r to s give the fraction of the way from p
+    // to q at which the edges cross.
     let (height_p, height_q) = (orient2d(r, s, p), orient2d(r, s, q));
     let mut edges = [a, b];
     edges.sort_unstable_by_key(|e| (e.ring, e.point));
@@ -146,7 +148,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Oracle: tests all pairs of edges.
+    /// Returns the number of crossings by testing all pairs of edges (slow oracle).
     fn slow_count(rings: &[Vec<DVec2>]) -> usize {
         let edges: Vec<_> = ring_edges(rings).collect();
         let pairs = (0..edges.len()).flat_map(|i| (0..i).map(move |j| (i, j)));

@@ -1,14 +1,15 @@
 //! Bounding-volume hierarchy over the edges of a closed polygon, for ray and proximity queries.
 //!
-//! Consecutive edges lie near each other, so runs of edges are halved in list order, without
-//! sorting. A ray costs about the logarithm of the number of edges.
+//! Consecutive edges lie near each other, so the list of edges is halved repeatedly in its own
+//! order, without sorting. A ray query takes time roughly proportional to the logarithm of the
+//! number of edges.
 //!
-//! Guaranteed: a ray hits the same edge first, to the last bit, as in a search over all edges,
-//! except for rays that run along an edge, which meet it by rounding alone.
+//! Guaranteed: the first hit of a ray is the same, to the last bit, as in a search over all edges.
+//! The exception is a ray that runs along an edge: rounding decides whether it hits that edge.
 
 use super::{Bounds, DVec2, ray_hit_parameter, ring_edges};
 
-/// Maximum number of edges in a leaf (heuristic).
+/// Maximum number of edges in a leaf of the hierarchy (heuristic).
 const LEAF_EDGES: usize = 8;
 
 /// Padding of the boxes, as a fraction of the polygon's diameter (tolerance: far above the rounding
@@ -19,8 +20,9 @@ const PADDING: f64 = 1e-9;
 #[derive(Debug)]
 pub(crate) struct EdgeBvh {
     edges: Vec<(DVec2, DVec2)>,
-    /// Binary tree in depth-first order. The box of the first half follows immediately; the number
-    /// is the index of the second half's box.
+    /// Binary tree of boxes in depth-first order. A node with more than [`LEAF_EDGES`] edges is
+    /// halved: the box of its first half follows directly, and the number is the index of the box
+    /// of its second half.
     boxes: Vec<(Bounds, usize)>,
 }
 
@@ -36,7 +38,7 @@ impl EdgeBvh {
         boxes
     }
 
-    /// Appends the box of a range of edges, then those of its two halves.
+    /// Appends the box of the edges `from..to`, then the boxes of the two halves of this range.
     fn enclose(&mut self, from: usize, to: usize, padding: f64) {
         let ends = self.edges[from..to].iter().flat_map(|&(a, b)| [a, b]);
         let Some(bounds) = Bounds::of(ends) else {
@@ -47,14 +49,15 @@ impl EdgeBvh {
         if to - from > LEAF_EDGES {
             let middle = from + (to - from) / 2;
             self.enclose(from, middle, padding);
-            // Known once the first half is complete.
+            // The index of the second half is known only now that the first half is complete.
             self.boxes[own].1 = self.boxes.len();
             self.enclose(middle, to, padding);
         }
     }
 
-    /// Returns where a ray first hits an edge beyond `min_distance`; infinite if it hits none.
-    /// Distances are in lengths of `direction`.
+    /// Returns the distance from `from` at which a ray first hits an edge, ignoring hits up to
+    /// `min_distance`; infinity if there is none. Distances are multiples of the length of
+    /// `direction`.
     pub(crate) fn first_hit_beyond(&self, from: DVec2, direction: DVec2, min_distance: f64) -> f64 {
         let ray = Ray {
             from,
@@ -69,13 +72,13 @@ impl EdgeBvh {
         nearest
     }
 
-    /// Returns whether `is` holds for an edge near `place`. All edges whose boxes meet `place` are
-    /// tested, and some others, until one satisfies `is`.
+    /// Returns whether `is` holds for an edge near the box `place`. Tests all edges whose bounding
+    /// boxes meet `place`, and some others, until one satisfies `is`.
     pub(crate) fn any_edge_near(&self, place: &Bounds, is: &dyn Fn([DVec2; 2]) -> bool) -> bool {
         !self.boxes.is_empty() && self.any_within(place, is, 0, 0, self.edges.len())
     }
 
-    /// [`Self::any_near`] in the subtree of a node with the given range of edges.
+    /// As [`Self::any_edge_near`], in the subtree of `node`, which holds the edges `from..to`.
     fn any_within(
         &self,
         place: &Bounds,
@@ -96,7 +99,8 @@ impl EdgeBvh {
             || self.any_within(place, is, *second, middle, to)
     }
 
-    /// Lowers `nearest` to the first hit in the subtree of a node with the given range of edges.
+    /// Lowers `nearest` to the distance of the first hit in the subtree of `node`, which holds the
+    /// edges `from..to`, if that hit is nearer.
     fn visit(&self, ray: &Ray, node: usize, from: usize, to: usize, nearest: &mut f64) {
         let (bounds, second) = &self.boxes[node];
         if !ray.enters(bounds, *nearest) {
@@ -121,21 +125,22 @@ impl EdgeBvh {
 struct Ray {
     from: DVec2,
     direction: DVec2,
-    /// Reciprocal of the direction.
+    /// Reciprocals of the components of `direction`.
     inverse: DVec2,
     /// Distance up to which hits are ignored.
     min_distance: f64,
 }
 
 impl Ray {
-    /// Returns whether the ray enters a box before the distance `nearest`.
+    /// Returns whether the ray enters a box at a distance of at most `nearest`.
     fn enters(&self, bounds: &Bounds, nearest: f64) -> bool {
         let [low, high] =
             [bounds.min, bounds.max].map(|corner| (corner - self.from) * self.inverse);
         // Slab test: the ray is in the box while it is in both coordinate ranges.
         let (mut enter, mut leave) = (0.0_f64, nearest);
         for (low, high) in [(low.x, high.x), (low.y, high.y)] {
-            // 0 · ∞ is NaN: the ray runs along a side of the box, which does not exclude it.
+            // 0 · ∞ is NaN: the ray runs along the line of a side of the box, so this coordinate
+            // does not rule out that it enters.
             if !low.is_nan() && !high.is_nan() {
                 enter = enter.max(low.min(high));
                 leave = leave.min(low.max(high));

@@ -1,19 +1,21 @@
-//! Least-squares similarity and affine map between two lists of points.
+//! Fits a similarity or an affine map from one list of points to another by least squares.
 
 use super::{DAffine2, DMat2, DVec2};
 
-/// Least-squares similarity from points to places: a rotation and scale about the means.
+/// Least-squares similarity that maps points to places (their target positions): a rotation and a
+/// scale about the means.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SimilarityFit {
-    /// Rotation and scale as a complex number: Σ p̄ q / Σ |p|², relative to the means.
+    /// Rotation and scale as a complex number: Σ p̄ q / Σ |p|² over the points p and their places
+    /// q, both relative to their means.
     pub factor: DVec2,
     /// Mean of the points, and mean of the places.
     pub means: [DVec2; 2],
 }
 
 impl SimilarityFit {
-    /// Fits the similarity; `None` if all points, or all places, coincide. Both lists have the same
-    /// length.
+    /// Fits the similarity to two lists of the same length. Returns `None` if all points or all
+    /// places coincide, or if no rotation fits better than another.
     pub fn of(points: &[DVec2], places: &[DVec2]) -> Option<Self> {
         let count = points.len() as f64;
         let means = [points, places].map(|all| all.iter().sum::<DVec2>() / count);
@@ -23,22 +25,22 @@ impl SimilarityFit {
             factor += DVec2::new(p.dot(q), p.perp_dot(q));
             square += p.length_squared();
         }
-        // NaN (0 / 0) if all points coincide.
+        // The factor is 0 / 0, which is NaN, if all points coincide.
         let factor = factor / square;
         (factor.is_finite() && factor != DVec2::ZERO).then_some(Self { factor, means })
     }
 
-    /// Applies the similarity.
+    /// Applies the similarity to a point.
     pub fn apply(&self, p: DVec2) -> DVec2 {
         self.means[1] + self.factor.rotate(p - self.means[0])
     }
 
-    /// Rotation in radians, counter-clockwise.
+    /// Returns the rotation in radians, counter-clockwise.
     pub fn angle(&self) -> f64 {
         self.factor.to_angle()
     }
 
-    /// Root mean square of the distances between mapped points and places.
+    /// Returns the root mean square of the distances between the mapped points and their places.
     pub fn residual(&self, points: &[DVec2], places: &[DVec2]) -> f64 {
         let off = |(p, q): (&DVec2, &DVec2)| self.apply(*p).distance_squared(*q);
         let sum: f64 = points.iter().zip(places).map(off).sum();
@@ -46,12 +48,12 @@ impl SimilarityFit {
     }
 }
 
-/// Points whose scatter matrix has a determinant below this fraction of its squared trace count as
-/// collinear (tolerance: above rounding).
+/// Maximum determinant of the scatter matrix of points that count as collinear, as a fraction of
+/// its squared trace (tolerance: above rounding).
 const COLLINEAR_RATIO: f64 = 1e-12;
 
-/// Fits the least-squares affine map from points to as many places. Collinear points give a
-/// similarity, a single point a translation.
+/// Returns the least-squares affine map from points to places, two lists of the same length.
+/// Collinear points give a similarity, and a single point gives a translation.
 pub(crate) fn fit_affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
     let count = points.len().max(1) as f64;
     let [from, to] = [points, places].map(|all| all.iter().sum::<DVec2>() / count);

@@ -4,15 +4,16 @@ use super::{DVec2, signed_area};
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 
-/// Sharpest corner that keeps its tip, in radians; sharper ones occur only where a region is about
-/// to vanish (heuristic).
+/// Minimum angle of a corner whose tip is kept, in radians. Sharper corners occur only where a
+/// region is about to vanish (heuristic).
 const MIN_TIP_ANGLE: f64 = 0.2;
 
-/// Number of bisections in the search for the inset depth (derived: 2⁻¹⁰ is about a thousandth).
+/// Number of bisections in the search for the inradius (derived: they narrow the range of the
+/// search to 2⁻¹⁰ of its length, about a thousandth).
 const BISECTIONS: u32 = 10;
 
-/// Returns the points of a region that are farther than `depth` from its boundary, as rings; holes
-/// run the other way round. Corners stay sharp.
+/// Returns the rings around the part of a region that is farther than `depth` from its boundary;
+/// holes run in the opposite direction to outer rings. Corners stay sharp.
 pub(crate) fn inset(rings: &[Vec<DVec2>], depth: f64) -> Vec<Vec<DVec2>> {
     let contours: Vec<Vec<[f64; 2]>> = rings
         .iter()
@@ -27,7 +28,8 @@ pub(crate) fn inset(rings: &[Vec<DVec2>], depth: f64) -> Vec<Vec<DVec2>> {
 }
 
 /// Returns the smallest depth at which [`inset`] leaves nothing: the radius of the largest disc in
-/// the region, to a thousandth.
+/// the region. The result is too large by at most a thousandth of the radius of a disc with the
+/// region's area.
 pub(crate) fn inradius(rings: &[Vec<DVec2>]) -> f64 {
     let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
     // No disc in the region has more area than the region.

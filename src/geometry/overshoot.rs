@@ -1,14 +1,15 @@
-//! Overshoot: excess of a quantity during a motion over the range between its end values.
+//! Overshoot of a quantity during a motion: how far it rises above the straight line between its
+//! end values, and how much it goes up and down beyond their difference.
 
-/// Returns the largest relative excess of `[t, value]` samples over the straight line between the
-/// first and the last value; 0 if none exceeds it. `t` runs from 0 to 1.
+/// Returns the largest relative excess of samples `[t, value]` over the straight line between the
+/// first and the last value; 0 if none exceeds it. The first sample has t = 0, the last one t = 1.
 pub(crate) fn max_overshoot(measured: &[[f64; 2]]) -> f64 {
     let (Some([_, first]), Some([_, last])) = (measured.first(), measured.last()) else {
         return 0.0;
     };
     let relative_excess = |[t, value]: &[f64; 2]| {
         let between = (1.0 - t) * first + t * last;
-        // A value of 0 has no relative excess.
+        // An excess over 0 has no relative size, so it does not count.
         if between > 0.0 {
             value / between - 1.0
         } else {

@@ -1,25 +1,26 @@
 //! Separates outlines that touch in single points.
 //!
-//! A region may touch itself, or two of its holes each other, in a point. It looks right, but for a
-//! triangulation it is not one connected piece, and which side such a point belongs to depends on
-//! rounding. Of the corners that meet in a point, the sharper one is moved back into itself, by
-//! less than is visible.
+//! A region may touch itself in a point, and so may two of its holes. Such a region looks right,
+//! but a triangulation fails: the region is not clearly one connected piece, because rounding
+//! decides on which side of the contact a point lies. Where two corners meet in a point, the
+//! sharper one is therefore moved back, between its own edges, by an invisible distance.
 
 use super::{Bounds, DVec2, Region, Regions, Ring, distance_squared_to_segment};
 
-/// Distance below which outlines touch, in diameters of the regions (tolerance: far above the
-/// rounding of points that are placed on edges).
+/// Maximum distance at which a corner touches an edge, as a fraction of the regions' diameter
+/// (tolerance: far above the rounding of points that are placed on edges).
 const CONTACT_DISTANCE: f64 = 1e-9;
 
-/// Distance by which a corner is moved back, in diameters (tolerance: a hundredth of a pixel at a
-/// width of ten thousand).
+/// Distance by which a touching corner is moved back, as a fraction of the regions' diameter
+/// (tolerance: a hundredth of a pixel in an image 10,000 pixels wide).
 const SETBACK: f64 = 1e-6;
-/// Maximum distance by which a corner is moved back, as a fraction of its shorter edge (heuristic).
+/// Maximum distance by which a touching corner is moved back, as a fraction of its shorter edge
+/// (heuristic).
 const MAX_SETBACK_SHARE: f64 = 0.1;
 
 impl Regions {
-    /// Returns the same regions, apart where they touched in points. All other points stay, bit by
-    /// bit.
+    /// Returns the regions with the point contacts inside each region separated. All other points
+    /// stay exactly where they are.
     pub(crate) fn with_contacts_separated(&self) -> Self {
         let diameter = self.bounds().diameter();
         let apart = |region: &Region| {
@@ -44,7 +45,7 @@ impl Regions {
 /// Corners of a region, numbered consecutively, ring by ring.
 struct RegionCorners {
     points: Vec<DVec2>,
-    /// Previous and next corner, for each corner.
+    /// For each corner: indices of the previous and the next corner of its ring.
     neighbours: Vec<[usize; 2]>,
 }
 
@@ -60,13 +61,13 @@ impl RegionCorners {
         Self { points, neighbours }
     }
 
-    /// Returns the corners with those that touch moved back.
+    /// Returns all corners, with the touching ones moved back.
     fn drawn_back(&self, diameter: f64) -> Vec<DVec2> {
         let mut points = self.points.clone();
         for corner in self.touching(CONTACT_DISTANCE * diameter) {
             let here = self.points[corner];
             let edges = self.neighbours[corner].map(|k| self.points[k] - here);
-            // Moved along the bisector, so that the corner stays between its edges.
+            // Move the corner along the bisector, so that it stays between its edges.
             let [a, b] = edges.map(DVec2::normalize_or_zero);
             let max_setback = MAX_SETBACK_SHARE * edges[0].length().min(edges[1].length());
             points[corner] =
@@ -75,8 +76,8 @@ impl RegionCorners {
         points
     }
 
-    /// Returns the corners that lie on other edges, except the bluntest of those that meet in one
-    /// point.
+    /// Returns the indices of the corners that lie on edges of other corners. Of the corners that
+    /// meet in one point, the bluntest is left out.
     fn touching(&self, near: f64) -> Vec<usize> {
         let mut by_x: Vec<usize> = (0..self.points.len()).collect();
         by_x.sort_by(|&a, &b| self.points[a].x.total_cmp(&self.points[b].x));
@@ -88,7 +89,7 @@ impl RegionCorners {
                 min: a.min(b) - near,
                 max: a.max(b) + near,
             };
-            // Candidates near an edge are one range of the corners sorted by x.
+            // In the order of x, the candidates near an edge are a single range.
             let from = by_x.partition_point(|&k| self.points[k].x < bounds.min.x);
             let within = by_x[from..]
                 .iter()
@@ -99,7 +100,7 @@ impl RegionCorners {
                 let is_near = !ends.contains(&corner)
                     && bounds.contains(p)
                     && distance_squared_to_segment(p, a, b) <= near * near;
-                // Of two corners at the same place only the sharper one is moved.
+                // Of two corners at the same point, only the sharper one is moved.
                 let is_sharper = |end: usize| {
                     let meets = p.distance_squared(self.points[end]) <= near * near;
                     meets && (self.width(end), end) < (self.width(corner), corner)
@@ -114,7 +115,7 @@ impl RegionCorners {
         touching
     }
 
-    /// Opening of a corner, as 1 − cos of the angle between its edges.
+    /// Returns the width of a corner: 1 − cos of the angle between its edges.
     fn width(&self, corner: usize) -> f64 {
         let here = self.points[corner];
         let [a, b] = self.neighbours[corner].map(|k| (self.points[k] - here).normalize_or_zero());

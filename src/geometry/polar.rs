@@ -3,8 +3,8 @@
 
 use super::{DMat2, DVec2};
 
-/// Polar decomposition M = R(angle) · stretch into a rotation R and a symmetric stretch. Whole
-/// turns may be added to the angle, for a shape that turns further.
+/// Polar decomposition M = R(θ) S of a 2×2 matrix into a rotation R and a symmetric stretch S.
+/// Whole turns may be added to the angle θ, for a shape that turns further.
 ///
 /// For det M > 0 the stretch is positive definite and the decomposition is unique. For det M ≤ 0
 /// the factors still multiply to M, but the stretch is not positive definite; callers reject such
@@ -28,7 +28,7 @@ impl PolarDecomposition {
     #[must_use]
     pub fn of(m: DMat2) -> Self {
         let (a, b, c, d) = (m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y);
-        // If both arguments are 0, M only mirrors and scales, and any angle will do.
+        // If both arguments are 0, M is a mirror times a scale, and any angle is right.
         let angle = (c - b).atan2(a + d);
         let s = DMat2::from_angle(-angle) * m;
         let off = 0.5 * (s.y_axis.x + s.x_axis.y); // equal up to rounding
@@ -73,12 +73,13 @@ impl SymmetricEigen {
         };
         Self {
             values: [large, small],
-            // (half, b) points at twice the angle of the axis, also if b is 0.
+            // The angle of the vector (half, b) is twice that of the axis, also if b is 0.
             axis: DVec2::from_angle(0.5 * b.atan2(half)),
         }
     }
 
-    /// Returns f(S): the function applied to both eigenvalues.
+    /// Returns f(S): the matrix with the same eigenvectors, and with `f` applied to both
+    /// eigenvalues.
     #[must_use]
     pub fn map(&self, f: impl Fn(f64) -> f64) -> DMat2 {
         let (l1, l2) = (f(self.values[0]), f(self.values[1]));
@@ -95,8 +96,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Oracle: the rotation by singular value decomposition, with one Jacobi rotation of MᵀM. Slow,
-    /// simple and independent of the closed form.
+    /// Returns the rotation by singular value decomposition, with one Jacobi rotation of MᵀM (slow
+    /// oracle, independent of the closed form).
     fn rotation_by_svd(m: DMat2) -> DMat2 {
         let gram = m.transpose() * m;
         let phi = 0.5 * (2.0 * gram.y_axis.x).atan2(gram.x_axis.x - gram.y_axis.y);

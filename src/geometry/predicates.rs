@@ -1,5 +1,5 @@
-//! Geometric predicates with exact signs (Shewchuk 1997, through the `robust` crate), and the plain
-//! floating-point area.
+//! Orientation of three points with an exact sign (Shewchuk 1997, through the `robust` crate) or in
+//! plain floating point, and a total order on lists of numbers.
 
 use super::DVec2;
 use std::cmp::Ordering;
@@ -18,14 +18,15 @@ pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     robust::orient2d(coord(a), coord(b), coord(c))
 }
 
-/// Returns twice the signed area of `abc` in plain floating point: faster than [`orient2d`], but
-/// its sign is unreliable near zero.
+/// Returns twice the signed area of the triangle `abc` in plain floating point. It is faster than
+/// [`orient2d`], but its sign is unreliable near zero.
 #[must_use]
 pub fn twice_signed_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Compares two lists by the first numbers that differ: a total order on lists of equal length.
+/// Compares two lists by the first pair of numbers that differ. This is a total order on lists of
+/// equal length.
 pub(crate) fn lexicographic(
     a: impl IntoIterator<Item = f64>,
     b: impl IntoIterator<Item = f64>,

@@ -1,9 +1,10 @@
 //! Limits on coordinates, on the size of a design and on its distance from the origin. They are the
 //! same for all formats and are checked where regions, meshes and trusses are created.
 //!
-//! Within these limits squares, areas, products of four lengths and their sums are finite and
-//! non-zero in `f64`, and squares are in the `f32` of a graphics card. The libraries need less:
-//! `i_overlay` at most 2⁵⁰⁰, `spade` 2⁻¹⁴² to 2²⁰¹.
+//! Within these limits, areas, squares of lengths, products of four lengths and their sums neither
+//! overflow nor underflow in `f64`, and squares of lengths do not in the `f32` of a graphics card.
+//! The limits of the libraries are wider: `i_overlay` allows coordinates up to 2⁵⁰⁰, and `spade`
+//! from 2⁻¹⁴² to 2²⁰¹.
 
 use super::{Bounds, DVec2};
 use std::fmt;
@@ -12,26 +13,28 @@ use std::fmt;
 /// 10³⁶, and `f32` ends at 3 × 10³⁸).
 pub const MAX_COORDINATE: f64 = 1e18;
 
-/// Smallest longer side of a design (derived in the same way).
+/// Minimum length of the longer side of a design (derived: its square is then 10⁻³⁶, and full
+/// precision in `f32` begins at 10⁻³⁸).
 pub const MIN_SIZE: f64 = 1e-18;
 
-/// Message about a point that is not [`is_in_range`], without its subject.
+/// Message about a point that is not [`is_in_range`]; the caller puts the subject of the sentence
+/// in front.
 pub(crate) const RANGE_MESSAGE: &str =
     "has a coordinate that is not a number between -1e18 and 1e18; correct it, or scale the design";
 
-/// Maximum distance of a design from the origin, in multiples of its longer side (derived: some
-/// thousand distinct numbers are left along the design there, as many as a match puts points on an
-/// outline).
+/// Maximum distance of a design from the origin, in multiples of the design's longer side (derived:
+/// at that distance a few thousand distinct coordinates remain along the design, about as many as a
+/// match puts points on an outline).
 const MAX_DISTANCE: f64 = 1e12;
 
 /// Reason why a design's size or place is out of range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DesignSizeError {
-    /// All points coincide, or nearly.
+    /// All points coincide, or nearly. The number is the longer side of the design.
     #[error("the design is only {0:e} wide, less than the minimum of {MIN_SIZE:e}; scale it up")]
     TooSmall(f64),
-    /// The points are too far from the origin for their distances from each other.
+    /// The design is too far from the origin for its size, so rounding would distort it.
     #[error(
         "the design is {size:e} wide but lies {away:e} away from the origin, where numbers are too coarse for it; move it to the origin"
     )]
@@ -44,7 +47,7 @@ pub enum DesignSizeError {
 }
 
 impl DesignSizeError {
-    /// Checks a bounding box and returns its longer side.
+    /// Checks the bounding box of a design, and returns its longer side.
     pub(crate) fn check(bounds: &Bounds) -> Result<f64, Self> {
         let size = bounds.size().max_element();
         let away = bounds.min.abs().max(bounds.max.abs()).max_element();
@@ -63,7 +66,7 @@ pub fn is_in_range(p: DVec2) -> bool {
     p.abs().cmple(DVec2::splat(MAX_COORDINATE)).all()
 }
 
-/// Point as shown in messages, with four digits at any size.
+/// Point as shown in messages, with four significant digits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ApproxPoint(pub DVec2);
 

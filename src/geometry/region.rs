@@ -1,9 +1,9 @@
 //! Regions with holes, cleaned so that later code can rely on them.
 //!
-//! [`Regions`] guarantees simple, disjoint polygons with counter-clockwise outer rings and
-//! clockwise holes. Cleaning is a union by fill rule (`i_overlay` on a 64-bit integer grid). It
-//! moves points by less than 1e-15 of the size, unless they nearly coincide. It does not simplify:
-//! a noisy outline stays noisy.
+//! [`Regions`] guarantees simple polygons with counter-clockwise outer rings and clockwise holes,
+//! disjoint unless they were stacked. Cleaning is a union by fill rule (`i_overlay` on a 64-bit
+//! integer grid). It moves points by less than 1e-15 of the size of all rings, unless they nearly
+//! coincide. It does not simplify: a noisy outline stays noisy.
 
 use super::sliver::SliverTest;
 use super::{
@@ -13,9 +13,10 @@ use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::simplify::SimplifyShape;
 
-/// Settings of the crossing search, which runs in rounds; each joins points closer than a radius
-/// that grows by `progression`. A faster growth than the library's √2 bounds the number of rounds
-/// for points that nearly lie on one line (heuristic).
+/// Settings of the library's crossing search. The search runs in rounds, each of which joins points
+/// closer than a radius. A `progression` of 4 quadruples the radius from round to round. This is
+/// faster than the library's default, a factor of √2, and bounds the number of rounds for points
+/// that nearly lie on one line (heuristic).
 const SOLVER: Solver = Solver {
     precision: Precision {
         start: 0,
@@ -38,12 +39,12 @@ pub struct Region {
 pub struct Regions(Vec<Region>);
 
 impl Region {
-    /// The outer ring, then the holes.
+    /// Returns the outer ring, then the holes.
     pub fn rings(&self) -> impl Iterator<Item = &Ring> {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
-    /// Enclosed area, without the holes.
+    /// Returns the enclosed area, without the holes.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.outer.signed_area() + self.holes.iter().map(Ring::signed_area).sum::<f64>()
@@ -56,27 +57,27 @@ impl Region {
     }
 }
 
-/// Rule for which points a set of rings encloses.
+/// Rule that decides which points a set of rings encloses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FillRule {
-    /// Points whose winding number is not zero.
+    /// The points whose winding number is not zero.
     NonZero,
-    /// Points whose winding number is odd.
+    /// The points whose winding number is odd.
     EvenOdd,
 }
 
-/// Reason why rings form no region.
+/// Reason why rings form no region. Indices start at 0 in fields and at 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegionsError {
-    /// A coordinate is not a number, or is larger than [`MAX_COORDINATE`].
+    /// A coordinate is not a number, or its absolute value exceeds [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: super::MAX_COORDINATE
     #[error("point {} of outline {} {RANGE_MESSAGE}", point + 1, ring + 1)]
     OutOfRange {
         /// Index of the ring.
         ring: usize,
-        /// Index of the point in it.
+        /// Index of the point in the ring.
         point: usize,
     },
     /// The design is too small, or too far from the origin for its size.
@@ -88,20 +89,21 @@ pub enum RegionsError {
 }
 
 impl Regions {
-    /// Smallest area of a region or hole, relative to the squared size (tolerance: self-touching
-    /// outlines leave slivers of about 1e-18).
+    /// Maximum area of a region or hole that is removed as a sliver, as a fraction of the squared
+    /// size of all rings (tolerance: outlines that touch themselves leave slivers of about 1e-18).
     const MIN_RELATIVE_AREA: f64 = 1e-14;
 
-    /// Points closer than this to the previous point, relative to the size, are merged with it
-    /// (tolerance: an outline that ends where it began keeps a last edge of about 1e-15, which
-    /// vanishes when the outline is scaled down).
+    /// Maximum distance at which a point is merged with the previous one, as a fraction of the size
+    /// of all rings (tolerance: an outline that ends where it began keeps a last edge of about
+    /// 1e-15, which vanishes when the outline is scaled down).
     const MIN_RELATIVE_EDGE: f64 = 1e-12;
 
     /// Creates regions from rings. The fill rule resolves self-crossings, overlaps, duplicates and
     /// collinear points. Rings with fewer than three points are ignored.
     ///
     /// # Errors
-    /// [`RegionsError`] if a coordinate is out of range or nothing is enclosed.
+    /// [`RegionsError`] if a coordinate is out of range, if the rings are too small or too far from
+    /// the origin, or if they enclose nothing.
     ///
     /// ```
     /// use morphospace::geometry::{DVec2, FillRule, Regions};
@@ -115,8 +117,8 @@ impl Regions {
         Self::clean(rings, rule).map(|(regions, _)| regions)
     }
 
-    /// As [`Regions::from_rings`], but a duplicate outline counts once, and the repairs are
-    /// reported.
+    /// As [`Regions::from_rings`], but outlines that occur several times count once, and the
+    /// repairs are returned too.
     ///
     /// # Errors
     /// As [`Regions::from_rings`].
@@ -130,7 +132,7 @@ impl Regions {
         Ok((regions, Repairs { slivers, ..repairs }))
     }
 
-    /// Returns the regions and the number of slivers that were removed.
+    /// Returns the cleaned regions and the number of slivers that were removed.
     fn clean(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
         let extent = DesignSizeError::check(&bounds)?;
@@ -146,7 +148,7 @@ impl Regions {
             .filter(|ring| ring.len() >= 3)
             .map(|ring| ring.iter().map(|&p| (p - origin).to_array()).collect())
             .collect();
-        // A grid of 32 bits would move points by about 1e-9 of the size.
+        // Use a grid of 64 bits: one of 32 bits would move points by about 1e-9 of the size.
         let shapes =
             subject.simplify_shape_custom_as::<i64>(rule.into(), Default::default(), SOLVER);
         let contours: usize = shapes.iter().map(Vec::len).sum();
@@ -162,53 +164,53 @@ impl Regions {
         Ok((Self(regions), contours - remaining))
     }
 
-    /// Combines the regions of several layers, layer by layer. Regions of different layers may
-    /// overlap; those of one layer do not. `None` for no layers.
+    /// Combines the regions of several layers, layer by layer, into one list. Regions of different
+    /// layers may overlap; those of one layer do not. Returns `None` for no layers.
     #[must_use]
     pub fn stacked(layers: impl IntoIterator<Item = Self>) -> Option<Self> {
         let pieces: Vec<Region> = layers.into_iter().flat_map(|layer| layer.0).collect();
         (!pieces.is_empty()).then_some(Self(pieces))
     }
 
-    /// Returns the regions with the given indices; `None` if there are none.
+    /// Returns the regions with the given indices; `None` if no index is that of a region.
     pub(crate) fn subset(&self, numbers: &[usize]) -> Option<Self> {
         let pieces = numbers.iter().filter_map(|&k| self.0.get(k).cloned());
         let pieces: Vec<Region> = pieces.collect();
         (!pieces.is_empty()).then_some(Self(pieces))
     }
 
-    /// Replaces each region by its image.
+    /// Returns the regions with each one replaced by its image under `map`.
     pub(super) fn map_regions(&self, map: impl Fn(&Region) -> Region) -> Self {
         Self(self.0.iter().map(map).collect())
     }
 
-    /// The regions in order.
+    /// Returns the regions in order.
     pub fn iter(&self) -> impl Iterator<Item = &Region> {
         self.0.iter()
     }
 
-    /// Number of regions, at least one.
+    /// Returns the number of regions, at least one.
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// All rings: each outer ring, followed by its holes.
+    /// Returns all rings: each outer ring, followed by its holes.
     pub fn rings(&self) -> impl Iterator<Item = &Ring> {
         self.0.iter().flat_map(Region::rings)
     }
 
-    /// Enclosed area, without the holes.
+    /// Returns the enclosed area of all regions, without the holes.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.rings().map(Ring::signed_area).sum()
     }
 
-    /// Smallest box around all regions.
+    /// Returns the smallest box around all regions.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        // Never empty: creating no region is an error.
+        // There is at least one region.
         let first = self.0[0].outer.bounds();
         self.0
             .iter()
@@ -222,7 +224,8 @@ impl Regions {
         self.rings().map(|ring| ring.winding(p)).sum::<i32>() != 0
     }
 
-    /// Applies a similarity. Mirrored rings are reversed, so that they keep their orientation.
+    /// Applies a similarity. If it mirrors, the points of each ring are reversed, so that the ring
+    /// keeps its orientation.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
         let place = |ring: &Ring| {
@@ -260,7 +263,7 @@ fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
     Ok(())
 }
 
-/// Limits below which contours and edges are removed.
+/// Limits below which contours and edges are removed as slivers.
 struct SliverLimits {
     area: f64,
     edge: f64,
@@ -302,7 +305,7 @@ fn region_from(
     Some(Region { outer, holes })
 }
 
-/// Returns the ring with the requested orientation.
+/// Returns the ring counter-clockwise if `ccw`, and clockwise otherwise.
 fn with_orientation(ring: Ring, ccw: bool) -> Ring {
     if (ring.signed_area() > 0.0) == ccw {
         ring
@@ -345,7 +348,7 @@ mod tests {
         assert!((mirrored.area() - 12.0).abs() < 1e-9);
     }
 
-    /// Any finite number, with extremes as frequent as ordinary values.
+    /// Generates any finite number, extremes as often as ordinary values.
     fn finite() -> impl Strategy<Value = f64> {
         use proptest::num::f64::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
         let bounds = [

@@ -1,11 +1,11 @@
 //! Finds defects of outlines before they are cleaned: crossings, touches, duplicates, outlines
-//! without area, and idle points.
+//! without area, and idle points (points that change nothing).
 //!
 //! Edges are compared by a sweep along x (Shamos and Hoey 1976, with a list instead of the tree)
 //! and exact predicates. The sweep may make 500 comparisons per edge; if that is not enough, the
 //! counts are lower bounds and [`Repairs::at_least`] is set.
 //!
-//! Not counted: edges that meet at corners of both, since outlines may touch that way.
+//! A contact at a corner of both edges is not counted, because outlines may touch that way.
 
 use super::{Bounds, DVec2, orient2d, ring_edges};
 use std::collections::HashSet;
@@ -21,28 +21,30 @@ use std::collections::HashSet;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Repairs {
-    /// Pairs of edges that cross inside both.
+    /// Number of pairs of edges that cross at a point inside both.
     pub crossings: usize,
-    /// Corners that lie on another edge.
+    /// Number of corners that lie on another edge, not at its ends.
     pub touches: usize,
-    /// Whether there may be more crossings and touches than counted.
+    /// Whether there may be more crossings and touches than were counted.
     pub at_least: bool,
-    /// Outlines with the same points as an earlier one; all but the first are left out.
+    /// Number of outlines with the same points as an earlier one; they are left out.
     pub duplicates: usize,
-    /// Outlines that enclose nothing: fewer than three different points, or all points on one line.
+    /// Number of outlines that enclose nothing, because they have fewer than three different points
+    /// or all points lie on one line.
     pub flat: usize,
-    /// Regions and holes that are too small to keep, left over from touching edges.
+    /// Number of regions and holes that were removed because they are too small or too thin, left
+    /// over where edges touch or almost touch.
     pub slivers: usize,
-    /// Points that repeat the previous one, or lie straight between their neighbours.
+    /// Number of points that repeat the previous point, or lie straight between their neighbours.
     pub idle_points: usize,
 }
 
-/// Number of comparisons that the sweep may make per edge (resource limit: two million edges take
-/// seconds, and up to 500 edges are always compared in full).
+/// Maximum number of comparisons that the sweep makes, per edge (resource limit: two million edges
+/// take seconds, and up to 1,000 edges are always compared in full).
 const TESTS_PER_EDGE: usize = 500;
 
 impl Repairs {
-    /// Adds the defects of another set of outlines.
+    /// Returns the sums of the numbers of defects of two sets of outlines.
     #[must_use]
     pub fn merged_with(self, other: Self) -> Self {
         Self {
@@ -56,15 +58,16 @@ impl Repairs {
         }
     }
 
-    /// Returns the rings to be cleaned (each that encloses something, once) and the defects found.
-    /// The points must be in range.
+    /// Returns the rings to be cleaned, without flat and duplicate ones and without idle points,
+    /// and the defects found. The points must be in range.
     pub(super) fn find(rings: &[Vec<DVec2>]) -> (Vec<Vec<DVec2>>, Self) {
         let mut repairs = Self::default();
         let mut seen = HashSet::new();
         let mut used_rings = Vec::new();
         for ring in rings {
             let (corners, idle) = corners(ring);
-            // Before the search for duplicates, because all flat rings would look alike.
+            // Leave flat rings out before the search for duplicates: without corners, all of them
+            // look alike.
             if corners.len() < 3 {
                 repairs.flat += 1;
                 continue;
@@ -80,7 +83,7 @@ impl Repairs {
         (used_rings, repairs)
     }
 
-    /// Counts crossings and touches only; the rings are taken as they are.
+    /// Counts only crossings and touches, between the rings as given: no ring is left out first.
     #[must_use]
     pub fn count_contacts(rings: &[Vec<DVec2>]) -> Self {
         let mut repairs = Self::default();
@@ -101,7 +104,7 @@ impl Repairs {
         for edge in edges {
             // Edges that end before this one begins cannot meet it.
             active.retain(|other| other.bounds.max.x >= edge.bounds.min.x);
-            // Edges of combs and hatchings overlap all along the sweep.
+            // Give up if too many edges overlap along x, as in combs and hatchings.
             if active.len() > tests {
                 self.at_least = true;
                 return;
@@ -114,9 +117,9 @@ impl Repairs {
         }
     }
 
-    /// Counts the crossing and the touches of two edges.
+    /// Counts a crossing of two edges and their touches.
     fn compare(&mut self, e: &BoxedEdge, f: &BoxedEdge) {
-        // The sweep compares x; edges that are apart in y need no predicates.
+        // The sweep compares x only. Edges that are apart in y need no exact predicates.
         if e.bounds.min.y > f.bounds.max.y || f.bounds.min.y > e.bounds.max.y {
             return;
         }
@@ -125,7 +128,7 @@ impl Repairs {
         if have_opposite_signs(ea, eb) && have_opposite_signs(fa, fb) {
             self.crossings += 1;
         }
-        // Only start points are tested: an end point is the start of the next edge.
+        // Test only the edges' start points: an end point is the start of the next edge.
         self.touches += usize::from(ea == 0.0 && f.has_inside(e.a));
         self.touches += usize::from(fa == 0.0 && e.has_inside(f.a));
     }
@@ -150,7 +153,8 @@ impl BoxedEdge {
         Self { a, b, bounds }
     }
 
-    /// Returns whether a point on the edge's line lies strictly between its ends.
+    /// Returns whether a point, which must lie on the edge's line, lies strictly between the edge's
+    /// ends.
     fn has_inside(&self, p: DVec2) -> bool {
         self.bounds.contains(p) && p != self.a && p != self.b
     }
@@ -163,7 +167,7 @@ fn corners(ring: &[DVec2]) -> (Vec<DVec2>, usize) {
     if points.len() > 1 && points.first() == points.last() {
         points.pop();
     }
-    // Counted after the closing point is gone; everything removed from here on is idle.
+    // Count the points after the closing point is gone; every point removed from here on is idle.
     let given_count = points.len();
     points.dedup();
     while points.len() > 1 && points.first() == points.last() {
@@ -176,7 +180,8 @@ fn corners(ring: &[DVec2]) -> (Vec<DVec2>, usize) {
             points[i],
             points[(i + 1) % count],
         );
-        // A reversal counts as a turn: the fill rule decides what the spike encloses.
+        // A reversal of direction counts as a turn: the fill rule decides whether such a spike
+        // encloses anything.
         orient2d(a, b, c) != 0.0 || (b - a).dot(c - b) < 0.0
     };
     let corners: Vec<DVec2> = (0..count).filter(turns).map(|i| points[i]).collect();
@@ -198,20 +203,21 @@ fn is_flat(points: &[DVec2]) -> bool {
     farthest.is_none_or(|&end| points.iter().all(|&p| orient2d(first, end, p) == 0.0))
 }
 
-/// Returns a list that is equal for two rings through the same points, wherever they start and
-/// whichever way they run.
+/// Returns a list that is the same for two rings through the same points, whichever point they
+/// start at and whichever way they run.
 fn fingerprint(ring: &[DVec2]) -> Vec<[u64; 2]> {
-    let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // -0 is 0
+    let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // -0 + 0 is 0
     let forward: Vec<[u64; 2]> = ring.iter().map(bits).collect();
     let backward = forward.iter().rev().copied().collect();
     smallest_rotation(forward).min(smallest_rotation(backward))
 }
 
-/// Rotates a list to the smallest of its rotations that start at a smallest element.
+/// Rotates a list to the smallest of its rotations that start at a smallest element. Compares only
+/// the first eight of these.
 fn smallest_rotation(mut list: Vec<[u64; 2]>) -> Vec<[u64; 2]> {
     let least = list.iter().min().copied();
     let starts = (0..list.len()).filter(|&i| Some(list[i]) == least);
-    // A ring may pass a point many times; comparing a few rotations is enough.
+    // A ring may pass its smallest point many times; to compare a few rotations is enough.
     let turned = |i: usize| list[i..].iter().chain(&list[..i]);
     if let Some(best) = starts.take(8).min_by(|&i, &j| turned(i).cmp(turned(j))) {
         list.rotate_left(best);

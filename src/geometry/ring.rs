@@ -5,7 +5,7 @@ use super::{Bounds, DVec2, distance_squared_to_segment};
 /// Closed polygon of at least three finite points. The last point is joined to the first and does
 /// not repeat it.
 ///
-/// A ring may cross itself; [`super::Regions`] holds cleaned rings.
+/// A ring may cross itself; the rings of [`super::Regions`] do not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ring(Vec<DVec2>);
 
@@ -13,10 +13,10 @@ pub struct Ring(Vec<DVec2>);
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RingError {
-    /// There are too few different points.
+    /// Fewer than three points are left after consecutive repetitions are removed.
     #[error("a closed outline needs at least 3 different points, this one has {0}; add points")]
     TooFewPoints(usize),
-    /// A coordinate is NaN or infinite.
+    /// A coordinate of the point with this index is NaN or infinite.
     #[error("point {0} of the outline is not a finite number; correct its coordinates")]
     NotFinite(usize),
 }
@@ -35,7 +35,7 @@ impl Ring {
     /// # Ok::<(), morphospace::geometry::RingError>(())
     /// ```
     pub fn new(mut points: Vec<DVec2>) -> Result<Self, RingError> {
-        // Checked first, so that the index is that of the given points.
+        // Check this first, so that the index is that of the points as given.
         if let Some(bad) = points.iter().position(|p| !p.is_finite()) {
             return Err(RingError::NotFinite(bad));
         }
@@ -49,30 +49,30 @@ impl Ring {
         Ok(Self(points))
     }
 
-    /// Points in order.
+    /// Returns the points in order.
     #[must_use]
     pub fn points(&self) -> &[DVec2] {
         &self.0
     }
 
-    /// Edges in order, the closing one last.
+    /// Returns the edges in order; the one from the last point to the first comes last.
     pub fn edges(&self) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
         ring_edges(&self.0)
     }
 
-    /// Enclosed area, negative if the points run clockwise.
+    /// Returns the enclosed area, negative if the points run clockwise.
     #[must_use]
     pub fn signed_area(&self) -> f64 {
         signed_area(&self.0)
     }
 
-    /// Length of the closed boundary.
+    /// Returns the length of the closed boundary.
     #[must_use]
     pub fn perimeter(&self) -> f64 {
         perimeter(&self.0)
     }
 
-    /// Squared distance of `p` from the boundary.
+    /// Returns the squared distance of `p` from the boundary.
     #[must_use]
     pub fn distance_squared(&self, p: DVec2) -> f64 {
         let to_edge = |(a, b)| distance_squared_to_segment(p, a, b);
@@ -86,7 +86,7 @@ impl Ring {
         self
     }
 
-    /// Smallest box around the ring.
+    /// Returns the smallest box around the ring.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         // A ring has at least three points.
@@ -96,26 +96,28 @@ impl Ring {
         })
     }
 
-    /// Winding number around `p`, counter-clockwise positive.
+    /// Returns the winding number of the ring around `p`, counter-clockwise positive; on the
+    /// boundary the answer may be either.
     #[must_use]
     pub fn winding(&self, p: DVec2) -> i32 {
         winding(&self.0, p)
     }
 
-    /// Applies `map`, which must keep coordinates finite, to every point.
+    /// Returns the ring with `map` applied to every point; `map` must keep coordinates finite.
     pub(crate) fn mapped(&self, map: impl Fn(DVec2) -> DVec2) -> Self {
         Self(self.0.iter().map(|&p| map(p)).collect())
     }
 }
 
-/// Returns the edges of a closed polygon in order, the closing one last. Its corners may be points
-/// or indices.
+/// Returns the edges of a closed polygon in order; the one from the last corner to the first comes
+/// last. Corners may be points or indices.
 pub fn ring_edges<T: Copy>(points: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
     let next = points.iter().skip(1).chain(points.first());
     points.iter().copied().zip(next.copied())
 }
 
-/// Area enclosed by a closed polygon, negative if its points run clockwise; 0 for no points.
+/// Returns the area that a closed polygon encloses, negative if its points run clockwise; 0 for no
+/// points.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, signed_area};
@@ -123,7 +125,7 @@ pub fn ring_edges<T: Copy>(points: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
 /// ```
 #[must_use]
 pub fn signed_area(points: &[DVec2]) -> f64 {
-    // Relative to a vertex, which avoids cancellation far from the origin.
+    // Use coordinates relative to a vertex, which avoids cancellation far from the origin.
     let origin = points.first().copied().unwrap_or_default();
     let twice: f64 = ring_edges(points)
         .map(|(a, b)| (a - origin).perp_dot(b - origin))
@@ -131,20 +133,21 @@ pub fn signed_area(points: &[DVec2]) -> f64 {
     0.5 * twice
 }
 
-/// Length of a closed polygon's boundary.
+/// Returns the length of a closed polygon's boundary.
 #[must_use]
 pub fn perimeter(points: &[DVec2]) -> f64 {
     ring_edges(points).map(|(a, b)| a.distance(b)).sum()
 }
 
-/// Winding number of a closed polygon around `p`, counter-clockwise positive; on the boundary the
-/// answer may be either.
+/// Returns the winding number of a closed polygon around `p`, counter-clockwise positive. On the
+/// boundary, the answer may be that of either side.
 #[must_use]
 pub fn winding(points: &[DVec2], p: DVec2) -> i32 {
     let crossing = |(a, b): (DVec2, DVec2)| {
         let side = (b - a).perp_dot(p - a);
-        // An end at the height of `p` counts as below it, so a ray through a corner crosses one of
-        // its edges, or both in opposite directions.
+        // An end at the height of `p` counts as below it. A horizontal ray through a corner
+        // therefore crosses neither of the corner's edges, one of them, or both in opposite
+        // directions.
         match (a.y <= p.y, b.y <= p.y) {
             (true, false) if side > 0.0 => 1,
             (false, true) if side < 0.0 => -1,

@@ -14,7 +14,8 @@ use super::{DVec2, orient2d};
 #[must_use]
 pub fn nearest_segment_parameter(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let edge = b - a;
-    // 0/0 if the ends coincide, or are so close that the square underflows.
+    // The quotient is 0 / 0 if the ends coincide, or are so close that the squared length
+    // underflows.
     let along = (p - a).dot(edge) / edge.length_squared();
     if along.is_finite() {
         along.clamp(0.0, 1.0)
@@ -23,7 +24,7 @@ pub fn nearest_segment_parameter(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     }
 }
 
-/// Squared distance from `p` to the segment from `a` to `b`.
+/// Returns the squared distance from `p` to the segment from `a` to `b`.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, distance_squared_to_segment};
@@ -35,7 +36,7 @@ pub fn distance_squared_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance_squared(a + nearest_segment_parameter(p, a, b) * (b - a))
 }
 
-/// Returns whether two segments, ends included, have a point in common, by exact predicates.
+/// Returns whether two segments, with their ends, have a point in common (by exact predicates).
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, segments_touch};
@@ -46,11 +47,12 @@ pub fn distance_squared_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
 #[must_use]
 pub fn segments_touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let boxes_apart = a.max(b).cmplt(c.min(d)).any() || c.max(d).cmplt(a.min(b)).any();
-    // Collinear segments touch if their boxes do.
+    // For collinear segments the boxes decide: they touch if their boxes do.
     !boxes_apart && !on_same_side([a, b], c, d) && !on_same_side([c, d], a, b)
 }
 
-/// Returns whether two segments cross at a point that is an end of neither, by exact predicates.
+/// Returns whether two segments cross at a single point that is an end of neither (by exact
+/// predicates).
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, segments_cross};
@@ -60,30 +62,31 @@ pub fn segments_touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 /// ```
 #[must_use]
 pub fn segments_cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    // A shortcut for neighbours, which share a point: the exact predicate is slow for them.
+    // Segments with a common end do not cross. This shortcut helps neighbouring edges, for which
+    // the exact predicate is slow.
     let shared = a == c || a == d || b == c || b == d;
     !shared && separates([a, b], c, d) && separates([c, d], a, b)
 }
 
-/// Returns where a ray hits the segment from `a` to `b`, in lengths of `direction`; `None` if it
-/// misses, or if the hit lies behind.
+/// Returns the distance from `from` at which a ray hits the segment from `a` to `b`, as a multiple
+/// of the length of `direction`; `None` if the ray misses, or if the distance is not positive.
 pub(crate) fn ray_hit_parameter(from: DVec2, direction: DVec2, [a, b]: [DVec2; 2]) -> Option<f64> {
     let (edge, offset) = (b - a, a - from);
     let across = direction.perp_dot(edge);
-    // For parallel lines this is infinite or NaN, and therefore out of range.
+    // If ray and segment are parallel, this is infinite or NaN, and therefore outside 0 to 1.
     let share = offset.perp_dot(direction) / across;
     let far = || offset.perp_dot(edge) / across;
     let meets = (0.0..=1.0).contains(&share);
     meets.then(far).filter(|far| *far > 0.0)
 }
 
-/// Returns whether both points lie strictly on the same side of the line.
+/// Returns whether `p` and `q` lie strictly on the same side of the line through `a` and `b`.
 fn on_same_side([a, b]: [DVec2; 2], p: DVec2, q: DVec2) -> bool {
     let [p, q] = [p, q].map(|p| orient2d(a, b, p));
     (p > 0.0 && q > 0.0) || (p < 0.0 && q < 0.0)
 }
 
-/// Returns whether the line separates the points strictly.
+/// Returns whether `p` and `q` lie strictly on different sides of the line through `a` and `b`.
 fn separates([a, b]: [DVec2; 2], p: DVec2, q: DVec2) -> bool {
     let [p, q] = [p, q].map(|p| orient2d(a, b, p));
     (p > 0.0 && q < 0.0) || (p < 0.0 && q > 0.0)
@@ -95,12 +98,13 @@ mod tests {
     use proptest::prelude::*;
 
     fn point() -> impl Strategy<Value = DVec2> {
-        // Few different points, so that ends often meet, lie on edges and are collinear.
+        // Generate few different points, so that ends often coincide, lie on edges and are
+        // collinear.
         (0i8..4, 0i8..4).prop_map(|(x, y)| DVec2::new(x.into(), y.into()))
     }
 
-    /// Oracle: the intersection of the two lines as fractions of both segments, exact for small
-    /// integers; `None` if they are parallel.
+    /// Returns the intersection of the two lines as fractions of both segments; `None` if they are
+    /// parallel (oracle, exact for small integers).
     fn meeting([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<[f64; 2]> {
         let across = (b - a).perp_dot(d - c);
         let shares = [(c - a).perp_dot(d - c), (c - a).perp_dot(b - a)];

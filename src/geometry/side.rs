@@ -1,10 +1,10 @@
-//! Source and target, and a container with one value for each.
+//! Source and target of a transition, and a container with one value for each.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::{Index, IndexMut};
 
-/// One of the two designs.
+/// One of the two designs of a transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Side {
@@ -15,10 +15,10 @@ pub enum Side {
 }
 
 impl Side {
-    /// Source, then target.
+    /// Both sides: source, then target.
     pub const BOTH: [Self; 2] = [Self::Source, Self::Target];
 
-    /// 0 for the source, 1 for the target.
+    /// Returns 0 for the source and 1 for the target.
     #[must_use]
     pub const fn index(self) -> usize {
         match self {
@@ -27,7 +27,7 @@ impl Side {
         }
     }
 
-    /// The other design.
+    /// Returns the other design.
     #[must_use]
     pub const fn other(self) -> Self {
         match self {
@@ -113,7 +113,7 @@ impl<T> SourceTarget<T> {
         }
     }
 
-    /// Values of source and target, in this order.
+    /// Returns the values of source and target, in this order.
     pub fn to_array(self) -> [T; 2] {
         [self.source, self.target]
     }

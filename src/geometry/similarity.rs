@@ -1,4 +1,4 @@
-//! Similarity transforms, by which one design is placed over another.
+//! Similarity transforms, for example to place one design over another.
 
 use super::{Bounds, DAffine2, DMat2, DVec2, DesignSizeError, RANGE_MESSAGE, is_in_range};
 use serde::{Deserialize, Serialize};
@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Similarity {
-    /// Offset, applied last, in the design's units.
+    /// Translation, applied last, in the design's units.
     pub offset: DVec2,
-    /// Scale factor; finite and positive.
+    /// Scale factor, finite and positive.
     pub scale: f64,
     /// Rotation in radians, counter-clockwise.
     pub rotation: f64,
-    /// Whether left and right are exchanged, before everything else.
+    /// Whether left and right are exchanged (x becomes −x), before everything else.
     pub mirror: bool,
 }
 
@@ -27,10 +27,10 @@ pub enum SimilarityError {
     /// The offset or the rotation is not finite.
     #[error("the offset and the rotation of a placement must be finite numbers")]
     NotFinite,
-    /// A transformed design is out of range.
+    /// A point of the transformed design is out of range.
     #[error("after placement, a corner of the design {RANGE_MESSAGE}")]
     OutOfRange,
-    /// A transformed design is too small, or too far from the origin for its size.
+    /// The transformed design is too small, or too far from the origin for its size.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
 }
@@ -64,10 +64,11 @@ impl Similarity {
         Ok(self)
     }
 
-    /// Checks that a design with the given bounds stays in range.
+    /// Checks that a design with the given bounds stays in range when it is transformed.
     ///
     /// # Errors
-    /// [`SimilarityError`] says what is wrong with the size or the place.
+    /// [`SimilarityError`] if the transformed design is out of range, too small, or too far from
+    /// the origin for its size.
     pub fn check_on(&self, bounds: &Bounds) -> Result<(), SimilarityError> {
         let corners = bounds.corners().map(|p| self.apply(p));
         if !corners.into_iter().all(is_in_range) {
@@ -77,20 +78,22 @@ impl Similarity {
         Ok(DesignSizeError::check(&placed).map(drop)?)
     }
 
-    /// Linear part; its determinant is negative if mirrored.
+    /// Returns the linear part of the transform. Its determinant is negative if the transform
+    /// mirrors.
     #[must_use]
     pub fn linear(&self) -> DMat2 {
         DMat2::from_angle(self.rotation)
             * DMat2::from_diagonal(DVec2::new(self.flip() * self.scale, self.scale))
     }
 
-    /// The transform as an affine map.
+    /// Returns the transform as an affine map.
     #[must_use]
     pub fn affine(&self) -> DAffine2 {
         DAffine2::from_mat2_translation(self.linear(), self.offset)
     }
 
-    /// Sign that the mirror gives to x, and to a rotation that is moved past it.
+    /// Returns −1 if the transform mirrors, and 1 otherwise: the factor of x, and of a rotation
+    /// that is exchanged with the mirror.
     fn flip(&self) -> f64 {
         if self.mirror { -1.0 } else { 1.0 }
     }
@@ -116,7 +119,7 @@ impl Similarity {
         Self {
             offset: self.apply(first.offset),
             scale: self.scale * first.scale,
-            // A rotation that is moved past the mirror changes its sign.
+            // A rotation that is exchanged with the mirror changes its sign.
             rotation: self.rotation + self.flip() * first.rotation,
             mirror: self.mirror != first.mirror,
         }

@@ -1,25 +1,27 @@
-//! Recognises slivers: thin contours that cleaning leaves where edges nearly coincide.
+//! Recognises slivers: thin contours that the cleaning of outlines leaves where edges nearly
+//! coincide.
 
 use super::{Bounds, DVec2, Ring, signed_area};
 
-/// Mean thickness below which a contour may be a sliver, as a fraction of the size of all outlines:
-/// a tenth of a pixel in an image of a thousand (heuristic).
+/// Maximum mean thickness of a sliver, as a fraction of the size of all outlines: a tenth of a
+/// pixel in an image 1,000 pixels wide (heuristic).
 const MAX_THICKNESS: f64 = 1e-4;
 
-/// A sliver has less than this fraction of the area of every outline near it; where hairlines
-/// cross, contours have more (heuristic).
+/// Maximum area of a sliver, as a fraction of the area of each drawn outline near it. Contours that
+/// remain where drawn hairlines cross are larger, so they are kept (heuristic).
 const MAX_AREA_SHARE: f64 = 0.01;
 
-/// Outlines as drawn, with which leftover contours are compared.
+/// Recognises slivers among cleaned contours by comparing them with the outlines as drawn.
 pub(super) struct SliverTest {
-    /// Bounds and area of each outline.
+    /// Bounds and area of each drawn outline that is not negligible.
     outlines: Vec<(Bounds, f64)>,
     /// Maximum mean thickness of a sliver.
     max_thickness: f64,
 }
 
 impl SliverTest {
-    /// Collects the outlines with more than the given area.
+    /// Collects the drawn outlines with more than the given area. `extent` is the size of all
+    /// outlines.
     pub(super) fn of(rings: &[Vec<DVec2>], extent: f64, area: f64) -> Self {
         let outlines = rings.iter().filter_map(|ring| {
             let ring_area = signed_area(ring).abs();
@@ -32,7 +34,8 @@ impl SliverTest {
         }
     }
 
-    /// Returns whether a contour is too thin to be seen and is a leftover, not a drawn shape.
+    /// Returns whether a cleaned contour is too thin to be seen, and is a leftover of cleaning
+    /// rather than a drawn shape.
     pub(super) fn is_sliver(&self, contour: &Ring) -> bool {
         let area = contour.signed_area().abs();
         // Twice the area over the perimeter is the mean thickness of a long shape.
@@ -40,7 +43,7 @@ impl SliverTest {
             return false;
         }
         let bounds = contour.bounds().padded(self.max_thickness);
-        // A leftover is tiny next to every outline around it.
+        // A leftover is tiny in comparison with every drawn outline near it.
         let mut near = self.outlines.iter().filter(|(own, _)| own.meets(&bounds));
         near.all(|(_, drawn)| area < MAX_AREA_SHARE * drawn)
     }
@@ -60,7 +63,7 @@ mod tests {
 
     #[test]
     fn a_sliver_left_by_rounding_is_removed() {
-        // The last side ends a thousandth too low, and crosses the first.
+        // The last point is too low by 0.001, so the last edge crosses the first one.
         let slip = ring(&[
             [0.0, 0.0],
             [24.0, 0.0],

@@ -1,16 +1,18 @@
-//! Total turning of outlines. It distinguishes a jagged shape from a smooth one of the same area
-//! and length, which no distortion of faces does.
+//! Measures the total turning of outlines. It distinguishes a jagged shape from a smooth one of the
+//! same area and length, which no measure of the distortion of mesh faces does.
 //!
-//! W = Σ |exterior angle|, which is 2π for a convex ring. Outlines are first sampled evenly, so
-//! that corners count but noise finer than the samples does not.
+//! The turning of a ring is the sum of the absolute values of its exterior angles, which is 2π for
+//! a convex ring. Rings are first sampled evenly, so that corners count but noise finer than the
+//! samples does not.
 
 use super::{DVec2, perimeter};
 use std::f64::consts::TAU;
 
-/// Number of samples per diameter of the drawing (heuristic).
+/// Number of samples on a piece of outline that is as long as the drawing's diameter (heuristic).
 const SAMPLES_PER_DIAMETER: f64 = 200.0;
 
-/// Returns the turning of all rings together, in radians; `diameter` is that of the whole drawing.
+/// Returns the turning of all rings together, in radians. `diameter` is the diameter of the whole
+/// drawing.
 pub(crate) fn total_turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
     let step = diameter / SAMPLES_PER_DIAMETER;
     let ring_turning = |ring: &Vec<DVec2>| {
@@ -24,16 +26,17 @@ pub(crate) fn total_turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
                 .atan2(incoming.dot(outgoing))
                 .abs()
         };
-        // Every closed ring turns at least once; degenerate ones count as such.
+        // Every closed ring turns at least once; a degenerate ring counts as one turn.
         (0..n).map(angle).sum::<f64>().max(TAU)
     };
     rings.iter().map(ring_turning).sum()
 }
 
-/// Returns evenly spaced points along a closed ring: about one per step, at least three.
+/// Returns evenly spaced points along a closed ring, about `step` apart, at least three; no points
+/// if the ring has no length.
 fn resample(ring: &[DVec2], step: f64) -> Vec<DVec2> {
     let length = perimeter(ring);
-    // Written so that NaN fails the test.
+    // The condition is written so that NaN also returns here.
     if !(length.is_finite() && length > 0.0 && step > 0.0) {
         return Vec::new();
     }

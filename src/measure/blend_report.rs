@@ -56,8 +56,8 @@ impl BlendReport {
 #[derive(Debug)]
 pub struct BlendSampler {
     frame: SpaceFrame,
-    /// For each design, the common mesh with that design as its reference; empty if the space has
-    /// no mesh.
+    /// For each design, the common mesh with that design as source and target; empty if the space
+    /// has no mesh.
     meshes: Vec<CompatibleMesh>,
     /// Filled area of each design, in squared design units.
     areas: Vec<f64>,

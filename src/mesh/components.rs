@@ -1,7 +1,7 @@
-//! Connected components of a graph, by disjoint sets with path halving.
+//! Finds the connected components of a graph by disjoint sets with path halving.
 
-/// Returns for each of `vertices` vertices the index of its connected component. Components are
-/// numbered from 0 in the order of their first vertices. Nearly linear in the number of links.
+/// Returns for each vertex of a graph with the edges `links` the index of its connected component.
+/// Components are numbered from 0 in the order of their first vertices. Takes almost linear time.
 ///
 /// ```
 /// use morphospace::mesh::components;
@@ -31,7 +31,7 @@ pub fn components(vertices: usize, links: impl IntoIterator<Item = [u32; 2]>) ->
         .collect()
 }
 
-/// Returns the representative of a vertex's set, halving the path to it.
+/// Returns the representative of the set that contains `v`, and halves the path to it.
 fn root(parent: &mut [u32], mut v: u32) -> u32 {
     while parent[v as usize] != v {
         parent[v as usize] = parent[parent[v as usize] as usize];

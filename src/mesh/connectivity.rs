@@ -1,8 +1,8 @@
 //! Connectivity of triangle meshes: half-edges and their opposites.
 //!
 //! Half-edge `3 f + k` runs from corner `k` of face `f` to the next corner. Guaranteed: every edge
-//! has one or two faces, and two faces run along it in opposite directions. Vertices at which
-//! several fans of faces touch are allowed.
+//! has one or two faces, and two faces of an edge run along it in opposite directions. Several fans
+//! of faces may touch at a vertex.
 
 use super::components::components;
 use super::edges::{sides, undirected};
@@ -14,14 +14,15 @@ pub struct Connectivity {
     twins: Vec<u32>,
 }
 
-/// Faces that do not meet edge to edge. Indices start at 1 in messages.
+/// Error for faces that do not meet edge to edge. Indices start at 0 in fields and at 1 in
+/// messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConnectivityError {
-    /// More than two faces meet at an edge.
+    /// More than two faces meet at the edge between these two vertices.
     #[error("more than two faces meet at the edge between vertices {} and {}; remove the extra ones", u64::from(.0[0]) + 1, u64::from(.0[1]) + 1)]
     TooManyFaces([u32; 2]),
-    /// Two faces run along their common edge in the same direction.
+    /// The two faces with these indices run along their common edge in the same direction.
     #[error("faces {} and {} are wound in opposite directions; reverse the vertices of one", .0[0] + 1, .0[1] + 1)]
     Opposed([usize; 2]),
 }
@@ -61,7 +62,8 @@ impl Connectivity {
         Ok(Self { twins })
     }
 
-    /// Returns the face across the edge from corner `k` of `face` to the next corner.
+    /// Returns the face across the edge from corner `k` of `face` to the next corner; `None` if the
+    /// edge lies on the boundary.
     ///
     /// # Panics
     /// If `face` does not exist, or if `k` exceeds 2 in the last face.
@@ -70,7 +72,7 @@ impl Connectivity {
         Some(self.twin(face, k)? as usize / 3)
     }
 
-    /// Returns the half-edge opposite to that from corner `k` of `face`.
+    /// Returns the half-edge opposite to the one from corner `k` of `face`; `None` on the boundary.
     pub(crate) fn twin(&self, face: usize, k: usize) -> Option<u32> {
         match self.twins[3 * face + k] {
             NONE => None,
@@ -119,8 +121,8 @@ impl Connectivity {
         loops
     }
 
-    /// Returns the boundary half-edge that follows a given one, by rotating about its end inside
-    /// its fan.
+    /// Returns the boundary half-edge that follows the boundary half-edge `h`, by rotating about
+    /// the end of `h` inside its fan of faces.
     fn next_on_boundary(&self, h: u32) -> u32 {
         // Terminates: a fan that begins at the boundary also ends there.
         let mut out = next(h);
@@ -147,8 +149,8 @@ fn sorted_edges(faces: &[[u32; 3]]) -> Vec<SortedHalfEdge> {
     edges
 }
 
-/// Sorts by the smaller vertex in one counting pass, then the few edges of each vertex. For six
-/// million edges this takes a fraction of the time of a full sort.
+/// Sorts half-edges: by their smaller vertex in one counting pass, then the few half-edges of each
+/// vertex among themselves. For six million edges this takes a fraction of the time of a full sort.
 fn sort(edges: &mut Vec<SortedHalfEdge>) {
     let vertices = edges.iter().map(|([a, _], ..)| *a as usize + 1).max();
     let Some(vertices) = vertices.filter(|count| *count <= edges.len()) else {

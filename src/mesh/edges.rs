@@ -5,7 +5,7 @@ pub(crate) fn sides([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
-/// Returns an edge independent of its direction: the smaller vertex index first.
+/// Returns an edge in a form that does not depend on its direction: the smaller vertex index first.
 pub(crate) fn undirected([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }

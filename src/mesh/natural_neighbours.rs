@@ -1,11 +1,13 @@
-//! Natural-neighbour coordinates: weights of scattered sites at a point.
+//! Natural-neighbour coordinates: the weights that scattered points (sites) have at a point, for
+//! interpolation between the sites.
 //!
 //! Sibson, "A vector identity for the Dirichlet tessellation" (1980): a site's weight is the
 //! fraction of the point's own Voronoi cell that it would take from the site's cell.
 //!
-//! Guaranteed: weights are at least 0, sum to one, and vary continuously with the point. At a site
-//! its own weight is 1. Outside the convex hull of the sites, the weights are those of the nearest
-//! point of the hull. Sites on a line are interpolated linearly between neighbours.
+//! Guaranteed: weights are at least 0, sum to one, and vary continuously with the point. At a site,
+//! the weight of this site is 1. Outside the convex hull of the sites, the weights are those of the
+//! nearest point of the hull. If all sites lie on a line, the weights interpolate linearly between
+//! neighbours.
 
 use crate::geometry::{DVec2, nearest_segment_parameter};
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
@@ -14,23 +16,23 @@ use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 #[derive(Clone, Debug)]
 pub struct NaturalNeighbours {
     sites: Vec<DVec2>,
-    /// `None` if all sites lie on one line.
+    /// `None` if all sites lie on one line, or if `spade` rejects one of their coordinates.
     triangulation: Option<DelaunayTriangulation<Point2<f64>>>,
-    /// Pairs of neighbouring sites along the hull, or along the line.
+    /// Index pairs of neighbouring sites along the convex hull, or along the line.
     hull: Vec<[usize; 2]>,
 }
 
-/// Reason why a list of sites is invalid.
+/// Reason why a list of sites is invalid. Sites count from 0 in fields and from 1 in messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SitesError {
     /// The list is empty.
     #[error("the list of sites is empty; give at least one site")]
     None,
-    /// A coordinate of a site is not finite.
+    /// A coordinate of the site with this index is not finite.
     #[error("site {} has a coordinate that is not finite; correct it", .0 + 1)]
     NotFinite(usize),
-    /// Two sites coincide.
+    /// The two sites with these indices coincide.
     #[error("sites {} and {} coincide; move them apart", .0[0] + 1, .0[1] + 1)]
     Coincide([usize; 2]),
 }
@@ -64,7 +66,8 @@ impl NaturalNeighbours {
         }
         let mut triangulation = DelaunayTriangulation::new();
         for site in sites {
-            // The library rejects extreme coordinates; then the sites are treated as if on a line.
+            // The library rejects extreme coordinates. Then the sites are treated as if they lay on
+            // a line.
             if triangulation.insert(Point2::new(site.x, site.y)).is_err() {
                 break;
             }
@@ -93,7 +96,7 @@ impl NaturalNeighbours {
         &self.sites
     }
 
-    /// Computes the weights of all sites at a point.
+    /// Computes the weight of each site at the point `place` and writes it to `shares`.
     ///
     /// # Panics
     /// If `shares` does not have one entry for each site.
@@ -157,7 +160,7 @@ impl NaturalNeighbours {
     }
 }
 
-/// Returns pairs of neighbouring sites along a line.
+/// Returns index pairs of neighbouring sites along the line on which all sites lie.
 fn along_line(sites: &[DVec2]) -> Vec<[usize; 2]> {
     let farthest = |from: DVec2| {
         let distance = |p: &&DVec2| p.distance_squared(from);

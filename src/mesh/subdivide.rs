@@ -1,4 +1,4 @@
-//! Midpoint subdivision: each triangle becomes four, and the shape does not change.
+//! Midpoint subdivision: each triangle becomes four, and the shape of the mesh does not change.
 //!
 //! Only indices are computed here. The caller evaluates the midpoints in each of its embeddings, so
 //! that compatible meshes stay compatible.
@@ -9,8 +9,8 @@ use std::collections::HashMap;
 /// Maximum number of vertices after subdivision (resource limit: about 4 GB for a factored system).
 pub const MAX_VERTICES: usize = 4_000_000;
 
-/// Maximum number of rounds (derived: a single triangle has 2 million vertices after 11 rounds, and
-/// 8 million after 12).
+/// Maximum number of rounds of subdivision (derived: a single triangle has 2 million vertices after
+/// 11 rounds, which is allowed, and 8 million after 12).
 pub const MAX_ROUNDS: u32 = 11;
 
 /// Faces after subdivision, and the origin of the new vertices.
@@ -18,12 +18,12 @@ pub const MAX_ROUNDS: u32 = 11;
 pub struct Subdivision {
     /// Faces after all rounds; each round turns a face into four.
     pub faces: Vec<[u32; 3]>,
-    /// For each new vertex, the two vertices whose midpoint it is. New vertices are numbered after
-    /// the old ones; the two may be new vertices of an earlier round.
+    /// For each new vertex, the two vertices whose midpoint it is. These two may themselves be new
+    /// vertices of an earlier round. New vertices are numbered after the old ones.
     pub midpoints: Vec<[u32; 2]>,
 }
 
-/// A subdivision would exceed [`MAX_VERTICES`].
+/// Error: a subdivision would exceed [`MAX_VERTICES`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{rounds} subdivisions need more than {MAX_VERTICES} vertices; choose fewer")]
 pub struct TooManyVertices {
@@ -35,7 +35,7 @@ impl Subdivision {
     /// Splits every face `rounds` times; 0 rounds change nothing.
     ///
     /// # Errors
-    /// [`TooManyVertices`] beyond [`MAX_VERTICES`].
+    /// [`TooManyVertices`] if the result would have more than [`MAX_VERTICES`] vertices.
     ///
     /// ```
     /// use morphospace::mesh::Subdivision;
@@ -45,7 +45,7 @@ impl Subdivision {
     /// ```
     pub fn new(faces: &[[u32; 3]], vertices: usize, rounds: u32) -> Result<Self, TooManyVertices> {
         let (mut vertex_bound, mut face_count) = (vertices, faces.len());
-        // Estimate all rounds first, so that an excessive subdivision is not begun.
+        // Estimate the size after all rounds first, so that an excessive subdivision is not begun.
         for _ in 0..rounds.min(32) {
             vertex_bound += face_count * 3 / 2;
             face_count *= 4;
@@ -87,7 +87,7 @@ impl Subdivision {
             .iter()
             .flat_map(|&[a, b, c]| {
                 let [ab, bc, ca] = sides([a, b, c]).map(&mut midpoint);
-                // All four have the orientation of the old face.
+                // All four new faces have the orientation of the old one.
                 [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
             })
             .collect();

@@ -1,13 +1,13 @@
-//! Triangulates a connected piece bounded by closed loops, by constrained Delaunay triangulation
-//! (Chew 1989), optionally refined.
+//! Triangulates a connected region (piece) that is bounded by closed loops, by constrained Delaunay
+//! triangulation (Chew 1989), optionally refined.
 //!
 //! A loop may run along a slit, there and back over the same points. Each of its corners then
 //! becomes a vertex of its own, so that the mesh opens along the slit.
 //!
-//! Guaranteed: the loops' corners come first and in order. Faces are counter-clockwise and fill the
-//! piece, which is connected; its boundary loops are the given ones. Invalid input is rejected. Not
-//! guaranteed: that refinement reaches its minimum angle, which is impossible next to sharp corners
-//! and undivided edges.
+//! Guaranteed: the first vertices are the loops' corners, in order. Faces are counter-clockwise and
+//! fill the piece; the boundary loops of the mesh are the given loops. Invalid input is rejected.
+//! Not guaranteed: that refinement reaches its minimum angle, which is impossible next to sharp
+//! corners and next to long edges of the loops, which it never splits.
 
 mod domain;
 mod refine;
@@ -51,7 +51,8 @@ pub fn constrained_delaunay<W: AsRef<[DVec2]>>(
     Ok(domain.faces())
 }
 
-/// Returns the constrained Delaunay triangulation, refined without splitting any edge of a loop.
+/// Returns the constrained Delaunay triangulation of the piece that the loops bound (see
+/// [`constrained_delaunay`]), refined without splitting any edge of a loop.
 ///
 /// # Errors
 /// [`TriangulationError`] if the loops do not bound one connected piece, or if the work is
@@ -89,7 +90,7 @@ pub fn delaunay(points: &[DVec2]) -> Result<Vec<[u32; 3]>, TriangulationError> {
     let plain: Vec<_> = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let delaunay = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(plain)
         .map_err(|_| TriangulationError::OutOfRange)?;
-    // The library merges equal points; points on a line give no face.
+    // The library merges equal points, and points on a line give no face; both are errors.
     if delaunay.num_vertices() != points.len() || delaunay.num_inner_faces() == 0 {
         return Err(TriangulationError::NotSimple);
     }

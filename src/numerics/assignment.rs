@@ -1,8 +1,8 @@
 //! The assignment problem, solved by shortest augmenting paths with potentials (Kuhn 1955; Jonker
 //! and Volgenant 1987) in O(rows² · columns).
 
-/// Assigns each row a different column so that the sum of costs is minimal. Rows must not outnumber
-/// columns, and costs must be finite.
+/// Assigns each row a different column so that the sum of the costs `cost(row, column)` is minimal,
+/// and returns the column of each row. Rows must not outnumber columns, and costs must be finite.
 pub(crate) fn assign(
     rows: usize,
     columns: usize,

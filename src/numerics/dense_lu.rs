@@ -1,8 +1,8 @@
 //! LU factorisation of small dense systems that change in every frame.
 //!
 //! A [`DenseLu`] reuses its memory from one matrix to the next and never fails: a singular matrix
-//! gives a solution with infinities or NaN, or a meaningless one, and the caller checks the
-//! residual. Partial pivoting; everything runs on the calling thread.
+//! gives a solution with infinities or NaN, or a meaningless one, so the caller must check the
+//! residual. It uses partial pivoting and a single thread.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -22,12 +22,12 @@ use faer::{Conj, MatMut, MatRef, Par};
 pub struct DenseLu {
     /// Number of unknowns.
     n: usize,
-    /// L below the diagonal, U on and above, column by column.
+    /// Factors, column by column: L below the diagonal, U on and above it.
     values: Vec<f64>,
     /// Row permutation and its inverse.
     rows: [Vec<u32>; 2],
     memory: MemBuffer,
-    /// Largest numbers of unknowns and of right-hand sides that the memory suffices for.
+    /// Largest number of unknowns, and of right-hand sides, for which `memory` suffices.
     room: [usize; 2],
 }
 
@@ -44,7 +44,8 @@ impl Default for DenseLu {
 }
 
 impl DenseLu {
-    /// Factorisation of the empty matrix; memory is allocated with the first larger one.
+    /// Creates the factorisation of the empty matrix. Memory is allocated when the first larger
+    /// matrix is factored.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -56,14 +57,14 @@ impl DenseLu {
         }
     }
 
-    /// Number of unknowns.
+    /// Returns the number of unknowns.
     #[must_use]
     pub fn size(&self) -> usize {
         self.n
     }
 
     /// Factors an n×n matrix, given column by column, in about 2n³/3 operations. Allocates only if
-    /// n exceeds all earlier sizes.
+    /// n exceeds the sizes of all earlier matrices.
     ///
     /// # Panics
     /// If the matrix does not have n² entries.
@@ -91,7 +92,7 @@ impl DenseLu {
     }
 
     /// Solves in place for all right-hand sides in `rhs`, which are stored one after the other.
-    /// Allocates only if there are more of them than ever before.
+    /// Allocates only if there are more right-hand sides than in any earlier call.
     ///
     /// # Panics
     /// If the length of `rhs` is not a multiple of [`Self::size`].
@@ -116,13 +117,13 @@ impl DenseLu {
         );
     }
 
-    /// Enlarges the memory if it does not suffice.
+    /// Enlarges the memory if it does not suffice for `n` unknowns and `columns` right-hand sides.
     fn make_room(&mut self, n: usize, columns: usize) {
         if n <= self.room[0] && columns <= self.room[1] {
             return;
         }
-        // To the maximum of both, or a small matrix with many columns and a large one with few
-        // would reallocate in turns.
+        // Enlarge to the maximum of the old and the new sizes. Otherwise a small matrix with many
+        // columns and a large one with few would each reallocate every time.
         let [n, columns] = [n.max(self.room[0]), columns.max(self.room[1])];
         let factoring = factor::lu_in_place_scratch::<u32, f64>(n, n, Par::Seq, Default::default());
         let solving = solve::solve_in_place_scratch::<u32, f64>(n, columns, Par::Seq);
@@ -143,7 +144,7 @@ mod tests {
             entries in prop::collection::vec(-1.0f64..1.0, 40 * 40),
             x in prop::collection::vec(-1.0f64..1.0, 3 * 40),
         ) {
-            // A large number in each row keeps the matrix away from singular ones.
+            // A large entry in each row, off the diagonal, keeps the matrix far from singular.
             let mut a = entries[..n * n].to_vec();
             for i in 0..n {
                 a[((i + 3) % n) * n + i] += 2.0 * n as f64;

@@ -2,9 +2,9 @@
 
 use faer::{MatRef, Side};
 
-/// Returns the eigenvalues of a symmetric n×n matrix, given column by column, in ascending order,
-/// each with its unit eigenvector. `None` if an entry is not finite. Only the lower triangle is
-/// read.
+/// Returns the eigenvalues of a symmetric n×n matrix in ascending order, each with its unit
+/// eigenvector. Returns `None` if an entry is not finite. `entries` holds the matrix column by
+/// column; only the lower triangle is read.
 ///
 /// ```
 /// use morphospace::numerics::symmetric_eigen;

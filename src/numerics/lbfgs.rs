@@ -1,29 +1,32 @@
 //! L-BFGS minimisation of a smooth function (Liu, Nocedal 1989) with a weak Wolfe line search by
 //! bisection (Lewis, Overton 2013).
 //!
-//! The function may be infinite: such steps are shortened, so a finite start stays finite.
-//! Guaranteed: the result is never higher than the start. Not guaranteed: any distance to the
-//! minimum. A cancel ends the search early, at the best point so far.
+//! The function may be infinite at some points: steps to such points are shortened, so a search
+//! that starts at a finite value stays finite. Guaranteed: the function's value at the result is
+//! never higher than at the start. Not guaranteed: that the result is close to a minimum. A cancel
+//! ends the search early, at the best point so far.
 
 use crate::work::progress::Progress;
 
-/// Number of remembered steps with their gradient changes (cited: the literature uses 3 to 20; each
-/// adds two passes over all unknowns).
+/// Maximum number of remembered steps with their gradient changes (cited: the literature uses 3 to
+/// 20; each remembered step adds two passes over all unknowns).
 const MEMORY: usize = 12;
-/// Fraction of the predicted decrease that a step must reach (Armijo condition; cited: Nocedal,
-/// Wright, "Numerical Optimization").
+/// Minimum decrease of a step, as a fraction of the decrease that the slope at its start predicts
+/// (Armijo condition; cited: Nocedal, Wright, "Numerical Optimization").
 const DECREASE: f64 = 1e-4;
-/// Fraction of the slope that a step may leave (curvature condition; cited: the same book).
+/// Maximum steepness at the end of a step, as a fraction of the steepness at its start (curvature
+/// condition; cited: the same book).
 const CURVATURE: f64 = 0.9;
-/// Maximum number of trials in one line search (resource limit: after 25 halvings a step is 3e-8 of
-/// its length).
+/// Maximum number of trials in one line search (resource limit: after 25 halvings, the length of a
+/// step is 3e-8 of its first length).
 const MAX_TRIALS: usize = 25;
 
-/// Moves `x` downhill by at most `max_steps` steps and returns the value there.
+/// Moves `x` downhill by at most `max_steps` steps and returns the value of `function` at the new
+/// `x`.
 ///
-/// `function` returns the value and fills the gradient; `precondition` applies an approximate
-/// inverse of the second derivative in place. Stops early when a step lowers the value by less than
-/// the fraction `min_decrease`, and on a cancel.
+/// `function` returns the value at a point and writes the gradient to its second argument;
+/// `precondition` applies an approximate inverse of the second derivative in place. Stops early if
+/// a step lowers the value by at most the fraction `min_decrease` of it, or on a cancel.
 pub(crate) fn minimise(
     x: &mut [f64],
     max_steps: usize,
@@ -32,7 +35,8 @@ pub(crate) fn minimise(
     mut function: impl FnMut(&[f64], &mut [f64]) -> f64,
     progress: &dyn Progress,
 ) -> f64 {
-    // A cancelled evaluation is infinite, so the line search ends as at a barrier.
+    // After a cancel every evaluation is infinite, so the line search ends as it does beyond a
+    // barrier.
     let mut function = |x: &[f64], gradient: &mut [f64]| {
         if progress.is_cancelled() {
             return f64::INFINITY;
@@ -62,11 +66,12 @@ pub(crate) fn minimise(
 /// A step and the change of the gradient along it.
 struct CurvaturePair {
     step: Vec<f64>,
-    /// Change of the gradient.
+    /// Change of the gradient along the step.
     change: Vec<f64>,
     /// Dot product of step and change.
     product: f64,
-    /// Factor that corrects the preconditioner along this step.
+    /// Factor by which the preconditioner is multiplied, so that it agrees with the change of the
+    /// gradient along this step.
     scale: f64,
 }
 
@@ -94,7 +99,7 @@ fn direction(
 ) -> Vec<f64> {
     let mut d: Vec<f64> = gradient.iter().map(|g| -g).collect();
     let mut shares = Vec::with_capacity(memory.len());
-    // First loop, from the newest pair to the oldest.
+    // The first loop runs from the newest pair to the oldest.
     for pair in memory.iter().rev() {
         let share = dot(&pair.step, &d) / pair.product;
         add_scaled(&mut d, -share, &pair.change);
@@ -104,7 +109,7 @@ fn direction(
     precondition(&mut d);
     let scale = memory.last().map_or(1.0, |last| last.scale);
     d.iter_mut().for_each(|d| *d *= scale);
-    // Second loop, from the oldest pair to the newest.
+    // The second loop runs from the oldest pair to the newest.
     for (pair, share) in memory.iter().zip(shares.iter().rev()) {
         let back = dot(&pair.change, &d) / pair.product;
         add_scaled(&mut d, share - back, &pair.step);
@@ -112,8 +117,8 @@ fn direction(
     d
 }
 
-/// Searches along a direction for a step that meets the weak Wolfe conditions. `None` if no step
-/// descends.
+/// Searches along a direction for a step that meets the weak Wolfe conditions. Returns `None` if no
+/// step descends far enough.
 fn search(
     x: &[f64],
     value: f64,
@@ -121,7 +126,7 @@ fn search(
     direction: &[f64],
     function: &mut impl FnMut(&[f64], &mut [f64]) -> f64,
 ) -> Option<LineSearchPoint> {
-    // The direction is uphill only at a minimum, or if rounding has spoilt the memory.
+    // Stop if the direction does not descend: this is a minimum, or rounding has spoilt the memory.
     let slope = dot(gradient, direction);
     if !value.is_finite() || slope.is_nan() || slope >= 0.0 {
         return None;
@@ -136,18 +141,19 @@ fn search(
         };
         add_scaled(&mut trial.x, length, direction);
         trial.value = function(&trial.x, &mut trial.gradient);
-        // Outside the barrier the value is infinite or NaN, which does not count as descent.
+        // Beyond a barrier the value is infinite or NaN, which does not count as descent.
         let descends = trial.value <= value + DECREASE * length * slope;
         if !descends {
             high = length;
         } else if dot(&trial.gradient, direction) < CURVATURE * slope {
-            // Lower but still steep: the fallback if no longer step is accepted.
+            // The value is lower, but the slope is still steep: keep this step in case all longer
+            // ones are rejected.
             low = length;
             best = Some(trial);
         } else {
             return Some(trial);
         }
-        // Bisects once an upper end is known, and doubles the step before.
+        // Double the step until an upper limit is known, and bisect from then on.
         length = if high.is_finite() {
             0.5 * (low + high)
         } else {
@@ -168,8 +174,8 @@ fn remember(
     let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
     let (step, change) = (minus(&accepted.x, x), minus(&accepted.gradient, gradient));
     let product = dot(&step, &change);
-    // The recursion divides by the product, and it descends for sure only if the slope has risen
-    // along the step, by more than rounding.
+    // The recursion divides by the product. It is sure to give a descent direction only if the
+    // product is positive: the slope has risen along the step, by more than rounding.
     if product > 1e-14 * dot(&change, &change) {
         if memory.len() == MEMORY {
             memory.remove(0);

@@ -1,8 +1,9 @@
-//! Sparse Cholesky factorisation of matrices with a fixed pattern of nonzero entries and changing
-//! values: ordered once, then factored and solved as often as needed.
+//! Sparse Cholesky factorisation of matrices whose values change while the pattern of their nonzero
+//! entries stays the same. The elimination order is computed once; then matrices are factored and
+//! solved as often as needed.
 //!
-//! Guaranteed: a solve allocates nothing, and the same entries give the same solution, whatever was
-//! solved before.
+//! Guaranteed: a solve allocates nothing, and its solution depends only on the entries and the
+//! right-hand side, not on earlier solves.
 
 use super::{FactorError, in_blocks};
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -14,7 +15,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
-/// Pattern of the entries of a symmetric matrix, with its elimination order.
+/// Pattern of the nonzero entries of a symmetric matrix, with its elimination order.
 ///
 /// ```
 /// use morphospace::numerics::PatternCholesky;
@@ -50,25 +51,26 @@ impl std::fmt::Debug for PatternWorkspace {
 }
 
 impl PatternWorkspace {
-    /// Entries of the matrix, to be filled before each solve.
+    /// Returns the entries of the matrix, to be filled before each solve.
     pub fn entries(&mut self) -> &mut [f64] {
         &mut self.entries
     }
 }
 
 impl PatternCholesky {
-    /// Orders a matrix of `n` unknowns with entries at `places`, row and column in either order.
-    /// Also returns, for each place, its index in [`PatternWorkspace::entries`].
+    /// Computes the elimination order for a symmetric matrix of `n` unknowns with nonzero entries
+    /// at `places`, pairs of row and column in either order. Also returns, for each place, its
+    /// index in [`PatternWorkspace::entries`].
     ///
     /// # Errors
-    /// [`FactorError::OutOfMemory`] if it is too large.
+    /// [`FactorError::OutOfMemory`] if the factorisation does not fit into memory.
     pub fn new(n: usize, places: &[[u32; 2]]) -> Result<(Self, Vec<u32>), FactorError> {
-        // Column first, so that they sort in storage order.
+        // Put the column first, so that the places sort in storage order.
         let stored = |&[i, j]: &[u32; 2]| [i.min(j), i.max(j)];
         let mut all: Vec<[u32; 2]> = places.iter().map(stored).collect();
         all.sort_unstable();
         all.dedup();
-        // Compressed columns: the number of entries before each column.
+        // For compressed columns: the number of entries before each column.
         let before = |column: u32| all.partition_point(|&[c, _]| c < column) as u32;
         let columns: Vec<u32> = (0..=n as u32).map(before).collect();
         let rows: Vec<u32> = all.iter().map(|&[_, row]| row).collect();
@@ -86,7 +88,7 @@ impl PatternCholesky {
         Ok((Self { lower, symbolic }, slots))
     }
 
-    /// Memory for [`Self::solve`], with all entries zero.
+    /// Allocates the memory for [`Self::solve`], with all entries zero.
     #[must_use]
     pub fn memory(&self) -> PatternWorkspace {
         let factoring = self
@@ -100,8 +102,8 @@ impl PatternCholesky {
         }
     }
 
-    /// Factors the matrix of the entries and solves in place. Returns whether the matrix is
-    /// positive definite; if not, `rhs` is unchanged.
+    /// Factors the matrix with the entries in `memory`, and solves in place for `rhs`. Returns
+    /// whether the matrix is positive definite; if not, `rhs` is unchanged.
     ///
     /// # Panics
     /// If the memory belongs to another pattern, or `rhs` does not have one number for each

@@ -77,7 +77,7 @@ pub struct Project {
     /// Duration, easing and playback.
     #[serde(default)]
     pub timing: Timing,
-    /// Colours.
+    /// Colours of the designs and of the background, and whether joints of trusses are drawn.
     #[serde(default)]
     pub style: TransitionStyle,
     /// Moments of the film with a name, a note or a pause.
@@ -158,7 +158,7 @@ impl Project {
     #[must_use]
     pub fn from_paths<P: Into<PathBuf>>(designs: impl IntoIterator<Item = P>) -> Self {
         let designs: Vec<_> = designs.into_iter().map(DesignEntry::new).collect();
-        // Taken from the paths, because the designs have not been read yet.
+        // The names are taken from the paths, because the designs have not been read yet.
         let names: Vec<_> = designs
             .iter()
             .map(|d| DesignSource::from_path(&d.path).name())

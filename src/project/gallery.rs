@@ -34,7 +34,8 @@ pub fn list() -> Result<Vec<GalleryEntry>, ProjectError> {
             })
         })
         .collect::<Result<Vec<_>, ProjectError>>()?;
-    // Sorted by name, because file names with their extension would put `a-b` before `a`.
+    // The entries are sorted here, because the file names with their extension put `a-b` before
+    // `a`.
     entries.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(entries)
 }

@@ -195,7 +195,7 @@ impl Project {
         order
     }
 
-    /// Sets whether the last design leads back to the first.
+    /// Sets whether the film continues from the last design to the first.
     pub fn set_closed(&mut self, closed: bool) {
         self.rearrange(self.designs_with_indices(), closed);
     }

@@ -296,7 +296,7 @@ impl<'a> WarpRecorder<'a> {
     }
 }
 
-/// Returns whether an interval that has `known` nodes is expected to converge within the maximum
+/// Returns whether an interval with `node_count` nodes is expected to converge within the maximum
 /// number of nodes. `off` and `previous_off` are the residuals at the last two pairs of nodes; the
 /// estimate assumes that the residual keeps shrinking by the same factor.
 fn will_converge(node_count: usize, off: f64, previous_off: f64, tolerance: f64) -> bool {

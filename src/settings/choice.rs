@@ -43,7 +43,7 @@ pub trait Choice: Copy + PartialEq + 'static {
     /// All values in the order in which they are offered.
     const CHOICES: &'static [Self];
 
-    /// Returns the names of this value.
+    /// Returns key, title and help sentence of this value.
     fn name(self) -> &'static ChoiceName;
 
     /// Returns the value with the given key.

@@ -185,8 +185,9 @@ struct BuiltContent {
 
 /// How the common mesh of the designs is obtained.
 enum CommonForms {
-    /// The common mesh itself, or why there is none, and the bars of trusses. For trusses and
-    /// meshes with common connectivity, and for outlines with too many points.
+    /// The common mesh, or why there is none, and the bars of trusses. This variant is used for
+    /// trusses, for meshes with common connectivity, and for outlines with too many points to be
+    /// matched.
     Given(Result<CompatibleFamily, FamilyError>, Vec<[u32; 2]>),
     /// The outlines of the designs must be matched and triangulated.
     Outlines,
@@ -262,7 +263,7 @@ impl BuiltContent {
                 (self.outlines(spec, &matching)?, Vec::new())
             }
         };
-        // Cancellation may have been returned as an error of the mesh.
+        // The error of the mesh may stand for a cancellation, which must be returned as such.
         check_cancelled(progress)?;
         let family = match family {
             Ok(family) => family,
@@ -271,7 +272,7 @@ impl BuiltContent {
         let blend = ArapBlend::build(&family, &ProgressSpan::new(progress, 0.9, 1.0))?;
         let boundary_loops = match bars.is_empty() {
             true => family.boundary_loops(),
-            // Of a truss only the bars are drawn, without a fill.
+            // A truss is drawn as bars only, without a fill.
             false => Vec::new(),
         };
         Ok(Ok(BlendContent::Solid {
@@ -372,7 +373,8 @@ fn mesh(design: &Arc<Design>) -> Option<&TriangleMesh> {
     }
 }
 
-/// Computes the distance fields of all designs on one grid, which covers the frame of `frame`.
+/// Computes the distance fields of all designs on one grid. The grid covers the same part of the
+/// plane as that of the transition `frame`.
 fn fields(
     spec: &SpaceSpec,
     frame: &TransitionSpec,

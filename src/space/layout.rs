@@ -30,8 +30,9 @@ named! { MapLayout {
 /// for thumbnails and names, and separates identical designs (heuristic).
 const MIN_SITE_DISTANCE: f64 = 0.42;
 
-/// Minimum distance between two sites for many designs, times the square root of their number. With
-/// many designs, [`MIN_SITE_DISTANCE`] does not fit into the circle (heuristic).
+/// For many designs, the minimum distance between two sites is this number divided by the square
+/// root of the number of designs, in radii of the map: [`MIN_SITE_DISTANCE`] would not fit into the
+/// circle (heuristic).
 const CROWDED_DISTANCE: f64 = 1.3;
 
 impl MapLayout {
@@ -134,7 +135,7 @@ fn fit_to_unit_circle(sites: &mut [DVec2]) -> f64 {
     radius
 }
 
-/// Moves sites that are too close to each other apart, a little in every round.
+/// Pushes sites apart that are too close to each other, a little in every round.
 fn push_apart(sites: &mut [DVec2]) {
     /// Maximum number of rounds (resource limit: twelve coincident sites need about twenty).
     const ROUNDS: usize = 200;
@@ -179,7 +180,7 @@ mod tests {
     #[test]
     fn similar_designs_are_close() {
         let places = |x: f64| {
-            // The fourth corner moves away with x.
+            // The larger x is, the farther the fourth corner moves away.
             [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0 + x)]
                 .map(DVec2::from)
                 .to_vec()

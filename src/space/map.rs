@@ -1,4 +1,5 @@
-//! A map of blends: each design has a site in the plane, and each place has weights.
+//! A map of blends: each design has a site in the plane, and each place of the plane has a weight
+//! for each design.
 
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::{NaturalNeighbours, SitesError};

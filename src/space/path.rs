@@ -90,8 +90,8 @@ struct CurveSpan {
     lengths: [f64; STEPS + 1],
 }
 
-/// Number of chords that approximate the length of a span (tolerance: more of them change no
-/// position by a pixel).
+/// Number of chords that approximate the length of a span (tolerance: with more of them, no
+/// position changes by a pixel).
 const STEPS: usize = 32;
 
 impl CurveSpan {

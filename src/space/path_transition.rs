@@ -71,7 +71,7 @@ impl DesignSpace {
         let polynomials = WeightPolynomials::new(designs, &on_map);
         let weights = move |t: f64, weights: &mut [f64]| match (0.0..=1.0).contains(&t) {
             true => polynomials.at(t, weights),
-            // Polynomials diverge quickly outside their interval.
+            // Outside [0, 1], the polynomials would diverge quickly.
             false => on_map(t, weights),
         };
         let weights_at = |t: f64| {
@@ -144,7 +144,7 @@ impl DesignSpace {
         };
         match form {
             Some(form) => Design::new(label.clone(), form),
-            // The contour of a field may be empty or too large.
+            // A contour that is empty or too large cannot become a design.
             None => Design::from_rings(label.clone(), frame.figure().rings)
                 .unwrap_or_else(|_| copy_of_nearest()),
         }

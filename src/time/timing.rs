@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PlayMode {
-    /// Playback stops.
+    /// Playback stops at the end of the pass.
     Once,
-    /// The pass starts again from the beginning.
+    /// The pass starts again from its beginning.
     Loop,
     /// The next pass runs backwards, the one after it forwards, and so on.
     #[default]

@@ -66,7 +66,7 @@ impl AnyWarp {
     }
 }
 
-/// A warp, and how it was determined.
+/// A warp, with the match, the solution and the automatic pins from which it was built.
 #[derive(Clone, Debug)]
 pub(super) struct BuiltWarp {
     pub warp: AnyWarp,
@@ -76,7 +76,7 @@ pub(super) struct BuiltWarp {
     pub solution: Option<Arc<KeyedSolution>>,
     /// Automatic pins of a plane warp, if the user has set none.
     pub automatic_pins: Vec<PointPair>,
-    /// Deviations from the request.
+    /// Notes on deviations from the request.
     pub notes: Vec<TransitionNote>,
 }
 

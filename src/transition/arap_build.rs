@@ -24,7 +24,7 @@ pub(super) fn build_arap(
 /// Checks that a mesh, once subdivided as requested, does not have too many faces.
 ///
 /// # Errors
-/// [`BuildError::TooMuch`] if it is.
+/// [`BuildError::TooMuch`] if it has too many.
 pub(super) fn check_size(
     mesh: &CompatibleMesh,
     options: &ArapOptions,

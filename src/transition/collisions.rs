@@ -1,9 +1,9 @@
-//! Finds the pieces that collide on the way, and a small set of them whose removal resolves all
-//! collisions.
+//! Finds the pieces that collide during the motion, and a small set of pieces whose removal
+//! resolves all collisions.
 //!
-//! The motion is sampled at a few steps: collisions between two steps are missed. The set is a
-//! vertex cover of the colliding pairs, found greedily: the piece with the most collisions per area
-//! first (Chvátal 1979). It is small, but not always the smallest.
+//! The motion is sampled at a few times; collisions between two samples are missed. The set is a
+//! vertex cover of the colliding pairs. It is found greedily, starting with the piece that has the
+//! most collisions per area (Chvátal 1979). It is small, but not always the smallest.
 
 use super::transients::boundary_loops::SharedPartLoops;
 use super::transients::holes::PieceHole;
@@ -14,10 +14,12 @@ use crate::warp::{Arap, Warp};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::BTreeSet;
 
-/// Number of even time steps at which collisions are detected (resource limit).
+/// Number of equal steps of t into which the motion is divided to detect collisions (resource
+/// limit).
 const STEPS: u32 = 32;
 
-/// Returns the pieces to unpair; none if no matched pieces of the same layer collide.
+/// Returns the indices of the pieces to unpair, in ascending order; empty if no matched pieces of
+/// the same layer collide.
 ///
 /// # Errors
 /// [`Cancelled`] if the work is cancelled.
@@ -33,8 +35,8 @@ pub(super) fn pieces_to_release(
     Ok(cover(conflicts, &piece_weights(matched)))
 }
 
-/// Returns the pairs of pieces that cross at some step. Unmatched pieces are excluded, because they
-/// are placed later.
+/// Returns the pairs of matched pieces whose outlines cross at a sampled time. Unmatched pieces are
+/// not examined, because they are placed later.
 ///
 /// # Errors
 /// [`Cancelled`] if the work is cancelled.
@@ -68,9 +70,9 @@ fn conflicts(
     Ok(pairs)
 }
 
-/// Returns the weight of each piece: the mean of its shares of both designs, by the area that its
-/// outer ring encloses. A ring weighs as much as everything inside it: the inside can appear within
-/// the ring, but the ring cannot appear around the inside.
+/// Returns the weight of each piece: the area that its outer ring encloses, as a fraction of the
+/// sum over all pieces, averaged over both designs. Area inside holes counts, because other pieces
+/// can appear within a ring, but a ring cannot appear around other pieces.
 pub(super) fn piece_weights(matched: &RegionMatch) -> Vec<f64> {
     let shares_in = |side: Side| -> Vec<f64> {
         let enclosed_area = |piece: &PieceMatch| {
@@ -85,7 +87,7 @@ pub(super) fn piece_weights(matched: &RegionMatch) -> Vec<f64> {
     a.iter().zip(&b).map(|(a, b)| 0.5 * (a + b)).collect()
 }
 
-/// Returns pieces whose removal leaves no conflict, in ascending order.
+/// Returns the indices of pieces whose removal leaves no conflict, in ascending order.
 fn cover(mut conflicts: BTreeSet<[usize; 2]>, weights: &[f64]) -> Vec<usize> {
     let mut removed = Vec::new();
     while !conflicts.is_empty() {

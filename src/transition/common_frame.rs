@@ -5,7 +5,7 @@ use crate::geometry::{Bounds, DVec2, Similarity, SimilarityError, twice_signed_a
 use crate::settings::named;
 use std::sync::Arc;
 
-/// How the other designs are fitted to the first, before each design's own placement is applied.
+/// How designs are fitted to the first design, before each design's own placement is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DesignFit {
@@ -13,9 +13,10 @@ pub enum DesignFit {
     /// aligned.
     #[default]
     AsDrawn,
-    /// The centres of the bounding boxes are aligned.
+    /// The centres of the bounding boxes are aligned; sizes are kept.
     Centred,
-    /// As [`Self::Centred`], and scaled to the first design's area; trusses to its diameter.
+    /// As [`Self::Centred`], and designs are scaled to the area of the first one. For a truss, the
+    /// area is the square of its diameter.
     SameArea,
 }
 
@@ -25,11 +26,12 @@ named! { DesignFit {
     SameArea: "same-area", "Same area", "Aligns the centres and scales to equal area";
 } }
 
-/// Places a design in the frame of the first one: fits it to that one, then applies its own
-/// placement about its own centre. The first design itself is placed in the same way.
+/// Places a design in the frame of the first one: fits the design to the first one, then applies
+/// `place` about the design's centre. The first design itself is placed in the same way.
 ///
 /// # Errors
-/// If the placement is not a similarity, or leads out of the coordinate range.
+/// If the placement is not a similarity, or moves the design out of the permitted range of
+/// coordinates.
 pub fn place_in_frame(
     design: &Arc<Design>,
     first: &Design,
@@ -52,7 +54,7 @@ pub fn frame_similarity(
     fit: DesignFit,
     place: Similarity,
 ) -> Result<Similarity, SimilarityError> {
-    // Use the box of the form: the margins of pictures are meaningless.
+    // Uses the box around the form, because the margins of pictures are meaningless.
     let to_centre = form_centre(first) - form_centre(design);
     let fitted = match fit {
         DesignFit::AsDrawn => Similarity {
@@ -95,7 +97,7 @@ fn similarity_to_size_of(first: &Design, design: &Design) -> Result<Similarity, 
     .checked()
 }
 
-/// Returns the placement with `centre` in the role of the origin.
+/// Returns the placement applied about `centre` instead of the origin.
 fn centred_at(centre: DVec2, placement: Similarity) -> Similarity {
     if placement == Similarity::IDENTITY {
         return placement; // no rounding for designs as drawn
@@ -106,7 +108,7 @@ fn centred_at(centre: DVec2, placement: Similarity) -> Similarity {
     }
 }
 
-/// Transforms a design; returns the same one for the identity.
+/// Returns the transformed design, or the same shared design if `by` is the identity.
 fn transformed(design: &Arc<Design>, by: Similarity) -> Arc<Design> {
     if by == Similarity::IDENTITY {
         Arc::clone(design)
@@ -129,7 +131,7 @@ fn form_centre(design: &Design) -> DVec2 {
     extent(design).centre()
 }
 
-/// Returns the area; for a truss the square of its diameter.
+/// Returns the area of a design; for a truss, the square of its diameter.
 fn form_area(design: &Design) -> f64 {
     match &design.form {
         DesignForm::Outline(regions) => regions.area(),

@@ -120,7 +120,7 @@ fn parts_of(drawings: &DrawingPair, pieces: &[[Option<usize>; 2]], side: Side) -
 /// cells.
 ///
 /// # Errors
-/// If the field cannot be computed otherwise, or the work is cancelled.
+/// If the field cannot be computed for another reason, or the work is cancelled.
 fn layer_field(
     side: Side,
     parts: &Regions,

@@ -42,7 +42,7 @@ impl DrawingPair {
         })
     }
 
-    /// Combines the outlines of designs that are shown in one colour.
+    /// Creates a pair without appearances, for designs that are shown in one colour.
     pub(super) fn in_one_colour(outlines: [Regions; 2]) -> Self {
         Self {
             outlines,

@@ -1,4 +1,4 @@
-//! Why a transition could not be built.
+//! Reasons why a transition could not be built.
 
 use super::method::UnsupportedMethod;
 use crate::compatible::{CompatibleError, FramePinsError, OutlineMeshError};
@@ -12,27 +12,27 @@ use crate::warp::{ArapError, LatticeError, LinesError, PathsError, ScatteredErro
 use crate::work::budget::WorkloadTooLarge;
 use crate::work::progress::Cancelled;
 
-/// Why a transition could not be built.
+/// Reasons why a transition could not be built.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// The designs are of kinds that cannot be interpolated this way.
+    /// The method cannot interpolate designs of these kinds. Holds the reason.
     #[error("{0}")]
     Unavailable(String),
-    /// The warp and the content do not go together.
+    /// The warp and the content cannot be combined.
     #[error(transparent)]
     NoSuchCell(#[from] UnsupportedMethod),
-    /// Another error, with the names of the designs.
+    /// Another error, preceded by the names of the designs.
     #[error("{}", SanitizedLine(format_args!("{source_name} to {target_name}: {error}")))]
     Between {
-        /// Name of the source.
+        /// Name of the source design.
         source_name: String,
-        /// Name of the target.
+        /// Name of the target design.
         target_name: String,
-        /// The error.
+        /// The underlying error.
         error: Box<BuildError>,
     },
-    /// The designs do not share a triangulation.
+    /// Two meshes or two trusses do not share a triangulation.
     #[error(transparent)]
     Compatible(#[from] CompatibleError),
     /// The outlines could not be matched.
@@ -53,18 +53,18 @@ pub enum BuildError {
     /// A distance field could not be computed.
     #[error("the {side}: {error}")]
     Field {
-        /// The design.
+        /// The design whose field could not be computed.
         side: Side,
-        /// The error.
+        /// The underlying error.
         error: FieldError,
     },
-    /// ε or the threshold is out of range.
+    /// An option of the blend of distance fields, ε or the threshold, is out of range.
     #[error(transparent)]
     Blend(#[from] FieldBlendError),
-    /// The interval in which colours change is empty.
+    /// The interval of t in which the colours of pictures change is empty.
     #[error(transparent)]
     Colours(#[from] ColourMixError),
-    /// The frame could not be triangulated with its pins.
+    /// The frame of a plane warp could not be triangulated with its pins.
     #[error(transparent)]
     Frame(#[from] FramePinsError),
     /// The line warp could not be built.
@@ -79,7 +79,7 @@ pub enum BuildError {
     /// The boundary paths could not be built.
     #[error(transparent)]
     Paths(#[from] PathsError),
-    /// The bar width is not a fraction between 0 and 1.
+    /// The bar width is not above 0 and at most 1, as a fraction of the diameter of the designs.
     #[error("the bar width {0} is not between 0 and 1; give a fraction of the design's size")]
     BarWidth(f64),
     /// The work would take very long or very much memory.
@@ -91,7 +91,7 @@ pub enum BuildError {
 }
 
 impl BuildError {
-    /// Adds the names of the designs.
+    /// Returns the error preceded by the names of the designs.
     pub(super) fn with_names(self, source: &Design, target: &Design) -> Self {
         Self::Between {
             source_name: source.name.clone(),

@@ -1,4 +1,4 @@
-//! A transition at one moment, and its appearance as polygons and bars.
+//! A transition at one t, and its appearance as polygons and bars.
 
 use super::lazy_placement::LazyPlacement;
 use super::options::TransitionOptions;
@@ -12,7 +12,8 @@ use image::RgbaImage;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A transition at one t, unevaluated: a placement, and the t at which contents are mixed.
+/// A transition at one t: the placement of its vertices, and the t at which contents are mixed.
+/// Polygons and pixels are computed only on request.
 #[derive(Debug)]
 pub struct Frame {
     transition: Transition,
@@ -22,24 +23,24 @@ pub struct Frame {
 /// The appearance of a frame, evaluated on the CPU.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VectorFigure {
-    /// Closed polygons. All are filled together by the non-zero rule; if there are paint layers,
-    /// those of each layer are.
+    /// Closed polygons, filled by the non-zero rule. All polygons are filled together; if there are
+    /// paint layers, those of each layer are filled together.
     pub rings: Vec<Vec<DVec2>>,
-    /// Paint layers, the lowest first; they contain all rings. Empty if the figure has no colours
-    /// of its own.
+    /// Paint layers, the lowest first, which together contain all rings. Empty if the figure has no
+    /// colours of its own.
     pub layers: Vec<FigureLayer>,
-    /// Bars, from one end to the other.
+    /// Both ends of each bar.
     pub bars: Vec<[DVec2; 2]>,
-    /// Paints of each bar in source and target; or empty.
+    /// Paints of each bar in source and target; empty if the bars have no colours of their own.
     pub bar_paints: Vec<[Option<Paint>; 2]>,
     /// Width of the bars in units of the designs.
     pub bar_width: f64,
 }
 
-/// A paint layer of a figure: rings that are painted alike.
+/// A paint layer of a figure: rings that share paint, gradient and stroke.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureLayer {
-    /// Indices of the rings.
+    /// Indices of the layer's rings in [`VectorFigure::rings`].
     pub rings: Range<usize>,
     /// Paints in source and target; see [`TransitionStyle::paint_at`].
     ///
@@ -52,8 +53,8 @@ pub struct FigureLayer {
     pub gradients: [Option<Gradient>; 2],
     /// Stroke along the rings in source and target; see [`StrokeStyle::interpolated`].
     pub lines: [Option<StrokeStyle>; 2],
-    /// t at which paints, gradients and lines are mixed: that of the frame, unless parts have
-    /// timings of their own.
+    /// The t at which paints, gradients and strokes are mixed: that of the frame, unless the part
+    /// has its own timing.
     pub t: f64,
 }
 
@@ -95,12 +96,12 @@ impl Frame {
         self.places.placement(|| self.transition.playing_placer());
     }
 
-    /// Moves to `t`; vertices are only placed when their positions are read.
+    /// Moves to `t`; vertices are placed only when their positions are read.
     pub(crate) fn set_time(&mut self, t: f64) {
         self.places.set_time(if t.is_finite() { t } else { 0.0 });
     }
 
-    /// Returns the blend parameter t.
+    /// Returns the blend parameter t of the frame.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.places.t()
@@ -112,19 +113,20 @@ impl Frame {
         !(0.0..=1.0).contains(&self.t())
     }
 
-    /// Returns the positions of the vertices.
+    /// Returns the positions of the vertices at the current t.
     #[must_use]
     pub fn placement(&self) -> &Placement {
         self.places.placement(|| self.transition.playing_placer())
     }
 
-    /// Returns the transition.
+    /// Returns the transition to which the frame belongs.
     #[must_use]
     pub fn transition(&self) -> &Transition {
         &self.transition
     }
 
-    /// Evaluates the frame as polygons and bars; for pictures, the rectangle that they fill.
+    /// Evaluates the frame as polygons and bars. For pictures, the result is the rectangle that
+    /// they fill.
     #[must_use]
     pub fn figure(&self) -> VectorFigure {
         match self.transition.content() {
@@ -172,8 +174,8 @@ impl Frame {
 }
 
 impl VectorFigure {
-    /// Returns the appearance of a design in its own paint; without paint, in that of the style at
-    /// `t`.
+    /// Returns the appearance of a design in its own paint. A design without paint is shown in the
+    /// colour of the style at `t`.
     #[must_use]
     pub fn of(design: &Design, t: f64) -> Self {
         if design.paint_layers.is_empty() {

@@ -1,16 +1,16 @@
-//! The table of methods: which warp goes with which content.
+//! The table of methods: which warp can be combined with which content.
 
 use crate::content::ContentKind;
 use crate::warp::{CellLabels, CellSupport, WarpKind};
 
-/// A method: a combination of warp and content that exists.
+/// A method: a supported combination of warp and content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TransitionMethod {
     warp: WarpKind,
     content: ContentKind,
 }
 
-/// A combination of warp and content that does not exist, with the reason.
+/// Error: a combination of warp and content that is not supported, with the reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{reason}")]
 pub struct UnsupportedMethod {
@@ -36,8 +36,8 @@ impl TransitionMethod {
         content: ContentKind::Colours,
     };
 
-    /// Returns the method to use where this one cannot be built: nothing moves, so nothing must be
-    /// matched. Solids are blended as distance fields.
+    /// Returns the method to use where this one cannot be built. With the returned method nothing
+    /// moves, so that nothing needs to be matched; solids are blended as distance fields.
     ///
     /// ```
     /// use morphospace::transition::TransitionMethod;
@@ -66,7 +66,7 @@ impl TransitionMethod {
     /// Returns the method with a warp and a content.
     ///
     /// # Errors
-    /// [`UnsupportedMethod`] with the reason if they do not go together.
+    /// [`UnsupportedMethod`] with the reason if the two cannot be combined.
     ///
     /// ```
     /// use morphospace::{content::ContentKind, transition::TransitionMethod, warp::WarpKind};
@@ -115,7 +115,7 @@ impl TransitionMethod {
     }
 }
 
-/// Returns the labels of a combination, or why it does not exist.
+/// Returns the labels of a combination, or the reason why it is not supported.
 const fn labels_of(warp: WarpKind, content: ContentKind) -> CellSupport {
     let words = warp.labels();
     match content {

@@ -1,4 +1,4 @@
-//! Notes: deviations from the requested options while a transition was built, and suggestions.
+//! Notes on a built transition: deviations from the requested options, and suggestions.
 
 #[cfg(doc)]
 use crate::compatible::CompatibleMesh;
@@ -18,17 +18,17 @@ pub enum TransitionNote {
     FewerPins {
         /// Number of pins that are used.
         left: usize,
-        /// Number of pins that were found.
+        /// Number of automatic pins before they were thinned out.
         of: usize,
     },
-    /// The outlines could not become edges of the mesh of the frame; pins along them move it
-    /// instead.
+    /// The outlines could not become edges of the mesh of the frame; pins along the outlines move
+    /// the frame instead.
     PinsInsteadOfOutlines(FrameOutlinesError),
     /// The outlines on which the pins lie could not be matched; the pins alone move the frame.
     PinsUnmatched(RegionMatchError),
     /// The designs would match far better if one of them were mirrored.
     Mirrored {
-        /// Mean distortion as drawn; see [`CompatibleMesh::distortion`].
+        /// Mean distortion of the best match as drawn; see [`CompatibleMesh::distortion`].
         as_drawn: f64,
         /// Mean distortion of a first match with one design mirrored.
         mirrored: f64,
@@ -36,7 +36,8 @@ pub enum TransitionNote {
     /// An exact boundary was requested, but the metric is not Euclidean: the boundary lies between
     /// grid cells.
     BinaryBoundary,
-    /// The drawings have more paints or parts than distance fields can be computed for.
+    /// The drawings are shown in one colour, because they have too many paints or parts to compute
+    /// a distance field for each paint.
     PaintIgnored,
     /// Part timings were requested, which only rigid parts have.
     PartTimesIgnored,

@@ -1,5 +1,5 @@
-//! The options of all methods. A document stores them as they stand in its file; a
-//! [`TransitionSpec`](super::TransitionSpec) uses them in the coordinates of the common frame.
+//! The options of all methods. In a document, positions are in the coordinates of each design; in a
+//! [`TransitionSpec`](super::TransitionSpec), they are in those of the common frame.
 
 use super::paint_layer_options::PaintLayerOptions;
 use super::part_time::PartTime;
@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct TransitionOptions {
-    /// How pins and lines of plane warps travel.
+    /// How pins and lines of plane warps move between the designs.
     #[serde(skip_serializing_if = "is_default")]
     pub travel: FeatureTravel,
     /// Width of truss bars, as a fraction of the larger design's diameter.
@@ -97,7 +97,7 @@ impl Default for TransitionOptions {
     }
 }
 
-/// Returns whether an option has its default; such options are not written to files.
+/// Returns whether an option has its default value; such options are not written to files.
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
@@ -106,9 +106,10 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BuildQuality {
-    /// The first match, without any improvement.
+    /// The first match, without a search for better ones. Only for pieces that would turn far, the
+    /// drawn orientation is tried as well.
     Draft,
-    /// Several matches are tried, and the one with the fewest defects is improved.
+    /// Several matches are tried, and the one with the fewest defects is improved further.
     #[default]
     Best,
 }
@@ -135,7 +136,7 @@ named! { CollisionAvoidance {
     Off: "plain", "Off", "Moves as rigidly as possible, even where shapes collide";
 } }
 
-/// How drawings are coloured.
+/// Colours in which drawings are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PaintRule {
@@ -158,7 +159,8 @@ pub enum FieldBoundary {
     /// On the outline; only with the Euclidean metric.
     #[default]
     Exact,
-    /// Between grid cells inside and outside, as in the paper.
+    /// Between grid cells inside and outside the outline, as in "Design-Space Representation
+    /// through Blended Transitions".
     Binary,
 }
 
@@ -181,7 +183,7 @@ pub struct FieldOptions {
     /// Number of grid cells along the longer side of the frame. Distances, ε and the threshold are
     /// in units of these cells.
     pub cells: u32,
-    /// Margin around the designs, as a fraction of the longer side.
+    /// Margin of the grid around the designs, as a fraction of the longer side of the frame.
     pub margin: f64,
 }
 
@@ -198,8 +200,8 @@ impl Default for FieldOptions {
 }
 
 impl FieldOptions {
-    /// Returns whether the boundary lies on the outline. Metrics other than the Euclidean one are
-    /// defined on the pixels of a binary image only.
+    /// Returns whether the zero boundary lies on the outline. Metrics other than the Euclidean one
+    /// are defined only on the pixels of a binary image.
     pub(super) fn is_exact(&self) -> bool {
         self.boundary == FieldBoundary::Exact && self.metric == Metric::Euclidean
     }

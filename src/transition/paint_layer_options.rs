@@ -1,8 +1,8 @@
-//! How painted parts fade and change their stacking order.
+//! Options of painted parts: how they fade and when they change their stacking order.
 
 use serde::{Deserialize, Serialize};
 
-/// How painted parts fade and change their stacking order.
+/// Options of painted parts: how they fade and when they change their stacking order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]

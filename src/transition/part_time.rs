@@ -1,7 +1,7 @@
-//! Parts that move in a time window of their own.
+//! Part timings: parts that move in a time window of their own.
 //!
-//! A part is identified by a point of a design. The timing applies to everything the part becomes;
-//! if it is split, to each of the pieces.
+//! A part is identified by a point of a design. The timing applies to the whole motion of the part;
+//! if the part is split, to each of its pieces.
 
 use crate::geometry::{DVec2, RANGE_MESSAGE, Side, Similarity, is_in_range};
 use crate::time::EasingFunction;
@@ -23,7 +23,7 @@ pub struct PartTime {
     /// t at which the part arrives, greater than `from` and at most 1.
     #[serde(default = "one")]
     pub to: f64,
-    /// Easing between the two.
+    /// Easing of the motion between `from` and `to`.
     #[serde(default)]
     pub easing: EasingFunction,
 }
@@ -36,17 +36,17 @@ fn one() -> f64 {
     1.0
 }
 
-/// Why a part timing is invalid. Parts count from 1 in messages.
+/// Reason why a part timing is invalid. Variants hold indices from 0; messages count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PartTimeError {
-    /// More timings than there can be parts.
+    /// There are more timings than the maximum. Holds their number.
     #[error("{0} part timings are too many; the maximum is {MAX_PART_TIMES}")]
     TooMany(usize),
-    /// The coordinates of the point are out of range.
+    /// The coordinates of a point are out of range. Holds the index of its timing.
     #[error("the point of part timing {} {RANGE_MESSAGE}", .0 + 1)]
     Place(usize),
-    /// The part does not start before it arrives, or not within [0, 1].
+    /// The part does not start before it arrives, or one of the two times is outside [0, 1].
     #[error(
         "a part cannot move from t = {from} to t = {to}; give two numbers from 0 to 1, the smaller one first"
     )]
@@ -62,7 +62,7 @@ impl PartTime {
     /// Checks that all points and times are valid.
     ///
     /// # Errors
-    /// [`PartTimeError`] for the first that is not.
+    /// [`PartTimeError`] for the first invalid timing.
     pub fn check(all: &[Self]) -> Result<(), PartTimeError> {
         if all.len() > MAX_PART_TIMES {
             return Err(PartTimeError::TooMany(all.len()));
@@ -78,7 +78,7 @@ impl PartTime {
         Ok(())
     }
 
-    /// Returns the clock of the part.
+    /// Returns the clock of the part: its time window and easing.
     #[must_use]
     pub fn clock(&self) -> PartClock {
         let Self {
@@ -87,7 +87,7 @@ impl PartTime {
         PartClock { from, to, easing }
     }
 
-    /// Replaces the clock.
+    /// Returns the timing with the time window and easing of a clock.
     #[must_use]
     pub fn with_clock(self, PartClock { from, to, easing }: PartClock) -> Self {
         Self {
@@ -98,7 +98,7 @@ impl PartTime {
         }
     }
 
-    /// Transforms the point by the similarity of its design.
+    /// Returns the timing with its point transformed by the similarity of its design.
     #[must_use]
     pub fn placed(&self, by: &[Similarity; 2]) -> Self {
         Self {

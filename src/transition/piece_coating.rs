@@ -1,4 +1,5 @@
-//! Paints the pieces of a transition: one paint layer for each pair of source and target layers.
+//! Determines the paint layers of a transition: one for each pair of source and target layers that
+//! its pieces connect.
 
 use super::drawing_pair::{DrawingPair, LayerInk};
 use super::paint_layer_options::PaintLayerOptions;
@@ -21,11 +22,11 @@ impl TransitionData {
     }
 }
 
-/// The boundary loops of a transition.
+/// The boundary loops of a transition, with the piece of each.
 pub(super) struct PieceBoundaryLoops<'a> {
     /// Vertex indices of each loop.
     pub loops: Vec<Vec<u32>>,
-    /// Index of the piece to which each loop belongs.
+    /// For each loop, the index of the piece to which it belongs.
     pub pieces: Vec<usize>,
     /// Positions of the vertices in source and target.
     pub places: [&'a [DVec2]; 2],
@@ -82,7 +83,7 @@ pub(super) fn paint_layer_stack(
     })
 }
 
-/// Returns the design that has an unmatched piece; `None` for a matched one.
+/// Returns the only design that contains a piece; `None` for a matched piece.
 fn unmatched_side(piece: &PieceMatch) -> Option<Side> {
     match [piece.source_part, piece.target_part] {
         [Some(_), None] => Some(Side::Source),
@@ -91,8 +92,9 @@ fn unmatched_side(piece: &PieceMatch) -> Option<Side> {
     }
 }
 
-/// Returns the paint of each layer. Gradients move with the vertices that `vertices_along` returns
-/// for a layer; `places` are the positions of all vertices in the designs.
+/// Returns the paint, gradients, stroke and stacking order of each layer. Gradients move with the
+/// vertices that `vertices_along` returns for a layer; `places` are the positions of all vertices
+/// in the designs.
 pub(super) fn placed_paint_layers(
     drawings: &DrawingPair,
     layers: &PieceLayers,
@@ -103,7 +105,7 @@ pub(super) fn placed_paint_layers(
     let layer_at = |layer: usize| {
         let ink = |side: Side| Some(&drawings.inks[side][layers.layers[layer][side]?]);
         let inks = Side::BOTH.map(ink);
-        // An unmatched layer keeps its paint, while its stroke grows with it.
+        // An unmatched layer keeps its paint; its stroke exists only in its own design.
         let paint = |side: Side| inks[side].or(inks[side.other()])?.paint;
         PlacedPaintLayer {
             paints: Side::BOTH.map(paint),
@@ -120,7 +122,8 @@ pub(super) fn placed_paint_layers(
     (0..layers.layers.len()).map(layer_at).collect()
 }
 
-/// Returns the gradients of a layer with these vertices; an unmatched layer keeps its own.
+/// Returns the gradients of a layer, anchored to `vertices`. An unmatched layer keeps the gradient
+/// of its own design.
 fn shading(
     inks: [Option<&LayerInk>; 2],
     vertices: Vec<u32>,
@@ -148,8 +151,8 @@ fn shading(
     }
 }
 
-/// Returns the stacking height of each layer in one design. A layer that this design lacks lies
-/// directly above the layer that is next below it in the other design.
+/// Returns the height of each layer in the stack of one design, 0 for the lowest. A layer that is
+/// missing in this design lies directly above the layer that is next below it in the other design.
 fn z_indices(layers: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
     let other = side.other();
     let mut order: Vec<usize> = (0..layers.len())
@@ -188,7 +191,8 @@ mod tests {
 
     #[test]
     fn unmatched_layers_lie_above_their_neighbour_and_appearing_above_disappearing_ones() {
-        // Sky and sun in both designs; a sea disappears in front of them, and a word appears.
+        // A sky and a sun exist in both designs. In front of them, a sea disappears and a word
+        // appears.
         let layers = [
             [Some(0), Some(0)],
             [Some(1), Some(1)],
@@ -198,7 +202,8 @@ mod tests {
         for side in Side::BOTH {
             assert_eq!(z_indices(&layers, side), [0, 1, 2, 3], "{side:?}");
         }
-        // The sun sinks behind the sky, and a layer between them exists in only one design.
+        // The first two layers exchange their order, and the topmost layer exists only in the
+        // target.
         let layers = [[Some(0), Some(1)], [Some(1), Some(0)], [None, Some(2)]];
         assert_eq!(z_indices(&layers, Side::Source), [0, 1, 2]);
         assert_eq!(z_indices(&layers, Side::Target), [1, 0, 2]);

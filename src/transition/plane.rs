@@ -1,5 +1,5 @@
-//! Warps of the whole plane for distance fields and pictures: from pins and lines to a warp on a
-//! grid, or to rigid parts of the frame.
+//! Builds warps of the whole plane for distance fields and pictures. Pins and lines move either a
+//! warp on a grid, or the frame as rigid parts.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::arap_build::build_arap;
@@ -18,20 +18,22 @@ use crate::warp::{
 use crate::work::progress::{Progress, ProgressSpan, checkpoint, run_cancellable};
 use std::sync::Arc;
 
-/// Number of grid cells along the longer side of the frame; the warp is linear within a cell
-/// (heuristic: some pixels of a window).
+/// Maximum number of grid cells along the longer side of the frame. The warp is linear within each
+/// triangle of a cell, which covers a few pixels of a window (heuristic).
 const MAX_GRID_CELLS: u32 = 160;
 
-/// Maximum work per frame, in grid points times features; beyond it the grid is coarser (resource
-/// limit: some milliseconds on one or two cores, for 60 frames per second).
+/// Maximum work per frame: the number of grid points times the number of features. If a grid would
+/// need more work, it is made coarser (resource limit: some milliseconds on one or two cores, for
+/// 60 frames per second).
 const MAX_FRAME_WORK: f64 = 3e6;
 
-/// Work of one grid point of the lattice warp, in features; it does not grow with their number
-/// (heuristic).
+/// Work of one grid point of the lattice warp, as a number of features. Unlike that of the other
+/// warps, it does not depend on the actual number of features (heuristic).
 const LATTICE_WORK: usize = 16;
 
-/// How far the mesh of rigid parts extends beyond the frame, as a fraction of the longer side
-/// (heuristic): its border bends, and more of it would cost faces that are never visible.
+/// Distance by which the mesh of rigid parts extends beyond the frame, as a fraction of the frame's
+/// longer side. The border of the mesh bends; a wider margin would only add faces that are never
+/// visible (heuristic).
 const FRAME_MARGIN: f64 = 0.25;
 
 /// Builds the specified warp over a frame.
@@ -89,7 +91,7 @@ fn build_grid_warp(
                 Ok(Lattice::new(frame, points, lines, options.lattice)?)
             })
         }
-        // The table has no such method for planes; a new one must be added here.
+        // These warps are not evaluated on a grid. A new grid warp must be added to this match.
         WarpKind::None | WarpKind::Paths | WarpKind::Arap => Err(BuildError::Unavailable(format!(
             "{} cannot be built; choose another method",
             spec.method.name()
@@ -97,8 +99,8 @@ fn build_grid_warp(
     }
 }
 
-/// Builds a warp of the features on a grid, combined with their common rigid motion if they travel
-/// as a whole. `work` is the cost of one grid point, in features.
+/// Builds a warp on a grid that moves the features, combined with their common rigid motion if they
+/// travel as a whole. `work` is the work of one grid point, as a number of features.
 fn on_grid<W: PlaneWarp>(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -126,11 +128,12 @@ fn on_grid<W: PlaneWarp>(
     })
 }
 
-/// Returns a grid that is fine enough but can be evaluated within one frame.
+/// Returns a grid that is as fine as possible within [`MAX_GRID_CELLS`] and [`MAX_FRAME_WORK`], but
+/// has at least 24 cells along its longer side.
 fn grid(frame: &Bounds, work: usize) -> PlaneGrid {
     let frame_size = frame.size();
     let aspect = frame_size.min_element() / frame_size.max_element();
-    // The grid has aspect · cells² points, each at the cost of all features.
+    // The grid has aspect · cells² points, and each takes `work`.
     let max_points = MAX_FRAME_WORK / (work.max(1) as f64);
     let cells = (max_points / aspect.max(0.01))
         .sqrt()
@@ -138,11 +141,12 @@ fn grid(frame: &Bounds, work: usize) -> PlaneGrid {
     PlaneGrid::covering(frame, (cells as u32).max(24))
 }
 
-/// Builds the frame as one mesh that is as rigid as its pins or matched outlines allow. Automatic
-/// pins are thinned out until nothing folds.
+/// Builds a warp that moves the frame as one mesh, as rigidly as its matched outlines or pins
+/// allow. Automatic pins are thinned out until the frame does not fold.
 ///
 /// # Errors
-/// If pins set by the user fold the frame, it cannot be triangulated, or the work is cancelled.
+/// If the frame folds with pins set by the user or cannot be triangulated, or the work is
+/// cancelled.
 fn rigid(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -178,11 +182,12 @@ fn rigid(
     })
 }
 
-/// Builds the frame as rigid as its pins allow. As long as it folds, every other automatic pin is
-/// removed.
+/// Builds a warp that moves the frame as rigidly as its pins allow. While automatic pins fold the
+/// frame or coincide, every other pin is removed.
 ///
 /// # Errors
-/// If the frame folds with pins set by the user, cannot be triangulated, or the work is cancelled.
+/// If the frame folds with pins set by the user or cannot be triangulated, or the work is
+/// cancelled.
 fn about_pins(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -198,7 +203,7 @@ fn about_pins(
                 if are_automatic && !pins.is_empty() =>
             {
                 *pins = pins.iter().copied().step_by(2).collect();
-                // Halving a single pin would leave it.
+                // Removing every other pin never removes the last one, so it is removed here.
                 if pins.len() == 1 {
                     pins.clear();
                 }
@@ -210,8 +215,9 @@ fn about_pins(
     Ok(AnyWarp::Rigid(arap))
 }
 
-/// Builds the frame as rigid as matched outlines allow, combined with their common rigid motion.
-/// The inner error says why the outlines do not divide the frame in the same way in both designs.
+/// Builds a warp that moves the frame as rigidly as its matched outlines allow, combined with the
+/// common rigid motion of the features. The inner error says why the outlines do not divide the
+/// frame in the same way in both designs.
 fn about_outlines(
     spec: &TransitionSpec,
     frame: &Bounds,
@@ -237,7 +243,7 @@ fn about_outlines(
     let mesh = match attempt {
         Ok(mesh) => mesh,
         Err(error) => {
-            // A cancellation is returned as an error of the mesh; it must not become a note.
+            // A cancellation is also returned as an error of the mesh, but must not become a note.
             checkpoint(progress, "triangulating", 0.0)?;
             return Ok(Err(error));
         }
@@ -249,7 +255,7 @@ fn about_outlines(
     }))
 }
 
-/// Returns the frame extended by all outlines and a margin.
+/// Returns the box around the frame and all outlines, with a margin.
 fn padded_frame(matched: &RegionMatch, frame: &Bounds) -> Bounds {
     let rings = matched.pieces.iter().flat_map(|piece| &piece.rings);
     let points = rings.flat_map(|ring| ring.source.iter().chain(&ring.target));

@@ -1,5 +1,5 @@
-//! The features that a plane warp follows: pins and lines set by the user, or automatic ones along
-//! matched outlines.
+//! Determines the features that a plane warp follows: pins and lines set by the user, or automatic
+//! ones along matched outlines.
 
 use super::error::BuildError;
 use super::note::TransitionNote;
@@ -12,8 +12,9 @@ use crate::geometry::{Regions, Ring, Side};
 use crate::warp::WarpKind;
 use crate::work::progress::{Progress, checkpoint};
 
-/// Pins closer to an outline than this lie on it, as a fraction of the design's diameter
-/// (tolerance: a few pixels in a window, the precision of dragging along a line).
+/// Distance from an outline, as a fraction of the design's diameter, up to which a pin counts as
+/// lying on the outline (tolerance: a few pixels in a window, the precision of dragging along a
+/// line).
 const ON_OUTLINE_DISTANCE: f64 = 0.005;
 
 /// Number of automatic pins along each outline (heuristic; each adds a row to the equations).
@@ -30,15 +31,15 @@ pub(super) struct PlaneFeatures {
     pub lines: Vec<LinePair>,
     /// Whether the features are automatic, not set by the user.
     pub are_automatic: bool,
-    /// The match of the outlines on which all features lie, if they do.
+    /// The match of the outlines, if all features lie on matched outlines.
     pub matched: Option<RegionMatch>,
     /// Deviations from the request.
     pub notes: Vec<TransitionNote>,
 }
 
 impl PlaneFeatures {
-    /// Returns the features set by the user; if there are none and outlines are visible, automatic
-    /// ones along matched outlines.
+    /// Returns the features set by the user. If there are none and outlines are visible, returns
+    /// automatic features along matched outlines.
     ///
     /// # Errors
     /// If outlines cannot be computed or matched, or the work is cancelled.
@@ -57,7 +58,8 @@ impl PlaneFeatures {
         if spec.method.content() != ContentKind::Field {
             return Ok(requested);
         }
-        // A map of the plane cannot cut a ring open or split a part.
+        // A warp of the plane cannot cut a ring open or split a part, so the match must not require
+        // that.
         let matching = MatchSettings {
             holes: HoleRule::Close,
             parts: PartRule::Transient,
@@ -67,7 +69,8 @@ impl PlaneFeatures {
         if requested.points.is_empty() && requested.lines.is_empty() {
             return Self::automatic_features(spec.method.warp(), &outlines, &matching, progress);
         }
-        // Pins that the user has moved along the outlines still match them.
+        // If all pins of the user lie on the outlines, the outlines can be matched through these
+        // pins.
         if spec.method.warp() == WarpKind::Arap && requested.are_on(&outlines) {
             return requested.with_match(&outlines, &matching, progress);
         }
@@ -100,8 +103,8 @@ impl PlaneFeatures {
         Ok(found)
     }
 
-    /// Adds the match of the outlines on which the features lie, or a note if they cannot be
-    /// matched.
+    /// Adds the match of the outlines on which the features lie, or a note if the outlines cannot
+    /// be matched.
     ///
     /// # Errors
     /// If the work is cancelled.
@@ -111,7 +114,8 @@ impl PlaneFeatures {
         matching: &MatchSettings,
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
-        // A cancellation must not be mistaken for outlines that do not match.
+        // The checkpoint below reports a cancellation, so that it is not mistaken for outlines that
+        // cannot be matched.
         let matched = match_regions(source, target, matching, progress);
         checkpoint(progress, "matching", 0.5)?;
         match matched {
@@ -131,7 +135,8 @@ impl PlaneFeatures {
         self.points.iter().copied().chain(line_points).collect()
     }
 
-    /// Returns the points and the starting points of lines if they are automatic; otherwise none.
+    /// Returns the points and the starting points of the lines if the features are automatic;
+    /// otherwise an empty list.
     pub fn automatic(&self) -> Vec<PointPair> {
         if !self.are_automatic {
             return Vec::new();
@@ -162,7 +167,7 @@ fn point_on_line(line: &LinePair, along: f64) -> PointPair {
     }
 }
 
-/// Returns the lines from each pin of a ring to the next.
+/// Returns the lines from each pin of a ring to the next, and from the last to the first.
 fn sides(ring: &[PointPair]) -> impl Iterator<Item = LinePair> {
     let next = ring.iter().cycle().skip(1);
     ring.iter().zip(next).map(|(a, b)| LinePair {

@@ -1,13 +1,13 @@
-//! The recording of a transition, made on request.
+//! Records a transition on request and returns its recording.
 
 use super::transition::Transition;
 use crate::recording::{Recording, RecordingError, RecordingOptions};
 use crate::work::progress::Progress;
 
 impl Transition {
-    /// Records the warp over [0, 1]. From then on all frames, existing ones included, are evaluated
-    /// from the recording instead of solved; the difference is invisible. Does nothing if there is
-    /// a recording already.
+    /// Records the warp over [0, 1]. From then on, all frames, including existing ones, are
+    /// evaluated from the recording instead of being solved; the difference is invisible. If there
+    /// is a recording already, returns it.
     ///
     /// # Errors
     /// [`RecordingError`] with the reason why frames continue to be solved.
@@ -35,7 +35,7 @@ impl Transition {
             return existing.clone();
         }
         let recording = Recording::record(self.shared_warp(), options, progress);
-        // These may succeed later, so they are not stored.
+        // These errors are not stored, because a later attempt may succeed.
         if matches!(
             recording,
             Err(RecordingError::Cancelled(_) | RecordingError::TooLarge { .. })
@@ -45,7 +45,8 @@ impl Transition {
         self.recording_slot().get_or_init(|| recording).clone()
     }
 
-    /// Returns the recording, or why there is none; `None` until recording was requested.
+    /// Returns the recording or the reason why there is none; `None` until a recording has been
+    /// requested.
     #[must_use]
     pub fn recording(&self) -> Option<&Result<Recording, RecordingError>> {
         self.recording_slot().get()

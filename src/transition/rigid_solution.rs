@@ -1,5 +1,5 @@
-//! The solved motion of matched outlines: unmatched parts and holes have a position and a time
-//! window in which they collide with nothing, as far as one exists.
+//! Solves the motion of matched outlines. Unmatched parts and holes get a position and a time
+//! window in which they collide with nothing, if there is one.
 
 use super::collision_guard::FailedProof;
 use super::drawing_pair::DrawingPair;
@@ -18,8 +18,8 @@ use crate::correspondence::{MatchPlan, RegionMatch};
 use crate::warp::{Arap, ArapOptions, OutlineParameters};
 use crate::work::progress::{Progress, checkpoint};
 
-/// Maximum number of times that unmatched parts are placed again after a failed proof (resource
-/// limit; two suffice for all icons tested).
+/// Maximum number of times that unmatched parts are placed again after the check at every t has
+/// failed (resource limit: two suffice for all icons tested).
 const MAX_REFINEMENTS: usize = 3;
 
 /// The solved motion of two outlines, before subdivision.
@@ -27,12 +27,12 @@ const MAX_REFINEMENTS: usize = 3;
 pub(super) struct RigidSolution {
     /// The match that was chosen.
     pub matched: RegionMatch,
-    /// The interpolation of the matched pieces.
+    /// The interpolation of all pieces, without subdivision.
     pub arap: Arap,
     /// Holes that exist in only one design.
     pub holes: Vec<PieceHole>,
-    /// Indices of unmatched pieces that swell: they grow in thickness, within their outline,
-    /// instead of in size.
+    /// Indices of the unmatched pieces that swell: they keep their outer size and grow in
+    /// thickness, within their outline.
     pub swelling: Vec<usize>,
     /// Deviations from the request, and suggestions.
     pub notes: Vec<TransitionNote>,
@@ -61,7 +61,7 @@ pub(super) fn solve_best(
     let matched = separation.matched;
     let layers = PieceLayers::of(&matched, &drawings.appearances);
     let arap = stiffen_folds(separation.arap, progress)?;
-    // Stiffening changed the motion slightly, so the schedule is based on the result.
+    // Stiffening has changed the motion slightly, so the schedule is based on the stiffened motion.
     let schedule_for = |holes: &[PieceHole]| {
         placement::timetable(&matched, &arap, (holes, &layers), spec.options.quality)
     };
@@ -78,8 +78,8 @@ pub(super) fn solve_best(
 
 /// Places unmatched parts so that nothing collides at any t, as far as possible.
 ///
-/// If the proof finds a collision of an unmatched part between the sampled times, the sampling is
-/// refined there and all parts are placed again.
+/// If the check at every t finds a collision of an unmatched part between the sampled times, a time
+/// is added there and all unmatched parts are placed again.
 ///
 /// # Errors
 /// If the motion cannot be solved or the work is cancelled.
@@ -114,7 +114,7 @@ fn without_collisions(
             || previous_collisions.len() == MAX_REFINEMENTS
             || previous_collisions.last() == Some(&collision_times)
         {
-            // If refinement did not help, return to the first placement.
+            // If placing parts again did not help, the first placement is used.
             let restored = if collision_times.is_empty() {
                 None
             } else {
@@ -147,7 +147,7 @@ pub(super) fn with_requested_options(
     stiffen_folds(solved.rebuilt(requested, progress)?, progress)
 }
 
-/// Gives all unmatched parts a position and a time window.
+/// Gives each unmatched part a position and a time window.
 ///
 /// # Errors
 /// If the motion cannot be solved or the work is cancelled.

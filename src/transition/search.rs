@@ -1,10 +1,11 @@
 //! The search for the best match of each piece: candidates, attempts and their ratings.
 //!
-//! - `candidate`: a matched piece and the defects of its motion
-//! - `group`: variants of matching the pieces of a group of parts
-//! - `attempts`: the table of attempts, each for some pieces and with some variants
-//! - `sliding`: slides the boundary correspondence of the best candidates, and chooses between them
-//! - `mirror_check`: whether the designs would match better if one were mirrored
+//! - `candidate`: a matched piece, its mesh and the defects of its motion
+//! - `group`: matches the pieces of a group of parts with several match options
+//! - `attempts`: the table of attempts, which try other match options for certain pieces
+//! - `sliding`: slides the boundary correspondence of the best candidates, and chooses the better
+//!   of two results
+//! - `mirror_check`: checks whether the designs would match better if one were mirrored
 
 pub(crate) mod attempts;
 pub(crate) mod candidate;

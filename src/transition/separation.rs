@@ -213,7 +213,7 @@ fn choose_pieces(
     chosen.into_iter().collect()
 }
 
-/// Returns the match of all pieces.
+/// Combines the matches of all pieces into one match.
 fn combined_match(groups: &[Vec<PieceResult>]) -> RegionMatch {
     let piece_of = |chosen: &PieceResult| match chosen {
         Ok(best) => best.matched.clone(),

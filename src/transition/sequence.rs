@@ -1,12 +1,14 @@
 //! Sequences: transitions one after another, through many designs.
 //!
-//! t counts the designs: the first is at 0, the second at 1, and between them runs the transition
-//! from one to the other, the first *segment*. A pair of designs is a sequence of one segment, and
-//! everything shown, measured or written of it is identical to the single transition.
+//! The parameter t counts the designs: the first design is at 0, the second at 1, and so on. The
+//! transition between two consecutive designs is a *segment*. A pair of designs is a sequence of
+//! one segment, and everything shown, measured or written of it is identical to the single
+//! transition.
 //!
-//! Guaranteed: at each integer t the design itself, from whichever segment it is reached. Not
-//! guaranteed: that points continue in the direction in which they arrived; playback pauses there
-//! or is eased, which hides the change.
+//! Guaranteed: at each integer t from 0 to the number of segments, the frame shows the design
+//! itself, whether the preceding or the following segment is evaluated. Not guaranteed: that points
+//! leave a design in the direction in which they arrived. Playback pauses at the designs or is
+//! eased, which hides the change.
 
 use super::frame::Frame;
 use super::style::TransitionStyle;
@@ -14,7 +16,7 @@ use super::transition::Transition;
 use crate::geometry::Bounds;
 use std::sync::Arc;
 
-/// Transitions one after another, at least one. Cloning is cheap.
+/// One or more transitions, one after another. Cloning is cheap.
 ///
 /// ```
 /// use morphospace::transition::Sequence;
@@ -34,7 +36,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Sequence {
     segments: Arc<[Transition]>,
-    /// The last segment leads back to the first design.
+    /// Whether the last segment leads back to the first design.
     is_closed: bool,
 }
 
@@ -60,8 +62,8 @@ impl From<&Self> for Sequence {
 }
 
 impl Sequence {
-    /// Creates a sequence; `None` without segments. The caller must ensure that each segment begins
-    /// with the design with which the one before it ends.
+    /// Creates a sequence, or returns `None` if there are no segments. The caller must ensure that
+    /// each segment begins with the design with which the previous segment ends.
     #[must_use]
     pub fn new(segments: Vec<Transition>) -> Option<Self> {
         (!segments.is_empty()).then(|| Self {
@@ -70,8 +72,8 @@ impl Sequence {
         })
     }
 
-    /// Sets whether the last segment leads back to the first design: then the colours that change
-    /// with t return as well.
+    /// Sets whether the last segment leads back to the first design. If so, colours that change
+    /// with t return to the first colour as well.
     #[must_use]
     pub fn closed(self, is_closed: bool) -> Self {
         Self { is_closed, ..self }
@@ -83,8 +85,8 @@ impl Sequence {
         &self.segments
     }
 
-    /// Returns whether two sequences share the same transitions. Compares pointers, which clones
-    /// share; comparing the data would take longer.
+    /// Returns whether two sequences consist of the same shared transitions. Only pointers are
+    /// compared, because comparing the data would take longer.
     #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {
         let same = |(a, b): (&Transition, &Transition)| a.is_same(b);
@@ -92,14 +94,14 @@ impl Sequence {
             && self.segments.iter().zip(other.segments.iter()).all(same)
     }
 
-    /// Returns t of the last design, which is the number of segments.
+    /// Returns the t of the last design, which is the number of segments.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.segments.len() as f64
     }
 
-    /// Returns the segment shown at `t`, and the t within it; before the first design and beyond
-    /// the last one it is extrapolated.
+    /// Returns the index of the segment shown at `t`, and the t within that segment. Before the
+    /// first design and beyond the last one, the t within the segment lies outside [0, 1].
     #[must_use]
     pub fn segment_at(&self, t: f64) -> (usize, f64) {
         segment_at(self.segments.len(), t)
@@ -115,8 +117,9 @@ impl Sequence {
             .unwrap_or_else(|| unreachable!("there is a segment"))
     }
 
-    /// Returns every t inside the sequence at which a design is reached or a part starts, stops or
-    /// changes pace. Between these, every point moves smoothly. Unsorted.
+    /// Returns every t at which a segment other than the first begins, or at which a part starts,
+    /// stops or abruptly changes its speed. Between these times every point moves smoothly. The
+    /// list is unsorted and may include 0 and the end of the sequence.
     #[must_use]
     pub fn break_times(&self) -> Vec<f64> {
         let breaks_of_segment = |(k, segment): (usize, &Transition)| {
@@ -132,8 +135,9 @@ impl Sequence {
             .collect()
     }
 
-    /// Returns the style of a segment for a given style of the whole sequence: colours that change
-    /// with t run once through all segments.
+    /// Returns the style of a segment, given the style of the whole sequence. Colours that change
+    /// with t run once through all segments, so that each segment gets its own source and target
+    /// colour.
     #[must_use]
     pub fn style_of(&self, segment: usize, style: &TransitionStyle) -> TransitionStyle {
         let layout = SequenceLayout {
@@ -174,7 +178,8 @@ pub struct SequenceLayout {
     pub is_closed: bool,
 }
 
-/// As [`Sequence::segment_at`], for a sequence of `segment_count` segments.
+/// Returns the segment shown at `t` and the t within it, as [`Sequence::segment_at`], for a
+/// sequence of `segment_count` segments.
 #[must_use]
 pub fn segment_at(segment_count: usize, t: f64) -> (usize, f64) {
     let last = segment_count.saturating_sub(1);
@@ -183,7 +188,7 @@ pub fn segment_at(segment_count: usize, t: f64) -> (usize, f64) {
     (segment, t - segment as f64)
 }
 
-/// As [`Sequence::style_of`], for a sequence with this layout.
+/// Returns the style of a segment, as [`Sequence::style_of`], for a sequence with the given layout.
 #[must_use]
 pub fn style_of(
     segment: usize,
@@ -198,8 +203,9 @@ pub fn style_of(
     }
 }
 
-/// Returns the position between the style's source colour (0) and target colour (1) at `t`: from 0
-/// to 1 over all segments, or to 1 and back if the last segment leads back.
+/// Returns the position at `t` between the source colour (0) and the target colour (1) of the
+/// style. It runs from 0 to 1 over all segments, or from 0 to 1 and back to 0 if the sequence is
+/// closed.
 #[must_use]
 pub fn colour_fraction(t: f64, layout: SequenceLayout) -> f64 {
     let fraction = t / layout.segment_count.max(1) as f64;
@@ -209,7 +215,7 @@ pub fn colour_fraction(t: f64, layout: SequenceLayout) -> f64 {
     }
 }
 
-/// A sequence at one t. Only segments that have been shown take up memory.
+/// A sequence at one t. Memory is allocated only for segments that have been shown.
 #[derive(Debug)]
 pub struct SequenceFrame {
     sequence: Sequence,
@@ -219,7 +225,7 @@ pub struct SequenceFrame {
 }
 
 impl SequenceFrame {
-    /// Moves to `t`. Does not allocate within a segment that has been shown before. A `t` that is
+    /// Moves to `t`. Does not allocate if the segment at `t` has been shown before. A `t` that is
     /// not finite counts as 0.
     pub fn seek(&mut self, t: f64) {
         self.t = if t.is_finite() { t } else { 0.0 };
@@ -248,7 +254,7 @@ impl SequenceFrame {
         self.segment
     }
 
-    /// Returns t within the whole sequence.
+    /// Returns the t of the frame in the whole sequence.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.t

@@ -1,8 +1,8 @@
-//! Transitions of rigid parts: one triangulation of both designs, interpolated as rigidly as
-//! possible.
+//! Builds transitions of rigid parts: a common triangulation of both designs, interpolated as
+//! rigidly as possible.
 //!
-//! Two meshes bring their triangulation along, two trusses their panels; all other forms are
-//! matched as outlines.
+//! Two meshes are interpolated with their own triangulation, and two trusses with the panels
+//! between their bars; all other designs are matched as outlines.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::arap_build::check_size;
@@ -26,7 +26,7 @@ use crate::work::progress::{Progress, checkpoint};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Builds the interpolation of rigid parts, and the visible content.
+/// Builds the interpolation of rigid parts, and the content that is shown.
 ///
 /// # Errors
 /// If the designs cannot be matched or triangulated, are too large, or the work is cancelled.
@@ -85,8 +85,8 @@ pub(super) fn rigid_parts(
     Ok((built, solid))
 }
 
-/// Returns the paints of the bars of two trusses, in the order of the first truss; empty without
-/// colours.
+/// For each bar of the first truss, returns its paints in source and target. Empty if neither truss
+/// has colours or the colours are not used.
 fn bar_paints(rule: PaintRule, trusses: [&Truss; 2]) -> Vec<[Option<Paint>; 2]> {
     let is_painted = |truss: &&Truss| !truss.parts().colours.is_empty();
     if rule == PaintRule::One || !trusses.iter().any(is_painted) {
@@ -120,7 +120,7 @@ fn cached_or_best(
     Ok(KeyedSolution { key, solution })
 }
 
-/// Builds the interpolation of a triangulation that the designs bring along.
+/// Builds the interpolation of a triangulation that both designs already share.
 fn from_common_mesh(
     spec: &TransitionSpec,
     mesh: Result<CompatibleMesh, CompatibleError>,

@@ -1,9 +1,10 @@
-//! Packs the solved motion of two designs for storage in a document, so that the document opens at
-//! once and plays the same motion everywhere.
+//! Packs the solved motion of two designs as text for a document, and restores it, so that the
+//! document opens at once and plays the same motion on every machine.
 //!
-//! Stored are the match and the mesh of the solved motion, from which the motion is one
-//! factorisation away. A stored result is only used for the outlines and options for which it was
-//! computed, and only if all of it is valid; otherwise the match is silently computed again.
+//! The text contains the match and the mesh of the solved motion; restoring the motion takes one
+//! factorisation. A stored motion is used only for the outlines and options for which it was
+//! computed, and only if all of it is valid. Otherwise the motion is computed again without a
+//! message.
 
 use super::cached_match::{CachedMatch, SharedText};
 use crate::compatible::CompatibleMesh;
@@ -24,14 +25,14 @@ use flate2::read::{ZlibDecoder, ZlibEncoder};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
-/// Maximum size of the unpacked data in bytes (resource limit: about 50 bytes per face; data made
-/// of empty pieces takes 16 times its size in memory).
+/// Maximum size of the decompressed data in bytes (resource limit: a mesh takes about 50 bytes per
+/// face; a malicious list of empty pieces takes 16 times its size in memory).
 const MAX_BYTES: u64 = 16 << 20;
 
-/// Number of characters in a line of the encoded text, as in certificates and e-mail.
+/// Number of characters in a line of the encoded text, as is usual for base64 in e-mail.
 const LINE_LENGTH: usize = 76;
 
-/// A solved motion, and the key of its inputs.
+/// A solved motion, with the key of the outlines and options from which it was computed.
 #[derive(Clone, Debug)]
 pub(in crate::transition) struct KeyedSolution {
     pub key: String,
@@ -69,7 +70,8 @@ pub(in crate::transition) fn restore(
     Ok(solution.transpose()?.flatten())
 }
 
-/// The stored form of a solved motion. Holes are found again from the match.
+/// The stored form of a solved motion. For unmatched holes only the time windows are stored; their
+/// shape follows from the match.
 #[derive(Serialize, Deserialize)]
 struct SolutionRecord {
     pieces: Vec<PieceMatch>,
@@ -79,13 +81,13 @@ struct SolutionRecord {
     stiffness: Vec<f64>,
     holes: Vec<TimeWindow>,
     swelling: Vec<usize>,
-    /// Distortion as drawn and mirrored, if mirroring was suggested.
+    /// Distortions of the match as drawn and with one design mirrored, if mirroring was suggested.
     mirrored: Option<[f64; 2]>,
     guard: Option<Guard>,
 }
 
 impl SolutionRecord {
-    /// Converts a motion; `None` if it has notes that cannot be stored.
+    /// Converts a motion to a record; `None` if the motion has notes that cannot be stored.
     fn of(solution: &RigidSolution) -> Option<Self> {
         let mesh = solution.arap.mesh();
         let mirrored = match solution.notes[..] {
@@ -175,7 +177,8 @@ impl SolutionRecord {
         }))
     }
 
-    /// Returns whether all numbers are plausible; the mesh checks its own.
+    /// Returns whether all numbers are in range and all list lengths fit. Faces and positions are
+    /// checked later, when the mesh is built.
     fn is_sound(&self) -> bool {
         let pieces = self.pieces.len();
         let is_piece = |piece: &PieceMatch| {
@@ -219,14 +222,15 @@ mod tests {
         Arc::new(import("a.svg", text.as_bytes(), &ImportOptions::default()).expect("a drawing"))
     }
 
-    /// Parts that move, an unmatched hole, a ring that swells, and a part that appears.
+    /// Returns a specification with moving parts, an unmatched hole, a ring that swells, and a part
+    /// that appears.
     fn spec() -> TransitionSpec {
         let bars = svg("M32 30h12v40h-12z M56 30h12v40h-12z M34 40v4h4v-4z");
         let badge = svg(
             "M32 30h12v40h-12z M56 32h12v38h-12z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76 M2 2h6v6h-6z",
         );
         let mut spec = TransitionSpec::new(bars, badge);
-        // Keep the bar with the hole from becoming the ring.
+        // The link keeps the bar with the hole from being matched to the ring.
         let at = |design: &Design| design.form.bounds().centre() - 12.0 * DVec2::X;
         spec.options.matching.links = vec![PointPair {
             source: at(&spec.source),
@@ -272,7 +276,7 @@ mod tests {
         }
     }
 
-    /// A guard that moves all of this many vertices at t = 0.5.
+    /// Returns a guard for a mesh with `vertices` vertices that moves all of them at t = ½.
     fn guard(vertices: usize) -> Option<Guard> {
         let mut rows = vec![vec![DVec2::ZERO; vertices]; 3];
         rows[1].fill(DVec2::new(0.125, 0.0));
@@ -323,7 +327,7 @@ mod tests {
     #[test]
     fn an_invalid_cached_match_is_computed_again() {
         let mut spec = spec();
-        // Drafts, because many transitions are built.
+        // Drafts are used, because many transitions are built.
         spec.options.quality = BuildQuality::Draft;
         let first = built(&spec);
         let expected = rings(&first);
@@ -362,7 +366,7 @@ mod tests {
             };
             assert_eq!(rings(&built(&spec)), expected);
         }
-        // A valid record is used, so the ones above were really rejected.
+        // A changed but valid record is used, so the records above were really rejected.
         let mut record = record();
         change_life(&mut record, &|life| [life.from, life.to] = [0.3, 0.4]);
         spec.cached_match = CachedMatch {

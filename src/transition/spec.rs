@@ -14,7 +14,7 @@ use crate::work::budget::WorkloadKind;
 use crate::work::progress::{Progress, checkpoint, run_cancellable};
 use std::sync::Arc;
 
-/// Everything a transition is built from: two designs placed in one frame, a method, and the
+/// Everything from which a transition is built: two designs placed in one frame, a method, and the
 /// options of all methods.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -25,20 +25,21 @@ pub struct TransitionSpec {
     pub target: Arc<Design>,
     /// The method: warp and content.
     pub method: TransitionMethod,
-    /// Options of all methods; positions of the match are in the coordinates of the common frame.
+    /// Options of all methods. Positions in the match options are in the coordinates of the common
+    /// frame.
     pub options: TransitionOptions,
     /// Whether to start work that will take very long; see [`crate::work::budget`].
     pub patient: bool,
     /// A cached match, reused if it was computed for the same outlines and options.
     pub cached_match: CachedMatch,
-    /// The other designs of a sequence, placed in the same frame: all of its fields share one grid,
-    /// and all of its bars one width.
+    /// The other designs of the same sequence, placed in the same frame. They are included in the
+    /// grid of distance fields and in the width of bars, which are the same in the whole sequence.
     pub others: Vec<Arc<Design>>,
 }
 
 impl TransitionSpec {
-    /// Two designs with default options and the method that suits them best: cross-dissolve for two
-    /// photographs, otherwise rigid parts.
+    /// Creates the specification for two designs with default options and the method that suits
+    /// them best: cross-dissolve for two photographs, otherwise rigid parts.
     #[must_use]
     pub fn new(source: Arc<Design>, target: Arc<Design>) -> Self {
         let are_photographs = [&source, &target]
@@ -60,8 +61,8 @@ impl TransitionSpec {
         }
     }
 
-    /// Returns the same specification in draft quality, which builds sooner; `None` if drafts do
-    /// not exist for it or the best match is cached.
+    /// Returns the same specification in draft quality, which takes less time to build; `None` if
+    /// the method has no drafts, the quality is already that of a draft, or the match is cached.
     #[must_use]
     pub fn draft(&self, progress: &dyn Progress) -> Option<Self> {
         let have_a_common_mesh = matches!(
@@ -78,14 +79,15 @@ impl TransitionSpec {
         })
     }
 
-    /// Returns all designs in the frame.
+    /// Returns the source, the target and the other designs of the sequence.
     pub(super) fn all_designs(&self) -> impl Iterator<Item = &Arc<Design>> {
         [&self.source, &self.target].into_iter().chain(&self.others)
     }
 
     /// Returns whether the cached match was computed for these outlines and options.
     fn has_cached_match(&self, progress: &dyn Progress) -> bool {
-        // Computing the key needs the outlines: skip that without a cached match.
+        // The key is computed from the outlines, which takes time and is useless if nothing is
+        // cached.
         if self.cached_match.is_none() {
             return false;
         }
@@ -112,8 +114,8 @@ impl TransitionSpec {
         Ok(outlines.map(|outline| outline.with_contacts_separated()))
     }
 
-    /// Returns both designs, with their paint layers, as they are matched for rigid parts.
-    /// `bar_width` is in units of the designs.
+    /// Returns both designs prepared for matching, with their paint layers if drawings keep their
+    /// own colours. `bar_width` is in units of the designs.
     ///
     /// # Errors
     /// As for [`Self::outlines`].
@@ -136,10 +138,10 @@ impl TransitionSpec {
         Ok(drawings)
     }
 
-    /// Checks that outlines are not too large to be matched.
+    /// Checks that outlines do not have too many parts, holes or points to be matched.
     ///
     /// # Errors
-    /// [`BuildError::TooMuch`] if they have too many parts, holes or points.
+    /// [`BuildError::TooMuch`] with the first of these numbers that is too large.
     pub(super) fn check_workload(
         &self,
         outlines: &[Regions; 2],
@@ -153,10 +155,10 @@ impl TransitionSpec {
         Ok(WorkloadKind::Points.check(point_counts.iter().sum(), progress)?)
     }
 
-    /// Checks whether designs of these kinds can be interpolated by `cell`, without trying.
+    /// Checks whether a method can interpolate designs of these kinds, without building anything.
     ///
     /// # Errors
-    /// [`BuildError::Unavailable`] with the reason, for a disabled button.
+    /// [`BuildError::Unavailable`] with the reason, which the window shows on the disabled button.
     pub fn available(
         cell: TransitionMethod,
         source: &Design,
@@ -177,10 +179,11 @@ impl TransitionSpec {
     }
 }
 
-/// Returns the width of bars in units of the designs.
+/// Returns the width of truss bars in units of the designs: the requested fraction of the largest
+/// design's diameter.
 ///
 /// # Errors
-/// [`BuildError::BarWidth`] if the option is not a fraction.
+/// [`BuildError::BarWidth`] if the requested fraction is not above 0 and at most 1.
 pub(crate) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
     let fraction = spec.options.bar_width;
     if !(fraction > 0.0 && fraction <= 1.0) {
@@ -213,7 +216,8 @@ pub(crate) fn outline(
     })??)
 }
 
-/// Returns the paint layers of a design; a single layer without paint if it has none.
+/// Returns the paint layers of a design, or a single layer without paint if it has none. Parts that
+/// touch in a point are separated.
 fn separated_paint_layers(
     design: &Arc<Design>,
     bar_width: f64,

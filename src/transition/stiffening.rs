@@ -19,8 +19,7 @@ const STEPS: u32 = 64;
 
 /// Maximum number of rounds in which the stiffness of folded faces is raised (resource limit).
 const MAX_ROUNDS: u32 = 8;
-/// Factor by which the stiffness of a folded face is multiplied in each round, once for every
-/// sample at which it folds (heuristic).
+/// Factor by which the stiffness of a folded face is multiplied in each round (heuristic).
 const STIFFNESS_FACTOR: f64 = 4.0;
 
 /// Maximum number of faces for which folds are detected (resource limit: a round takes 0.4 s per

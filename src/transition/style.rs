@@ -1,24 +1,25 @@
-//! The colours of a transition, shared by window and export.
+//! The colours in which a transition is shown, shared by window and export.
 
 use crate::colour::{Gradient, Paint, Rgb};
 use serde::{Deserialize, Serialize};
 
-/// Colours and marks of a transition.
+/// Colours in which a transition is shown, and whether joints are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct TransitionStyle {
-    /// Fill at t = 0.
+    /// Fill colour at t = 0 of shapes without a paint of their own.
     pub source: Rgb,
-    /// Fill at t = 1.
+    /// Fill colour at t = 1 of shapes without a paint of their own.
     pub target: Rgb,
-    /// Background.
+    /// Colour of the background.
     pub ground: Rgb,
     /// Whether the joints of a truss are drawn.
     pub joints: bool,
 }
 
 impl Default for TransitionStyle {
-    /// Blue to orange on warm white: distinguishable with every common form of colour blindness.
+    /// Returns blue to orange on warm white, which are distinguishable with every common form of
+    /// colour blindness.
     fn default() -> Self {
         Self {
             source: Rgb([0x2f, 0x6f, 0xb3]),
@@ -30,7 +31,7 @@ impl Default for TransitionStyle {
 }
 
 impl TransitionStyle {
-    /// Returns the fill at `t`.
+    /// Returns the fill colour at `t`; beyond [0, 1], that of the nearer end.
     #[must_use]
     pub fn fill_at(&self, t: f64) -> Rgb {
         self.source.mixed(self.target, t)

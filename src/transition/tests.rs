@@ -1,4 +1,5 @@
-//! Methods, frames, notes, cancellation, and the placement of designs in one frame.
+//! Tests of transitions: methods, frames, notes, cancellation, and the placement of designs in one
+//! frame.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
@@ -27,12 +28,12 @@ fn svg(path: &str) -> Arc<Design> {
     ))
 }
 
-/// A unit square as a mesh of two triangles.
+/// A unit square as a mesh of two triangles, in OBJ format.
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
-/// A triangle of three bars.
+/// A truss of three bars that form a triangle.
 const TRUSS: &str = r#"{"nodes": [[0,0],[2,0],[1,1.5]], "bars": [[0,1],[1,2],[2,0]]}"#;
 
-/// A blend of distance fields on a coarse grid.
+/// Returns the specification of a blend of distance fields on a coarse grid.
 fn field_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
     spec.method = TransitionMethod::new(WarpKind::None, ContentKind::Field).unwrap();
@@ -118,14 +119,14 @@ fn a_truss_is_drawn_as_bars_and_as_a_field() {
     assert_eq!(figure.rings.len(), 2, "a triangle of bars has one hole");
 }
 
-/// Boundary paths.
+/// Returns the specification of boundary paths between two designs.
 fn paths_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
     spec.method = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
     spec
 }
 
-/// Returns the signed area of closed polygons.
+/// Returns the sum of the signed areas of closed polygons.
 fn area(rings: &[Vec<DVec2>]) -> f64 {
     let of = |ring: &Vec<DVec2>| -> f64 {
         let next = ring.iter().cycle().skip(1);
@@ -308,7 +309,7 @@ fn a_mirrored_target_is_offered_the_mirror() {
     Transition::build(&TransitionSpec::new(source, target), &Silent).unwrap();
 }
 
-/// Cancels at the n-th report.
+/// Progress that is cancelled once the given number of reports has been received.
 struct CancelAtReport(usize, AtomicUsize);
 
 impl Progress for CancelAtReport {
@@ -342,7 +343,7 @@ fn a_build_can_be_cancelled_at_every_report() {
 }
 
 fn arrow(turned: bool) -> Arc<Design> {
-    // 90 long, 20 wide.
+    // The arrow is 90 units long and 20 units wide.
     let right = "M5 45h60v-5l30 10l-30 10v-5h-60z";
     let left = "M95 55h-60v5l-30-10l30-10v5h60z";
     svg(if turned { left } else { right })
@@ -518,7 +519,8 @@ fn a_boundary_that_cannot_be_exact_gives_a_note() {
 
 #[test]
 fn impossible_cuts_give_a_note() {
-    // An island within a hole that winds around it: no straight cut leads there.
+    // An island lies within a hole that winds around it, so that no straight cut leads to the
+    // island.
     let drawn = |island: &str| {
         let winding = "M5.25 13V5.25H14.75V14.75H3.25V8H2.75V15.25H15.25V4.75H4.75V13z";
         design(&format!(

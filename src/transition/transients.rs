@@ -1,5 +1,5 @@
-//! Transient parts and holes, which exist in only one design: where and when they enter or exit,
-//! and the shapes that they have on the way.
+//! Transient parts and holes, which exist in only one design: where and when they appear or
+//! disappear, and their shapes during the motion.
 
 pub(crate) mod boundary_loops;
 pub(crate) mod growth_profile;

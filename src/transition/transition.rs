@@ -1,4 +1,4 @@
-//! A built transition.
+//! The type of a built transition, and access to its parts.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::cached_match::CachedMatch;
@@ -35,8 +35,8 @@ use std::sync::{Arc, OnceLock, Weak};
 #[derive(Clone, Debug)]
 pub struct Transition(Arc<TransitionData>);
 
-/// The recording of a warp, or why there is none, once it has been made; shared by all transitions
-/// that share the warp.
+/// The recording of a warp, or the reason why there is none; empty until a recording has been
+/// requested. Shared by all transitions that share the warp.
 pub(super) type RecordingSlot = Arc<OnceLock<Result<Recording, RecordingError>>>;
 
 /// The shared data of a transition.
@@ -49,11 +49,11 @@ pub(super) struct TransitionData {
     /// The warp, and how it was determined.
     pub built_warp: BuiltWarp,
     pub content: Content,
-    /// Box around all frames, approximately.
+    /// Box around all frames for t in [0, 1], found by sampling.
     pub bounds: Bounds,
     /// Width of truss bars in units of the designs.
     pub bar_width: f64,
-    /// The recording of the warp, once it has been made.
+    /// The recording of the warp, if it has been requested.
     pub recording: RecordingSlot,
 }
 
@@ -62,7 +62,7 @@ pub(super) struct TransitionData {
 pub struct TransitionId(Weak<TransitionData>);
 
 impl TransitionId {
-    /// Returns whether it identifies this transition or a clone of it.
+    /// Returns whether this identifies `transition` or a clone of it.
     #[must_use]
     pub fn is_of(&self, transition: &Transition) -> bool {
         std::ptr::eq(self.0.as_ptr(), Arc::as_ptr(&transition.0))
@@ -112,14 +112,14 @@ impl Transition {
         }))
     }
 
-    /// Returns the same transition with these part timings instead of the previous ones. Points are
-    /// in the coordinates of the common frame.
+    /// Returns the same transition with the given part timings instead of the previous ones. The
+    /// points of the timings are in the coordinates of the common frame.
     #[must_use]
     pub fn with_part_times(&self, times: &[PartTime]) -> Self {
         Self::from(self.0.as_ref().clone().with_part_times(times))
     }
 
-    /// Returns the same transition with these options for its paint layers.
+    /// Returns the same transition with the given options for its paint layers.
     #[must_use]
     pub fn with_paint_layers(&self, options: &PaintLayerOptions) -> Self {
         Self::from(self.0.as_ref().clone().with_paint_layers(options))
@@ -137,8 +137,8 @@ impl Transition {
         &self.0.content
     }
 
-    /// Returns every t in (0, 1) at which a part starts, stops or changes pace. Between these,
-    /// every point moves smoothly. Unsorted.
+    /// Returns every t at which a part starts, stops or abruptly changes its speed. Between these
+    /// times every point moves smoothly. The list is unsorted and may include 0 and 1.
     #[must_use]
     pub fn break_times(&self) -> Vec<f64> {
         self.warp().break_times()
@@ -176,7 +176,8 @@ impl Transition {
         }
     }
 
-    /// As [`Self::placer_of`], for the interpolation of the exchanged designs.
+    /// Returns a placer as [`Self::placer_for`] does, for the interpolation of the exchanged
+    /// designs.
     pub(crate) fn reversed_placer_for(&self, arap: &Arap) -> Placer {
         match &self.0.built_warp.warp {
             AnyWarp::Staggered(warp) => warp.backwards(arap.clone()).placer(),
@@ -192,14 +193,15 @@ impl Transition {
         }
     }
 
-    /// Returns deviations from the request and suggestions, in the order in which they arose.
+    /// Returns the deviations from the request and the suggestions, in the order in which they
+    /// arose.
     #[must_use]
     pub fn notes(&self) -> &[TransitionNote] {
         &self.0.built_warp.notes
     }
 
-    /// Returns which point of one outline corresponds to which of the other, in the coordinates of
-    /// the common frame; `None` if the designs share a mesh or no match was needed.
+    /// Returns the correspondence between the outlines of both designs, in the coordinates of the
+    /// common frame; `None` if the designs share a mesh or no match was needed.
     #[must_use]
     pub fn matched(&self) -> Option<&RegionMatch> {
         self.0.built_warp.matched.as_ref()
@@ -222,7 +224,8 @@ impl Transition {
         &self.0.built_warp.automatic_pins
     }
 
-    /// Returns the pins and lines that the warp misses at `t`; `None` if it meets all of them.
+    /// Returns a summary of the pins and lines that the warp misses at `t`; `None` if it misses
+    /// none.
     #[must_use]
     pub fn missed_features(&self, t: f64) -> Option<MissedFeatures> {
         self.warp().missed_features(t)

@@ -473,8 +473,8 @@ impl Arap {
 
     /// Returns the position at `t` of a part that moves with the whole design.
     ///
-    /// `ends` are its positions in source and target and `share` is the completed fraction of its
-    /// own motion.
+    /// `ends` are the part's positions in source and target; `share` is the completed fraction of
+    /// its own motion.
     pub(crate) fn carried_position(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
         self.0.translations.carried_position(ends, share, t)
     }

@@ -26,10 +26,10 @@ pub enum FeatureError {
     /// A coordinate of the frame or its diameter is not finite.
     #[error("the frame is not finite: give the designs finite coordinates")]
     Frame,
-    /// A coordinate of a point pair is not finite. Pairs are numbered from 1.
+    /// A coordinate of a point pair is not finite. Holds the number of the pair, counted from 1.
     #[error("point pair {0}: a coordinate is not finite; move or delete the pair")]
     Point(usize),
-    /// A coordinate of a line pair is not finite. Pairs are numbered from 1.
+    /// A coordinate of a line pair is not finite. Holds the number of the pair, counted from 1.
     #[error("line pair {0}: a coordinate is not finite; move or delete the pair")]
     Line(usize),
     /// There are more than [`MAX_FEATURES`] features.

@@ -20,7 +20,7 @@ pub struct PartClock {
     pub from: f64,
     /// Time at which the part arrives, later than `from` and at most 1.
     pub to: f64,
-    /// Easing between the two.
+    /// Easing of the motion between `from` and `to`.
     pub easing: EasingFunction,
 }
 

@@ -1,4 +1,5 @@
-//! Plugin that draws everything around the stage with egui, once a frame.
+//! Plugin that draws the whole user interface with egui in each frame, and reports the stage's
+//! rectangle, the keyboard focus and the user's intents to the other systems.
 
 use std::time::Duration;
 
@@ -24,7 +25,7 @@ use crate::app::ui::timeline::{panel, plots};
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::ui::{gallery, match_editor, speaker, toolbar};
 
-/// Draws the panels with egui.
+/// Bevy plugin that draws the user interface with egui.
 #[derive(Debug)]
 pub struct UiPlugin;
 
@@ -36,7 +37,7 @@ impl Plugin for UiPlugin {
             .add_systems(
                 PreUpdate,
                 keep_keys_from_widgets
-                    // Between collecting the events and the egui pass that reads them.
+                    // After the events are collected, and before the egui pass that reads them.
                     .after(EguiInputSet::WriteEguiEvents)
                     .before(EguiPreUpdateSet::BeginPass),
             )
@@ -44,8 +45,8 @@ impl Plugin for UiPlugin {
                 PreUpdate,
                 silence_repaints.after(EguiPreUpdateSet::InitContexts),
             )
-            // Otherwise a glyph drawn for the first time would be missing for one frame: its
-            // texture is uploaded with the asset changes recorded by then.
+            // The texture of a new glyph is uploaded together with the asset changes recorded so
+            // far. Without this order, the glyph would be missing for one frame.
             .configure_sets(
                 PostUpdate,
                 EguiPostUpdateSet::PostProcessOutput.before(AssetEventSystems),
@@ -59,35 +60,37 @@ impl Plugin for UiPlugin {
                 PostUpdate,
                 record_repaint
                     .after(EguiPostUpdateSet::EndPass)
-                    // ProcessOutput consumes the output.
+                    // `ProcessOutput` consumes the output that is recorded.
                     .before(EguiPostUpdateSet::ProcessOutput),
             );
     }
 }
 
-/// Window width, in points, from which the gallery fits next to the stage (heuristic).
+/// Minimum width of the window, in points, at which the gallery is shown next to the stage
+/// (heuristic).
 const MIN_WIDTH_WITH_GALLERY: f32 = 880.0;
 
-/// Window widths, in points, from which the gallery fits next to the match editor: without and with
-/// the editor's film pane.
+/// Minimum widths of the window, in points, at which the gallery is shown next to the match editor:
+/// without and with the editor's film pane.
 const MIN_EDITOR_WIDTH_WITH_GALLERY: [f32; 2] = [1200.0, 1600.0];
 
-/// Installs theme and fonts before the first frame: fonts take effect in the next pass, and egui
-/// panics on a font family it does not know.
+/// Installs themes and fonts when an egui context is created. They must be there before the first
+/// frame, because egui panics on a font family that it does not know.
 fn install_theme(added: On<Add, EguiContext>, mut contexts: Query<&mut EguiContext>) -> Result {
     theme::install(contexts.get_mut(added.entity)?.get_mut());
     Ok(())
 }
 
-/// Stops egui from waking the window by itself: only the frame pacing decides when the next frame
-/// is drawn, and it learns of egui's requests from [`record_repaint`].
+/// Stops egui from waking the window by itself. Only the app's redraw pace decides when the next
+/// frame is drawn; [`record_repaint`] passes egui's requests on to it.
 fn silence_repaints(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
     for mut context in &mut contexts {
         context.get_mut().set_request_repaint_callback(|_| {});
     }
 }
 
-/// Removes key events unless text is being edited, so that shortcuts do not also drive a widget.
+/// Removes key events from egui's input unless a text field, a menu or the file dialog receives all
+/// keys, so that shortcuts do not act on widgets as well.
 fn keep_keys_from_widgets(
     mut contexts: Query<&mut bevy_egui::EguiInput>,
     typing: Res<KeyboardFocus>,
@@ -96,14 +99,15 @@ fn keep_keys_from_widgets(
     for mut input in &mut contexts {
         input.events.retain(|event| match event {
             egui::Event::Key { .. } | egui::Event::Text(_) => typing.0,
-            // Sent in every frame; egui would repaint after each event, so only changes go through.
+            // This event arrives in every frame, and egui repaints after each event, so only actual
+            // changes are passed on.
             egui::Event::ModifiersChanged(now) => std::mem::replace(&mut *modifiers, *now) != *now,
             _ => true,
         });
     }
 }
 
-/// Records when the panels want to be drawn again, for example while a switch slides.
+/// Records how soon egui wants the panels to be drawn again, for example while a switch slides.
 fn record_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepaint>) {
     let outputs = outputs.iter().filter_map(|output| output.0.as_ref());
     let delays = outputs.flat_map(|output| output.viewport_output.values());
@@ -111,16 +115,16 @@ fn record_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepa
     repaint.0 = soonest.unwrap_or(Duration::MAX);
 }
 
-/// Resources through which the panels report to the other systems.
+/// Resources and messages by which the user interface reports to the other systems.
 #[derive(SystemParam)]
 struct UiOutputs<'w> {
-    /// Whether a text field, a menu or the file dialog receives all keys.
+    /// Set while a text field, a menu or the file dialog receives all keys.
     typing: ResMut<'w, KeyboardFocus>,
-    /// Whether text in a panel is selected.
+    /// Set while text in a panel is selected.
     text_selected: ResMut<'w, TextSelected>,
-    /// Rectangle of the stage.
+    /// Rectangle of the stage in the window.
     area: ResMut<'w, StageArea>,
-    /// Intents that the user triggered.
+    /// Intents that the user triggered in this frame.
     intents: MessageWriter<'w, Intent>,
 }
 
@@ -153,7 +157,7 @@ fn draw(
         .area
         .set_if_neq(StageArea::from_points(visible.left_top(), visible.size()));
     outputs.typing.set_if_neq(KeyboardFocus(
-        // Menus and the file dialog handle arrow keys and Esc themselves.
+        // Menus and the file dialog handle arrow keys and Escape themselves.
         ctx.text_edit_focused()
             || egui::Popup::is_any_open(&ctx)
             || state.dialog.purpose().is_some(),
@@ -162,14 +166,16 @@ fn draw(
     outputs
         .text_selected
         .set_if_neq(TextSelected(selection.lock().has_selection()));
-    // Handled in the next frame, because the panels are drawn after the systems have run.
+    // The intents are handled in the next frame, because the panels are drawn after the systems
+    // have run.
     outputs.intents.write_batch(intents);
     Ok(())
 }
 
-/// Draws what fills the space between the panels: stage, comparison, map, match editor or talk.
+/// Draws the content of the space between the panels: the overlays of the stage, the comparison,
+/// the map, the match editor or the presentation.
 ///
-/// Returns the rectangle that the stage takes.
+/// Returns the rectangle in which the stage is visible.
 fn stage_content(
     root: &mut egui::Ui,
     state: &UiState,
@@ -205,13 +211,13 @@ fn panels(
     intents: &mut Intents,
 ) {
     toolbar::show(root, state, intents);
-    // The order matters, because each panel takes its edge from the remaining space: the timeline
-    // is as wide as the window, the side panels stand between it and the toolbar.
+    // Each panel takes its space from the remaining rectangle, so the order determines the layout:
+    // the timeline is as wide as the window, and the side panels lie between it and the toolbar.
     panel::show(root, state, intents);
     if state.preferences.plots {
         plots::show(root, state, intents);
     }
-    // In a small window the stage and the match editor need the gallery's space.
+    // In a small window the gallery would leave too little space for the stage or the match editor.
     let min_width = match state.editor.is_open {
         true => MIN_EDITOR_WIDTH_WITH_GALLERY[usize::from(state.editor.shows_film())],
         false => MIN_WIDTH_WITH_GALLERY,
@@ -240,11 +246,13 @@ fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
     if state.editor.is_open {
         match_editor::overlay(ctx, state, stage, intents);
     }
-    // An audience sees only the drawing; notices wait until the panels are back.
+    // With hidden panels an audience sees only the drawing; notices wait until the panels are shown
+    // again.
     if state.preferences.panels {
         messages(ctx, state, stage, intents);
     }
-    // Shown even without panels, because the user has just asked for them.
+    // Help and questions are shown even with hidden panels, because the user has just asked for
+    // them.
     if state.preferences.help {
         help::show(ctx, state, intents);
     }
@@ -253,9 +261,9 @@ fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
     }
 }
 
-/// Draws progress and notices.
+/// Draws the progress of background jobs and the notices.
 fn messages(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &mut Intents) {
-    // The match editor's toolbar and instructions stay uncovered.
+    // Progress must not cover the match editor's toolbar, and notices not its instructions either.
     let mut free = stage;
     if state.editor.is_open {
         free.min.y += match_editor::BAR_HEIGHT;
@@ -268,7 +276,7 @@ fn messages(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
 }
 
 impl StageArea {
-    /// Converts from egui's points.
+    /// Converts a rectangle in egui's points, given by its upper left corner and its size.
     fn from_points(corner: egui::Pos2, size: egui::Vec2) -> Self {
         Self {
             corner: Vec2::new(corner.x, corner.y),

@@ -1,4 +1,5 @@
-//! Panel on the left: recent projects, and the bundled projects as film strips.
+//! Gallery panel on the left: a list of recent projects, and the bundled projects as cards with
+//! film strips.
 
 use std::collections::HashMap;
 
@@ -15,17 +16,17 @@ use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::project::gallery;
 
-/// Width of the panel, in points.
+/// Width of the gallery panel, in points.
 const WIDTH: f32 = 232.0;
 
-/// Height of the film strip on a card, in points.
+/// Height of the film strip on the card of a project, in points.
 const PICTURE_HEIGHT: f32 = 72.0;
 
-/// Film strips already uploaded to the GPU, by project name.
+/// Textures of the film strips that have been uploaded to the GPU, by project name.
 #[derive(Resource, Default)]
 pub struct GalleryTextures(HashMap<String, TextureHandle>);
 
-/// Draws the panel.
+/// Draws the gallery panel.
 pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 8, 8, 0]);
     Panel::left("gallery")
@@ -36,7 +37,7 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
             recent(ui, state, intents);
             ui.label(secondary_text(ui, "Gallery").strong());
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                // Narrower than the panel, to leave room for the scroll bar.
+                // The cards are narrower than the panel, which leaves room for the scroll bar.
                 ui.set_width(WIDTH - 32.0);
                 for entry in &state.gallery.0 {
                     if card(ui, state, textures, entry).clicked() {
@@ -48,7 +49,7 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
         });
 }
 
-/// Draws one line per recently opened project.
+/// Draws a line for each recently opened project; a click opens it.
 fn recent(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let opened = state.recent.entries();
     if opened.is_empty() {
@@ -79,7 +80,7 @@ fn card(
 ) -> Response {
     let palette = ThemePalette::of(ui);
     let (width, ink) = (ui.available_width(), palette.text);
-    // Wrapped, not truncated: similar titles often differ only at the end.
+    // Titles are wrapped, not truncated, because similar titles often differ only at the end.
     let title = ui
         .painter()
         .layout(entry.title.clone(), SMALL, ink, width - 16.0);
@@ -106,12 +107,12 @@ fn card(
     response.on_hover_text(&entry.description)
 }
 
-/// Scrolls to the card of a project that was just opened; later frames leave the list as it is.
+/// Scrolls once to the card of a project that has just been opened.
 fn show_when_new(ui: &Ui, name: &str, card: &Response) {
     let id = egui::Id::new("the card that was scrolled to");
     let is_new = ui.data_mut(|data| {
         let last = data.get_temp_mut_or_default::<String>(id);
-        // Only once per project, so that the user can scroll away from it.
+        // After that, the user can scroll away from the card.
         let is_new = last != name;
         name.clone_into(last);
         is_new
@@ -121,14 +122,15 @@ fn show_when_new(ui: &Ui, name: &str, card: &Response) {
     }
 }
 
-/// Draws a project's film strip as large as it fits into `rect`; an empty box until it is ready.
+/// Draws the film strip of the project `name`, as large as it fits into `rect`. Draws an empty box
+/// while the strip is not ready.
 pub fn thumbnail(ui: &Ui, state: &UiState, textures: &mut GalleryTextures, name: &str, rect: Rect) {
     ui.painter()
         .rect_filled(rect, RADIUS, ThemePalette::of(ui).panel);
     let Some(image) = state.thumbnails.get(name) else {
         return;
     };
-    // Strips never change, so each is uploaded once.
+    // A film strip never changes, so it is uploaded only once.
     let texture = textures.0.entry(name.to_owned()).or_insert_with(|| {
         let size = [image.width() as usize, image.height() as usize];
         let pixels = ColorImage::from_rgba_unmultiplied(size, image.as_raw());

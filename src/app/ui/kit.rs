@@ -1,4 +1,5 @@
-//! Building blocks of all panels: colours, icons, controls and textures.
+//! Building blocks of all panels: theme, icons, controls, editors of easings and time windows, and
+//! textures.
 
 pub mod easing_editor;
 pub mod icons;

@@ -1,4 +1,5 @@
-//! Layers above the panels: file dialog, shortcuts, questions, notices, progress and frame times.
+//! Parts of the user interface that appear on demand: file dialog, list of shortcuts, questions,
+//! notices, progress of jobs, and frame times.
 
 pub mod file_dialog;
 mod file_side_panel;

@@ -1,4 +1,4 @@
-//! Inspector: one file per section or group of sections.
+//! Inspector: the panel on the right, with one file per section or group of sections.
 
 pub mod appearance;
 pub mod content;

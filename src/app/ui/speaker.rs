@@ -1,4 +1,5 @@
-//! Contents of the speaker's window: elapsed time, current stop with its notes, and the next stop.
+//! Contents of the speaker window, the second window of a talk: elapsed time, current stop with its
+//! notes, and name and picture of the next stop.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -19,18 +20,18 @@ use crate::app::ui::kit::theme::{self, GRID};
 use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::transition::TransitionStop;
 
-/// Schedule in which egui draws the speaker's window.
+/// Schedule in which egui draws the speaker window.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 pub struct SpeakerPass;
 
-/// Makes egui draw through the camera of the speaker's window.
+/// Observer that makes egui draw through the camera of the speaker window.
 pub fn join(added: On<Add, SpeakerCamera>, mut commands: Commands) {
     commands
         .entity(added.entity)
         .insert(EguiSchedule::new(SpeakerPass));
 }
 
-/// Draws the window, if it is open.
+/// Draws the contents of the speaker window, if it is open.
 pub fn draw(
     mut contexts: Query<&mut EguiContext, Without<PrimaryEguiContext>>,
     session: Res<Session>,
@@ -78,16 +79,16 @@ pub fn draw(
     });
 }
 
-/// Stop and design at one t, as the speaker's window shows them.
+/// A moment of the film with its stop and its design, as the speaker window shows it.
 struct SpeakerMoment<'a> {
     t: f64,
     stop: Option<&'a TransitionStop>,
-    /// Name of the design at this t.
+    /// Name of the design at exactly this t; `None` between designs.
     design: Option<&'a str>,
 }
 
 impl<'a> SpeakerMoment<'a> {
-    /// Looks up the stop and the design at `t`; `names[k]` is the design at t = k.
+    /// Looks up the stop and the design at `t`. `names[k]` is the name of the design at t = k.
     fn new(t: f64, stops: &'a [TransitionStop], names: &'a [String]) -> Self {
         let is_here = |other_t: f64| (other_t - t).abs() < STOP_TOLERANCE_T;
         let design = names.iter().enumerate().find(|(k, _)| is_here(*k as f64));
@@ -98,7 +99,7 @@ impl<'a> SpeakerMoment<'a> {
         }
     }
 
-    /// Returns the stop's name or, if it has none, the design's.
+    /// Returns the name of the stop or, if it has none, that of the design.
     fn name(&self) -> Option<&'a str> {
         let stop = self.stop.map(|stop| stop.name.as_str());
         stop.filter(|name| !name.is_empty()).or(self.design)

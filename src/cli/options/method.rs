@@ -16,7 +16,8 @@ use crate::warp::{
 use super::super::error::CliError;
 use super::super::value_parsers::{line, one_of, pin, set_if_given, weights};
 
-/// Value of `--method`: one of the paper's two methods, or the best one.
+/// Value of `--method`: rigid parts or distance fields, the two methods of the paper, or the best
+/// method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MethodFlag {
     Arap,

@@ -81,7 +81,7 @@ pub(super) fn triangulations(
 
 /// Returns the indices of the corners that coincide with another corner, as corners on slits do.
 pub(super) fn coincident_corners(points: &[DVec2]) -> Vec<u32> {
-    // Adding zero turns -0 into 0.
+    // Adding zero turns -0 into 0, so that equal points compare as equal.
     let at = |v: u32| points[v as usize] + 0.0;
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_by(|&a, &b| {

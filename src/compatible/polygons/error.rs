@@ -47,7 +47,7 @@ pub enum PieceMeshError {
         /// Numbers of points of the ring in source and target.
         points: [usize; 2],
     },
-    /// A ring has fewer than three points.
+    /// A ring has fewer than three points in both designs.
     #[error("{} has {points} points; it needs at least 3", ring_name(*ring))]
     TooFewPoints {
         /// Index of the boundary ring; 0 is the outer one.
@@ -73,7 +73,7 @@ pub enum PieceMeshError {
         side: Side,
         /// The two edges, numbered in the rings that the caller passed.
         edges: [PieceEdge; 2],
-        /// Position of the first edge's start, near which the edges meet.
+        /// Position of the first edge's start.
         place: DVec2,
     },
     /// The outer boundary of this design runs clockwise.
@@ -107,7 +107,7 @@ pub enum PieceMeshError {
         side: Side,
         /// The shortest edge of its rings, which is the likeliest cause.
         shortest: PieceEdge,
-        /// Start of that edge.
+        /// Position of that edge's start.
         place: DVec2,
         /// Error that the triangulation returned.
         error: TriangulationError,
@@ -133,7 +133,7 @@ pub enum PieceMeshError {
     Folded {
         /// Design in which the faces are flat or folded.
         side: Side,
-        /// Number of these faces.
+        /// Number of faces that are flat or folded.
         faces: usize,
         /// Centroid of the first of these faces.
         place: DVec2,

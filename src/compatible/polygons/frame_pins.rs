@@ -148,8 +148,8 @@ impl CompatibleMesh {
         // The mesh moves in several steps, so that edges can be flipped on the way.
         for step in 1..=STEPS {
             let along = f64::from(step) / f64::from(STEPS);
-            // `fixed_targets` ends the iteration: only the border, which stays, and the pins are
-            // moved.
+            // The iteration ends with `fixed_targets`: only the border, which stays in place, and
+            // the pins get waypoints.
             let waypoints: Vec<DVec2> = (mesh.points[0].iter().zip(&fixed_targets))
                 .map(|(p, q)| *p + (*q - *p) * along)
                 .collect();

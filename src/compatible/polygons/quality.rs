@@ -41,7 +41,7 @@ pub(super) fn improve(
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
-    // Large meshes get fewer steps.
+    // Large meshes get fewer descent steps.
     let max_steps = (MAX_WORK / (1 + mesh.faces().count())).max(1);
     for round in 0..ROUNDS {
         checkpoint(progress, "improving", round as f64 / ROUNDS as f64)?;

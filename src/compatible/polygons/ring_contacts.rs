@@ -66,7 +66,7 @@ pub(super) fn touching_edges(loops: &[&[DVec2]]) -> Option<[usize; 2]> {
     let all: Vec<usize> = (0..edges.next.len()).collect();
     // The lenient sweep comes first. It ignores coinciding vertices and therefore finds crossings.
     first_contact(&edges, all, true).or_else(|| {
-        // Adding zero turns -0 into 0.
+        // Adding zero turns -0 into 0, so that equal points have equal keys.
         let key = |[a, b]: [DVec2; 2]| [a.x, a.y, b.x, b.y].map(|x| (x + 0.0).to_bits());
         let directed: HashSet<[u64; 4]> =
             (0..edges.next.len()).map(|e| key(edges.ends(e))).collect();

@@ -104,7 +104,7 @@ fn check<R: AsRef<[DVec2]>>(
 /// Returns whether the design `a` comes before `b` in a fixed total order. Every pair is solved in
 /// this order, so that exchanging its designs gives the same mesh.
 pub(super) fn precedes(a: &BoundaryRings, b: &BoundaryRings) -> bool {
-    // Adding zero turns -0 into 0.
+    // Adding zero turns -0 into 0, so that equal coordinates compare as equal.
     let coordinates = |rings: &BoundaryRings| -> Vec<f64> {
         let points = rings.points.iter();
         points.flat_map(|p| (*p + 0.0).to_array()).collect()

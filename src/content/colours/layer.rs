@@ -1,4 +1,4 @@
-//! A picture in linear light with a mipmap pyramid, sampled bilinearly anywhere in the plane.
+//! Picture in linear light with a mipmap pyramid, sampled bilinearly at any point of the plane.
 
 use super::super::placement_scan::AffinePlane;
 use super::linear_light::{LinearLight, decode, encode_premultiplied, mean, mix};
@@ -9,29 +9,29 @@ use image::RgbaImage;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// A picture in linear light with its mipmap pyramid and its place in the plane. Cloning is cheap.
+/// Picture in linear light with its mipmap pyramid and its place in the plane. Cloning is cheap.
 #[derive(Clone, Debug)]
 pub struct PictureLayer {
     picture: Picture,
-    /// Pyramid levels, from full resolution down to a single pixel.
+    /// Levels of the pyramid, from full resolution down to a single pixel.
     mip_levels: Arc<Vec<MipLevel>>,
-    /// Map from the plane to pixels of the picture: x right, y down, origin in its upper left
-    /// corner.
+    /// Map from the plane to pixel coordinates of the picture: x right, y down, origin in the
+    /// picture's upper left corner.
     from_plane: DAffine2,
 }
 
-/// One level of the mipmap pyramid.
+/// Level of the mipmap pyramid.
 #[derive(Debug)]
 pub(super) struct MipLevel {
     width: usize,
     height: usize,
-    /// Pixels row by row from above, followed by one more row and one more pixel, so that every
-    /// pixel has a neighbour to its right and one below.
+    /// Pixels row by row from the top, followed by padding of one row and one pixel. Every pixel
+    /// then has a neighbour to its right and one below.
     light: Vec<LinearLight>,
 }
 
 impl PictureLayer {
-    /// Decodes a picture and builds its pyramid. Needs 22 bytes per pixel.
+    /// Decodes a picture and builds its pyramid. Takes 22 bytes of memory for each pixel.
     #[must_use]
     pub fn new(picture: &Picture) -> Self {
         let mut levels = vec![MipLevel::of(picture.pixels())];
@@ -40,7 +40,7 @@ impl PictureLayer {
         }
         let inverse = picture.place().inverse();
         let height = f64::from(picture.pixels().height());
-        // Pictures have y down and their origin at the top, the plane has y up.
+        // In pictures y points down and the origin is at the top; in the plane y points up.
         let flip = scale_then_translate(DVec2::new(1.0, -1.0), DVec2::new(0.0, height));
         let own = DAffine2::from_mat2_translation(inverse.linear(), inverse.apply(DVec2::ZERO));
         Self {
@@ -50,26 +50,28 @@ impl PictureLayer {
         }
     }
 
-    /// The original picture.
+    /// The picture from which the layer was made.
     #[must_use]
     pub fn picture(&self) -> &Picture {
         &self.picture
     }
 
-    /// Bounding box in the plane.
+    /// Bounding box of the picture in the plane.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.picture.bounds()
     }
 
-    /// Converts a point of the plane to pixels from the upper left corner of the picture, y down.
+    /// Converts a point of the plane to pixel coordinates of the picture: from its upper left
+    /// corner, y down.
     #[must_use]
     pub fn pixel_from_plane(&self, p: DVec2) -> DVec2 {
         self.from_plane.transform_point2(p)
     }
 
-    /// Returns the bytes of all pyramid levels, largest first, and their number. Each level is
-    /// stored row by row from above as sRGB premultiplied in linear light, four bytes per pixel.
+    /// Returns the bytes of all pyramid levels, the largest level first, and the number of levels.
+    /// Each level is stored row by row from the top, with four bytes for each pixel: sRGB values of
+    /// the light multiplied by alpha, and alpha.
     #[must_use]
     pub fn texture(&self) -> (Vec<u8>, u32) {
         let lights = self.mip_levels.iter().flat_map(MipLevel::pixels);
@@ -77,67 +79,68 @@ impl PictureLayer {
         (bytes.collect(), self.mip_levels.len() as u32)
     }
 
-    /// Side length of a pixel in the plane.
+    /// Side length of a pixel of the picture, in units of the plane.
     fn pixel(&self) -> f64 {
         self.picture.place().scale
     }
 
-    /// Returns a sampler for output pixels with side length `size` in the plane. It reads the
-    /// pyramid level whose pixels are about as large, so that nothing flickers where many pixels of
-    /// the picture fall into one.
+    /// Returns a sampler for output pixels of the side length `size` in the plane. It reads the
+    /// pyramid level whose pixels have about that size. This avoids flicker where many pixels of
+    /// the picture fall into one output pixel.
     pub(super) fn sampler(&self, size: f64) -> PictureSampler<'_> {
         let ratio = (size / self.pixel()).max(1.0);
-        // The scale of a picture may be 0.
+        // The ratio is infinite if the scale of the picture is 0.
         let index = if ratio.is_finite() {
-            // A level is used up to 2^0.75 ≈ 1.7 of its pixels per output pixel; then the next one.
+            // A level is used until its pixels are 2^0.75 ≈ 1.7 times finer than the output's;
+            // beyond that, the next level is used.
             (ratio.log2() + 0.25) as usize
         } else {
             0
         };
         let level = &self.mip_levels[index.min(self.mip_levels.len() - 1)];
         let scale = level.size() / self.mip_levels[0].size();
-        // Samples lie at pixel centres, half a pixel from the corner.
+        // Samples lie at the centres of pixels, half a pixel from the corner.
         let from_plane = scale_then_translate(scale, DVec2::splat(-0.5)) * self.from_plane;
         PictureSampler { level, from_plane }
     }
 }
 
-/// The map that scales along the axes, then translates.
+/// Returns the map that scales by `by` along the axes and then translates by `offset`.
 fn scale_then_translate(by: DVec2, offset: DVec2) -> DAffine2 {
     DAffine2::from_mat2_translation(DMat2::from_diagonal(by), offset)
 }
 
-/// One level of a picture, ready to be sampled.
+/// Level of a picture's pyramid, ready to be sampled.
 #[derive(Clone, Copy)]
 pub(super) struct PictureSampler<'a> {
     level: &'a MipLevel,
     from_plane: DAffine2,
 }
 
-/// One pixel in 32.32 fixed point.
+/// The length of one pixel in 32.32 fixed-point format.
 const ONE: f64 = (1u64 << 32) as f64;
 
-/// Distance from a picture, in its pixels, to which positions are clamped (resource limit: twice
-/// that distance does not overflow the fixed-point format).
+/// Distance from a picture, in its pixels, to which positions are clamped (derived: twice that
+/// distance does not overflow the fixed-point format).
 const FAR: f64 = (1u64 << 29) as f64;
 
 impl<'a> PictureSampler<'a> {
-    /// Prepares the sampling of a face whose samples start at `first` and extend up to `max_offset`
-    /// columns and rows.
+    /// Prepares the sampling of a face. Its samples start at column and row `first` and extend over
+    /// at most `max_offset` columns and rows. `plane` maps them to the plane.
     ///
-    /// Positions are exact to `max_offset` · 2⁻³⁰ pixels as long as consecutive samples are at most
-    /// 2²⁸ / `max_offset` pixels apart. Longer steps are shortened; they would skip unrelated
-    /// pixels anyway.
+    /// Positions are exact to `max_offset` · 2⁻³⁰ pixels if neighbouring samples are at most 2²⁸ /
+    /// `max_offset` pixels apart. Longer steps are shortened to that; they would skip from one
+    /// pixel to an unrelated one anyway.
     pub fn footprint(
         &self,
         plane: &AffinePlane,
         first: [usize; 2],
         max_offset: usize,
     ) -> PixelFootprint<'a> {
-        // The start is at most FAR away; `max_offset` steps across and as many down at most double
-        // that.
+        // The start is at most [`FAR`] away. `max_offset` steps to the right and as many down at
+        // most double that distance.
         let max_step = 0.5 * FAR / max_offset.max(1) as f64;
-        // `as` maps NaN to 0.
+        // The cast turns NaN into 0.
         let fixed = |at: DVec2, limit: f64| {
             let at = at.to_array();
             at.map(|x| (x.clamp(-limit, limit) * ONE) as i64)
@@ -160,7 +163,7 @@ impl<'a> PictureSampler<'a> {
     }
 }
 
-/// A picture sampled along an affine map, with positions in 32.32 fixed point.
+/// Picture that is sampled along an affine map, with positions in 32.32 fixed-point format.
 pub(super) struct PixelFootprint<'a> {
     light: &'a [LinearLight],
     width: usize,
@@ -172,10 +175,10 @@ pub(super) struct PixelFootprint<'a> {
 }
 
 impl PixelFootprint<'_> {
-    /// Samples the picture for the samples of row `y` from column `x` on, bilinearly between pixel
-    /// centres and mirrored beyond the edges.
+    /// Samples the picture for the samples of row `y` from column `x` on: bilinearly between pixel
+    /// centres, and mirrored beyond the edges.
     ///
-    /// Each element of `lights` is replaced by `with(element, sampled light)`.
+    /// Replaces each element of `lights` by `with(element, sampled light)`.
     #[inline]
     pub fn sample_row(
         &self,
@@ -183,8 +186,8 @@ impl PixelFootprint<'_> {
         lights: &mut [LinearLight],
         with: impl Fn(LinearLight, LinearLight) -> LinearLight,
     ) {
-        // Relative to the face's first sample, which keeps the products and their rounding errors
-        // small.
+        // Positions are relative to the face's first sample, which keeps the products and their
+        // rounding errors small.
         let right = (x - self.first[0]) as i64;
         let down = (y - self.first[1]) as i64;
         let place = |k: usize| self.start[k] + right * self.by_x[k] + down * self.by_y[k];
@@ -195,7 +198,7 @@ impl PixelFootprint<'_> {
         }
     }
 
-    /// Light at a position in fixed point.
+    /// Returns the light at a position in fixed-point format.
     #[inline]
     fn at(&self, x: i64, y: i64) -> LinearLight {
         let (x, y) = (
@@ -204,8 +207,8 @@ impl PixelFootprint<'_> {
         );
         let at = (y >> 32) as usize * self.width + (x >> 32) as usize;
         let (u, v) = (fractional_part(x), fractional_part(y));
-        // In the last column u = 0, so its right neighbour has no weight; likewise for the last
-        // row.
+        // In the last column the fraction u is 0, so the right neighbour has no weight; the same
+        // holds for the last row.
         let row = |at: usize| {
             let two = &self.light[at..at + 2];
             mix(two[0], two[1], u)
@@ -214,15 +217,15 @@ impl PixelFootprint<'_> {
     }
 }
 
-/// Half a pixel in 32.32 fixed point.
+/// The length of half a pixel in 32.32 fixed-point format.
 const HALF: i64 = 1 << 31;
 
-/// Reflects `x` at the picture's edges, as often as needed, into the range between the centres of
-/// the first and the last pixel.
+/// Reflects `x` at the edges of the picture, as often as needed. Returns a position between the
+/// centres of the first and the last pixel, 0 and `last`.
 #[inline]
 fn mirror_coordinate(x: i64, last: i64) -> i64 {
-    // Fast path: nearly all samples lie in the picture, and a division costs more than the rest of
-    // the lookup.
+    // Fast path: nearly all samples lie in the picture, and a division would take longer than the
+    // rest of the lookup.
     if (0..=last).contains(&x) {
         return x;
     }
@@ -232,19 +235,19 @@ fn mirror_coordinate(x: i64, last: i64) -> i64 {
     (folded - HALF).clamp(0, last)
 }
 
-/// Fractional part of a fixed-point number, to 24 bits.
+/// Returns the fractional part of a number in fixed-point format, to 24 bits.
 #[inline]
 fn fractional_part(x: i64) -> f32 {
-    /// Steps per pixel of the fractional part.
+    /// Number of steps into which the fractional part divides a pixel.
     const BITS: f32 = (1 << 24) as f32;
     ((x as u32) >> 8) as i32 as f32 * (1.0 / BITS)
 }
 
 impl MipLevel {
-    /// Adds the padding to the pixels of a level.
+    /// Creates a level from its pixels and adds the padding.
     fn new(width: usize, height: usize, mut light: Vec<LinearLight>) -> Self {
         let padded_len = width * height + width + 1;
-        // `resize` alone may allocate twice as much.
+        // `resize` alone may reserve twice as much memory.
         light.reserve_exact(padded_len - light.len());
         light.resize(padded_len, LinearLight::ZERO);
         Self {
@@ -254,7 +257,7 @@ impl MipLevel {
         }
     }
 
-    /// Decodes a picture at full resolution.
+    /// Creates the level of full resolution by decoding the pixels of a picture.
     fn of(pixels: &RgbaImage) -> Self {
         let (width, height) = (pixels.width() as usize, pixels.height() as usize);
         let raw = pixels.as_raw().par_chunks_exact(4);
@@ -262,18 +265,18 @@ impl MipLevel {
         Self::new(width, height, light.collect())
     }
 
-    /// Width and height in pixels.
+    /// Width and height of the level in pixels.
     fn size(&self) -> DVec2 {
         DVec2::new(self.width as f64, self.height as f64)
     }
 
-    /// Pixels without the padding.
+    /// Pixels of the level without the padding.
     fn pixels(&self) -> &[LinearLight] {
         &self.light[..self.width * self.height]
     }
 
-    /// Returns the next level: half as wide and high, rounded down as graphics cards do; `None` for
-    /// a single pixel.
+    /// Returns the next level: half as wide and half as high, rounded down as on graphics cards;
+    /// `None` for a single pixel.
     fn halved(&self) -> Option<Self> {
         if self.width * self.height <= 1 {
             return None;
@@ -281,7 +284,8 @@ impl MipLevel {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let row = |y: usize| {
             (0..width).map(move |x| {
-                // A side of one pixel has no second one, so the first counts twice.
+                // If a side is one pixel long, there is no second pixel and the first one counts
+                // twice.
                 let (right, below) = (
                     (2 * x + 1).min(self.width - 1),
                     (2 * y + 1).min(self.height - 1),
@@ -306,7 +310,7 @@ mod tests {
     use super::*;
     use image::Rgba;
 
-    /// Light at one point of the plane.
+    /// Returns the light that a sampler reads at one point of the plane.
     fn at(sampler: &PictureSampler<'_>, first: DVec2) -> LinearLight {
         let plane = AffinePlane {
             origin: first,

@@ -1,9 +1,9 @@
-//! Cross-dissolve of any number of pictures: c = Σ wⱼ cⱼ in linear light, each picture sampled
-//! through its own map.
+//! Cross-dissolve of any number of pictures cⱼ with weights wⱼ: c = Σ wⱼ cⱼ in linear light. Each
+//! picture is sampled through its own map.
 //!
-//! Guaranteed: with all weight on one design the result is its picture; for two designs with
-//! weights (1 − t, t) it equals a [`PicturePair`](super::PicturePair) at t up to one of the 255
-//! steps of a channel. Pictures with weight 0 are not sampled.
+//! Guaranteed: with all weight on one design the result is the picture of this design; for two
+//! designs with the weights (1 − t, t) it equals a [`PicturePair`](super::PicturePair) at t to
+//! within one of the 255 steps of a channel. Pictures with weight 0 are not sampled.
 
 use super::layer::PictureLayer;
 use super::linear_light::{LinearLight, SrgbEncoder};
@@ -24,10 +24,10 @@ pub struct PictureSet {
 }
 
 impl PictureSet {
-    /// Decodes the pictures. Returns `None` if there are none.
+    /// Decodes the pictures to linear light. Returns `None` if there are none.
     ///
     /// # Errors
-    /// Returns an error if the range of the mix is invalid.
+    /// [`ColourMixError`] if the interval of the mix is invalid.
     pub fn new(pictures: &[&Picture], mix: ColourMix) -> Result<Option<Self>, ColourMixError> {
         mix.check()?;
         let layers: Vec<PictureLayer> = pictures.par_iter().map(|p| PictureLayer::new(p)).collect();
@@ -37,14 +37,15 @@ impl PictureSet {
         }))
     }
 
-    /// Pictures, one per design.
+    /// Decoded pictures, one for each design.
     #[must_use]
     pub fn layers(&self) -> &[PictureLayer] {
         &self.layers
     }
 
-    /// Returns the visible rectangle for these weights: the weighted mean of the pictures' bounds.
-    /// Weights outside [0, 1] are clamped, because an extrapolated rectangle may turn inside out.
+    /// Returns the rectangle to which the output is cropped for these weights: the weighted mean of
+    /// the bounds of all pictures. Weights are clamped to [0, 1], because in an extrapolated
+    /// rectangle the minimum may exceed the maximum.
     ///
     /// # Panics
     /// Panics if the number of weights differs from the number of pictures.
@@ -62,13 +63,13 @@ impl PictureSet {
         Bounds { min, max }
     }
 
-    /// Fraction of each picture in the mix: its weight after the curve of the mix, divided by the
-    /// sum over all pictures. Weights outside [0, 1] are clamped.
+    /// Returns the fraction of each picture in the mix. Its weight, clamped to [0, 1], is converted
+    /// by [`ColourMix::target_fraction`] and divided by the sum over all pictures.
     fn shares(&self, weights: &[f64]) -> Vec<f64> {
         self.normalised(weights, |weight| self.mix.target_fraction(weight))
     }
 
-    /// Applies `curve` to the clamped weights and normalises the results to the sum 1.
+    /// Clamps the weights to [0, 1], applies `curve` to each and scales the results to the sum 1.
     fn normalised(&self, weights: &[f64], curve: impl Fn(f64) -> f64) -> Vec<f64> {
         assert_eq!(
             weights.len(),
@@ -80,18 +81,18 @@ impl PictureSet {
         if sum > 0.0 {
             curved.into_iter().map(|share| share / sum).collect()
         } else {
-            // A curve that starts late may give 0 for every weight; then all pictures count
+            // If the mix starts late, `curve` may give 0 for every weight. Then all pictures count
             // equally.
             vec![1.0 / curved.len() as f64; curved.len()]
         }
     }
 
-    /// Renders the mix for these weights, each picture sampled through its own map: sRGB with
-    /// straight alpha, transparent where there is nothing.
+    /// Renders the mix for these weights in sRGB with straight alpha, with each picture sampled
+    /// through its own map. Pixels that no face covers are transparent.
     ///
     /// # Panics
-    /// Panics if the number of weights, or of designs in `places`, differs from the number of
-    /// pictures.
+    /// Panics if the number of weights or the number of designs in `places` differs from the number
+    /// of pictures.
     #[must_use]
     pub fn render(
         &self,
@@ -116,8 +117,8 @@ impl PictureSet {
                     footprint.sample_row([x, y], row, |_, light| share * light);
                 }
             };
-            // Each picture in its own buffer: samples on an edge are written by both adjacent faces
-            // and must not be added twice.
+            // Each picture has its own buffer: both faces at an edge write the samples on it, and
+            // these must not be added twice.
             let mut picture_lights = vec![LinearLight::ZERO; lights.len()];
             scan(
                 &placement,

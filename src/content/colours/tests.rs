@@ -1,4 +1,4 @@
-//! Tests of picture mixes: exact ends, linear light, transparency and cropping.
+//! Tests of picture mixes: exact ends, linear light, transparency, cropping and refused mixes.
 
 mod reference;
 
@@ -18,7 +18,7 @@ fn identity_placer(pair: &PicturePair) -> crate::warp::Placer {
     IdentityWarp::new(a.union(&b).padded(2.0)).placer()
 }
 
-/// Output pixels that coincide with those of the picture.
+/// Output image whose pixels coincide with those of the test picture.
 const PICTURE_RASTER: PictureRaster = PictureRaster {
     size: [40, 30],
     corner: DVec2::new(0.0, 30.0),
@@ -80,7 +80,8 @@ fn the_visible_rectangle_cuts_within_pixels() {
         corner: DVec2::new(-0.5, 8.5),
         pixel_size: 1.0,
     };
-    // Halfway the rectangle is 6 wide, which leaves half a pixel on each side.
+    // Halfway, the visible rectangle is six pixels wide. It covers half of the first and half of
+    // the seventh pixel of a row.
     let half = pair.render(identity_placer(&pair).placement(), 0.5, &raster);
     let alpha: Vec<u8> = (0..9).map(|x| half.get_pixel(x, 5).0[3]).collect();
     assert_eq!(alpha, [128, 255, 255, 255, 255, 255, 128, 0, 0]);

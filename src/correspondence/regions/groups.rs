@@ -78,8 +78,8 @@ pub(super) fn group_parts(
         .iter()
         .map(|g| [g.parts[0][0], g.parts[1][0]])
         .collect();
-    // Pass the first pair of each group on as fixed. Exclude the group's other parts from the
-    // pairing.
+    // Pass the first pair of each group on as fixed. Exclude the group's other parts, and parts
+    // declared unmatched, from the pairing.
     let unmatched = declared_unmatched(designs, settings, &groups);
     let fixed_parts = Side::BOTH.map(|side| -> Vec<usize> {
         let additional = groups.iter().flat_map(|g| g.parts[side][1..].to_vec());

@@ -106,7 +106,7 @@ mod tests {
         Regions::from_rings(&rings, FillRule::EvenOdd).expect("area")
     }
 
-    /// Returns a bar with a dot, and a bar in two pieces with a dot.
+    /// Returns two designs: a bar and a dot, and the same with the bar in two parts.
     fn designs() -> [Regions; 2] {
         let dot = (4.5, 4.0, 1.0, 1.0);
         [

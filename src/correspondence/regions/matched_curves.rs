@@ -14,7 +14,7 @@ pub(crate) struct MatchedCurves {
     curves: [BoundaryCurve; 2],
     /// Match of the two curves.
     matched: BoundaryMatch,
-    /// Maximum edge length of the shared polygons, in fractions of the curves' mean length.
+    /// Maximum edge length of the shared polygons, as a fraction of the curves' mean length.
     spacing: f64,
     /// For each design: both ends of each slit (a straight cut from a hole to another boundary).
     /// The curve runs along each slit in both directions.

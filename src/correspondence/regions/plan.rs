@@ -182,8 +182,8 @@ impl<'a> MatchPlan<'a> {
         })
     }
 
-    /// Matches the group with this index with the given options. The order of its pieces does not
-    /// depend on the options.
+    /// Matches the group with the index `group`, using the given options. The order of its pieces
+    /// does not depend on the options.
     ///
     /// # Errors
     /// [`RegionMatchError`] for pins or cuts that cannot be satisfied, or if the work is cancelled.

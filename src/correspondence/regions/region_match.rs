@@ -55,7 +55,7 @@ pub struct PieceMatch {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum MatchNote {
-    /// A hole closes, or opens, because no straight cut reaches it.
+    /// A hole closes, or opens, and is not cut open, because no straight cut reaches it.
     #[error("hole {} of part {} of the {side} is not cut open: no straight cut to it stays inside the part; draw a cut", hole + 1, part + 1)]
     Uncut {
         /// Design that contains the hole.
@@ -65,7 +65,8 @@ pub enum MatchNote {
         /// Index of the hole in the part.
         hole: usize,
     },
-    /// A pin that ties a hole to an outer boundary is ignored, because the hole is not cut open.
+    /// The pin with this index, which ties a hole to an outer boundary, is ignored, because the
+    /// hole is not cut open.
     #[error("pin {} is ignored because its hole is not cut open; draw a cut, or delete the pin", .0 + 1)]
     PinLeftOut(usize),
     /// A part is matched with only one of several parts; the others appear or disappear.
@@ -109,7 +110,8 @@ pub enum RingKind {
     Opens,
 }
 
-/// Reason why two designs were not matched. Pins count from 1 in messages, in the order given.
+/// Reason why two designs were not matched. Pins and cuts count from 0 in fields and from 1 in
+/// messages, in the order given.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegionMatchError {
@@ -123,10 +125,11 @@ pub enum RegionMatchError {
     /// four kinds in this order.
     #[error("pin, link or cut {} has a coordinate that is not finite; place it again", .0 + 1)]
     NotFinite(usize),
-    /// A pin ties a hole to an outer boundary, but the rule is that unmatched holes close.
+    /// The pin with this index ties a hole to an outer boundary, but the rule is that unmatched
+    /// holes close.
     #[error("pin {} ties a hole to an outer boundary; let the ring be cut open, or delete the pin", .0 + 1)]
     PinAcross(usize),
-    /// A cut does not run straight inside its part from the hole to a boundary.
+    /// The cut with this index does not run straight inside its part from the hole to a boundary.
     #[error("cut {} leaves its part; move its ends", .0 + 1)]
     Cut(usize),
     /// Two boundaries cannot be matched.

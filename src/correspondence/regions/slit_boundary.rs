@@ -48,7 +48,7 @@ impl SlitBoundary {
     /// Returns the curve along the boundary loop.
     ///
     /// # Errors
-    /// [`CurveLengthError`] if its length overflows or underflows.
+    /// [`CurveLengthError`] if the loop's length overflows or underflows.
     pub(super) fn curve(&self) -> Result<BoundaryCurve, CurveLengthError> {
         BoundaryCurve::closed(&self.ring)
     }

@@ -17,7 +17,7 @@ const MERGE_DISTANCE: f64 = 0.35;
 /// A vertex on one passage along a slit.
 #[derive(Clone, Copy)]
 struct PassageVertex {
-    /// Position along the slit from its outer end, in (0, 1).
+    /// Position along the slit as a fraction of its length from its outer end, in (0, 1).
     along: f64,
     /// Index of the vertex in [`SharedPolygons`].
     vertex: usize,
@@ -25,7 +25,7 @@ struct PassageVertex {
 
 /// A point of the slit at which both passages get a vertex.
 struct SlitVertex {
-    /// Position along the slit from its outer end, in (0, 1).
+    /// Position along the slit as a fraction of its length from its outer end, in (0, 1).
     along: f64,
     /// Indices of the vertices that the outward and the return passage already have here; `None`
     /// where one is missing.

@@ -1,12 +1,12 @@
 //! Splits one part into several pieces, one for each part of the other design that it is matched
 //! with.
 //!
-//! Cuts are straight, from boundary to boundary. They are ranked by how well the areas and
-//! positions of the two sides agree with those of the parts to match, and by their length. The best
-//! few cuts are then rated by matching the pieces, and the best match wins. Several pieces are cut
-//! off one after another, along the line on which the parts to match lie. If pieces are many, the
-//! part is bisected repeatedly by the ranking alone, because the outline of a group of parts says
-//! little about its members.
+//! Cuts are straight, between two places of the outer boundary. They are ranked by how well the
+//! areas and positions of the two sides agree with those of the parts to match, and by their
+//! length. The best few cuts are then rated by matching the pieces, and the best match wins.
+//! Several pieces are cut off one after another, along the line on which the parts to match lie. If
+//! pieces are many, the part is bisected repeatedly by the ranking alone, because the outline of a
+//! group of parts says little about its members.
 
 use super::super::boundary::match_curves;
 use super::super::curve::BoundaryCurve;
@@ -89,8 +89,8 @@ fn bisect(
     bisect(rest, parts, second_half, pieces, progress)
 }
 
-/// Returns the direction along which parts lie: from one to the other of the two parts farthest
-/// apart, towards positive x.
+/// Returns the direction of the line along which parts lie: the vector between the centres of the
+/// two parts farthest apart, towards positive x.
 fn main_direction(parts: &[&Region]) -> DVec2 {
     let mut best = DVec2::X;
     let mut max_squared = 0.0;

@@ -19,7 +19,7 @@ const MAX_PAIRS: usize = 4_000_000;
 /// file could give every entity a new type).
 const MAX_KINDS: usize = 50;
 
-/// Content of a drawing.
+/// Curves of a drawing, and the numbers of ignored entities.
 #[derive(Default)]
 pub(super) struct DxfDrawing {
     /// Paths with all blocks expanded.
@@ -239,7 +239,7 @@ fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
     }
 }
 
-/// Recursive expansion of block references.
+/// State of the recursive expansion of block references.
 struct BlockExpansion<'b> {
     blocks: &'b HashMap<Vec<u8>, DxfBlock>,
     layers: &'b LayerColours,

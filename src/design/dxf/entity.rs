@@ -21,12 +21,12 @@ pub(super) struct DxfEntity {
 /// Geometry of an entity.
 #[derive(Debug)]
 pub(super) enum EntityShape {
-    /// Connected curves.
+    /// Path of connected curves.
     Path {
         curves: Vec<DxfCurve>,
         is_closed: bool,
     },
-    /// Copies of a block.
+    /// Reference to a block, which places copies of it.
     Insert {
         /// Name of the block.
         block: Vec<u8>,
@@ -261,7 +261,7 @@ impl<'a> DxfRecord<'a> {
         let plan = self.plane_map(at.z)?;
         let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
         let rotation = DMat2::from_angle(self.real(50, 0.0)?.to_radians());
-        // A count of 0 means 1.
+        // A number of columns or rows of 0 means 1.
         let counts = [self.integer(70)?, self.integer(71)?].map(|n| n.max(1));
         if counts[0].saturating_mul(counts[1]) > MAX_COPIES {
             return Err(self.inconsistency_error("it makes too many copies"));

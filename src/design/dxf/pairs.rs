@@ -68,7 +68,7 @@ pub(super) struct PairReader<'a> {
 /// Encoding of a DXF file.
 #[derive(Clone, Copy, PartialEq)]
 enum DxfEncoding {
-    /// Two lines of text per pair.
+    /// Text: two lines per pair, the group code and the value.
     Text,
     /// Binary with group codes of one byte, or of three bytes from 255 on (up to release 12).
     Narrow,
@@ -208,7 +208,7 @@ impl<'a> PairReader<'a> {
         bytes.try_into().map_err(|_| DxfError::Truncated(at))
     }
 
-    /// Reads a slice of the given length.
+    /// Reads the given number of bytes without copying them.
     fn slice(&mut self, length: usize) -> Result<&'a [u8], DxfError> {
         let at = self.place();
         let slice = self.bytes.get(self.position..self.position + length);

@@ -1,4 +1,5 @@
-//! Tests of the DXF importer.
+//! Tests of the DXF importer: curves, rings, blocks, colours, hidden entities, both binary
+//! encodings, notes, errors and limits.
 
 use super::*;
 use crate::geometry::Regions;

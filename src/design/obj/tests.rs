@@ -1,4 +1,4 @@
-//! Tests of the OBJ importer.
+//! Tests of the OBJ importer: vertex order, fans, and errors of vertices and faces.
 
 use super::*;
 

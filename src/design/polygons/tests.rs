@@ -1,4 +1,4 @@
-//! Tests of the polygon importer.
+//! Tests of the polygon importer: plain JSON, GeoJSON, repairs, errors and fill colours.
 
 use super::*;
 

@@ -44,7 +44,7 @@ pub enum PolygonsFault {
     Expected {
         /// Expected type.
         expected: &'static str,
-        /// Actual type.
+        /// Type of the value in the file.
         found: &'static str,
     },
     /// A required member is missing.
@@ -60,7 +60,7 @@ pub enum PolygonsFault {
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("{RANGE_MESSAGE}")]
     CoordinateRange,
-    /// The object has a type that GeoJSON does not define.
+    /// The object has a type that GeoJSON does not define. Holds the type, shortened.
     #[error("has the type \"{0}\", which GeoJSON does not define; correct it")]
     Type(String),
 }

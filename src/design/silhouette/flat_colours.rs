@@ -35,8 +35,8 @@ const MIN_FLAT_AREA: f64 = 0.6;
 /// in it without a flat pixel nearby belong to the background (heuristic).
 const BORDER_WIDTH: usize = 4;
 
-/// Radius in pixels in which the candidate colours of a pixel are collected (tolerance: an
-/// anti-aliased edge is two or three pixels wide).
+/// Number of rows and columns on each side of a pixel from which its candidate colours are
+/// collected (tolerance: an anti-aliased edge is two or three pixels wide).
 const NEIGHBOURHOOD: usize = 2;
 
 /// Returns one or more paint layers per flat colour of a picture, lowest first; none if the colours
@@ -138,7 +138,7 @@ impl ColourMatch {
 
 /// Flat colours of a picture, and for each pixel the flat colours that match it.
 struct FlatColours {
-    /// Width and height in pixels.
+    /// Width and height of the picture in pixels.
     size: (u32, u32),
     /// Flat colours, largest area first.
     flat: Vec<PixelColour>,

@@ -1,4 +1,4 @@
-//! Tests of decoding pictures and tracing silhouettes.
+//! Tests of decoding pictures, choosing the threshold, removing specks and tracing silhouettes.
 
 use super::*;
 use crate::design::{Design, DesignForm, ImportProblem, import};

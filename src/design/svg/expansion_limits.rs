@@ -15,7 +15,8 @@ use usvg::roxmltree::{Document, Node};
 /// filled area, but could expand exponentially.
 pub(super) const STYLE: &str = "* { marker: none !important; filter: none !important }";
 
-/// Maximum number of tests of a style rule against an element (resource limit).
+/// Maximum number of style rules times number of elements, since every rule is tested against every
+/// element (resource limit).
 const MAX_STYLE_TESTS: usize = 50_000_000;
 
 /// Maximum estimated time for laying out all text, in microseconds (resource limit: 2 s).
@@ -124,7 +125,7 @@ impl<'d> StyleReferences<'d> {
     }
 }
 
-/// Returns the last name of a selector such as `g > path.thin`, or `*` if the selector is too
+/// Returns the last name of a selector (`thin` for `g > path.thin`), or `*` if the selector is too
 /// complex to look up.
 fn last_name(selector: &str) -> &str {
     let selector = selector.trim();

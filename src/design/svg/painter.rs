@@ -21,11 +21,11 @@ pub(super) struct SvgReadOptions<'o> {
     pub element: Option<&'o str>,
 }
 
-/// Shapes of a drawing with the data for its notes.
+/// Shapes of a drawing, with counts for its import notes.
 pub(super) struct PaintedDrawing {
     /// Shapes, lowest first.
     pub shapes: Vec<SvgShape>,
-    /// Repairs within single shapes, by the fill rule that resolved them.
+    /// Repairs within single shapes, for each fill rule that resolved them.
     pub repairs: [(FillRule, Repairs); 2],
     /// Number of paths with a visible stroke but no fill.
     pub bare_strokes: usize,
@@ -36,17 +36,17 @@ pub(super) struct PaintedDrawing {
 /// Numbers of features that were ignored or approximated.
 #[derive(Default)]
 pub(super) struct ApproximationCounts {
-    /// Patterns and stroke gradients replaced by their mean colour.
+    /// Number of patterns and stroke gradients that were replaced by their mean colour.
     pub shades: usize,
-    /// Ignored masks.
+    /// Number of ignored masks.
     pub masks: usize,
-    /// Ignored bitmap glyphs.
+    /// Number of ignored bitmap glyphs.
     pub glyphs: usize,
-    /// Groups whose opacity or blend mode is only approximated.
+    /// Number of groups whose opacity or blend mode is only approximated.
     pub blends: usize,
 }
 
-/// Returns width and height of a drawing.
+/// Returns the width and height of the page of a drawing.
 pub(super) fn page_of(tree: &usvg::Tree) -> DVec2 {
     DVec2::new(tree.size().width().into(), tree.size().height().into())
 }
@@ -76,22 +76,22 @@ pub(super) fn paint_tree(
     }
 }
 
-/// Traversal of a drawing.
+/// State of the traversal of a drawing.
 struct SvgPainter<'b> {
     /// Width and height of the page.
     page: DVec2,
     flattener: Flattener,
     options: &'b SvgReadOptions<'b>,
     painted: PaintedDrawing,
-    /// Whether the selection contains a path, visible or not.
+    /// Whether a path of the selected element has been found, visible or not.
     is_drawn: bool,
     /// Whether the traversal is inside a text element.
     is_in_text: bool,
 }
 
 impl SvgPainter<'_> {
-    /// Converts the children of a group, clipped by `clip` and the group's own clip path.
-    /// `is_within` says whether the group is inside the selected element.
+    /// Converts the children of a group to shapes, clipped by `clip` and the group's own clip path.
+    /// `is_within` says whether the group lies inside the selected element.
     fn group(
         &mut self,
         group: &Group,
@@ -137,7 +137,7 @@ impl SvgPainter<'_> {
         left_out.blends += usize::from(group.blend_mode() != usvg::BlendMode::Normal);
     }
 
-    /// Converts the glyph outlines of a text element.
+    /// Converts the glyph outlines of a text element to shapes.
     fn text(&mut self, text: &Text, clip: Option<&WindingRings>) -> Result<(), SvgError> {
         self.is_in_text = true;
         for node in text.flattened().children() {
@@ -150,7 +150,7 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
-    /// Converts a path and counts its approximated paints.
+    /// Converts a path to shapes and counts its approximated paints.
     fn path(
         &mut self,
         path: &Path,
@@ -179,7 +179,7 @@ impl SvgPainter<'_> {
         let [fill, stroke] = [fill, stroke].map(|resolved| resolved.map(|resolved| resolved.paint));
         let first = self.painted.shapes.len();
         self.add_shapes(path, name, clip, fill, stroke)?;
-        // The paint order decides whether the fill is the first or second new shape.
+        // The paint order decides whether the fill is the first or the second of the new shapes.
         let added = &mut self.painted.shapes[first..];
         if let Some(shape) = added.iter_mut().find(|shape| !shape.is_stroke) {
             shape.gradient = gradient;
@@ -222,7 +222,7 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
-    /// Adds a shape, clipped.
+    /// Adds a shape with the area `rings`, clipped by `clip`.
     fn add_clipped(
         &mut self,
         name: &str,
@@ -242,8 +242,9 @@ impl SvgPainter<'_> {
         });
     }
 
-    /// Adds a path as one shape with an attached stroke, if its subpaths are closed and cross
-    /// neither themselves nor each other; returns whether it did.
+    /// Adds a path as one shape with an attached stroke and returns `true` if the stroke has no
+    /// dashes and a uniform width, and the subpaths are closed and cross neither themselves nor
+    /// each other. Otherwise adds nothing and returns `false`.
     fn add_stroked_fill(
         &mut self,
         path: &Path,
@@ -288,7 +289,7 @@ impl SvgPainter<'_> {
         Ok(true)
     }
 
-    /// Returns the area of a clip path on the page.
+    /// Returns the area of a clip path on the page. `group` is the transform of the clipped group.
     fn clip(&mut self, clip: &ClipPath, group: Transform) -> Result<WindingRings, SvgError> {
         let mut rings = Vec::new();
         let base = group.pre_concat(clip.transform());
@@ -297,7 +298,8 @@ impl SvgPainter<'_> {
         Ok(clip_rings(rings, outer.transpose()?.as_ref()))
     }
 
-    /// Appends the area of the filled paths in a group of a clip path.
+    /// Appends the areas of the filled paths in a group of a clip path. `base` maps the clip path
+    /// to the page of the drawing.
     fn clip_group(
         &mut self,
         group: &Group,
@@ -320,7 +322,8 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
-    /// Returns the filled area of a path on the page, y up, by its own fill rule.
+    /// Returns the filled area of a path on the page, y up, by the path's own fill rule. `base` is
+    /// applied after the path's transform.
     fn filled_area(&mut self, path: &Path, base: Transform) -> Result<WindingRings, SvgError> {
         let rings = self.rings(path.data(), base.pre_concat(path.abs_transform()))?;
         let index = match path.fill().map(usvg::Fill::rule) {
@@ -328,9 +331,9 @@ impl SvgPainter<'_> {
             _ => 0,
         };
         let (rule, repairs) = &mut self.painted.repairs[index];
-        // Overlapping contours are normal in fonts and not reported.
+        // Overlapping contours are normal in fonts and are not reported.
         if !self.is_in_text {
-            // Counted before the union, which removes all crossings.
+            // Crossings are counted before the overlaps are resolved, which removes them.
             let found = Repairs::count_contacts(&rings);
             repairs.crossings += found.crossings;
             repairs.at_least |= found.at_least;
@@ -353,7 +356,7 @@ impl SvgPainter<'_> {
     /// Returns the outline of a stroke in the coordinates of the path.
     fn stroke_outline(&self, path: &Path, stroke: &Stroke) -> Option<tiny_skia_path::Path> {
         let stroke = stroke.to_tiny_skia();
-        // The stroker approximates curves to a quarter of a pixel at this resolution.
+        // At this resolution the stroker's error, a quarter of a pixel, equals the tolerance.
         let (sx, sy) = path.abs_transform().get_scale();
         let finest = 0.25 * f64::from(sx.max(sy)) / self.options.tolerance;
         let resolution = finest.clamp(1.0, MAX_RESOLUTION) as f32;
@@ -368,7 +371,7 @@ impl SvgPainter<'_> {
         data.stroke(&stroke, resolution)
     }
 
-    /// Flattens a path to polygons on the page, y up.
+    /// Flattens a path, transformed by `t`, to polygons on the page, y up.
     fn rings(
         &mut self,
         path: &tiny_skia_path::Path,
@@ -383,11 +386,11 @@ impl SvgPainter<'_> {
     }
 }
 
-/// Maximum resolution of the stroker in pixels per unit (tolerance: more exceeds the precision
-/// of `f32`).
+/// Maximum resolution of the stroker in pixels per unit (tolerance: a higher one exceeds the
+/// precision of `f32`).
 const MAX_RESOLUTION: f64 = 1e6;
 
-/// Resolves crossings and overlaps; returns no rings if the area is empty.
+/// Resolves crossings and overlaps of rings by a fill rule; returns no rings if the area is empty.
 fn resolve_overlaps(rings: &WindingRings, rule: FillRule) -> Result<WindingRings, SvgError> {
     match Regions::from_rings(rings, rule) {
         Ok(regions) => Ok(regions.rings().map(|r| r.points().to_vec()).collect()),

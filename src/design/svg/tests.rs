@@ -1,4 +1,5 @@
-//! Tests of the SVG importer.
+//! Tests of the SVG importer: silhouettes, strokes, text, paint layers, selected elements, notes,
+//! and hostile drawings.
 
 use super::*;
 use crate::colour::{Paint, Rgb};

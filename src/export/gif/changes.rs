@@ -1,56 +1,58 @@
 //! Reduces a GIF frame to the rectangle that differs from the previous frame.
 //!
-//! Unchanged pixels are written as transparent, so the previous frame shows through; they compress
-//! well.
+//! Within the rectangle, unchanged pixels are written as transparent: the previous frame shows
+//! through, and equal pixels compress well.
 
 use image::RgbaImage;
 
 use crate::export::palette::GifPalette;
 
-/// Palette index of the transparent colour; colours have the indices below it.
+/// Palette index that stands for transparent. The colours of the palette have the indices below it.
 pub(super) const TRANSPARENT: u8 = 255;
 
-/// Maximum deviation of a shown colour from the exact one, in each of red, green and blue, for a
-/// pixel of a moving frame to be left unchanged (heuristic). No shown colour deviates by more than
-/// this or than its nearest palette colour does, whichever is larger.
+/// A pixel of a moving frame stays unchanged if the colour already shown deviates from the exact
+/// one by at most this much, in each of red, green and blue, of 255 (heuristic). So no shown colour
+/// deviates by more than this, or by more than the nearest palette colour does, whichever is
+/// larger.
 const SLACK: u8 = 6;
 
-/// Frame mapped to the colours of the palette.
+/// A frame, and its pixels mapped to the colours of the palette.
 pub(super) struct IndexedFrame {
-    /// The frame in its exact colours.
+    /// Pixels of the frame in their exact colours.
     pub image: RgbaImage,
-    /// Palette index of each pixel, row by row.
+    /// Palette index of each pixel of the frame, row by row.
     pub indices: Vec<u8>,
 }
 
-/// Rectangle of a frame that is drawn over the previous frame.
+/// Rectangle of a frame whose pixels are drawn over the previous frame.
 #[derive(Debug, PartialEq)]
 pub(super) struct FramePatch {
-    /// Number of columns to the left of it.
+    /// Number of pixel columns to the left of the rectangle.
     pub left: u32,
-    /// Number of rows above it.
+    /// Number of pixel rows above the rectangle.
     pub top: u32,
-    /// Number of its columns.
+    /// Number of pixel columns of the rectangle.
     pub width: u32,
-    /// Palette index of each pixel, row by row.
+    /// Palette index of each pixel of the rectangle, row by row.
     pub indices: Vec<u8>,
 }
 
 impl FramePatch {
-    /// Number of its rows.
+    /// Returns the number of pixel rows of the rectangle.
     pub fn height(&self) -> u32 {
         self.indices.len() as u32 / self.width
     }
 }
 
-/// Palette indices that a player shows after the frames so far; empty before the first one.
+/// Palette indices of the image that a player shows after the frames so far; empty before the first
+/// frame.
 #[derive(Default)]
 pub(super) struct GifCanvas(Vec<u8>);
 
 impl GifCanvas {
-    /// Returns the patch that turns the shown image into `next`, which must have no transparent
-    /// pixels, and updates the canvas. Unless the frame `is_still`, small colour deviations are
-    /// accepted.
+    /// Returns the rectangle to draw so that the shown image becomes `next`, which must have no
+    /// transparent pixels, and updates the canvas. Unless the frame `is_still`, pixels with small
+    /// colour deviations are not redrawn.
     pub fn patch(
         &mut self,
         next: &IndexedFrame,
@@ -116,7 +118,7 @@ mod tests {
         GifPalette::of(GREYS.map(|grey| ([grey; 3], 1)).into(), 255)
     }
 
-    /// A frame of three columns with these palette indices.
+    /// Returns a frame of three columns with these palette indices.
     fn frame(indices: &[u8]) -> IndexedFrame {
         let image = RgbaImage::from_fn(3, indices.len() as u32 / 3, |x, y| {
             let [grey, ..] = [GREYS[usize::from(indices[(3 * y + x) as usize])]];

@@ -1,8 +1,9 @@
 //! Counts the frames of an MP4 from its box structure (ISO/IEC 14496-12), independently of the
 //! encoder that wrote it.
 //!
-//! Guarantees: the boxes fill the file to its last byte, and the sizes of all frames together fit
-//! into its media data. Whether the bytes of a frame decode to an image is not checked here.
+//! A count is returned only if the boxes fill the file to its last byte and the sizes of all frames
+//! together fit into its media data. Whether the bytes of a frame decode to an image is not checked
+//! here.
 
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
@@ -28,11 +29,12 @@ pub(super) fn frame_count(file: &mut (impl Read + Seek)) -> io::Result<usize> {
         content = find_content(&inside, kind)?;
     }
     file.seek(SeekFrom::Start(content.start))?;
-    // Version and flags, the common frame size (0 if frames differ), and the number of frames.
+    // The box starts with version and flags, the common frame size (0 if frames differ), and the
+    // number of frames.
     let [_, common, count] = [word(file)?, word(file)?, word(file)?];
     let mut total = u64::from(common) * u64::from(count);
     if common == 0 {
-        // Limited to the box, whatever count it claims.
+        // Reading is limited to the box, whatever count the box claims.
         let mut sizes = file.take(content.end.saturating_sub(content.start + 12));
         for _ in 0..count {
             total += u64::from(word(&mut sizes)?);
@@ -54,9 +56,9 @@ fn boxes(file: &mut (impl Read + Seek), within: Range<u64>) -> io::Result<Vec<Mp
         let (size, mut kind) = (word(file)?, [0; 4]);
         file.read_exact(&mut kind)?;
         let (head, size) = match size {
-            // Size 0: the box extends to the end.
+            // Size 0 means that the box extends to the end.
             0 => (8, within.end - start),
-            // Size 1: a 64-bit size follows.
+            // Size 1 means that a 64-bit size follows.
             1 => (16, u64::from(word(file)?) << 32 | u64::from(word(file)?)),
             size => (8, u64::from(size)),
         };
@@ -71,7 +73,7 @@ fn boxes(file: &mut (impl Read + Seek), within: Range<u64>) -> io::Result<Vec<Mp
     Ok(listed)
 }
 
-/// Content of the first box of a type.
+/// Returns the byte range of the content of the first box of a type.
 fn find_content(boxes: &[Mp4Box], kind: &[u8; 4]) -> io::Result<Range<u64>> {
     let first_box = boxes.iter().find(|(name, _)| name == kind);
     let content = first_box.map(|(_, content)| content.clone());
@@ -95,7 +97,7 @@ mod tests {
         [&size, kind, content].concat()
     }
 
-    /// An MP4 with frames of the given sizes and `media` bytes of media data.
+    /// Returns an MP4 with frames of the given sizes and `media` bytes of media data.
     fn film(sizes: &[u32], media: usize) -> Vec<u8> {
         let words = [0, 0, sizes.len() as u32].into_iter();
         let words = words.chain(sizes.iter().copied());

@@ -1,4 +1,4 @@
-//! Runs the ffmpeg program: its command lines, its error messages, and how it ends.
+//! Runs ffmpeg: builds its command lines, collects its error messages, and waits until it ends.
 //!
 //! Guarantees: ffmpeg is killed when the export is cancelled, even if it neither reads its input
 //! nor writes any output.
@@ -13,8 +13,8 @@ use std::time::Duration;
 use super::super::size::PixelSize;
 use crate::work::progress::Progress;
 
-/// Polling interval for the end of ffmpeg and for cancellation (resource limit: a tenth of the time
-/// that a cancellation may take).
+/// Interval between two checks whether ffmpeg has ended or the export is cancelled (resource limit:
+/// a tenth of the time that a cancellation may take).
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Message of the C library for ENOSPC; ffmpeg prints it untranslated.
@@ -29,9 +29,9 @@ pub(super) struct FfmpegOutcome {
 /// Messages of ffmpeg on its standard error.
 #[derive(Default)]
 pub(super) struct FfmpegMessages {
-    /// Last informative line.
+    /// Last line that gives a reason; empty if there is none.
     pub last: String,
-    /// Whether any line, not just the last, reports a full disk.
+    /// Whether any line, not only the last, reports a full disk.
     pub report_full_disk: bool,
 }
 
@@ -43,9 +43,9 @@ pub(super) fn is_available() -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
-/// Command that encodes raw BT.709 YUV frames from standard input.
+/// Returns the command that encodes raw BT.709 YUV frames from standard input.
 pub(super) fn encode_command(size: PixelSize, fps: f64, output: &Path) -> Command {
-    // Stated for input and output alike, so that ffmpeg does not convert colours.
+    // The colours are stated for input and output alike, so that ffmpeg does not convert them.
     let colours = "-color_range tv -colorspace bt709 -color_primaries bt709 -color_trc bt709";
     let input = format!("-f rawvideo -pix_fmt yuv420p -s {size} -r {fps} {colours} -i -");
     // `-y`: the temporary file already exists. The fast preset suffices for flat drawings and makes
@@ -58,7 +58,7 @@ pub(super) fn encode_command(size: PixelSize, fps: f64, output: &Path) -> Comman
     command
 }
 
-/// Command that decodes every frame of a file and discards the result.
+/// Returns the command that decodes every frame of a file and discards the result.
 pub(super) fn decode_command(file: &Path) -> Command {
     let mut command = quiet();
     command.args(["-xerror", "-i"]).arg(file_url(file));
@@ -70,7 +70,7 @@ pub(super) fn decode_command(file: &Path) -> Command {
 /// dropping it marks the end of the input.
 ///
 /// # Errors
-/// The command cannot be started, or waiting for it fails.
+/// If the command cannot be started, or waiting for it fails.
 pub(super) fn run(
     mut command: Command,
     progress: &dyn Progress,
@@ -108,8 +108,8 @@ fn wait_or_kill(child: &mut Child, progress: &dyn Progress) -> io::Result<ExitSt
         if let Some(status) = child.try_wait()? {
             return Ok(status);
         }
-        // Killed instead of asked to terminate, because ffmpeg would first finish encoding what it
-        // has.
+        // ffmpeg is killed instead of asked to terminate, because it would first finish encoding
+        // its input.
         if progress.is_cancelled() {
             child.kill()?;
             return child.wait();
@@ -118,14 +118,15 @@ fn wait_or_kill(child: &mut Child, progress: &dyn Progress) -> io::Result<ExitSt
     }
 }
 
-/// Command `ffmpeg` that prints errors only.
+/// Returns the command `ffmpeg` with the options to print errors only.
 fn quiet() -> Command {
     let mut command = Command::new("ffmpeg");
     command.args(["-hide_banner", "-loglevel", "error"]);
     command
 }
 
-/// Path with the `file:` protocol, so that a colon or a leading dash has no special meaning.
+/// Returns the path with the `file:` protocol, so that a colon or a leading dash has no special
+/// meaning.
 fn file_url(path: &Path) -> OsString {
     let mut url = OsString::from("file:");
     url.push(path);

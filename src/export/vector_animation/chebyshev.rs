@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 /// Returns the nodes for `n` intervals, ascending from 0 to 1.
 pub(super) fn chebyshev_nodes(n: usize) -> impl Iterator<Item = f64> {
     (0..=n).map(move |k| match k {
-        // Set exactly, since the cosine would be off by rounding.
+        // Both ends are set exactly, since the cosine would be off by rounding.
         0 => 0.0,
         k if k == n => 1.0,
         k => 0.5 - 0.5 * (PI * k as f64 / n as f64).cos(),
@@ -24,7 +24,7 @@ pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
     if n == 0 {
         return vec![at_nodes[0].to_vec()];
     }
-    // The first and the last node and term count half.
+    // In the sums, the first and the last node and term count half.
     let half = |k: usize| if k == 0 || k == n { 0.5 } else { 1.0 };
     let term = |j: usize| {
         let mut term = vec![DVec2::ZERO; at_nodes[0].len()];
@@ -41,7 +41,7 @@ pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
     (0..=n).map(term).collect()
 }
 
-/// Drops trailing terms as long as no point moves by more than `tolerance`.
+/// Drops trailing terms of a series as long as no point moves by more than `tolerance`.
 pub(super) fn truncate_series(terms: &mut Vec<Vec<DVec2>>, tolerance: f64) {
     let mut dropped = vec![0.0; terms.first().map_or(0, Vec::len)];
     while terms.len() > 1 {

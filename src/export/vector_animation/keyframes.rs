@@ -1,23 +1,26 @@
 //! Chooses the fewest keyframes between which linear interpolation stays within a tolerance.
 //!
-//! Keyframes are a subset of the samples. Seen from one keyframe, each later sample narrows the
-//! range of slopes of lines that pass it closely enough; a sample whose own slope lies in that
-//! range can be the next keyframe. The smallest set is then a shortest path (Imai and Iri 1988).
+//! Keyframes are a subset of the samples. From a given keyframe, each later sample narrows the
+//! range of slopes of the lines that pass all samples so far within the tolerance. A sample that
+//! such a line hits exactly can be the next keyframe. The smallest set of keyframes is then a
+//! shortest path (Imai and Iri 1988).
 
 /// Returns the indices of the fewest rows, including the first and the last, such that linear
 /// interpolation between them reproduces every number of all other rows within the tolerance.
-/// `places` holds the abscissa of each row, ascending.
+/// `places` holds the place of each row on the time axis, ascending.
 ///
-/// The cost is proportional to rows × rows within reach of one line × numbers per row.
+/// The cost is proportional to the number of rows, times the number of rows that one line can
+/// follow, times the number of numbers per row.
 pub(super) fn fewest_keys(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> Vec<usize> {
     let count = rows.len();
-    // For each row, from the last backwards: the number of keys that follow it, and the next one.
+    // For each row: the number of keys that follow it, and the next one. Computed from the last row
+    // backwards.
     let mut next_keys = vec![(0, 0); count];
     for from in (0..count.saturating_sub(1)).rev() {
         let mut best = (usize::MAX, from + 1);
         reach(places, rows, tolerance, from, |to| {
             let keys: usize = next_keys[to].0 + 1;
-            // Ties go to the farthest key, for long segments.
+            // Of equally good next keys, the farthest is used, for long segments.
             if keys <= best.0 {
                 best = (keys, to);
             }
@@ -33,8 +36,8 @@ pub(super) fn fewest_keys(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> 
     keys
 }
 
-/// Calls `visit` with each row that a line from `from` can reach while it passes all rows in
-/// between within the tolerance.
+/// Calls `visit` with each row that can follow `from` as a keyframe: a line from `from` to it
+/// passes all rows in between within the tolerance.
 fn reach(
     places: &[f64],
     rows: &[Vec<f64>],
@@ -85,7 +88,7 @@ mod tests {
         assert_eq!(fewest_keys(&places[..1], &rows[..1], 1.0), [0]);
     }
 
-    /// Minimum number of keys by exhaustive dynamic programming.
+    /// Returns the minimum number of keys, by exhaustive dynamic programming.
     fn brute(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> usize {
         let fits = |i: usize, j: usize| {
             (i + 1..j).all(|k| {

@@ -17,10 +17,11 @@ use super::timeline::{FilmTimeline, TimelineCurve};
 use super::tracks::{KeyedProperty, SceneLayer, layers};
 use super::two_point_gradient::TwoPointGradient;
 
-/// Number of uniform intervals of t at whose ends keyframes may lie (resource limit).
+/// Number of uniform intervals of t at whose ends shape keyframes may lie (resource limit: bounds
+/// the size of the file).
 const KEYFRAME_INTERVALS: usize = 240;
 
-/// Returns the animation with the given title.
+/// Returns the Lottie animation with the given title, as JSON.
 pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let timeline = &animation.timeline;
     let frames = timeline.frames();
@@ -71,7 +72,7 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     })
 }
 
-/// Time remapping: the second of the precomposition to show at each frame.
+/// Returns the time remapping: which second of the precomposition to show at each frame.
 fn time_remap(timeline: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
     let secs = |frame: usize| round_number(secs_at(timeline.times[frame]), 6);
     let key = |curve: TimelineCurve| {
@@ -87,7 +88,7 @@ fn time_remap(timeline: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
     json!({"a": 1, "k": keys})
 }
 
-/// Identity transform.
+/// Returns the identity transform.
 fn identity_transform() -> Value {
     let still = |value: Value| json!({"a": 0, "k": value});
     json!({
@@ -96,7 +97,7 @@ fn identity_transform() -> Value {
     })
 }
 
-/// Shape layer of one scene.
+/// Returns the Lottie shape layer of one scene.
 fn scene(layer: &SceneLayer, number: usize, [from, to]: [f64; 2]) -> Value {
     // Lottie lists the topmost shape first.
     let topmost_first = layer.shapes.iter().rev();
@@ -108,7 +109,7 @@ fn scene(layer: &SceneLayer, number: usize, [from, to]: [f64; 2]) -> Value {
     })
 }
 
-/// Group of one shape: its paths, fill or stroke, and transform.
+/// Returns the group of one shape: its paths, its fill or stroke, and its transform.
 fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let Some(first) = poses.first() else {
         return json!({"ty": "gr", "it": []});
@@ -172,7 +173,7 @@ fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     group
 }
 
-/// One path per contour.
+/// Returns one path per contour of an outline.
 fn outlines(layer: &SceneLayer, poses: &[PosedShape], verbs: &[PathVerb]) -> Vec<Value> {
     let mut first = 0;
     let rings = verbs.split_inclusive(|verb| *verb == PathVerb::Close);
@@ -185,7 +186,7 @@ fn outlines(layer: &SceneLayer, poses: &[PosedShape], verbs: &[PathVerb]) -> Vec
         .collect()
 }
 
-/// Path of the points from index `first` on.
+/// Returns the path through the points from index `first` on.
 fn outline(
     layer: &SceneLayer,
     poses: &[PosedShape],
@@ -211,7 +212,7 @@ fn outline(
     json!({"ty": "sh", "ks": path})
 }
 
-/// Vertices with incoming and outgoing handles, relative to the vertex.
+/// Returns the vertices of a path with their incoming and outgoing handles, relative to the vertex.
 fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
     let mut corners: Vec<[DVec2; 3]> = Vec::new();
     let mut rest = points;
@@ -242,7 +243,7 @@ fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
     json!({"v": part(0), "i": part(1), "o": part(2), "c": closed})
 }
 
-/// One ellipse per disc.
+/// Returns one ellipse per disc.
 fn discs(layer: &SceneLayer, poses: &[PosedShape]) -> Vec<Value> {
     let size = layer.width(poses, |posed| 2.0 * posed.width());
     let size = animated_property(&size, |d| vec![round_number(*d, 3), round_number(*d, 3)]);
@@ -256,7 +257,7 @@ fn discs(layer: &SceneLayer, poses: &[PosedShape]) -> Vec<Value> {
     (0..poses[0].points.len()).map(disc).collect()
 }
 
-/// Colour and opacity properties.
+/// Returns the colour and the opacity of a shape as properties.
 fn colour_and_opacity(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let colour = layer.colour(poses, |posed| posed.paint());
     let opacity = layer.opacity(poses, |posed| posed.paint().opacity);
@@ -266,7 +267,7 @@ fn colour_and_opacity(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     })
 }
 
-/// Colour channels from 0 to 1, and alpha.
+/// Returns the three colour channels, from 0 to 1, and alpha 1.
 fn colour_of(paint: &Paint) -> Vec<Value> {
     let channels = paint
         .colour
@@ -275,7 +276,7 @@ fn colour_of(paint: &Paint) -> Vec<Value> {
     channels.into_iter().chain([json!(1)]).collect()
 }
 
-/// Gradient fill.
+/// Returns the gradient fill of a shape.
 fn gradient_fill(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let gradient = |posed: &PosedShape| posed.gradient();
     let Some(first) = poses.first().and_then(gradient) else {
@@ -316,7 +317,8 @@ fn gradient_fill(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     })
 }
 
-/// Stops in the order of Lottie: offsets with colours, then offsets with opacities.
+/// Returns the stops of a gradient in the order of Lottie: all offsets with their colours, then all
+/// offsets with their opacities.
 fn stops(gradient: &Gradient) -> Vec<f64> {
     let colours = gradient.stops.iter().flat_map(|stop| {
         let [r, g, b] = stop.paint.colour.0.map(|c| f64::from(c) / 255.0);
@@ -329,7 +331,7 @@ fn stops(gradient: &Gradient) -> Vec<f64> {
     colours.chain(opacities).collect()
 }
 
-/// Property with a constant value, or with keyframes and linear interpolation.
+/// Returns a property with a constant value, or with keyframes and linear interpolation.
 fn animated_property<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Value>) -> Value {
     if let [(_, only)] = keyed.keys.as_slice() {
         let mut numbers = value(only);
@@ -352,7 +354,7 @@ fn animated_property<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Valu
     json!({"a": 1, "k": keys})
 }
 
-/// Rounds to a number of decimals; whole numbers become integers.
+/// Rounds to the given number of decimals; whole numbers become integers.
 fn round_number(x: f64, decimals: i32) -> Value {
     let scale = 10f64.powi(decimals);
     let x = (x * scale).round() / scale;

@@ -1,8 +1,8 @@
 //! Writes a vector animation as a self-contained HTML page with a player.
 //!
-//! The page contains the Chebyshev coefficients as integer multiples of [`STEP_PX`], each stored as
-//! the difference from that of the previous point, and evaluates the series for the t shown. The
-//! player is `player.html` next to this file.
+//! The page contains the Chebyshev coefficients of all points as integer multiples of [`STEP_PX`].
+//! Each is stored as its difference from the coefficient of the previous point. The player,
+//! `player.html` next to this file, evaluates the series for the t shown.
 
 use std::collections::HashMap;
 use std::io::Read;
@@ -23,16 +23,16 @@ use super::piece::MovingShape;
 use super::shape::{PathVerb, ShapeForm};
 use super::simplify::simplify;
 
-/// Quantisation step of the coefficients of moving shapes, in pixels (tolerance: rounding 16 terms
-/// by up to half a step displaces a point by a twelfth of a pixel on average).
+/// Step to which the coefficients of moving shapes are rounded, in pixels (tolerance: rounding 16
+/// terms by up to half a step displaces a point by a twelfth of a pixel on average).
 const STEP_PX: f64 = 1.0 / 24.0;
 
-/// Quantisation steps for shapes that do not move within their piece, in pixels, finest first
-/// (heuristic). The first with which the page is not too large is used.
+/// Steps to which the points of shapes are rounded if the shape does not move within its piece, in
+/// pixels, the finest first. The first with which the page is not too large is used (heuristic).
 const STILL_PX: [f64; 4] = [1.0 / 16.0, 1.0 / 12.0, 1.0 / 10.0, 1.0 / 8.0];
 
-/// Maximum distance of a removed point of a static shape from the line that replaces it, in films
-/// that would be too large, in pixels (heuristic: twice the ordinary tolerance).
+/// Maximum distance of a removed point from the line that replaces it, in pixels, for static shapes
+/// of films whose page would be too large (heuristic: twice the ordinary tolerance).
 const LARGE_FILM_TOLERANCE_PX: f64 = 0.08;
 
 /// Length of the packed film, in characters, above which precision is reduced (resource limit:
@@ -85,7 +85,7 @@ fn pack(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
     }
 }
 
-/// JSON description of the film without the series, which are appended to `bytes`.
+/// Returns the JSON description of the film without the series, which are appended to `bytes`.
 fn film(animation: &VectorAnimation, title: &str, still_px: f64, bytes: &mut Vec<u8>) -> Value {
     let mut forms = FormTable::default();
     let pieces: Vec<Value> = (animation.pieces.iter())
@@ -109,16 +109,16 @@ fn film(animation: &VectorAnimation, title: &str, still_px: f64, bytes: &mut Vec
     })
 }
 
-/// Table of the distinct constant data of all shapes.
+/// Table of the constant data of all shapes; equal data is stored once.
 #[derive(Default)]
 struct FormTable {
     all: Vec<Value>,
-    /// Index in `all` by JSON text.
+    /// Index in `all` of each entry, by its JSON text.
     numbers: HashMap<String, usize>,
 }
 
 impl FormTable {
-    /// Index of the constant data of a shape, which is added if it is new.
+    /// Returns the index of the constant data of a shape, which is added if it is new.
     fn number(&mut self, shape: &MovingShape) -> usize {
         let form = form_json(&shape.first.form, shape.first.points.len());
         *self.numbers.entry(form.to_string()).or_insert_with(|| {
@@ -128,7 +128,7 @@ impl FormTable {
     }
 }
 
-/// JSON of the constant data of a shape.
+/// Returns the constant data of a shape as JSON.
 fn form_json(form: &ShapeForm, points: usize) -> Value {
     match form {
         ShapeForm::Fill { verbs, label, ramp } => {
@@ -159,7 +159,7 @@ fn form_json(form: &ShapeForm, points: usize) -> Value {
     }
 }
 
-/// Run-length encoding of path commands, such as `M1L2Z1`.
+/// Returns the run-length encoding of path commands, such as `M1L2Z1`.
 fn runs(verbs: &[PathVerb]) -> String {
     let letter = |verb: PathVerb| match verb {
         PathVerb::Move => 'M',
@@ -173,7 +173,8 @@ fn runs(verbs: &[PathVerb]) -> String {
         .collect()
 }
 
-/// Colours, widths and gradient numbers of a shape, rounded to three decimals.
+/// Returns the samples of a shape's appearance (colour, width and gradient numbers), rounded to
+/// three decimals.
 fn looks(shape: &MovingShape) -> Vec<Vec<Value>> {
     let number = |&x: &f64| {
         let x = (x * 1e3).round() / 1e3;

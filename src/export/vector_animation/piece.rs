@@ -6,33 +6,33 @@ use crate::geometry::DVec2;
 use super::chebyshev;
 use super::shape::PosedShape;
 
-/// Shapes between two times, which may coincide.
+/// A constant set of shapes between two values of t, which may be equal.
 #[derive(Clone, Debug)]
 pub(super) struct AnimationPiece {
-    /// First t.
+    /// First t of the piece.
     pub from: f64,
-    /// Last t.
+    /// Last t of the piece.
     pub to: f64,
     /// Shapes in painting order, the lowest first.
     pub shapes: Vec<MovingShape>,
-    /// Whether its shapes continue those of the previous piece without a jump.
+    /// Whether the shapes continue those of the previous piece without a jump.
     pub is_continuation: bool,
 }
 
-/// A shape over the time of a piece.
+/// A shape and its motion from the first to the last t of a piece.
 #[derive(Clone, Debug)]
 pub(super) struct MovingShape {
     /// The shape at the beginning of the piece.
     pub first: PosedShape,
-    /// Chebyshev coefficients of its points, term by term.
+    /// Chebyshev coefficients of the shape's points, term by term.
     pub terms: Vec<Vec<DVec2>>,
-    /// Colour, width and gradient numbers at uniform times from the beginning to the end of the
-    /// piece; at least one set.
+    /// Appearances (colour, width and gradient numbers) at uniform t from the first to the last of
+    /// the piece; at least one.
     pub appearances: Vec<Vec<f64>>,
 }
 
 impl AnimationPiece {
-    /// Returns the shapes at `t`. Outside the piece they are those of its nearer end.
+    /// Returns the shapes at `t`. Outside the piece, returns those of its nearer end.
     pub(super) fn at(&self, t: f64) -> Vec<PosedShape> {
         let length = self.to - self.from;
         let s = if length > 0.0 {
@@ -45,7 +45,7 @@ impl AnimationPiece {
 }
 
 impl MovingShape {
-    /// Returns the shape at `s` in [0, 1] of its piece.
+    /// Returns the shape at the fraction `s` of its piece, in [0, 1].
     pub(super) fn at(&self, s: f64) -> PosedShape {
         PosedShape {
             form: self.first.form.clone(),
@@ -54,7 +54,7 @@ impl MovingShape {
         }
     }
 
-    /// Colour, width and gradient numbers at `s`, interpolated linearly.
+    /// Returns the appearance at the fraction `s` of the piece, interpolated linearly.
     fn appearance_at(&self, s: f64) -> Vec<f64> {
         let last = self.appearances.len() - 1;
         let position = s * last as f64;

@@ -1,8 +1,8 @@
 //! Records the drawings of a camera as pieces of polynomials in t.
 //!
-//! Each interval of t is fitted with one Chebyshev series per point, tested at moments not used for
-//! the fit, and bisected if it is not accurate enough. Where shapes appear or disappear, the moment
-//! is located by bisection and the interval is split there.
+//! Each interval of t is fitted with one Chebyshev series per point and tested at moments not used
+//! for the fit. If it is not accurate enough, it is bisected. A moment at which shapes appear or
+//! disappear is located by bisection, and the interval is split there.
 
 use crate::content::Content;
 use crate::geometry::DVec2;
@@ -21,11 +21,12 @@ use super::shape::PosedShape;
 const FIT_TOLERANCE_PX: f64 = 0.02;
 
 /// Maximum displacement of a point by dropping the last terms of its series, in pixels (tolerance:
-/// half of that of the fit).
+/// half of [`FIT_TOLERANCE_PX`]).
 const TRUNCATION_PX: f64 = 0.01;
 
-/// Maximum displacement of a point between two adjacent pieces for the second to continue the
-/// first, in pixels (tolerance: half of the total error of the animation).
+/// Maximum distance between the end of a point's motion in one piece and its start in the next, in
+/// pixels, with which the second piece continues the first (tolerance: half of the total error of
+/// the animation).
 const JUMP_PX: f64 = 0.1;
 
 /// Precision with which moments of appearing or disappearing shapes are located, as a fraction of
@@ -36,18 +37,20 @@ const CHANGE_PRECISION: f64 = 1e-6;
 /// (resource limit: whatever happens within it is a jump).
 const MIN_LENGTH: f64 = 1e-4;
 
-/// Maximum number of pieces (resource limit). Films that would need more are stored frame by frame.
+/// Maximum number of pieces (resource limit: bounds the export time and the size of the file).
+/// Films that would need more are stored frame by frame.
 const MAX_PIECES: usize = 400;
 
-/// Every how many frames shapes are counted to estimate the number of pieces (resource limit).
+/// Stride, in frames, at which contours are counted to estimate the number of pieces (resource
+/// limit: each count draws a frame).
 const PREVIEW_STRIDE: usize = 4;
 
-/// Number of intervals in a piece at whose ends colours and widths are sampled, if they change at
-/// all (heuristic).
+/// Number of equal intervals of a piece at whose ends colours and widths are sampled, if they
+/// change in it at all (heuristic).
 const LOOK_INTERVALS: usize = 16;
 
-/// Tolerance for colours, widths and gradient parameters: relative for values well above 1,
-/// absolute below (tolerance: half a step of an 8-bit colour).
+/// Maximum difference at which colours, widths and gradient numbers count as equal: relative for
+/// values well above 1, absolute below (tolerance: half a step of an 8-bit colour).
 const LOOK_TOLERANCE: f64 = 0.002;
 
 /// Shapes of a drawing at one moment, the lowest first.
@@ -88,7 +91,7 @@ pub(super) fn record(
     Ok(pieces)
 }
 
-/// Recording in progress.
+/// State of a recording in progress.
 struct AnimationRecorder<'a> {
     camera: &'a Camera,
     frame: SequenceFrame,
@@ -97,14 +100,15 @@ struct AnimationRecorder<'a> {
 }
 
 impl AnimationRecorder<'_> {
-    /// Evaluates the drawing at `t` and takes its shapes apart.
+    /// Returns the shapes of the drawing at `t`, split into constant data, points and appearance.
     fn moment(&mut self, t: f64) -> ShapeSnapshot {
         self.frame.seek(t);
         let items = self.camera.draw_frame(&self.frame).items;
         items.iter().filter_map(PosedShape::of).collect()
     }
 
-    /// Stores each frame as a constant piece that reaches halfway to its neighbours.
+    /// Stores each frame as a constant piece that extends halfway to the frames before and after
+    /// it.
     fn record_frames(&mut self, times: &[f64]) -> Result<(), ExportError> {
         self.pieces.clear();
         for (k, &t) in times.iter().enumerate() {
@@ -117,9 +121,9 @@ impl AnimationRecorder<'_> {
         Ok(())
     }
 
-    /// Returns a lower bound on the number of appearing and disappearing contours. Each of them
-    /// ends a piece and costs dozens of evaluations to locate, which would take minutes for
-    /// thousands of parts.
+    /// Returns a lower bound on the number of contours that appear or disappear. Each of them ends
+    /// a piece and costs dozens of evaluations to locate, which would take minutes for thousands of
+    /// parts.
     fn min_changes(&mut self, times: &[f64]) -> Result<usize, ExportError> {
         let (mut changes, mut before) = (0, None);
         for &t in times.iter().step_by(PREVIEW_STRIDE) {
@@ -131,7 +135,7 @@ impl AnimationRecorder<'_> {
         Ok(changes)
     }
 
-    /// Records the whole range of t in smooth pieces; returns false if there are too many.
+    /// Records the whole range of t in smooth pieces; returns `false` if there would be too many.
     fn record_smooth(&mut self, times: &[f64]) -> Result<bool, ExportError> {
         let (Some(&from), Some(&to)) = (times.first(), times.last()) else {
             return Ok(true);
@@ -212,7 +216,7 @@ impl AnimationRecorder<'_> {
         [low, high]
     }
 
-    /// Samples colours and widths at uniform times if any of them changes within the piece.
+    /// Samples the appearances of all shapes at uniform t, if any of them changes within the piece.
     fn with_appearances(
         &mut self,
         [from, to]: [f64; 2],
@@ -250,7 +254,7 @@ impl AnimationRecorder<'_> {
         shapes
     }
 
-    /// Adds a piece.
+    /// Adds a piece at the end.
     fn push(&mut self, from: f64, to: f64, shapes: Vec<MovingShape>) {
         self.pieces.push(AnimationPiece {
             from,
@@ -270,13 +274,13 @@ fn static_shape(posed: PosedShape) -> MovingShape {
     }
 }
 
-/// Returns whether two moments have the same shapes, apart from positions and colours.
+/// Returns whether two moments have the same shapes, regardless of positions and colours.
 fn have_same_shapes(a: &ShapeSnapshot, b: &ShapeSnapshot) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.has_form_of(b))
 }
 
-/// Fits series through every second moment; `None` if the other moments deviate too much, unless
-/// `must_fit`.
+/// Fits series through every second moment. Returns `None` if the moments in between deviate too
+/// much, unless `must_fit`.
 fn fit_series(moments: &[ShapeSnapshot], must_fit: bool) -> Option<Vec<MovingShape>> {
     let fit = |k: usize| {
         let points = |m: usize| moments[m][k].points.as_slice();
@@ -298,21 +302,22 @@ fn fit_series(moments: &[ShapeSnapshot], must_fit: bool) -> Option<Vec<MovingSha
     (0..moments[0].len()).map(fit).collect()
 }
 
-/// Largest distance between corresponding points, in pixels.
+/// Returns the largest distance between corresponding points, in pixels.
 fn max_distance(a: &[DVec2], b: &[DVec2]) -> f64 {
     let far = a.iter().zip(b).map(|(a, b)| a.distance(*b));
     far.fold(0.0, f64::max)
 }
 
-/// Returns whether two sets of colours and widths are equal within the tolerance.
+/// Returns whether two appearances (colour, width and gradient numbers) are equal within
+/// [`LOOK_TOLERANCE`].
 fn is_near(a: &[f64], b: &[f64]) -> bool {
     let near =
         |(a, b): (&f64, &f64)| (a - b).abs() <= LOOK_TOLERANCE * (1.0 + a.abs().max(b.abs()));
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// Drops every second sample as long as linear interpolation reproduces it; a single one remains if
-/// nothing changes.
+/// Drops every second sample of an appearance as long as linear interpolation reproduces it. If
+/// nothing changes, a single sample remains.
 fn reduce_samples(looks: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     if looks.iter().all(|look| is_near(look, &looks[0])) {
         return looks.into_iter().take(1).collect();

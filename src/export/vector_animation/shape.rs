@@ -1,5 +1,5 @@
-//! Splits a shape of a drawing into what stays constant while it moves, the positions of its
-//! points, and the numbers of its appearance (colour, opacity, width, gradient).
+//! Splits a shape of a drawing into data that stays constant while the shape moves, the positions
+//! of its points, and the numbers of its appearance (colour, opacity, width, gradient).
 
 use crate::colour::{
     Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb, StrokeJoin, StrokeStyle,
@@ -9,7 +9,7 @@ use crate::export::outline::{OutlinePath, PathCommand};
 use crate::geometry::{DAffine2, DVec2};
 use std::sync::Arc;
 
-/// Constant data of a moving shape.
+/// Data of a moving shape that is the same at every moment.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum ShapeForm {
     /// A filled outline.
@@ -17,7 +17,7 @@ pub(super) enum ShapeForm {
         verbs: Vec<PathVerb>,
         /// Text that the outline spells.
         label: Option<String>,
-        /// Constant data of its gradient.
+        /// Constant data of the gradient; `None` for a plain fill.
         ramp: Option<GradientForm>,
     },
     /// A stroke along closed outlines.
@@ -42,7 +42,7 @@ pub(super) enum PathVerb {
 }
 
 impl PathVerb {
-    /// Number of points that the command takes.
+    /// Returns the number of points that the command takes.
     pub(super) fn point_count(self) -> usize {
         match self {
             Self::Move | Self::Line => 1,
@@ -53,7 +53,7 @@ impl PathVerb {
     }
 }
 
-/// Constant data of a gradient.
+/// Data of a gradient that is the same at every moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct GradientForm {
     pub is_radial: bool,
@@ -71,7 +71,7 @@ const PLAIN_NUMBERS: usize = 5;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PosedShape {
     pub form: Arc<ShapeForm>,
-    /// Points in the order of the path commands, in pixels.
+    /// Points of the shape in the order of its path commands, in pixels.
     pub points: Vec<DVec2>,
     /// Colour, opacity and width, followed by the numbers of the gradient, if any: its affine
     /// frame, its focus and inner radius if it is radial, and its stops.
@@ -79,7 +79,7 @@ pub(super) struct PosedShape {
 }
 
 impl PosedShape {
-    /// Splits a shape; `None` for a raster image, which has no points.
+    /// Splits a shape of a drawing; `None` for a raster image, which has no points.
     pub(super) fn of(item: &DrawingItem) -> Option<Self> {
         Some(match item {
             DrawingItem::Fill {
@@ -132,7 +132,7 @@ impl PosedShape {
         })
     }
 
-    /// Number of contours of an outline, or of points of bars and discs.
+    /// Returns the number of contours of an outline; for bars and discs, the number of points.
     pub(super) fn contour_count(&self) -> usize {
         match &*self.form {
             ShapeForm::Fill { verbs, .. } | ShapeForm::Stroke { verbs, .. } => {
@@ -143,7 +143,7 @@ impl PosedShape {
         }
     }
 
-    /// Returns whether the other can be the same shape at another moment.
+    /// Returns whether `other` can be the same shape at another moment.
     pub(super) fn has_form_of(&self, other: &Self) -> bool {
         self.form == other.form && self.points.len() == other.points.len()
     }
@@ -179,17 +179,17 @@ impl PosedShape {
         }
     }
 
-    /// Colour and opacity.
+    /// Returns colour and opacity.
     pub(super) fn paint(&self) -> Paint {
         paint(&self.appearance)
     }
 
-    /// Width of a stroke or of bars, or radius of discs, in pixels.
+    /// Returns the width of a stroke or of bars, or the radius of discs, in pixels.
     pub(super) fn width(&self) -> f64 {
         self.appearance[PLAIN_NUMBERS - 1]
     }
 
-    /// Gradient of a fill, if it has one.
+    /// Returns the gradient of a fill, if it has one.
     pub(super) fn gradient(&self) -> Option<Gradient> {
         let ShapeForm::Fill {
             ramp: Some(ramp), ..
@@ -218,13 +218,13 @@ impl PosedShape {
     }
 }
 
-/// Numbers of an appearance without gradient.
+/// Returns the numbers of an appearance without gradient.
 fn plain_numbers(paint: Paint, width: f64) -> Vec<f64> {
     let [r, g, b] = paint.colour.0.map(f64::from);
     vec![r, g, b, paint.opacity, width]
 }
 
-/// Colour and opacity from the numbers of an appearance.
+/// Returns colour and opacity from the numbers of an appearance.
 fn paint(numbers: &[f64]) -> Paint {
     let channel = |k: usize| numbers[k].round().clamp(0.0, 255.0) as u8;
     Paint {
@@ -233,7 +233,7 @@ fn paint(numbers: &[f64]) -> Paint {
     }
 }
 
-/// Constant data of a gradient.
+/// Returns the constant data of a gradient.
 fn gradient_form(gradient: &Gradient) -> GradientForm {
     GradientForm {
         is_radial: gradient.geometry != GradientGeometry::Linear,
@@ -242,7 +242,7 @@ fn gradient_form(gradient: &Gradient) -> GradientForm {
     }
 }
 
-/// Numbers of a gradient.
+/// Returns the numbers of a gradient that may change over time.
 fn gradient_numbers(gradient: &Gradient) -> Vec<f64> {
     let mut numbers = gradient.frame.to_cols_array().to_vec();
     if let GradientGeometry::Radial { focus, inner } = gradient.geometry {

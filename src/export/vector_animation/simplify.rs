@@ -18,15 +18,16 @@ use super::shape::{PathVerb, ShapeForm};
 /// (tolerance: a fifth of the total error of the animation).
 const TOLERANCE_PX: f64 = 0.04;
 
-/// The same for shapes that do not move, to which no interpolation error adds, in pixels
-/// (tolerance: as for moving shapes).
+/// Maximum distance of a removed point of a static shape from the line that replaces it, in pixels
+/// (tolerance: as for moving shapes, although no interpolation error adds to it).
 pub(super) const STATIC_TOLERANCE_PX: f64 = 0.04;
 
-/// Number of intervals of a moving piece at whose ends distances are measured (resource limit).
+/// Number of equal intervals of a moving piece at whose ends distances are measured (resource
+/// limit: the time to simplify is proportional to it).
 const MOMENTS_PER_PIECE: usize = 8;
 
-/// Simplifies all shapes, consistently over consecutive pieces with the same shapes. Shapes that do
-/// not move are simplified up to `still_px`.
+/// Simplifies all shapes. Consecutive pieces with the same shapes lose the same points. Shapes that
+/// do not move are simplified with the tolerance `still_px`.
 pub(super) fn simplify(pieces: &mut [AnimationPiece], still_px: f64) {
     let mut from = 0;
     while from < pieces.len() {
@@ -40,7 +41,8 @@ pub(super) fn simplify(pieces: &mut [AnimationPiece], still_px: f64) {
     }
 }
 
-/// Simplifies one shape over all pieces of a scene.
+/// Simplifies the shape with index `k` in all pieces of a scene (consecutive pieces with the same
+/// shapes).
 fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
     let verbs = match &*scene[0].shapes[k].first.form {
         ShapeForm::Fill { verbs, .. } | ShapeForm::Stroke { verbs, .. } => verbs,
@@ -95,7 +97,7 @@ fn simplify_shape(scene: &mut [AnimationPiece], k: usize, still_px: f64) {
     }
 }
 
-/// Point positions of a shape at sampled moments of all its pieces.
+/// Returns the positions of a shape's points at sampled moments of all pieces of a scene.
 fn moments(scene: &[AnimationPiece], k: usize) -> Vec<Vec<DVec2>> {
     let of_piece = |piece: &AnimationPiece| {
         let terms = piece.shapes[k].terms.clone();
@@ -110,7 +112,7 @@ fn moments(scene: &[AnimationPiece], k: usize) -> Vec<Vec<DVec2>> {
     scene.iter().flat_map(of_piece).collect()
 }
 
-/// Indices of the points of a ring to keep, ascending, at least three.
+/// Returns the indices of the points of a ring that remain, ascending, at least three.
 fn indices_to_keep(moments: &[Vec<DVec2>], ring: Range<usize>, tolerance: f64) -> Vec<usize> {
     // The ring is split at its first point and at the point farthest from it.
     let distance = |&i: &usize| {
@@ -146,7 +148,7 @@ fn indices_to_keep(moments: &[Vec<DVec2>], ring: Range<usize>, tolerance: f64) -
     indices
 }
 
-/// Distance of a point from a line segment.
+/// Returns the distance of a point from a line segment.
 fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let along = b - a;
     let length = along.length_squared();

@@ -15,14 +15,15 @@ use super::shape::{PathVerb, PosedShape, ShapeForm};
 use super::tracks::{KeyedProperty, SceneLayer, layers};
 use super::two_point_gradient::TwoPointGradient;
 
-/// Number of distinguishable times over a film (tolerance: several hundred per frame even in a film
-/// of a few hundred frames).
+/// Number of steps over a whole film to which times are rounded (tolerance: several hundred per
+/// frame even in a film of a few hundred frames).
 const TIME_STEPS: f64 = 1e5;
 
 /// Step to which coordinates are rounded, in pixels (tolerance: a twentieth of the total error of
 /// the animation).
 const STEP_PX: f64 = 0.01;
 
+/// Returns the animation as an animated SVG document.
 pub(super) fn animated_svg(animation: &VectorAnimation) -> String {
     let (width, height) = (animation.size.width(), animation.size.height());
     let mut svg = format!(
@@ -56,18 +57,18 @@ pub(super) fn animated_svg(animation: &VectorAnimation) -> String {
     svg + "</svg>\n"
 }
 
-/// Time axis of the film, and the writer of elements that are animated over it.
+/// Time axis of the film. Its methods write the elements that are animated over it.
 struct SmilClock {
-    /// Number of frames.
+    /// Number of frames of the film.
     frames: f64,
-    /// Duration in seconds.
+    /// Duration of the film in seconds.
     secs: f64,
     repeats: bool,
 }
 
 impl SmilClock {
-    /// Returns an `<animate>` element for one attribute, from keys of frame and value. If
-    /// `discrete`, values jump instead of being interpolated.
+    /// Returns an `<animate>` element for one attribute from keys, each of a frame number and a
+    /// value. If `discrete`, values jump instead of being interpolated.
     fn animate(&self, attribute: &str, keys: &[(f64, String)], discrete: bool) -> String {
         let mut times = String::new();
         let mut values = String::new();
@@ -106,8 +107,8 @@ impl SmilClock {
         )
     }
 
-    /// Returns an attribute with its first value, and the element that animates it, empty if the
-    /// value is constant.
+    /// Returns an attribute with its first value, and the element that animates it, which is empty
+    /// if the value is constant.
     fn attribute<T>(
         &self,
         name: &str,
@@ -237,10 +238,10 @@ impl SmilClock {
     }
 }
 
-/// Coordinate or radius of a gradient.
+/// Function that returns a coordinate or a radius of a gradient.
 type GradientCoordinate = fn(&TwoPointGradient) -> f64;
 
-/// Attributes of a linear gradient.
+/// SVG attributes of a linear gradient, with the functions that return their values.
 const LINEAR_ATTRIBUTES: [(&str, GradientCoordinate); 4] = [
     ("x1", |gradient| linear_coordinates(gradient)[0]),
     ("y1", |gradient| linear_coordinates(gradient)[1]),
@@ -248,7 +249,7 @@ const LINEAR_ATTRIBUTES: [(&str, GradientCoordinate); 4] = [
     ("y2", |gradient| linear_coordinates(gradient)[3]),
 ];
 
-/// Attributes of a radial gradient.
+/// SVG attributes of a radial gradient, with the functions that return their values.
 const RADIAL_ATTRIBUTES: [(&str, GradientCoordinate); 6] = [
     ("cx", |gradient| radial_coordinates(gradient)[0]),
     ("cy", |gradient| radial_coordinates(gradient)[1]),
@@ -258,7 +259,7 @@ const RADIAL_ATTRIBUTES: [(&str, GradientCoordinate); 6] = [
     ("fr", |gradient| radial_coordinates(gradient)[5]),
 ];
 
-/// Start and end of a linear gradient.
+/// Returns the coordinates of the start and the end of a linear gradient.
 fn linear_coordinates(gradient: &TwoPointGradient) -> [f64; 4] {
     match *gradient {
         TwoPointGradient::Linear { from, to } => [from.x, from.y, to.x, to.y],
@@ -266,7 +267,7 @@ fn linear_coordinates(gradient: &TwoPointGradient) -> [f64; 4] {
     }
 }
 
-/// Centre, radius, focus and inner radius of a radial gradient.
+/// Returns centre, radius, focus and inner radius of a radial gradient.
 fn radial_coordinates(gradient: &TwoPointGradient) -> [f64; 6] {
     match *gradient {
         TwoPointGradient::Linear { .. } => [0.0; 6],
@@ -283,7 +284,7 @@ fn number(x: &f64) -> String {
     ShortNumber(*x).to_string()
 }
 
-/// Path data of a shape, with relative commands.
+/// Returns the path data of a shape, with relative commands.
 fn path(posed: &PosedShape) -> String {
     let verbs = match &*posed.form {
         ShapeForm::Fill { verbs, .. } | ShapeForm::Stroke { verbs, .. } => verbs.clone(),
@@ -330,7 +331,7 @@ fn pair(p: DVec2, is_next: bool) -> String {
     format!("{before}{x}{}{y}", between(&y))
 }
 
-/// Constant stroke attributes of a shape.
+/// Returns the stroke attributes of a shape that are constant.
 fn stroke_attributes(form: &ShapeForm) -> String {
     let join = match form {
         ShapeForm::Stroke { join, .. } => match join {

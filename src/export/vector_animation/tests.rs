@@ -26,7 +26,8 @@ fn animation() -> (Camera, VectorAnimation) {
     (camera, animation)
 }
 
-/// Largest distance between corresponding points of two drawings of the same shapes, in pixels.
+/// Returns the largest distance between corresponding points of two drawings of the same shapes, in
+/// pixels.
 fn max_distance(a: &Drawing, b: &Drawing) -> f64 {
     let points = |drawing: &Drawing| -> Vec<_> {
         let posed = drawing.items.iter().filter_map(PosedShape::of);

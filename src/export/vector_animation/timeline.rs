@@ -4,11 +4,11 @@
 use super::super::film_spec::FilmSpec;
 use super::keyframes::fewest_keys;
 
-/// Tolerance of the compact forms, as a fraction of the range of t (tolerance: a tenth of a pixel
-/// on a path of 1,000 pixels).
+/// Maximum deviation of the compact forms, as a fraction of the range of t (tolerance: a tenth of a
+/// pixel on a path of 1,000 pixels).
 const TIME_TOLERANCE: f64 = 1e-4;
 
-/// Values of t of a film over its frames, and how it continues at its end.
+/// The t of each frame of a film, and how the film continues at its end.
 #[derive(Clone, Debug)]
 pub(super) struct FilmTimeline {
     /// Value of t of each frame, followed by one more for the end of the last frame: the t of the
@@ -18,7 +18,7 @@ pub(super) struct FilmTimeline {
     pub fps: f64,
     /// Whether the film loops.
     pub repeats: bool,
-    /// Number of frames of one pass from the first design to the last.
+    /// Number of frame intervals from the first t to the last, without the way back.
     pub pass_frames: usize,
 }
 
@@ -38,17 +38,18 @@ impl FilmTimeline {
         }
     }
 
-    /// Number of frames of the whole film.
+    /// Returns the number of frames of the whole film.
     pub(super) fn frames(&self) -> usize {
         self.times.len() - 1
     }
 
-    /// Duration in seconds.
+    /// Returns the duration of the film in seconds.
     pub(super) fn secs(&self) -> f64 {
         self.frames() as f64 / self.fps
     }
 
-    /// Frame numbers with their t, between which linear interpolation is accurate enough.
+    /// Returns the fewest frame numbers, with their t, between which linear interpolation of t is
+    /// accurate enough.
     pub(super) fn linear_knots(&self) -> Vec<(usize, f64)> {
         let places: Vec<f64> = (0..self.times.len()).map(|k| k as f64).collect();
         let rows: Vec<Vec<f64>> = self.times.iter().map(|&t| vec![t]).collect();
@@ -56,8 +57,8 @@ impl FilmTimeline {
         keys.into_iter().map(|k| (k, self.times[k])).collect()
     }
 
-    /// The timeline as consecutive cubic curves. Fewer are needed than linear knots, because
-    /// easings are cubic or close to it.
+    /// Returns the timeline as consecutive cubic curves. There are fewer of them than of linear
+    /// knots, because easings are cubic or close to it.
     pub(super) fn curves(&self) -> Vec<TimelineCurve> {
         let tolerance = TIME_TOLERANCE * self.span();
         let last = self.frames();
@@ -84,7 +85,7 @@ impl FilmTimeline {
         curves
     }
 
-    /// Difference between the highest and the lowest t.
+    /// Returns the difference between the highest and the lowest t.
     fn span(&self) -> f64 {
         let end = |f: fn(f64, f64) -> f64| self.times.iter().copied().reduce(f).unwrap_or(0.0);
         end(f64::max) - end(f64::min)
@@ -99,11 +100,11 @@ const RIDGE: f64 = 1e-9;
 /// curve with handles at one third and two thirds of the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TimelineCurve {
-    /// First frame.
+    /// Number of the first frame of the curve.
     pub from: usize,
-    /// Last frame.
+    /// Number of the last frame of the curve.
     pub to: usize,
-    /// Normalised t of the two handles.
+    /// Normalised t of the two handles, at one third and two thirds of the time.
     pub handles: [f64; 2],
 }
 
@@ -153,14 +154,14 @@ impl TimelineCurve {
         values.iter().enumerate().all(is_near).then_some(curve)
     }
 
-    /// Normalised t at the normalised time `u`.
+    /// Returns the normalised t at the normalised time `u`.
     fn at(&self, u: f64) -> f64 {
         let [f, g] = handle_weights(u);
         self.handles[0] * f + self.handles[1] * g + u.powi(3)
     }
 }
 
-/// Cubic Bernstein polynomials of the two handles.
+/// Returns the values at `u` of the cubic Bernstein polynomials of the two handles.
 fn handle_weights(u: f64) -> [f64; 2] {
     [3.0 * u * (1.0 - u).powi(2), 3.0 * u * u * (1.0 - u)]
 }

@@ -1,8 +1,8 @@
 //! Arranges a vector animation into layers over time, and reduces each property of a shape to
 //! keyframes.
 //!
-//! A scene is a maximal run of pieces with the same shapes. Each time the timeline passes through a
-//! scene it becomes a layer, visible for that period only.
+//! A scene is a maximal run of pieces with the same shapes. Each time the film passes through a
+//! scene, the scene becomes a layer of its own that is visible for that period only.
 
 use super::animation::VectorAnimation;
 use super::keyframes::fewest_keys;
@@ -26,9 +26,9 @@ const WIDTH_TOLERANCE_PX: f64 = 0.05;
 /// A scene during one period in which it is visible.
 #[derive(Clone, Debug)]
 pub(super) struct SceneLayer {
-    /// First place on the time axis.
+    /// Start of the period on the time axis.
     pub from: f64,
-    /// Last place on the time axis.
+    /// End of the period on the time axis.
     pub to: f64,
     /// Places on the time axis at which the shapes were sampled, ascending.
     pub places: Vec<f64>,
@@ -36,16 +36,17 @@ pub(super) struct SceneLayer {
     pub shapes: Vec<Vec<PosedShape>>,
 }
 
-/// A property over time, as few keyframes.
+/// A property of a shape over time, reduced to few keyframes.
 #[derive(Clone, Debug)]
 pub(super) struct KeyedProperty<T> {
-    /// Places with values; a single one if the property is constant.
+    /// Keyframes: places on the time axis with the values there. Only one if the property is
+    /// constant.
     pub keys: Vec<(f64, T)>,
 }
 
 impl SceneLayer {
-    /// Returns a property of a shape as keyframes between which all its `numbers` are linear within
-    /// `tolerance`. `take` extracts its value.
+    /// Returns a property of a shape as keyframes. Between them, all its `numbers` are linear
+    /// within `tolerance`. `take` extracts the value of a keyframe.
     pub(super) fn keyed<T>(
         &self,
         poses: &[PosedShape],
@@ -54,7 +55,7 @@ impl SceneLayer {
         take: impl Fn(&PosedShape) -> T,
     ) -> KeyedProperty<T> {
         let rows: Vec<Vec<f64>> = poses.iter().map(numbers).collect();
-        // Well within the tolerance of the first sample, the property counts as constant.
+        // A property that stays well within the tolerance of its first sample counts as constant.
         let is_constant = |row: &Vec<f64>| {
             let mut both = row.iter().zip(&rows[0]);
             both.all(|(a, b)| (a - b).abs() <= 0.25 * tolerance)
@@ -70,7 +71,7 @@ impl SceneLayer {
         }
     }
 
-    /// Keyframes of some of a shape's points.
+    /// Returns the keyframes of some of a shape's points.
     pub(super) fn points<T>(
         &self,
         poses: &[PosedShape],
@@ -84,7 +85,7 @@ impl SceneLayer {
         self.keyed(poses, POINT_TOLERANCE_PX, numbers, take)
     }
 
-    /// Keyframes of a shape's colour.
+    /// Returns the keyframes of a shape's colour.
     pub(super) fn colour<T>(
         &self,
         poses: &[PosedShape],
@@ -98,7 +99,7 @@ impl SceneLayer {
         )
     }
 
-    /// Keyframes of a shape's opacity.
+    /// Returns the keyframes of a shape's opacity.
     pub(super) fn opacity<T>(
         &self,
         poses: &[PosedShape],
@@ -112,7 +113,7 @@ impl SceneLayer {
         )
     }
 
-    /// Keyframes of its width or radius.
+    /// Returns the keyframes of a shape's width or radius.
     pub(super) fn width<T>(
         &self,
         poses: &[PosedShape],
@@ -127,8 +128,8 @@ impl SceneLayer {
     }
 }
 
-/// Returns the layers along a course: places on the time axis, ascending, with the t shown at each.
-/// Scene changes between two places are located by linear interpolation.
+/// Returns the layers of an animation. `timeline` lists ascending places on the time axis with the
+/// t shown at each. Scene changes between two places are located by linear interpolation.
 pub(super) fn layers(animation: &VectorAnimation, timeline: &[(f64, f64)]) -> Vec<SceneLayer> {
     let scenes = scenes(animation);
     let scene_at = |t: f64| {
@@ -165,7 +166,7 @@ pub(super) fn layers(animation: &VectorAnimation, timeline: &[(f64, f64)]) -> Ve
     layers
 }
 
-/// First t and range of pieces of each scene.
+/// Returns the first t and the range of pieces of each scene.
 fn scenes(animation: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
     let mut scenes: Vec<(f64, std::ops::Range<usize>)> = Vec::new();
     for (k, piece) in animation.pieces.iter().enumerate() {
@@ -177,7 +178,7 @@ fn scenes(animation: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
     scenes
 }
 
-/// Samples a scene at the given stations (place, t).
+/// Samples a scene at the given stations, each a place on the time axis and the t shown there.
 fn layer(
     animation: &VectorAnimation,
     scenes: &[(f64, std::ops::Range<usize>)],

@@ -7,12 +7,12 @@
 use crate::colour::{Gradient, GradientGeometry};
 use crate::geometry::DVec2;
 
-/// Gradient given by points of the image, in pixels.
+/// Gradient given by points and radii in the image, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum TwoPointGradient {
     /// Linear gradient from one point to another.
     Linear { from: DVec2, to: DVec2 },
-    /// Radial gradient from a focus to a circle.
+    /// Radial gradient from a small circle around the focus to a large circle around the middle.
     Radial {
         middle: DVec2,
         radius: f64,

@@ -1,5 +1,6 @@
-//! The constrained Delaunay triangulation of a piece with coinciding points merged, and its
-//! conversion back to one vertex for each corner of a loop.
+//! Constrained Delaunay triangulation of a connected region (piece). Coinciding corners of its
+//! loops, such as those on both sides of a slit, are merged for the triangulation. The resulting
+//! faces again have one vertex for each corner of a loop.
 
 use crate::geometry::DVec2;
 use crate::mesh::{components, undirected};
@@ -15,7 +16,7 @@ pub enum TriangulationError {
     /// A loop has fewer than three points.
     #[error("an outline needs at least 3 points, this one has {0}; add points")]
     TooFewPoints(usize),
-    /// A coordinate is NaN, infinite or beyond the range of the arithmetic.
+    /// A coordinate is NaN, infinite, or larger than the triangulation library allows.
     #[error("a point of the outline is not finite or beyond 1e60; correct it or scale the design")]
     OutOfRange,
     /// Two edges cross or overlap, or points coincide other than along a slit.
@@ -34,10 +35,10 @@ pub enum TriangulationError {
 /// The library's constrained Delaunay triangulation.
 pub(super) type ConstrainedDelaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
-/// Marks a face corner without a loop corner, or a missing vertex.
+/// Marks a corner of a face that is no corner of a loop, or a missing vertex.
 const NONE: u32 = u32::MAX;
 
-/// Merged points before, at and after a corner of a loop.
+/// A corner of a loop: indices of the merged points before, at and after it.
 type LoopCorner = [u32; 3];
 
 /// A connected piece as a constrained Delaunay triangulation of its distinct points.
@@ -45,7 +46,7 @@ pub(super) struct TriangulationDomain {
     pub(super) delaunay: ConstrainedDelaunay,
     /// Corners of all loops, one loop after another.
     merged: Vec<LoopCorner>,
-    /// Number of merged points; added points follow them.
+    /// Number of merged points; points added by refinement follow them in `delaunay`.
     point_count: usize,
     /// Directed edges of the loops between merged points; those of a slit occur in both directions.
     directed_edges: HashSet<[u32; 2]>,
@@ -59,7 +60,8 @@ impl TriangulationDomain {
     pub(super) fn of<W: AsRef<[DVec2]>>(loops: &[W]) -> Result<Self, TriangulationError> {
         let (points, merged) = merged_points(loops)?;
         let mut directed_edges = HashSet::new();
-        // Each direction at most once: more would leave no wedge of the piece in between.
+        // Each directed edge may occur only once: between two equal ones there would be no wedge of
+        // the piece.
         let is_new = |&[_, a, b]: &LoopCorner| a != b && directed_edges.insert([a, b]);
         if !merged.iter().all(is_new) {
             return Err(TriangulationError::NotSimple);
@@ -67,7 +69,7 @@ impl TriangulationDomain {
         let mut edges: Vec<[usize; 2]> = (directed_edges.iter())
             .map(|&edge| undirected(edge).map(|v| v as usize))
             .collect();
-        // Sorted, because the order of a hash set would make results differ between runs.
+        // Sort the edges, because the order of a hash set would make results differ between runs.
         edges.sort_unstable();
         edges.dedup();
         let (point_count, constraint_count) = (points.len(), edges.len());
@@ -92,7 +94,8 @@ impl TriangulationDomain {
         let edges = domain.delaunay.undirected_edges();
         let mut constraint_edges = (edges.filter(|edge| edge.is_constraint_edge()))
             .map(|edge| edge.vertices().map(|v| v.index() as u32));
-        // A point on an edge divides it into halves that are not edges of any loop.
+        // If a point lies on an edge, the library divides the edge into two that are not edges of
+        // any loop.
         let is_loop_edge = |edge: [u32; 2]| domain.directed_edges.contains(&edge);
         if constraint_edges.any(|[a, b]| !is_loop_edge([a, b]) && !is_loop_edge([b, a])) {
             return Err(TriangulationError::NotSimple);
@@ -121,8 +124,8 @@ impl TriangulationDomain {
         if winding[1..].iter().any(|w| !(0..=1).contains(w)) {
             return Err(TriangulationError::NotOnePiece);
         }
-        // If every corner bounds a single wedge, all face corners are assigned, because every wedge
-        // of the piece begins at an outgoing loop edge.
+        // If every loop corner bounds exactly one wedge of the piece, all corners of faces are
+        // assigned, because every wedge begins at an outgoing edge of a loop.
         self.corners(&winding)
             .ok_or(TriangulationError::NotSimple)?;
         // The leftmost point belongs to the outer boundary.
@@ -137,7 +140,7 @@ impl TriangulationDomain {
         Ok(())
     }
 
-    /// Returns the winding number of the loops around each face.
+    /// Returns the winding number of the loops around each face, by the face's index.
     pub(super) fn winding(&self) -> Vec<i32> {
         /// Marks faces that were not visited yet.
         const UNKNOWN: i32 = i32::MAX;
@@ -153,7 +156,7 @@ impl TriangulationDomain {
             }
             let [a, b] = edge.vertices().map(|v| v.index() as u32);
             let count = |direction: [u32; 2]| i32::from(self.directed_edges.contains(&direction));
-            // The winding number is larger by one on the left of a loop.
+            // The winding number is larger by one on the left of a loop's edge than on its right.
             winding[across.index()] = winding[edge.face().index()] - count([a, b]) + count([b, a]);
             let inner = across.as_inner().into_iter();
             pending.extend(inner.flat_map(|face| face.adjacent_edges()));
@@ -175,8 +178,8 @@ impl TriangulationDomain {
         first.is_some_and(|(first, _)| inside.all(|(other, _)| other == first))
     }
 
-    /// Returns for each face the loop corners at its vertices. Returns `None` if the two edges of a
-    /// loop at a corner do not bound exactly one wedge of the piece.
+    /// Returns for each face the indices of the loop corners at its three vertices. Returns `None`
+    /// if, at some corner, the two edges of the loop do not bound exactly one wedge of the piece.
     fn corners(&self, winding: &[i32]) -> Option<Vec<[u32; 3]>> {
         let mut corners = vec![[NONE; 3]; winding.len()];
         for (corner, points) in (0..).zip(&self.merged) {
@@ -204,7 +207,8 @@ impl TriangulationDomain {
         Some(corners)
     }
 
-    /// Returns the faces of the piece, with indices of loop corners and added points.
+    /// Returns the faces of the piece. Vertex indices count the corners of all loops, then the
+    /// added points.
     pub(super) fn faces(&self) -> Vec<[u32; 3]> {
         let winding = self.winding();
         // Always `Some`: the corners were checked, and refinement splits no loop edge.
@@ -257,7 +261,8 @@ fn merged_points<W: AsRef<[DVec2]>>(
     Ok((points, merged))
 }
 
-/// Replaces coordinates below the range of the arithmetic, and negative zero, by zero.
+/// Replaces a coordinate by zero if it is negative zero, or smaller in absolute value than the
+/// triangulation library allows.
 fn flush_to_zero(x: f64) -> f64 {
     if x.abs() < spade::MIN_ALLOWED_VALUE {
         0.0

@@ -1,6 +1,6 @@
-//! Delaunay refinement that splits no edge of the boundary (Chew 1993, Ruppert 1995): inserts
-//! circumcentres of bad faces, largest circle first, unless they lie beyond the boundary or too
-//! close to it.
+//! Delaunay refinement that splits no edge of the boundary (Chew 1993, Ruppert 1995): inserts the
+//! circumcentres of bad faces, largest circumcircle first, unless they lie beyond the boundary or
+//! too close to it.
 
 use super::domain::{ConstrainedDelaunay, TriangulationDomain};
 use crate::geometry::{Bounds, DVec2, orient2d};
@@ -18,36 +18,37 @@ type SpadeFace<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()
 /// Fineness of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefinementOptions {
-    /// Approximate maximum edge length; `None` refines for angles only.
+    /// Approximate maximum edge length; with `None`, faces are refined only for their angles.
     pub max_edge: Option<f64>,
     /// Maximum number of points to add.
     pub max_points: usize,
 }
 
-/// Minimum angle to aim for, in radians: 23°. Refinement terminates up to about 0.5; close to that
-/// it adds many points for little improvement (heuristic).
+/// Minimum angle of a face that refinement aims for, in radians: 23°. Refinement terminates for
+/// values up to about 0.5; close to that, it adds many points for little improvement (heuristic).
 const MIN_ANGLE: f64 = 0.4;
 
-/// Faces below this fraction of the bounding square's area are not refined (tolerance: below about
-/// 1e-15 the circumcentre is dominated by rounding).
+/// Minimum area of a face that is refined, as a fraction of the area of the piece's bounding square
+/// (tolerance: below about 1e-15, rounding dominates the circumcentre).
 const MIN_AREA_FRACTION: f64 = 1e-14;
 
-/// Priority of a bad face: the bits of its squared circumradius, which sort like the non-negative
-/// number itself, then its vertices, which break ties deterministically.
+/// Priority of a bad face: the bits of its squared circumradius, which have the same order as the
+/// non-negative number itself, then its vertices, which break ties deterministically.
 type BadFaceRank = (u64, Reverse<[FixedVertexHandle; 3]>);
 
 /// Limits beyond which a face counts as bad.
 struct FaceLimits {
-    /// Minimum squared ratio of the shortest edge to the circumradius.
+    /// Minimum of the squared ratio of a face's shortest edge to its circumradius.
     ratio: f64,
-    /// Maximum area.
+    /// Maximum area of a face.
     area: f64,
     /// Area below which a face is never refined.
     least_area: f64,
 }
 
 impl TriangulationDomain {
-    /// Inserts points until no bad face can be improved, or the maximum number is reached.
+    /// Inserts points until no bad face can be improved, or until the maximum number of points is
+    /// reached.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled.
@@ -69,8 +70,8 @@ impl TriangulationDomain {
             && let Some(((_, Reverse(vertices)), centre)) = bad.pop_last()
         {
             check_cancelled(progress)?;
-            // Faces that cannot be improved are dropped: only faces at new vertices enter the
-            // queue.
+            // A face that cannot be improved leaves the queue for good: only faces at new vertices
+            // enter it.
             let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {
                 continue;
             };
@@ -98,7 +99,7 @@ impl TriangulationDomain {
 }
 
 impl FaceLimits {
-    /// Returns priority and circumcentre of a face if it is bad.
+    /// Returns the priority and the circumcentre of a face if it is bad.
     fn judge(&self, face: SpadeFace<'_>) -> Option<(BadFaceRank, DVec2)> {
         let area = face.area();
         if area <= self.least_area {
@@ -117,20 +118,20 @@ impl FaceLimits {
     }
 }
 
-/// Inserts a vertex at a circumcentre, if the face still exists and the position is inside the
-/// piece and keeps the minimum distance from the boundary.
+/// Inserts a vertex at the circumcentre of the face `[a, b, c]`, if the face still exists and the
+/// circumcentre lies inside the piece and not too close to its boundary.
 fn insert(
     delaunay: &mut ConstrainedDelaunay,
     [a, b, c]: [FixedVertexHandle; 3],
     centre: DVec2,
 ) -> Option<FixedVertexHandle> {
-    // Insertions since the face was queued may have removed it.
+    // Vertices inserted since the face entered the queue may have removed it.
     let edge = delaunay.get_edge_from_neighbors(a, b)?;
     let face = edge.face().as_inner()?;
     if !face.vertices().iter().any(|v| v.fix() == c) || !is_free(face, centre) {
         return None;
     }
-    // At an existing point the library returns that vertex.
+    // If there is a vertex at this point already, the library returns it and inserts none.
     let before = delaunay.num_vertices();
     let vertex = delaunay
         .insert_with_hint(Point2::new(centre.x, centre.y), c)
@@ -138,15 +139,15 @@ fn insert(
     (delaunay.num_vertices() > before).then_some(vertex)
 }
 
-/// Returns whether a new point is inside the piece, and outside the diametral circle of every
-/// boundary edge near it.
+/// Returns whether a face's circumcentre lies inside the piece, and outside the diametral circle of
+/// every boundary edge near it.
 fn is_free(face: SpadeFace<'_>, centre: DVec2) -> bool {
     let mut visited: HashSet<usize> = HashSet::from([face.index()]);
     let mut pending = vec![face];
     let mut is_inside = false;
     while let Some(face) = pending.pop() {
-        // Visits the faces that the insertion would remove. One of them contains the point, unless
-        // it lies beyond a boundary edge.
+        // Visit the faces that the insertion would remove. One of them contains the new point,
+        // unless the point lies beyond a boundary edge.
         let contains_point = face.adjacent_edges().iter().all(|edge| sees(*edge, centre));
         is_inside |= contains_point;
         for edge in face.adjacent_edges() {
@@ -168,12 +169,12 @@ fn is_free(face: SpadeFace<'_>, centre: DVec2) -> bool {
     is_inside
 }
 
-/// Converts a point of the library.
+/// Converts a point of the triangulation library.
 fn at(p: Point2<f64>) -> DVec2 {
     DVec2::new(p.x, p.y)
 }
 
-/// Returns whether a point lies on the face's side of an edge, or on the edge.
+/// Returns whether a point lies to the left of an edge, where its face is, or on the edge's line.
 fn sees(edge: SpadeEdge<'_>, p: DVec2) -> bool {
     let [a, b] = edge.positions().map(at);
     orient2d(a, b, p) >= 0.0

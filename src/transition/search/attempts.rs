@@ -2,26 +2,27 @@
 //!
 //! Boundary features cannot predict how the interior deforms, so each candidate match is rated by
 //! its motion. Pieces move independently and are therefore chosen independently. The search starts
-//! with the requested match and then makes the attempts of [`ATTEMPTS`] in their order:
+//! with the requested match and then makes the attempts of [`ATTEMPTS`] in order:
 //!
-//! | attempt | pieces that it includes | match options | unmatched holes |
+//! | attempt | pieces that it includes | match options | holes |
 //! |---|---|---|---|
-//! | [`CUT_HOLES`] | with unmatched holes, not stroked | requested | cut open or closed |
+//! | [`CUT_HOLES`] | with unmatched holes, no stroke | requested | cut open or closed |
 //! | [`UPRIGHT`] | that turn far | drawn orientation | as before |
 //! | [`OTHER_COSTS`] | with dissimilar shapes | other stretch and inner costs | as before |
 //! | [`WITHOUT_THICKNESS`] | that fold or distort much | no thickness | as before |
-//! | [`UNPAIR_HOLES`] | that fold and have matched holes | requested | all holes |
-//! | [`UPRIGHT`] to [`WITHOUT_THICKNESS`] again | of the previous attempt | as above | all holes |
+//! | [`UNPAIR_HOLES`] | that fold and have matched holes | requested | all unmatched |
+//! | [`UPRIGHT`] to [`WITHOUT_THICKNESS`] again | of the previous attempt | as above | as above |
 //!
 //! "As before" means as in the piece's best candidate so far. The last four attempts improve a
-//! second result, which starts from that of [`CUT_HOLES`]. An attempt that would override a setting
-//! of the user includes no piece. Designs with many rings keep the requested match, and a draft
-//! only makes the attempt [`DRAFT`].
+//! second result, which starts from the result of [`CUT_HOLES`]. An attempt that would override a
+//! setting of the user includes no pieces. Designs with many rings keep the requested match. A
+//! draft makes only the attempt [`DRAFT`].
 //!
-//! Candidates are compared by folded faces over all steps, then by crossings of their outlines,
-//! then by misfit: distortion, increased by excess turning, rotation and excess area. The earlier
-//! one of equal candidates stays. Finally the correspondence of both results slides along the
-//! outlines (see [`sliding`](super::sliding)), and the better result is chosen.
+//! Candidates are compared by the number of folded faces over all samples, then by the crossings of
+//! their outlines, then by misfit: the distortion, multiplied by factors for excess turning,
+//! rotation and excess area. Of equal candidates, the earlier one stays. Finally the correspondence
+//! of both results slides along the outlines (see [`sliding`](super::sliding)), and the better
+//! result is chosen.
 
 use super::candidate::MatchCandidate;
 use super::group::{GroupSearch, MatchVariant, PieceResult, piece_of_result};
@@ -34,55 +35,62 @@ use crate::work::progress::{Progress, ProgressSpan};
 /// poses of one shape cost up to 0.3, dissimilar shapes 0.4 and more).
 const SIMILAR_COST: f64 = 0.34;
 
-/// Stretch costs tried for dissimilar shapes, after the default (heuristic).
+/// Weights of stretching that are tried for dissimilar shapes, in addition to the requested one
+/// (heuristic).
 const OTHER_STRETCH_COSTS: [f64; 2] = [0.6, 1.2];
 
-/// Cost of inner distances in one variant for dissimilar shapes: with it, limbs and strokes
-/// dominate the match (heuristic).
+/// Weight of inner distances in one of the variants tried for dissimilar shapes. With this weight,
+/// limbs and strokes dominate the match (heuristic).
 const INNER_DISTANCE_COST: f64 = 8.0;
 
-/// Stretch costs tried without thickness if the candidates so far fold: with thickness, an arm can
-/// be matched to a thick body (heuristic).
+/// Weights of stretching that are tried with thickness ignored if the candidates so far fold or are
+/// distorted. With thickness, an arm can be matched to a thick body (heuristic).
 const COSTS_WITHOUT_THICKNESS: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
-/// Distortion above which costs without thickness are tried even for a fold-free candidate
-/// (heuristic).
+/// Distortion above which matches without thickness are tried even if the best candidate does not
+/// fold (heuristic).
 const HIGH_DISTORTION: f64 = 3.0;
 
-/// Maximum work of one attempt for a group: number of candidates times the square of a piece's
-/// number of boundary vertices (resource limit: a candidate of 700 vertices takes about 0.3 s).
+/// Maximum work of one attempt for a group: the sum over its pieces of the number of candidates
+/// times the square of the number of boundary vertices (resource limit: a candidate with 700
+/// vertices takes about 0.3 s).
 const MAX_WORK: usize = 2_500_000;
 
-/// The same for drafts, for which the user is waiting (resource limit).
+/// Maximum work of the attempt of a draft, measured as for [`MAX_WORK`] (resource limit: the user
+/// is waiting for the draft).
 const MAX_DRAFT_WORK: usize = 100_000;
 
-/// Unmatched holes are cut open or closed, whichever matches better.
+/// Treatment in which unmatched holes are cut open or closed, whichever matches better.
 const CUT_OR_CLOSE: HolePolicy = HolePolicy::Paired(HoleRule::Auto);
 
-/// Fraction of the progress after the requested match (heuristic).
+/// Progress reported once the requested matches are done, in [0, 1] (heuristic).
 const REQUESTED_PROGRESS: f64 = 0.2;
-/// Fraction of the progress after the requested match in a draft (heuristic).
+/// Progress of a draft reported once the requested matches are done, in [0, 1] (heuristic).
 const REQUESTED_DRAFT_PROGRESS: f64 = 0.7;
-/// Fraction of the progress after all attempts (heuristic).
+/// Progress reported once all attempts are made, in [0, 1] (heuristic).
 const ATTEMPTS_PROGRESS: f64 = 0.7;
 
 /// An attempt to find better matches for some pieces of a group.
 struct Attempt {
     /// Result that the attempt improves.
     branch: SearchBranch,
-    /// Conditions that a piece must meet, all of them, to be included.
+    /// Conditions that a piece must all meet to be included.
     conditions: &'static [PieceCondition],
     /// Match options that are tried.
     options: TriedOptions,
-    /// Treatment of unmatched holes; `None` stands for that of each piece's best candidate so far.
+    /// Treatment of unmatched holes; `None` for the treatment in each piece's best candidate so
+    /// far.
     holes: Option<HolePolicy>,
-    /// Limit of the work, measured as for [`MAX_WORK`]; the smallest pieces come first.
+    /// Limit of the work, measured as for [`MAX_WORK`]. The smallest pieces are tried first; pieces
+    /// beyond the limit are left out.
     max_work: usize,
-    /// Fractions of the whole progress at the beginning and at the end (heuristic).
+    /// Progress of the whole search when the attempt begins and when it ends, in [0, 1]
+    /// (heuristic).
     progress: [f64; 2],
 }
 
-/// Result of the search that an attempt improves. There are two, which share their beginning.
+/// Result of the search that an attempt improves. The search keeps two results, which are equal
+/// until [`CUT_HOLES`] has been tried.
 enum SearchBranch {
     /// Both results.
     Both,
@@ -98,24 +106,25 @@ enum SearchBranch {
 enum PieceCondition {
     /// The user has not chosen a treatment of unmatched holes.
     FreeHoles,
-    /// The user has not asked for the drawn orientation.
+    /// The user has not requested that the drawn orientation be kept.
     FreeOrientation,
-    /// The user has not set the stretch cost.
+    /// The user has not set the weight of stretching.
     FreeCosts,
-    /// No line is drawn along the parts of the group: a cut through one would be visible.
+    /// The parts of the group have no stroke: a cut through a stroke would be visible.
     Unstroked,
-    /// The piece has unmatched holes.
+    /// The piece exists in both designs and has unmatched holes.
     UnmatchedHoles,
     /// The piece has matched holes, and folds or cannot be triangulated.
     FoldsWithHoles,
-    /// All holes of the best candidate are unmatched.
+    /// In the best candidate of the piece, all holes are unmatched.
     UnpairedHoles,
-    /// The piece turns far, without being a rotated copy.
+    /// The piece turns far, and its target is not just a rotated copy.
     TurnsFar,
     /// The matched shapes are dissimilar, or the piece cannot be triangulated.
     Dissimilar,
-    /// The best candidate folds or distorts much, or the piece cannot be triangulated. Crossings do
-    /// not count: including them would double the work and hardly ever help.
+    /// The best candidate folds or has a high distortion, or the piece cannot be triangulated.
+    /// Candidates whose outlines cross are not included: that would double the work and hardly ever
+    /// help.
     HighDistortion,
 }
 
@@ -124,15 +133,15 @@ enum PieceCondition {
 enum TriedOptions {
     /// The requested options.
     Requested,
-    /// The drawn orientation.
+    /// The requested options, but with the drawn orientation kept.
     Upright,
-    /// Other stretch costs, and a high cost of inner distances.
+    /// The weights [`OTHER_STRETCH_COSTS`], and a high weight of inner distances.
     OtherCosts,
-    /// Several stretch costs without thickness.
+    /// The weights [`COSTS_WITHOUT_THICKNESS`], with thickness ignored.
     WithoutThickness,
 }
 
-/// All attempts in their order.
+/// All attempts, in the order in which they are made.
 const ATTEMPTS: [Attempt; 8] = [
     CUT_HOLES,
     UPRIGHT,
@@ -172,7 +181,8 @@ const ATTEMPTS: [Attempt; 8] = [
     },
 ];
 
-/// Cuts unmatched holes open or closes them, instead of letting them appear or disappear.
+/// Attempt that cuts unmatched holes open or closes them, instead of letting them appear or
+/// disappear.
 const CUT_HOLES: Attempt = Attempt {
     branch: SearchBranch::Both,
     conditions: &[
@@ -186,7 +196,7 @@ const CUT_HOLES: Attempt = Attempt {
     progress: [REQUESTED_PROGRESS, 0.3],
 };
 
-/// Matches in the drawn orientation what turns far.
+/// Attempt that keeps the drawn orientation of pieces that turn far.
 const UPRIGHT: Attempt = Attempt {
     branch: SearchBranch::PairedHoles,
     conditions: &[
@@ -207,7 +217,7 @@ const DRAFT: Attempt = Attempt {
     ..UPRIGHT
 };
 
-/// Matches dissimilar shapes with other costs.
+/// Attempt that matches dissimilar shapes with other weights.
 const OTHER_COSTS: Attempt = Attempt {
     branch: SearchBranch::PairedHoles,
     conditions: &[PieceCondition::FreeCosts, PieceCondition::Dissimilar],
@@ -217,7 +227,7 @@ const OTHER_COSTS: Attempt = Attempt {
     progress: [0.34, 0.42],
 };
 
-/// Ignores thickness: such matches are worse and a last resort.
+/// Attempt that ignores thickness. Such matches are usually worse, so this is a last resort.
 const WITHOUT_THICKNESS: Attempt = Attempt {
     branch: SearchBranch::PairedHoles,
     conditions: &[PieceCondition::FreeCosts, PieceCondition::HighDistortion],
@@ -227,7 +237,7 @@ const WITHOUT_THICKNESS: Attempt = Attempt {
     progress: [0.42, 0.5],
 };
 
-/// Leaves all holes unmatched.
+/// Attempt that leaves all holes unmatched.
 const UNPAIR_HOLES: Attempt = Attempt {
     branch: SearchBranch::UnpairedHoles,
     conditions: &[PieceCondition::FreeHoles, PieceCondition::FoldsWithHoles],
@@ -237,8 +247,8 @@ const UNPAIR_HOLES: Attempt = Attempt {
     progress: [0.5, 0.6],
 };
 
-/// Returns the best candidate of each piece of a group. `drafts` are the same pieces with the
-/// requested match, if known.
+/// Returns the best candidate of each piece of a group. `drafts` holds the pieces with the
+/// requested match, if that has been computed already.
 ///
 /// # Errors
 /// If the group cannot be matched, a motion cannot be solved, or the work is cancelled.
@@ -273,8 +283,8 @@ pub(in crate::transition) fn best_of_group(
     slide_and_choose(paired, unpaired, group.spec, &sliding)
 }
 
-/// Returns the draft of each piece: the requested match, or the drawn orientation for pieces that
-/// would turn far.
+/// Returns the draft of each piece: the requested match or, for pieces that would turn far, a match
+/// that keeps the drawn orientation, if that is better.
 ///
 /// # Errors
 /// If the group cannot be matched, a motion cannot be solved, or the work is cancelled.
@@ -292,7 +302,7 @@ pub(in crate::transition) fn drafts_of_group(
 
 impl Attempt {
     /// Tries the variants of this attempt for the pieces that meet its conditions, and replaces
-    /// their results by better ones. `progress` is that of the whole search.
+    /// their results by better ones. `progress` covers the whole search.
     ///
     /// # Errors
     /// If the work is cancelled.
@@ -314,7 +324,8 @@ impl Attempt {
             .iter()
             .map(|result| self.hole_policy(group, result))
             .collect();
-        // The pieces of a group are matched together, all with one policy.
+        // The pieces of a group are matched together and with one treatment of holes, so each
+        // treatment is tried separately.
         for policy in [
             group.initial_hole_policy(),
             CUT_OR_CLOSE,
@@ -333,7 +344,7 @@ impl Attempt {
         Ok(())
     }
 
-    /// Returns how unmatched holes of a piece are treated.
+    /// Returns how this attempt treats the unmatched holes of a piece.
     fn hole_policy(&self, group: &GroupSearch, result: &PieceResult) -> HolePolicy {
         match (self.holes, result) {
             (Some(policy), _) => policy,
@@ -373,7 +384,7 @@ impl PieceCondition {
 }
 
 impl TriedOptions {
-    /// Returns the options to try, given the user's settings.
+    /// Returns the match options to try, given the user's settings.
     fn variants(self, settings: &MatchSettings) -> Vec<MatchOptions> {
         let requested = settings.options();
         let with_costs = |stretch: f64, thickness: f64| MatchOptions {
@@ -405,8 +416,8 @@ impl TriedOptions {
     }
 }
 
-/// Returns which of the pieces selected by `includes` can be tried within `max_work`, the smallest
-/// first, if each needs `candidates_per_piece` candidates.
+/// Returns, for each piece, whether it is tried: it must be selected by `includes` and fit within
+/// `max_work`, counting the smallest pieces first and `candidates_per_piece` candidates for each.
 fn affordable(
     results: &[PieceResult],
     includes: &dyn Fn(&PieceResult) -> bool,

@@ -15,54 +15,57 @@ use crate::warp::{Arap, ArapOptions, Warp};
 use crate::work::progress::{Cancelled, Progress, ProgressSpan, check_cancelled};
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
-/// Number of even time steps at which folds and crossings are counted (resource limit: each costs a
-/// frame of every candidate; a fold between two steps is missed).
+/// Number of equal steps of t into which the motion is divided to count folds and crossings
+/// (resource limit: each step costs a frame of every candidate). Folds between two samples are
+/// missed.
 const STEPS: u32 = 32;
 
-/// Fraction of the progress when the mesh is built (heuristic).
+/// Progress reported once the mesh is built, in [0, 1] (heuristic).
 const MESH_PROGRESS: f64 = 0.9;
 
-/// Fraction of the area, the most distorted, that is ignored (heuristic: the corners of every
-/// triangulation are distorted).
+/// Fraction of the mesh's area, made up of its most distorted faces, that the distortion ignores
+/// (heuristic: the corners of every triangulation are distorted).
 const IGNORED_AREA: f64 = 0.05;
 
-/// Exponent of the outlines' excess turning in the misfit (heuristic).
+/// Exponent in the misfit of the factor 1 plus the excess turning of the outlines (heuristic).
 const TURNING_EXPONENT: i32 = 3;
 
-/// Exponent of 1 plus the number of half turns of the piece in the misfit (heuristic).
+/// Exponent in the misfit of the factor 1 plus the number of half turns of the piece (heuristic).
 const ROTATION_EXPONENT: i32 = 2;
 
-/// Largest rotation of an upright piece, in radians (heuristic).
+/// Largest rotation, in radians, with which a piece counts as staying upright (heuristic).
 const MAX_UPRIGHT_ROTATION: f64 = FRAC_PI_6;
 
-/// A matched piece with its mesh, and the quality of its motion.
+/// A matched piece with its mesh and the defects of its motion.
 #[derive(Clone)]
 pub(in crate::transition) struct MatchCandidate {
     pub(in crate::transition) matched: PieceMatch,
-    /// How unmatched holes were treated.
+    /// Treatment of unmatched holes with which the piece was matched.
     pub(in crate::transition) holes: HolePolicy,
     pub(in crate::transition) mesh: CompatibleMesh,
     defects: MotionDefects,
-    /// Distortion; see [`CompatibleMesh::distortion`].
+    /// Distortion of the mesh, at least 1; see [`CompatibleMesh::distortion`].
     pub(in crate::transition) distortion: f64,
 }
 
-/// Defects of a motion, sampled at even steps.
+/// Defects of a motion, sampled in [`STEPS`] equal steps of t.
 #[derive(Clone, Copy, Default)]
 struct MotionDefects {
-    /// Number of faces that are not positively oriented, summed over all steps.
+    /// Number of faces that are not positively oriented, summed over all samples.
     folds: usize,
-    /// Number of crossings of the outlines, summed over all steps.
+    /// Number of crossings of the outlines, summed over all samples.
     crossings: usize,
-    /// Excess turning of the outlines over that of the ends, as a fraction.
+    /// Largest relative excess of the outlines' total turning over the straight line between its
+    /// values at the two ends.
     turning: f64,
-    /// Excess area over that of the ends, as a fraction.
+    /// Largest relative excess of the area over the straight line between its values at the two
+    /// ends.
     swelling: f64,
     /// Rotation of the piece as a whole, in radians.
     rotation: f64,
 }
 
-/// Why a candidate could not be built.
+/// Reason why a candidate could not be built.
 pub(in crate::transition) enum CandidateError {
     /// The piece could not be triangulated.
     Mesh(PieceMeshError),
@@ -133,12 +136,12 @@ impl MatchCandidate {
         self.comparison_key() < other.comparison_key()
     }
 
-    /// Returns whether a face folds at some step.
+    /// Returns whether a face folds at a sampled time.
     pub(in crate::transition) fn folds(&self) -> bool {
         self.defects.folds > 0
     }
 
-    /// Returns whether the piece hardly turns as a whole.
+    /// Returns whether the piece as a whole turns by at most [`MAX_UPRIGHT_ROTATION`].
     pub(in crate::transition) fn stays_upright(&self) -> bool {
         self.defects.rotation.abs() <= MAX_UPRIGHT_ROTATION
     }
@@ -149,7 +152,8 @@ impl MatchCandidate {
         (self.defects.folds, self.defects.crossings, self.misfit())
     }
 
-    /// Returns the distortion, increased by excess turning, rotation and excess area; at least 1.
+    /// Returns the misfit: the distortion, multiplied by factors for excess turning, rotation and
+    /// excess area; at least 1.
     pub(in crate::transition) fn misfit(&self) -> f64 {
         let turning = (1.0 + self.defects.turning).powi(TURNING_EXPONENT);
         let rotation = (1.0 + self.defects.rotation.abs() / PI).powi(ROTATION_EXPONENT);
@@ -159,7 +163,7 @@ impl MatchCandidate {
 }
 
 impl MotionDefects {
-    /// Samples a motion at even steps and measures its defects.
+    /// Samples a motion in equal steps of t and measures its defects.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled.
@@ -183,7 +187,7 @@ impl MotionDefects {
                 .iter()
                 .filter_map(|(_, hole)| hole.ring_at(places, t));
             let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).chain(holes).collect();
-            // A hole that has disappeared still counts as a point, which turns once.
+            // A hole that has disappeared still counts as a point, whose outline turns once.
             let absent = loops.len() + unmatched_holes.len() - rings.len();
             turned.push([t, total_turning(&rings, diameter) + TAU * absent as f64]);
             areas.push([t, rings.iter().map(|ring| signed_area(ring)).sum::<f64>()]);
@@ -203,7 +207,7 @@ impl MotionDefects {
     }
 }
 
-/// Returns the number of faces that are not positively oriented.
+/// Returns the number of faces that are not positively oriented if the vertices lie at `places`.
 fn count_folded(arap: &Arap, places: &[DVec2]) -> usize {
     let is_folded = |face: &&[u32; 3]| {
         let [a, b, c] = face.map(|v| places[v as usize]);

@@ -1,5 +1,5 @@
-//! Matches the pieces of a group of parts in several variants and selects the best candidate for
-//! each piece.
+//! Matches the pieces of a group of parts with several variants of the match options and selects
+//! the best candidate for each piece.
 
 use super::candidate::{CandidateError, MatchCandidate};
 use crate::compatible::PieceMeshError;
@@ -9,20 +9,22 @@ use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled};
 use rayon::prelude::*;
 
-/// Fraction of the progress of a variant when its pieces are matched (heuristic).
+/// Progress within a variant, reported once its pieces are matched, in [0, 1] (heuristic).
 const MATCH_PROGRESS: f64 = 0.2;
 
-/// The result for a piece: its best candidate, or why it cannot be triangulated.
+/// The result for a piece: its best candidate, or the matched piece and the reason why it cannot be
+/// triangulated.
 pub(in crate::transition) type PieceResult = Result<MatchCandidate, (PieceMatch, PieceMeshError)>;
 
-/// A variant of matching the pieces of a group.
+/// Options with which the pieces of a group are matched.
 pub(in crate::transition) struct MatchVariant {
     pub(in crate::transition) options: MatchOptions,
     /// How unmatched holes are treated.
     pub(in crate::transition) holes: HolePolicy,
 }
 
-/// Returns the piece as matched by the best candidate so far.
+/// Returns the match of the piece in its best candidate so far, or the match that cannot be
+/// triangulated.
 pub(in crate::transition) fn piece_of_result(chosen: &PieceResult) -> &PieceMatch {
     match chosen {
         Ok(best) => &best.matched,
@@ -33,14 +35,15 @@ pub(in crate::transition) fn piece_of_result(chosen: &PieceResult) -> &PieceMatc
 /// A group of parts that is being matched.
 pub(in crate::transition) struct GroupSearch<'a> {
     pub(in crate::transition) plan: &'a MatchPlan<'a>,
-    /// Index of the group.
+    /// Index of the group in `plan`.
     pub(in crate::transition) index: usize,
     pub(in crate::transition) spec: &'a TransitionSpec,
 }
 
 impl GroupSearch<'_> {
-    /// Returns how unmatched holes are treated first: as requested, or, with automatic treatment,
-    /// such that they appear or disappear without bending anything.
+    /// Returns how unmatched holes are treated at the start of the search: as requested, or, if the
+    /// treatment is automatic, as transient holes that appear or disappear without bending
+    /// anything.
     pub(in crate::transition) fn initial_hole_policy(&self) -> HolePolicy {
         HolePolicy::Paired(match self.spec.options.matching.holes {
             HoleRule::Auto => HoleRule::Transient,
@@ -48,7 +51,7 @@ impl GroupSearch<'_> {
         })
     }
 
-    /// Matches the pieces with the requested costs.
+    /// Matches the pieces with the requested match options.
     ///
     /// # Errors
     /// If the group cannot be matched, a candidate cannot be solved, or the work is cancelled.
@@ -68,7 +71,8 @@ impl GroupSearch<'_> {
             .collect()
     }
 
-    /// Tries several variants for the `selected` pieces, and replaces candidates by better ones.
+    /// Tries several variants for the `selected` pieces, and replaces their candidates in `chosen`
+    /// by better ones.
     ///
     /// # Errors
     /// If the work is cancelled.
@@ -88,7 +92,8 @@ impl GroupSearch<'_> {
         Ok(())
     }
 
-    /// Returns, for each variant, the candidates of the `selected` pieces.
+    /// For each variant, returns the candidates of all pieces; `None` for pieces that are not
+    /// `selected` or cannot be triangulated or solved.
     ///
     /// # Errors
     /// If the work is cancelled.
@@ -107,7 +112,7 @@ impl GroupSearch<'_> {
                 self.plan
                     .match_group(self.index, &variant.options, variant.holes, &matching);
             check_cancelled(progress)?;
-            // A variant that fails is no better: each piece has a result already.
+            // A variant that cannot be matched is skipped, since each piece has a result already.
             let pieces = matched.unwrap_or_default();
             let shares = ProgressShares::new(&rating, pieces.len());
             let pieces = pieces.into_par_iter().zip(selected).enumerate();
@@ -117,7 +122,7 @@ impl GroupSearch<'_> {
                         .ok()
                 };
                 let candidate = is_selected.then(new);
-                // A cancellation, however, must end the work.
+                // A failed candidate is skipped, but a cancellation must end the work.
                 check_cancelled(progress)?;
                 Ok(candidate.flatten())
             });
@@ -127,7 +132,8 @@ impl GroupSearch<'_> {
     }
 }
 
-/// Replaces results by better candidates, piece by piece; among equals the earlier one stays.
+/// Replaces the result of each piece by its candidate if that is better; if both are equal, the
+/// result stays.
 pub(in crate::transition) fn take_better(
     chosen: &mut [PieceResult],
     candidates: Vec<Option<MatchCandidate>>,

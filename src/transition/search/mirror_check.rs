@@ -1,7 +1,8 @@
 //! Checks whether two designs would match far better if one of them were mirrored.
 //!
-//! A match may turn and stretch but never mirror: two spirals of opposite handedness have no good
-//! match. The result is only reported, not applied, since a mirrored letter is no letter.
+//! A match may turn and stretch a design but never mirror it, so two spirals of opposite handedness
+//! have no good match. The result is only reported and not applied, since a mirrored letter, for
+//! example, is no longer a letter.
 
 use super::candidate::MatchCandidate;
 use super::group::{GroupSearch, PieceResult};
@@ -13,14 +14,15 @@ use crate::transition::note::TransitionNote;
 use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, check_cancelled};
 
-/// Distortion below which a match is good enough as drawn (heuristic).
+/// Distortion of the best match as drawn below which mirroring is not examined (heuristic).
 const GOOD: f64 = 2.0;
 
-/// Largest ratio of distortions, mirrored draft to best match as drawn, that counts as far better
-/// (heuristic).
+/// Ratio of the distortion of the mirrored draft to that of the best match as drawn, below which
+/// mirroring counts as far better (heuristic).
 const FAR_BETTER: f64 = 0.4;
 
-/// Returns a note if mirroring would help much; `None` otherwise, and for matches set by hand.
+/// Returns a note if the designs would match far better mirrored; otherwise `None`, as for matches
+/// that the user has set by hand.
 ///
 /// # Errors
 /// If the work is cancelled.
@@ -43,14 +45,15 @@ pub(in crate::transition) fn mirror_note(
     let target = mirror(target);
     let draft = draft(spec, [source, &target], &drawings.appearances, progress);
     check_cancelled(progress)?;
-    // A draft without folds is required: more search can find a better match than a draft.
+    // A mirrored draft that folds is no evidence of a better match.
     let draft = draft.filter(|draft| !draft.iter().any(MatchCandidate::folds));
     let mirrored = draft.map(|draft| distortion(draft.iter()));
     let far_better = mirrored.filter(|mirrored| *mirrored < FAR_BETTER * as_drawn);
     Ok(far_better.map(|mirrored| TransitionNote::Mirrored { as_drawn, mirrored }))
 }
 
-/// Returns the pieces of the first match of two designs; `None` if one cannot be matched.
+/// Returns the pieces of the first match of two designs; `None` if a piece cannot be matched or
+/// triangulated.
 fn draft(
     spec: &TransitionSpec,
     designs: [&Regions; 2],
@@ -70,8 +73,8 @@ fn draft(
     Some(groups.collect::<Option<Vec<_>>>()?.concat())
 }
 
-/// Returns the mean distortion of the pieces that both designs have, weighted by the length of
-/// their outlines; 1 if there are none.
+/// Returns the mean distortion of the matched pieces, weighted by the length of their outer outline
+/// in the source; 1 if there are none.
 fn distortion<'a>(pieces: impl Iterator<Item = &'a MatchCandidate>) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for piece in pieces.filter(|piece| piece.matched.is_matched()) {

@@ -1,7 +1,8 @@
 //! Slides the boundary correspondence of the best candidates along their outlines, and chooses
 //! between the results of the search.
 //!
-//! A candidate slides as long as that improves its motion, [`MAX_SLIDES`] times at most.
+//! Sliding is repeated as long as it improves the motion of the candidate, at most [`MAX_SLIDES`]
+//! times.
 
 use super::candidate::MatchCandidate;
 use super::group::{PieceResult, take_better};
@@ -11,14 +12,16 @@ use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled};
 use rayon::prelude::*;
 
-/// Maximum number of times that a piece slides (resource limit).
+/// Maximum number of times that the correspondence of a piece is slid (resource limit).
 const MAX_SLIDES: u32 = 3;
 
-/// Distortion below which a map is not improved further: two drawings of one shape (heuristic).
+/// Distortion below which a candidate is not improved further, as for two drawings of the same
+/// shape (heuristic).
 pub(super) const LOW_DISTORTION: f64 = 1.02;
 
-/// Slides the best candidate of each piece, and its candidate without matched holes if there is
-/// one; returns the better of the two. `unpaired` has one entry per piece or is empty.
+/// Slides two candidates of each piece and returns the better one: the best candidate, and the
+/// candidate without matched holes if there is one. `unpaired` holds the latter; it has one entry
+/// per piece or is empty.
 ///
 /// # Errors
 /// If the work is cancelled.
@@ -39,8 +42,8 @@ pub(super) fn slide_and_choose(
         let [first, second] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(from, to)| ProgressSpan::new(&share, from, to));
         let mut best = slide_piece(paired, spec, &first)?;
-        // Compare only after sliding, which can repair a pairing of holes that folds, as in D and
-        // P.
+        // The two are compared only after sliding, which can repair a match of holes that folds, as
+        // between the letters D and P.
         let unpaired = slide_while_better(unpaired, spec, &second)?;
         take_better(std::slice::from_mut(&mut best), vec![Some(unpaired)]);
         Ok(best)
@@ -48,7 +51,7 @@ pub(super) fn slide_and_choose(
     chosen.collect()
 }
 
-/// Slides the candidate of a piece, if it has one.
+/// Slides the candidate of a piece; a piece that could not be triangulated is returned unchanged.
 ///
 /// # Errors
 /// If the work is cancelled.

@@ -1,4 +1,4 @@
-//! Outlines of rigid parts turn evenly during the motion.
+//! Tests that the outlines of rigid parts turn evenly during the motion.
 
 use super::*;
 use crate::design::import_file;
@@ -6,8 +6,8 @@ use crate::geometry::{count_crossings, max_overshoot, total_turning};
 use crate::warp::{Arap, Warp};
 use std::path::Path;
 
-/// Returns the excess turning of the outlines over that of the ends, and the number of crossings
-/// over all steps.
+/// Returns the largest relative excess of the outlines' total turning over the straight line
+/// between its values at the ends, and the number of crossings summed over all samples.
 fn excess_and_crossings(arap: &Arap) -> (f64, usize) {
     let mut placer = arap.placer();
     let loops = arap.mesh().boundary_loops();

@@ -1,4 +1,4 @@
-//! Transitions of drawings in their own colours.
+//! Tests of transitions of drawings in their own colours.
 
 use super::*;
 use crate::colour::{Paint, Rgb};
@@ -68,8 +68,8 @@ fn the_ends_are_the_drawings_and_exchanging_them_reverses_the_motion() {
     }
     for k in 0..=8 {
         let t = f64::from(k) / 8.0;
-        // The stacking order changes at the middle, so there it is that of the target in either
-        // direction.
+        // At t = ½ the order has already changed to that of the respective target, so the two
+        // directions differ there.
         if k != 4 {
             assert_same(&visible_layers(&there, t), &visible_layers(&back, 1.0 - t));
         }
@@ -174,7 +174,7 @@ fn bars_keep_their_colours() {
         "[\"#ff0000\", \"#ff0000\", \"#0000ff\"]",
         "[[0, 1], [1, 2], [2, 0]]",
     );
-    // The same bars in another order and direction.
+    // The same bars as in the source, in another order and direction.
     let target = truss(
         "[\"#0000ff\", \"#0000ff\", \"#ff0000\"]",
         "[[0, 2], [2, 1], [1, 0]]",

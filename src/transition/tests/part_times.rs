@@ -1,4 +1,4 @@
-//! Parts that move in time windows of their own.
+//! Tests of part timings: parts that move in time windows of their own.
 
 use super::*;
 use crate::content::Content;
@@ -7,7 +7,7 @@ use crate::geometry::Side;
 use crate::measure;
 use crate::time::NamedEasing;
 
-/// A part that moves in the second half.
+/// Returns the timing of a part that moves only in the second half.
 fn late(side: Side, at: [f64; 2]) -> PartTime {
     PartTime {
         side,
@@ -18,8 +18,8 @@ fn late(side: Side, at: [f64; 2]) -> PartTime {
     }
 }
 
-/// Two squares that become a circle and a diamond further up. Points are in the coordinates of the
-/// drawing, y up.
+/// Returns a transition from two squares to a circle and a diamond further up, with the given part
+/// timings. Points are in the coordinates of the drawing, y up.
 fn squares(times: Vec<PartTime>) -> Transition {
     let source = svg("M0 60h20v20h-20z M60 60h20v20h-20z");
     let target = svg("M0 10a10 10 0 0 0 20 0a10 10 0 0 0 -20 0z M60 10l10-10l10 10l-10 10z");
@@ -28,7 +28,7 @@ fn squares(times: Vec<PartTime>) -> Transition {
     Transition::build(&spec, &Silent).unwrap()
 }
 
-/// Returns a point in the right one of the source's squares.
+/// Returns a point in the right square of the source.
 fn point_in_right_square(transition: &Transition) -> [f64; 2] {
     let bounds = transition.designs()[0].form.bounds();
     (bounds.max - DVec2::splat(5.0)).into()
@@ -45,7 +45,7 @@ fn a_part_waits_and_then_moves_as_usual() {
     let x = |ring: &Vec<DVec2>| ring.iter().map(|p| p.x).fold(0.0, f64::max);
     for t in [0.0, 0.2, 0.5, 0.7, 0.9, 1.0] {
         let own = late(Side::Source, [0.0; 2]).clock().part_time(t);
-        // Sort by position: paint layers and loops have different orders.
+        // Rings are sorted by position, because paint layers and loops have different orders.
         let mut expected = vec![
             rings(&plain, t)
                 .into_iter()

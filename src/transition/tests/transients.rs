@@ -1,11 +1,11 @@
-//! Unmatched holes and parts, drafts, and the note on mirrored designs.
+//! Tests of unmatched holes and parts, of drafts, and of the note on mirrored designs.
 
 use super::*;
 use crate::content::Content;
 use crate::correspondence::UnmatchedPart;
 use crate::geometry::{RingEdge, Side, winding};
 
-/// A plate with a row of holes.
+/// Returns a plate with `holes` holes in a row.
 fn perforated(holes: u32) -> Arc<Design> {
     let hole = |k: u32| format!("M{} 40v20h10v-20z", 15 + 15 * k);
     let holes: String = (0..holes).map(hole).collect();
@@ -41,7 +41,7 @@ fn unmatched_holes_shrink_in_place() {
         last.len() == 1 && (last[0] - 5400.0).abs() < 1e-9,
         "{last:?}"
     );
-    // Extrapolation keeps them as at the end.
+    // Beyond t = 1 the holes stay as they are at t = 1.
     frame.seek(1.5);
     assert_eq!(frame.figure().rings.len(), 1);
 }
@@ -80,7 +80,7 @@ fn an_unmatched_hole_crosses_nothing() {
 
 #[test]
 fn a_hole_makes_way_for_one_inside_it() {
-    // As long as the large hole exists, the small one crosses it at any time.
+    // While the large hole exists, the small one would cross it at any time.
     let window = svg("M5 20h90v60h-90z M20 30v40h60v-40z");
     let dot = svg("M5 20h90v60h-90z M45 45v10h10v-10z");
     for (a, b) in [(&window, &dot), (&dot, &window)] {
@@ -120,7 +120,7 @@ fn a_draft_has_the_same_ends_as_the_best_match() {
 
 #[test]
 fn designs_that_would_match_better_mirrored_give_a_note() {
-    // A spiral of either handedness.
+    // Two spirals of opposite handedness.
     let spring = "M10 10H90V90H20V40H60V70H40V60H50V50H30V80H80V20H10Z";
     let over = "M90 10H10V90H80V40H40V70H60V60H50V50H70V80H20V20H90Z";
     let notes = |source: &str, target: &str| {
@@ -165,7 +165,7 @@ fn a_ring_around_other_parts_appears_as_a_line_that_thickens() {
         let frame = there.frame(t);
         let rings = frame.figure().rings;
         assert_eq!(count_crossings(&rings), 0, "{t}");
-        // Every ring must be locatable, so that crossings can be reported.
+        // The face of every ring must be found, so that crossings can be reported.
         if let Content::Solid(solid) = there.content() {
             let places = &frame.placement().in_frame;
             for ring in 0..solid.rings_at(places, t).len() {
@@ -198,7 +198,7 @@ fn designs_without_any_matched_part_are_interpolated() {
     }
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
-    // The absent square is a seed shape of negligible area.
+    // At each end, the square that is absent there is a seed shape of negligible area.
     for (t, expected) in [(0.0, 900.0), (1.0, 1600.0)] {
         frame.seek(t);
         let found = area(&frame.figure().rings);
@@ -246,7 +246,7 @@ fn absent_parts_are_not_drawn() {
         let transition = Transition::build(&spec, &Silent).unwrap();
         let rings = |t: f64| transition.frame(t).figure().rings.len();
         assert_eq!([rings(0.0), rings(1.0)], expected);
-        // Nothing appears in extrapolation.
+        // Outside [0, 1] no part appears or disappears.
         assert_eq!([rings(-0.2), rings(1.2)], expected);
         assert_eq!(rings(0.5), 2);
     }

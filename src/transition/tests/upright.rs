@@ -1,4 +1,4 @@
-//! Designs stay upright if that costs little, and turn if they are rotated copies.
+//! Tests that designs stay upright if this costs little, and turn if they are rotated copies.
 
 use super::*;
 use crate::design::import_file;

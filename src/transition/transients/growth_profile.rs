@@ -1,13 +1,13 @@
-//! The turning and area of a growing shape as functions of its size.
+//! The total turning and the area of a growing shape as functions of its size.
 
 use crate::geometry::{DVec2, signed_area, total_turning};
 use std::f64::consts::TAU;
 
-/// Number of even size steps that are tabulated (resource limit).
+/// Number of equal steps of the size for which turning and area are tabulated (resource limit).
 pub(in crate::transition) const SIZE_STEPS: usize = 16;
 
-/// Turning in radians, less one full turn per outline, and area of a growing shape, from size 0 to
-/// its full size in even steps.
+/// Table of the total turning, in radians minus one full turn per outline, and of the area of a
+/// growing shape, in equal steps from size 0 to full size.
 #[derive(Clone)]
 pub(in crate::transition) struct GrowthProfile([[f64; 2]; SIZE_STEPS + 1]);
 
@@ -15,7 +15,8 @@ impl GrowthProfile {
     /// The profile of a shape without extent.
     pub(in crate::transition) const NONE: Self = Self([[0.0; 2]; SIZE_STEPS + 1]);
 
-    /// Returns the profile of a shape that is scaled up; `diameter` is that of the whole design.
+    /// Returns the profile of a shape that grows by scaling; `diameter` is that of the whole
+    /// design.
     pub(in crate::transition) fn of_scaling(rings: &[Vec<DVec2>], diameter: f64) -> Self {
         let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
         Self::by(rings.len(), |size| {
@@ -36,7 +37,8 @@ impl GrowthProfile {
         })
     }
 
-    /// Tabulates turning and area at each size.
+    /// Tabulates turning and area. `at` returns both for a size, given as a fraction of the full
+    /// size.
     fn by(outline_count: usize, at: impl Fn(f64) -> [f64; 2]) -> Self {
         let mut all = [[0.0; 2]; SIZE_STEPS + 1];
         for (k, entry) in all.iter_mut().enumerate().skip(1) {

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 /// A closed outline with its bounding box.
 pub(in crate::transition) struct LayeredOutline {
     pub(in crate::transition) points: Vec<DVec2>,
-    /// Paint layer; only outlines on the same layer collide.
+    /// Index of the paint layer; only outlines on the same layer collide.
     pub(in crate::transition) layer: usize,
     bounds: Bounds,
     /// Edges in a search structure, built on first use.
@@ -25,7 +25,8 @@ impl LayeredOutline {
         }
     }
 
-    /// Returns whether an edge crosses an edge of another outline on the same layer.
+    /// Returns whether an edge of this outline crosses an edge of `other`; `false` if the two are
+    /// on different layers.
     pub(in crate::transition) fn crosses(&self, other: &Self) -> bool {
         if self.layer != other.layer || !self.bounds.meets(&other.bounds) {
             return false;
@@ -40,7 +41,7 @@ impl LayeredOutline {
         })
     }
 
-    /// Returns the winding number about a point.
+    /// Returns the winding number of the outline about a point.
     pub(in crate::transition) fn winding(&self, p: DVec2) -> i32 {
         if self.bounds.contains(p) {
             winding(&self.points, p)

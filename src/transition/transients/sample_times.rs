@@ -1,22 +1,22 @@
-//! Sample times for detecting collisions.
+//! The times at which the motion is sampled to detect collisions.
 //!
-//! Even steps, refined near both ends: there appearing parts are next to the parts from which they
-//! grow, and disappearing parts next to those into which they shrink. More times can be added where
-//! a motion turns out to need them.
+//! The times divide [0, 1] into equal steps. The steps near both ends are subdivided, because parts
+//! that appear or disappear there are still close to other parts. More times can be added where a
+//! motion turns out to need them.
 
-/// Number of even steps (resource limit).
+/// Number of equal steps before subdivision (resource limit).
 const EVEN_STEPS: u32 = 64;
-/// Number of even steps at each end that are subdivided (heuristic).
+/// Number of steps at each end that are subdivided (heuristic).
 const SUBDIVIDED_STEPS: u32 = 2;
 /// Number of parts into which such a step is subdivided (heuristic).
 const SUBDIVISION: u32 = 4;
 
-/// Length of a subdivided step. The first and the last one are subdivided once more, because parts
-/// that appear or disappear at once do so within this time.
+/// Length of the parts into which a step is subdivided. The first and the last of these parts are
+/// subdivided once more, because parts that appear or disappear at once do so within this time.
 pub(in crate::transition) const FINE_STEP: f64 = 1.0 / (EVEN_STEPS * SUBDIVISION) as f64;
 
-/// Added times are rounded to multiples of this, so that the reversed motion has the same times
-/// (tolerance).
+/// Unit to whose multiples added times are rounded, so that the reversed motion has the same times
+/// (tolerance: far shorter than a step).
 const GRAIN: f64 = 1.0 / 65_536.0;
 
 /// Strictly increasing times from 0 to 1, both included.
@@ -53,7 +53,8 @@ impl SampleTimes {
         self.0.partition_point(|&time| time <= t).max(1) - 1
     }
 
-    /// Returns the fraction of the transition that is closer to this time than to the others.
+    /// Returns the length of the interval of t in which the time with index `step` is the nearest
+    /// one.
     pub(in crate::transition) fn weight(&self, step: usize) -> f64 {
         let [before, after] = [step.saturating_sub(1), (step + 1).min(self.last())];
         (self.0[after] - self.0[before]) / 2.0
@@ -99,7 +100,7 @@ mod tests {
         let [mut forwards, mut backwards] = [SampleTimes::default(), SampleTimes::default()];
         for t in [0.3, 0.0, 1.0, 0.999_999_999] {
             forwards.refine_at(t);
-            // As the reversed motion reports it, up to rounding.
+            // The time that the reversed motion reports, up to rounding.
             backwards.refine_at(1.0 - t + 1e-12);
         }
         let mirrored: Vec<f64> = backwards.times().iter().map(|t| 1.0 - t).rev().collect();

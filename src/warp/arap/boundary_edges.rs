@@ -20,7 +20,7 @@ use super::time_window::TimeWindow;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{Bounds, DVec2};
 
-/// Stiffness of an edge as long as the diameter of its part (heuristic).
+/// Stiffness of a boundary edge that is as long as the diameter of its part (heuristic).
 const STIFFNESS: f64 = 0.12;
 
 /// Maximum stiffness of an edge (tolerance: the directions of extremely short edges are dominated

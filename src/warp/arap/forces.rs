@@ -56,7 +56,7 @@ pub(super) struct ForceAssembly {
 /// Local maps of [`LANES`] faces.
 #[derive(Clone, Debug)]
 struct FaceBlock {
-    /// Rotation angle in radians.
+    /// Rotation angle of each face, in radians.
     angle: FaceLanes,
     /// W g of the second and third corner, column by column.
     weighted: [FaceLanes; 4],

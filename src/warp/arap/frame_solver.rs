@@ -24,7 +24,7 @@ pub(super) struct FactoredArap {
     pub mesh: CompatibleMesh,
     /// Factorisation, shared by interpolations that differ only in their guards.
     pub cholesky: Arc<Cholesky>,
-    /// Ridge that the factorisation needed.
+    /// Ridge that the factorisation needed, or `None`.
     pub ridge: Option<Ridge>,
     /// Right-hand sides of a frame.
     pub forces: ForceAssembly,

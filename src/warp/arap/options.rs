@@ -95,8 +95,8 @@ pub struct ArapOptions {
     /// Otherwise it is the one-sided energy of "Design-Space Representation through Blended
     /// Transitions", §3.2.
     pub symmetric: bool,
-    /// Additional whole turns: one number for all parts, or one for each edge-connected component
-    /// in the order of its first face.
+    /// Additional whole turns: one number for all parts, or one for each edge-connected component,
+    /// ordered by their first faces.
     pub extra_turns: Vec<i32>,
     /// Path of the whole design.
     pub path: ArapPath,

@@ -151,8 +151,8 @@ impl PartTranslations {
 
     /// Returns the position at t of a part that moves with the design.
     ///
-    /// `ends` are its positions in source and target and `share` is the completed fraction of its
-    /// own motion.
+    /// `ends` are the part's positions in source and target; `share` is the completed fraction of
+    /// its own motion.
     pub(super) fn carried_position(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
         let path = PartPath::of(ends, self.centroid, self.whole_angle);
         self.centre(t) + path.offset_at_fraction(t, share, self.whole_angle)

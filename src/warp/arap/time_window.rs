@@ -16,9 +16,10 @@ const GROWTH_CURVATURE: f64 = 0.75;
 /// Time window within [0, 1] in which a transient part changes its size and relative position.
 ///
 /// Before and after the window the part has the size of the respective end. It grows fast at first
-/// and slowly at last, and disappears in reverse, so that its area changes almost linearly: if one
-/// part disappears while an equal one appears, both together have 0.95 of the area of one halfway.
-/// With a linear size it would be 0.5.
+/// and slowly at last, and disappears in reverse, so that its area changes almost linearly. If one
+/// part disappears while an equal one appears, both together have 0.95 times the area of one
+/// halfway through the window. With a diameter that changes linearly, they would have only 0.5
+/// times that area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TimeWindow {
     /// Design in which the part exists.

@@ -40,7 +40,7 @@ pub(super) const MIN_A: f64 = 1e-30;
 pub(super) const MAX_A: f64 = 1e30;
 
 /// Lower bound of the divisor Σ w, which is zero if there are no lines (derived: smaller than the
-/// sum for any line).
+/// sum with at least one line).
 const MIN_WEIGHT: f64 = 1e-300;
 
 /// One number per point of a block.

@@ -4,11 +4,11 @@
 //! normalised, and the best-fit similarity is subtracted from the displacements.
 //!
 //! Slope limit: two features at distance d whose displacements differ by D require a slope of D / d
-//! between them. Up to a limit K nothing is changed. Above it, the difference is multiplied by (K d
-//! / D)², so that the slope returns to zero as the features meet. Without this, the slope would
-//! grow without bound and tear the plane. In addition, the linear system couples the coefficients
-//! of such a pair, the more strongly the closer the two are; otherwise the map would jump at the
-//! moment they merge.
+//! between them. Up to a limit K nothing is changed. Above it, the difference is multiplied by
+//! (K d / D)², so that the slope returns to zero as the features meet. Without this, the slope
+//! would grow without bound and tear the plane. In addition, the linear system couples the
+//! coefficients of such a pair, the more strongly the closer the two are; otherwise the map would
+//! jump at the moment they merge.
 
 use super::kernel::{KernelCentres, RadialSum};
 use crate::geometry::DVec2;

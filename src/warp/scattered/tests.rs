@@ -77,7 +77,7 @@ fn mapped(
 
 #[test]
 fn values_equal_those_of_scipy() -> ScatteredTestResult {
-    // python3 benches/scattered_scipy.py table, with SciPy 1.17.1
+    // The table was written by `python3 benches/scattered_scipy.py table` with SciPy 1.17.1.
     let table = include_str!("scipy.csv");
     let kinds = [
         (RadialBasis::ThinPlate, 0.0),
@@ -279,7 +279,8 @@ fn numerically_singular_gaussians_are_solved_with_a_ridge() -> ScatteredTestResu
     Ok(())
 }
 
-/// Returns the largest change of a looked-up point from step to step between two times.
+/// Divides the time from `from` to `to` into `steps` steps and returns the largest distance that a
+/// looked-up point moves within one step.
 fn farthest_step(warp: &ScatteredWarp, [from, to]: [f64; 2], steps: u32) -> f64 {
     let places: Vec<DVec2> = spread(200, 0.0).iter().map(|&p| 4.0 * p).collect();
     let mut last = lookups(warp, from, &places);

@@ -1,5 +1,5 @@
-//! Easing editor: named easings in a list, and below it a cubic Bézier curve with two draggable
-//! handles.
+//! Easing editor: a list of named easings, and below it a cubic Bézier curve with two handles that
+//! the user can drag.
 
 use bevy_egui::egui::containers::menu::{MenuConfig, SubMenuButton};
 use bevy_egui::egui::{
@@ -12,20 +12,20 @@ use crate::app::ui::kit::widgets::{secondary_text, tooltip_left};
 use crate::settings::Choice;
 use crate::transition::{EasingBezier, EasingFunction, NamedEasing};
 
-/// Width and height of the curve, in points.
+/// Width and height of the canvas on which the curve is drawn, in points.
 const CANVAS: (f32, f32) = (208.0, 136.0);
 
-/// Distance within which the pointer grabs a handle, in points (tolerance: a handle is 12 points
-/// wide).
+/// Maximum distance of the pointer from a handle that it grabs, in points: slightly more than the
+/// width of a handle.
 const REACH: f32 = 14.0;
 
-/// Drop-down list of the named easings, with the curve editor below.
+/// Draws the easing editor as a drop-down list; changes `value`.
 pub fn menu(ui: &mut Ui, salt: &str, value: &mut EasingFunction, width: f32) -> Response {
     let list = ComboBox::from_id_salt(salt)
         .width(width)
         .height(400.0)
         .selected_text(name(*value))
-        // Dragging a handle must not close the list.
+        // A drag of a handle must not close the list.
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let shown = list.show_ui(ui, |ui| {
         let mut chosen = Some(*value);
@@ -35,7 +35,8 @@ pub fn menu(ui: &mut Ui, salt: &str, value: &mut EasingFunction, width: f32) -> 
     shown.response
 }
 
-/// The same editor as a submenu; `None` is the inherited easing, shown as `inherited`.
+/// Draws the easing editor as a submenu; changes `value`. `None` is the inherited easing, which is
+/// called `inherited` in the list.
 pub fn submenu(ui: &mut Ui, value: &mut Option<EasingFunction>, inherited: &str) -> Response {
     let current = match value {
         Some(ease) => name(*ease),
@@ -76,7 +77,7 @@ fn easing_list(ui: &mut Ui, value: &mut Option<EasingFunction>, inherited: Optio
     ));
 }
 
-/// Draws the curve from lower left to upper right; returns the new curve if a handle was moved.
+/// Draws the curve with its handles; returns the new curve if the user moved a handle.
 fn canvas(ui: &mut Ui, curve: EasingBezier) -> Option<EasingBezier> {
     let (outer, response) = ui.allocate_exact_size(vec2(CANVAS.0, CANVAS.1), Sense::drag());
     let rect = outer.shrink(GRID);
@@ -98,7 +99,7 @@ fn canvas(ui: &mut Ui, curve: EasingBezier) -> Option<EasingBezier> {
     ui.painter().add(Shape::line(points.collect(), ink));
     let pointer = response.interact_pointer_pos();
     let id = response.id;
-    // The handle grabbed when the drag began stays grabbed until the drag ends.
+    // A handle that is grabbed when a drag begins stays grabbed until the drag ends.
     if response.drag_started() {
         let handle_near = |at: Pos2| (0..2).find(|&k| dots[k].distance(at) < REACH);
         ui.data_mut(|data| data.insert_temp(id, pointer.and_then(handle_near)));
@@ -129,7 +130,7 @@ fn canvas_pos(rect: Rect, x: f64, y: f64) -> Pos2 {
     )
 }
 
-/// Clamps to [0, 1] and rounds to hundredths.
+/// Clamps a coordinate of a handle to [0, 1] and rounds it to hundredths.
 fn rounded(share: f32) -> f64 {
     (f64::from(share.clamp(0.0, 1.0)) * 100.0).round() / 100.0
 }

@@ -1,31 +1,31 @@
-//! Icons of the window: outlined or solid glyphs of the
+//! Icons of the user interface: outlined or solid glyphs of the
 //! [Phosphor](https://phosphoricons.com) fonts.
 
 use bevy_egui::egui::epaint::TextShape;
 use bevy_egui::egui::{Align2, Color32, FontDefinitions, FontFamily, FontId, Painter, Rect};
 use egui_phosphor::{Variant, fill, regular};
 
-/// Size of every icon, in points: Phosphor draws on a grid of 16 squares, so its lines fall on
-/// whole pixels.
+/// Size of every icon, in points. Phosphor designs its icons on a grid of 16 × 16 squares, so at
+/// this size their lines fall on whole pixels.
 const SIZE: f32 = 16.0;
 
 const LINES: &str = "outlined icons";
 const SOLID: &str = "solid icons";
 
-/// Glyph of an icon font, with an optional rotation and colour.
+/// Glyph of an icon font, with a rotation and an optional colour.
 #[derive(Clone, Copy, Debug)]
 pub struct Icon {
     family: &'static str,
-    /// Text of one character.
+    /// The glyph, as a text of one character.
     glyph: &'static str,
     /// Clockwise rotation, in radians.
     rotation: f32,
-    /// Fixed colour; `None` takes the colour given to [`paint_icon`].
+    /// Fixed colour of the icon; `None` if it has the colour that is passed to [`paint_icon`].
     colour: Option<Color32>,
 }
 
 impl Icon {
-    /// Returns the icon with a fixed colour, or without one.
+    /// Returns the icon with the fixed colour `ink`; `None` removes its fixed colour.
     pub const fn with_colour(self, ink: Option<Color32>) -> Self {
         Self {
             colour: ink,
@@ -50,13 +50,13 @@ const fn solid(glyph: &'static str) -> Icon {
     }
 }
 
-/// The play triangle rotated by half a turn: Phosphor has no icon for playing backwards.
+/// Play triangle that points to the left. Phosphor has no such icon, so [`PLAY`] is rotated.
 pub const PLAY_BACKWARDS: Icon = Icon {
     rotation: std::f32::consts::PI,
     ..PLAY
 };
 
-// Transport and active states are solid, as in media players; everything else is outlined.
+// Icons of playback, stops and set stars are solid, as in media players; all others are outlined.
 pub const ADD_STOP: Icon = solid(fill::FLAG_PENNANT);
 pub const STAR: Icon = solid(fill::STAR);
 pub const PAUSE: Icon = solid(fill::PAUSE);
@@ -91,15 +91,15 @@ pub const UNDO: Icon = lines(regular::ARROW_U_UP_LEFT);
 pub const UP: Icon = lines(regular::ARROW_UP);
 pub const WARNING: Icon = lines(regular::WARNING);
 
-/// Returns egui's default text fonts and one font family per icon font.
+/// Returns egui's default text fonts, and a font family for each of the two icon fonts.
 pub fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
-    // Both icon fonts use the same code points, so they cannot be fallbacks of the text fonts.
+    // Both icon fonts use the same code points, so each needs its own font family.
     for (name, variant) in [(LINES, Variant::Regular), (SOLID, Variant::Fill)] {
         let data = variant.font_data().into();
         fonts.font_data.insert(name.to_owned(), data);
-        // The first font of a family sets the line height, so the icon font comes first: its glyphs
-        // are then centred in their line. The text fonts follow for egui's replacement character.
+        // The first font of a family determines the line height. The icon font is first, so that
+        // icons are centred in their line. The text fonts contain egui's replacement character.
         let mut family = vec![name.to_owned()];
         family.extend_from_slice(&fonts.families[&FontFamily::Proportional]);
         let key = FontFamily::Name(name.into());
@@ -108,7 +108,7 @@ pub fn fonts() -> FontDefinitions {
     fonts
 }
 
-/// Paints an icon centred in `rect`; `colour` applies to icons without a colour of their own.
+/// Paints an icon in the centre of `rect`. `colour` applies to icons without a fixed colour.
 pub fn paint_icon(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
     let colour = icon.colour.unwrap_or(colour);
     let font = FontId::new(SIZE, FontFamily::Name(icon.family.into()));

@@ -1,4 +1,4 @@
-//! Text for labels.
+//! Changes of text for labels.
 
 /// Returns the text with its first letter in upper case.
 pub fn capitalised(text: &str) -> String {

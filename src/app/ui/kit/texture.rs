@@ -1,16 +1,17 @@
-//! Cache of images uploaded to the GPU as egui textures.
+//! Uploads images to the GPU as egui textures, and caches the textures.
 
 use std::sync::Arc;
 
 use bevy_egui::egui::{ColorImage, Context, Id, TextureHandle, TextureOptions};
 use image::RgbaImage;
 
-/// Uploads an image under `id`, downscaled to at most `longest_px` along its longer side.
+/// Returns the texture of an image with straight alpha. Images larger than `longest_px` along their
+/// longer side are downscaled.
 ///
-/// The texture is reused until another image is passed for the same `id`. Alpha is straight.
+/// The texture is cached under `id` and reused until another image is passed for the same `id`.
 pub fn texture(ctx: &Context, id: Id, pixels: &Arc<RgbaImage>, longest_px: u32) -> TextureHandle {
-    // Images are shared and immutable, so the pointer identifies them; the cache holds a reference,
-    // so no other image can take the same address.
+    // Images are immutable, and the cache holds a reference, so no other image can have the same
+    // address. The pointer therefore identifies the image.
     type CachedTexture = (Arc<RgbaImage>, TextureHandle);
     let cached = ctx.data(|data| data.get_temp::<CachedTexture>(id));
     if let Some((image, texture)) = cached
@@ -18,7 +19,7 @@ pub fn texture(ctx: &Context, id: Id, pixels: &Arc<RgbaImage>, longest_px: u32) 
     {
         return texture;
     }
-    // A full-size photograph would cost memory and upload time; far zoomed in it loses sharpness.
+    // Downscaling saves memory and upload time; the image is less sharp if the user zooms in far.
     let longest = pixels.width().max(pixels.height());
     let downscaled = (longest > longest_px).then(|| {
         let scale = f64::from(longest_px) / f64::from(longest);

@@ -1,8 +1,7 @@
-//! Look of the panels: colour palettes, an 8-point grid and four text sizes.
+//! Theme of the user interface: colour palettes, fonts, spacing on a grid of 8 points, and egui's
+//! styles.
 //!
-//! Blue always means the source and orange the target; the two differ in lightness as well as in
-//! hue, so colour-blind readers and grey prints can tell them apart. Amber marks warnings and
-//! extrapolation. No meaning is carried by colour alone.
+//! Amber marks warnings and extrapolation. Text has enough contrast on every background (WCAG 2.2).
 
 use bevy_egui::egui::{
     self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Vec2,
@@ -21,7 +20,7 @@ pub const RADIUS: CornerRadius = CornerRadius::same(4);
 /// Corner radius of cards and windows, in points.
 pub const CARD_RADIUS: CornerRadius = CornerRadius::same(8);
 
-/// Height of every control, in points.
+/// Height of buttons, fields and other controls, in points.
 pub const CONTROL_HEIGHT: f32 = 24.0;
 
 /// Colours of the light or the dark theme.
@@ -29,9 +28,9 @@ pub const CONTROL_HEIGHT: f32 = 24.0;
 pub struct ThemePalette {
     /// Background of panels.
     pub panel: Color32,
-    /// Background of windows above the panels.
+    /// Background of dialogs and cards that lie above the panels.
     pub window: Color32,
-    /// Background of controls and cards.
+    /// Background of controls and of cards in panels.
     pub raised: Color32,
     /// Background of a control under the pointer.
     pub hover: Color32,
@@ -41,15 +40,15 @@ pub struct ThemePalette {
     pub text: Color32,
     /// Secondary text: labels and explanations.
     pub weak: Color32,
-    /// Selected items.
+    /// Outlines and marks of selected items.
     pub accent: Color32,
-    /// Background of selected items.
+    /// Fill of selected items.
     pub accent_fill: Color32,
-    /// Warnings, and t outside [0, 1].
+    /// Warnings, and values of t outside [0, 1].
     pub amber: Color32,
-    /// Errors.
+    /// Error messages.
     pub problem: Color32,
-    /// Success.
+    /// Messages of success.
     pub good: Color32,
 }
 
@@ -84,7 +83,7 @@ const LIGHT: ThemePalette = ThemePalette {
 };
 
 impl ThemePalette {
-    /// Returns the palette for a light or a dark background.
+    /// Returns the palette of the light or of the dark theme.
     #[must_use]
     pub const fn on(is_light: bool) -> Self {
         if is_light { LIGHT } else { DARK }
@@ -96,25 +95,25 @@ impl ThemePalette {
         self.weak.lerp_to_gamma(self.panel, 0.45)
     }
 
-    /// Returns the palette that `ui` is drawn with.
+    /// Returns the palette of the theme with which `ui` is drawn.
     #[must_use]
     pub fn of(ui: &egui::Ui) -> Self {
         if ui.visuals().dark_mode { DARK } else { LIGHT }
     }
 }
 
-/// Installs both themes and the icon fonts; call before egui's first pass, because fonts take
-/// effect only at the start of a pass.
+/// Installs both themes and the icon fonts. It must be called before egui's first pass, because
+/// fonts take effect only at the start of a pass.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(icons::fonts());
     ctx.set_style_of(Theme::Dark, style(DARK, Visuals::dark()));
     ctx.set_style_of(Theme::Light, style(LIGHT, Visuals::light()));
-    // Egui's own zoom would change the size of a point, and the stage's area is given in the
-    // window's points.
+    // egui's own zoom would change the size of its points, but the rectangle of the stage is in
+    // points of the window.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 
-/// Switches egui to this theme.
+/// Switches egui to a theme.
 pub fn apply_theme(ctx: &egui::Context, theme: ThemeChoice) {
     ctx.set_theme(match theme {
         ThemeChoice::Dark => Theme::Dark,
@@ -122,7 +121,7 @@ pub fn apply_theme(ctx: &egui::Context, theme: ThemeChoice) {
     });
 }
 
-/// Runs `draw` with a bright selection background, for widgets that draw selected text on it.
+/// Runs `draw` with the accent colour as the background of selected text.
 pub fn with_bright_selection<R>(ctx: &egui::Context, draw: impl FnOnce(&egui::Context) -> R) -> R {
     let theme = ctx.theme();
     let palette = match theme {
@@ -147,13 +146,13 @@ fn style(palette: ThemePalette, base: Visuals) -> Style {
     style.text_styles = text_styles();
     spacing(&mut style.spacing);
     style.interaction.tooltip_delay = 0.4;
-    // By default the pointer turns into a text cursor over every label.
+    // Labels are not selectable, because the pointer would become a text cursor over each label.
     style.interaction.selectable_labels = false;
     style.animation_time = 0.1;
     style
 }
 
-/// Font of captions, button labels and text on the stage.
+/// Font of secondary text, small buttons and text on the stage.
 pub const SMALL: FontId = FontId::proportional(12.5);
 
 fn text_styles() -> std::collections::BTreeMap<TextStyle, FontId> {
@@ -178,7 +177,8 @@ fn spacing(spacing: &mut egui::style::Spacing) {
     spacing.slider_rail_height = 4.0;
     spacing.tooltip_width = 320.0;
     spacing.scroll = ScrollStyle::thin();
-    // The fade is half-transparent, which renders wrongly (see `visuals`).
+    // The fade at the ends of scroll areas is half-transparent, which renders wrongly (see
+    // `visuals`).
     spacing.scroll.fade.strength = 0.0;
 }
 
@@ -202,8 +202,8 @@ fn visuals(palette: ThemePalette, base: Visuals) -> Visuals {
     visuals.selection.stroke = Stroke::new(1.0, palette.accent);
     visuals.slider_trailing_fill = true;
     visuals.handle_shape = HandleShape::Circle;
-    // Half-transparent fills are too dark on the light theme, because egui's premultiplied colours
-    // are converted to linear light on the GPU; so disabled controls are drawn opaque.
+    // Disabled controls are opaque. Half-transparent fills would be too dark in the light theme,
+    // because the GPU converts egui's premultiplied colours to linear light.
     visuals.disabled_alpha = 1.0;
     visuals.widgets.noninteractive = widget(palette.panel, palette.line, palette.text);
     visuals.widgets.inactive = widget(palette.raised, Color32::TRANSPARENT, palette.text);
@@ -237,7 +237,7 @@ fn widget(fill: Color32, line: Color32, text: Color32) -> WidgetVisuals {
 mod tests {
     use super::*;
 
-    /// Relative luminance (WCAG 2.2).
+    /// Relative luminance of a colour, 0 to 1 (WCAG 2.2).
     fn luminance(colour: Color32) -> f64 {
         let linear = |v: u8| {
             let v = f64::from(v) / 255.0;

@@ -1,5 +1,5 @@
-//! Bar that edits a part's time window (when its own clock starts and ends) by dragging its ends
-//! or its middle.
+//! Bar for editing the time window of a part, in which its own clock runs from start to end. The
+//! user drags the ends of the bar or the whole bar.
 
 use bevy_egui::egui::{CursorIcon, Id, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
@@ -7,10 +7,11 @@ use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, RADIUS, ThemePalette};
 use crate::app::ui::kit::widgets::tooltip_left;
 use crate::warp::PartClock;
 
-/// Shortest window that dragging can make, as a fraction of the film (tolerance: grips stay apart).
+/// Shortest time window that dragging can make, as a fraction of the film (tolerance: the two ends
+/// of the bar must stay apart).
 const MIN_WINDOW: f64 = 0.02;
 
-/// Part of the bar that is being dragged.
+/// Part of the bar that the user drags.
 #[derive(Clone, Copy, PartialEq)]
 enum TimeBarGrip {
     Start,
@@ -18,11 +19,11 @@ enum TimeBarGrip {
     Whole,
 }
 
-/// Draws the bar and lets the user drag the start and end of `clock`; a double-click resets the
-/// clock to the whole film.
+/// Draws the bar of `clock` and changes the start and end of the clock when the user drags the bar.
+/// A double-click resets the clock to the whole film. `salt` distinguishes the bars of a list.
 pub fn bar(ui: &mut Ui, salt: usize, width: f32, clock: &mut PartClock) {
     let (outer, _) = ui.allocate_exact_size(vec2(width, CONTROL_HEIGHT), Sense::hover());
-    // Independent of the layout: a row that appears above must not end a drag in progress.
+    // The id must not depend on the layout: a row that appears above must not end a drag.
     let id = Id::new(("span", salt));
     let response = ui.interact(outer, id, Sense::click_and_drag());
     let track = outer.shrink2(vec2(2.0, 6.0));
@@ -56,7 +57,7 @@ pub fn bar(ui: &mut Ui, salt: usize, width: f32, clock: &mut PartClock) {
     tooltip_left(&response, track.left(), &tip);
 }
 
-/// Returns the grip being dragged: the one under the pointer when the drag began.
+/// Returns the grip that is being dragged: the one that was under the pointer when the drag began.
 fn dragged_grip(ui: &Ui, response: &Response, bar: Rect) -> Option<TimeBarGrip> {
     let id = response.id.with("grip");
     if response.drag_started() {
@@ -68,7 +69,8 @@ fn dragged_grip(ui: &Ui, response: &Response, bar: Rect) -> Option<TimeBarGrip> 
     grip.filter(|_| response.dragged())
 }
 
-/// Returns the grip at `x`; if both ends are within reach, the nearer one.
+/// Returns the grip at the coordinate `x`: an end of the bar if it is near, the nearer of two ends,
+/// or the whole bar.
 fn grip_at(bar: Rect, x: f32) -> TimeBarGrip {
     let [from, to] = [bar.left(), bar.right()].map(|end| (end - x).abs());
     match from.min(to) {
@@ -80,7 +82,7 @@ fn grip_at(bar: Rect, x: f32) -> TimeBarGrip {
 
 fn drag_grip(clock: &mut PartClock, grip: TimeBarGrip, delta: f64) {
     match grip {
-        // A project file may hold windows shorter than SHORTEST.
+        // A project file may contain time windows shorter than `MIN_WINDOW`.
         TimeBarGrip::Start => {
             let max_from = (clock.to - MIN_WINDOW).max(0.0).min(clock.to);
             clock.from = (clock.from + delta).clamp(0.0, max_from);
@@ -96,7 +98,7 @@ fn drag_grip(clock: &mut PartClock, grip: TimeBarGrip, delta: f64) {
     }
 }
 
-/// Rounds to thousandths, finer than the pointer can aim.
+/// Rounds an end of a time window to thousandths, which is finer than the pointer can aim.
 fn rounded(t: f64) -> f64 {
     (t * 1000.0).round() / 1000.0
 }
@@ -111,7 +113,7 @@ fn paint(ui: &Ui, track: Rect, bar: Rect, is_lit: bool, is_whole: bool) {
     let painter = ui.painter();
     painter.rect_filled(track, RADIUS, palette.raised);
     painter.rect_filled(bar, RADIUS, ink);
-    // Vertical marks that show where the ends can be grabbed.
+    // Vertical marks show where the user can grab the ends.
     let mark = Stroke::new(2.0, palette.panel);
     for x in [bar.left() + 3.0, bar.right() - 3.0] {
         painter.vline(x, bar.y_range().shrink(3.0), mark);

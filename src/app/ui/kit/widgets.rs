@@ -1,4 +1,5 @@
-//! Controls that the panels are made of, each with a tooltip.
+//! Building blocks of the panels: sections, rows with a label and a control, buttons, switches,
+//! lists, sliders, number fields, cards and tooltips.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -16,10 +17,10 @@ use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, RADIUS, SMALL, ThemePalette};
 use crate::settings::Choice;
 
-/// Width of the label column in rows, in points.
+/// Width of the labels on the left of rows, in points.
 const LABEL_WIDTH: f32 = 88.0;
 
-/// Section with a heading and a separator line below its content.
+/// Draws a section of a panel: a heading, the content, and a separator line.
 pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> R {
     ui.add_space(GRID);
     ui.label(secondary_text(ui, title).strong());
@@ -31,7 +32,7 @@ pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> 
     body
 }
 
-/// Row with a label on the left and a control on the right; both show the tooltip.
+/// Draws a row with a label on the left and a control on the right; both show the tooltip.
 pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) -> Response) {
     ui.horizontal(|ui| {
         ui.set_min_height(CONTROL_HEIGHT);
@@ -46,8 +47,8 @@ pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) ->
     });
 }
 
-/// Shows a tooltip to the left of the panel whose left edge is `left`: below the control it would
-/// cover the next one.
+/// Shows the tooltip of a control to the left of the x coordinate `left`, usually the left edge of
+/// the panel. Below the control it would cover the next control.
 pub fn tooltip_left(response: &Response, left: f32, tip: &str) {
     let panel = Rect::from_x_y_ranges(left..=response.rect.right(), response.rect.y_range());
     show_tooltip(response, tip, |mut tooltip| {
@@ -56,8 +57,8 @@ pub fn tooltip_left(response: &Response, left: f32, tip: &str) {
     });
 }
 
-/// Shows a tooltip on the side of the control that faces the middle of the window, where no other
-/// control lies: below in the upper half, above in the lower half.
+/// Shows the tooltip of a control below it in the upper half of the window, and above it in the
+/// lower half, where it does not cover other controls.
 pub fn with_tooltip(response: Response, tip: &str) -> Response {
     let is_low = response.rect.center().y > response.ctx.content_rect().center().y;
     let align = if is_low {
@@ -72,7 +73,8 @@ pub fn with_tooltip(response: Response, tip: &str) -> Response {
     response
 }
 
-/// Shows the tooltip of an enabled or a disabled control.
+/// Shows the tooltip of a control, whether the control is enabled or disabled. `place` sets the
+/// position of the tooltip.
 fn show_tooltip(response: &Response, tip: &str, place: impl Fn(Tooltip<'_>) -> Tooltip<'_>) {
     for tooltip in [
         Tooltip::for_enabled(response),
@@ -82,7 +84,7 @@ fn show_tooltip(response: &Response, tip: &str, place: impl Fn(Tooltip<'_>) -> T
     }
 }
 
-/// Row with a number field and a slider.
+/// Draws a row with a number field and a slider for `value`.
 pub fn slider(
     ui: &mut Ui,
     label: &str,
@@ -98,7 +100,7 @@ pub fn slider(
             .clamp_existing_to_range(false)
             .max_decimals(3);
         let number = ui.add_sized([56.0, CONTROL_HEIGHT], number);
-        // A slider does not grow by itself; it gets the rest of the row.
+        // A slider does not fill the available width by itself.
         ui.spacing_mut().slider_width = (ui.available_width() - GRID).max(40.0);
         let slider = Slider::new(value, range)
             .logarithmic(logarithmic)
@@ -108,7 +110,8 @@ pub fn slider(
     });
 }
 
-/// Number field: drag or type a value within `range`; `speed` is the change per point dragged.
+/// Returns a number field for `value`, which the user can drag or type. Input is limited to
+/// `range`; `speed` is the change of the value per point dragged.
 pub fn drag_value<N: Numeric>(
     value: &mut N,
     range: RangeInclusive<N>,
@@ -122,19 +125,20 @@ pub fn drag_value<N: Numeric>(
         .fixed_decimals(decimals)
 }
 
-/// Row with a number field.
+/// Draws a row with a number field.
 pub fn number(ui: &mut Ui, label: &str, tip: &str, value: DragValue<'_>) {
     row(ui, label, tip, |ui| {
         ui.add_sized([72.0, CONTROL_HEIGHT], value)
     });
 }
 
-/// Row with a switch.
+/// Draws a row with an on/off switch.
 pub fn toggle(ui: &mut Ui, label: &str, tip: &str, on: &mut bool) {
     row(ui, label, tip, |ui| switch(ui, label, on));
 }
 
-/// Row with a switch between an automatic value (`None`) and a manual one, initially `manual`.
+/// Draws a row with a switch between an automatic value, stored as `None`, and a manual one, which
+/// is at first `manual`.
 pub fn automatic_toggle<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, manual: T) {
     let mut is_automatic = value.is_none();
     toggle(ui, label, tip, &mut is_automatic);
@@ -145,7 +149,7 @@ pub fn automatic_toggle<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Opti
     }
 }
 
-/// On/off switch.
+/// Draws an on/off switch without a label; `label` is for screen readers.
 pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     let palette = ThemePalette::of(ui);
     let (rect, mut response) = ui.allocate_exact_size(vec2(32.0, CONTROL_HEIGHT), Sense::click());
@@ -157,7 +161,7 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     response.widget_info(|| WidgetInfo::selected(WidgetType::Checkbox, true, is_on, label));
     let position = ui.ctx().animate_bool_responsive(response.id, is_on);
     let track = Rect::from_center_size(rect.center(), vec2(32.0, 16.0));
-    // The knob's position repeats the colour's meaning for colour-blind readers.
+    // The position of the knob has the same meaning as the colour, for colour-blind users.
     let fill = if is_on { palette.accent } else { palette.hover };
     ui.painter()
         .rect(track, 8.0, fill, (1.0, palette.line), StrokeKind::Inside);
@@ -170,7 +174,8 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     response
 }
 
-/// Segmented control: a row of mutually exclusive choices `(value, label, tooltip)`.
+/// Draws a segmented control: a row of buttons, one of which is selected. Each option is a value
+/// with a label and a tooltip.
 pub fn choices<T: PartialEq + Clone>(
     ui: &mut Ui,
     value: &mut T,
@@ -179,17 +184,19 @@ pub fn choices<T: PartialEq + Clone>(
     choices_where(ui, value, options, |_| true)
 }
 
-/// Segmented control that enables only the choices for which `is_enabled` holds.
+/// Draws a segmented control in which only the options for which `is_enabled` is true can be
+/// selected.
 ///
-/// Each choice shows its own tooltip. The returned response belongs to none of them, so that the
-/// enclosing row does not show its own tooltip as well.
+/// Each button shows its own tooltip. The returned response belongs to none of the buttons, so that
+/// an enclosing row does not show its tooltip on top of theirs.
 pub fn choices_where<T: PartialEq + Clone>(
     ui: &mut Ui,
     value: &mut T,
     options: &[(T, &str, &str)],
     is_enabled: impl Fn(&T) -> bool,
 ) -> Response {
-    // Tooltips go left of the whole panel: left of the row they would cover its label.
+    // Tooltips are shown to the left of the panel; next to the buttons they would cover the row's
+    // label.
     let (left, width) = (ui.clip_rect().left(), ui.available_width());
     let gap = 2.0;
     let count = options.len().max(1) as f32;
@@ -209,7 +216,7 @@ pub fn choices_where<T: PartialEq + Clone>(
     ui.interact(Rect::NOTHING, ui.id().with("choices"), Sense::hover())
 }
 
-/// Row with a segmented control.
+/// Draws a row with a segmented control.
 pub fn choices_row<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
@@ -220,7 +227,7 @@ pub fn choices_row<T: PartialEq + Clone>(
     row(ui, label, tip, |ui| choices(ui, value, options));
 }
 
-/// One button of a segmented control.
+/// Draws one button of a segmented control.
 pub fn choice(ui: &mut Ui, is_selected: bool, label: &str, size: Vec2) -> Response {
     let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -239,20 +246,43 @@ pub fn choice(ui: &mut Ui, is_selected: bool, label: &str, size: Vec2) -> Respon
     response
 }
 
-/// Choice button of the given width with a tooltip; returns whether it was clicked.
+/// Draws a single button in the style of a segmented control, with the given width and a tooltip;
+/// returns whether it was clicked.
 pub fn choice_button(ui: &mut Ui, is_selected: bool, label: &str, tip: &str, width: f32) -> bool {
     let response = choice(ui, is_selected, label, vec2(width, CONTROL_HEIGHT));
     with_tooltip(response, tip).clicked()
 }
 
-/// Row with a segmented control over all values of an option.
+/// Draws a row with all choices of a setting: a segmented control, or a drop-down list where a
+/// title does not fit into its segment.
 pub fn choice_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
-    let row = |choice: &T| (*choice, choice.name().title, choice.name().sentence);
-    let options: Vec<_> = T::CHOICES.iter().map(row).collect();
-    choices_row(ui, label, tip, value, &options);
+    let titles = T::CHOICES.iter().map(|choice| choice.name().title);
+    row(ui, label, tip, |ui| {
+        if !fits_in_segments(ui, titles) {
+            return menu(ui, label, value, ui.available_width());
+        }
+        let option = |choice: &T| (*choice, choice.name().title, choice.name().sentence);
+        let options: Vec<_> = T::CHOICES.iter().map(option).collect();
+        choices(ui, value, &options)
+    });
 }
 
-/// Drop-down list of all values of an option.
+/// Returns whether each title fits into an equal share of the available width.
+fn fits_in_segments<'a>(ui: &Ui, titles: impl ExactSizeIterator<Item = &'a str>) -> bool {
+    /// Space to the left and right of a title together, in points.
+    const PADDING: f32 = 8.0;
+    let segment = ui.available_width() / titles.len().max(1) as f32;
+    let width = |title: &str| {
+        let painter = ui.painter();
+        painter
+            .layout_no_wrap(title.to_owned(), SMALL, Color32::PLACEHOLDER)
+            .size()
+            .x
+    };
+    titles.map(width).all(|width| width + PADDING <= segment)
+}
+
+/// Draws a drop-down list of all choices of a setting.
 pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Response {
     ComboBox::from_id_salt(salt)
         .width(width)
@@ -266,7 +296,8 @@ pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Re
         .response
 }
 
-/// Row with a drop-down list of all values, and below it the description of the selected one.
+/// Draws a row with a drop-down list of all choices of a setting, and below it the description of
+/// the selected choice.
 pub fn choice_list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     row(ui, label, tip, |ui| {
         menu(ui, label, value, ui.available_width())
@@ -274,11 +305,11 @@ pub fn choice_list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T
     hint(ui, value.name().sentence);
 }
 
-/// Button that shows only an icon.
+/// Draws a button that shows only an icon.
 pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
     let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    // An icon has no text, so screen readers get the tooltip.
+    // Screen readers read the tooltip, because an icon has no text.
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), tip));
     if response.hovered() || response.is_pointer_button_down_on() {
         ui.painter().rect_filled(rect, RADIUS, palette.hover);
@@ -292,7 +323,7 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
     with_tooltip(response, tip)
 }
 
-/// Square icon button that sends an intent.
+/// Draws a square icon button that sends an intent when it is clicked.
 pub fn intent_button(
     ui: &mut Ui,
     icon: Icon,
@@ -305,7 +336,8 @@ pub fn intent_button(
     }
 }
 
-/// Background of a panel at the window's edge, with inner margins in points.
+/// Returns the frame of a panel at an edge of the window: the background, with inner margins in
+/// points.
 pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame {
     let margin = Margin {
         left,
@@ -318,7 +350,7 @@ pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame 
         .inner_margin(margin)
 }
 
-/// Rounded card above the stage, with an inner margin.
+/// Draws a card with rounded corners, as above the stage, around some content.
 pub fn card<R>(ui: &mut Ui, margin: impl Into<Margin>, content: impl FnOnce(&mut Ui) -> R) -> R {
     egui::Frame::window(ui.style())
         .corner_radius(CARD_RADIUS)
@@ -327,14 +359,15 @@ pub fn card<R>(ui: &mut Ui, margin: impl Into<Margin>, content: impl FnOnce(&mut
         .inner
 }
 
-/// Secondary text: small and in a weak colour.
+/// Returns secondary text: small and in a weak colour.
 pub fn secondary_text(ui: &Ui, words: impl Into<String>) -> RichText {
     RichText::new(words)
         .small()
         .color(ThemePalette::of(ui).weak)
 }
 
-/// Layer at a fixed position, above the panels and below dialogs.
+/// Returns a layer at a fixed position, above the panels and below dialogs. `pivot` is the point of
+/// the layer that lies at `at`.
 pub fn fixed_layer(name: &'static str, pivot: Align2, at: Pos2) -> Area {
     Area::new(name.into())
         .order(Order::Middle)
@@ -342,7 +375,7 @@ pub fn fixed_layer(name: &'static str, pivot: Align2, at: Pos2) -> Area {
         .fixed_pos(at)
 }
 
-/// Text centred on a card that is painted without layout.
+/// Paints a rectangular card with centred text, without using egui's layout.
 pub fn text_card(
     painter: &Painter,
     card: Rect,
@@ -352,22 +385,22 @@ pub fn text_card(
 ) {
     painter.rect(card, RADIUS, fill, line, StrokeKind::Inside);
     let corner = card.center() - words.size() / 2.0;
-    // The text carries its own colour; this one applies only to text without.
+    // The text already has its colour; this argument applies only to text without one.
     painter.galley(corner, words, Color32::PLACEHOLDER);
 }
 
-/// Wrapped line of explanatory text.
+/// Draws explanatory text, wrapped at the width of the panel.
 pub fn hint(ui: &mut Ui, text: &str) {
     ui.add(egui::Label::new(secondary_text(ui, text)).wrap());
 }
 
-/// Lays out its content from right to left.
+/// Draws content from right to left.
 pub fn from_right<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
     ui.with_layout(Layout::right_to_left(Align::Center), content)
         .inner
 }
 
-/// Default button of a dialog, with an accented background.
+/// Draws the main button of a dialog or panel, with an accented background.
 pub fn primary_button(ui: &mut Ui, text: &str) -> Response {
     let palette = ThemePalette::of(ui);
     let text = RichText::new(text).color(palette.text);

@@ -1,36 +1,41 @@
-//! Boundary stripe of the match editor: along a ring the hue runs once around the colour circle.
+//! Coloured stripe along the boundary rings in the match editor. Along a ring, the hue runs once
+//! around the colour circle.
 //!
-//! Lightness and chroma are constant in Oklch (Ottosson 2020), so that no part of the boundary
-//! stands out; both depend on whether the background is light.
+//! Lightness and chroma are constant in the colour space Oklch (Ottosson 2020), so that no part of
+//! the boundary stands out. They differ between light and dark backgrounds.
 
 use bevy::color::{Oklcha, Srgba};
 use bevy_egui::egui::{Color32, Mesh, Painter, Pos2, Shape, Vec2, vec2};
 
-/// Width of the stripe, in points.
+/// Width of the stripe without its soft edges, in points.
 const WIDTH: f32 = 3.5;
 
-/// Width of the soft edge on either side of the stripe, in points (replaces anti-aliasing).
+/// Width of the soft edge on each side of the stripe, in points; it replaces anti-aliasing.
 const SOFT_EDGE: f32 = 0.8;
 
-/// Points closer than this to the one before are skipped, in points (tolerance: closer ones have no
-/// stable direction).
+/// Minimum distance between two successive vertices of the stripe, in points (tolerance: the
+/// direction between closer vertices is unstable).
 const MIN_SPACING: f32 = 0.4;
 
-/// Maximum length of a mitre, in half widths (tolerance: sharp corners would grow spikes).
+/// Maximum length of a mitre, as a multiple of half the stripe's width (tolerance: longer mitres
+/// would be spikes at sharp corners).
 const MAX_MITRE: f32 = 1.6;
 
-/// Returns the colour at `place`, in [0, 1] along a ring; each ring starts at a different hue.
+/// Returns the colour at the position `place` along a ring, from 0 to 1. `ring` is the index of the
+/// ring; each ring starts at a different hue.
 pub fn colour(place: f64, ring: usize, is_light: bool) -> Color32 {
     // 77 and 360 are coprime, so the first 360 rings all start at different hues.
     let hue = (360.0 * place as f32 + 77.0 * ring as f32).rem_euclid(360.0);
-    // A chroma of 0.10 fits into sRGB for every hue but looks grey; the rest is clamped below.
+    // Only a chroma up to 0.10 fits into sRGB for every hue, but it looks grey. Channels outside
+    // the range are therefore clamped.
     let (lightness, chroma) = if is_light { (0.60, 0.15) } else { (0.74, 0.14) };
     let srgb = Srgba::from(Oklcha::lch(lightness, chroma, hue));
     let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
     Color32::from_rgb(byte(srgb.red), byte(srgb.green), byte(srgb.blue))
 }
 
-/// Draws a closed ring in its colours; `places` are the positions of `points` along it.
+/// Draws the stripe along a closed ring with the index `ring`. `places` are the positions of
+/// `points` along the ring, from 0 to 1.
 pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, is_light: bool) {
     let mut samples: Vec<(Pos2, Color32)> = Vec::with_capacity(points.len() + 1);
     let ends = points.first().map(|p| (*p, 1.0));
@@ -40,7 +45,7 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
         .zip(places.iter().copied())
         .chain(ends)
     {
-        // Coincident points have no direction.
+        // Points that are too close to the previous vertex are skipped.
         if samples
             .last()
             .is_none_or(|(q, _)| q.distance(p) >= MIN_SPACING)
@@ -48,7 +53,7 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
             samples.push((p, colour(place, ring, is_light)));
         }
     }
-    // Three points and the first again: fewer enclose no area.
+    // A ring needs three different vertices; the first one is repeated at the end.
     if samples.len() < 4 {
         return;
     }
@@ -60,7 +65,7 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
         let across = mitre(*p - before, after - *p);
         let transparent = Color32::TRANSPARENT;
         let half = WIDTH / 2.0;
-        // egui anti-aliases shapes but not meshes, so the outer vertices fade out.
+        // egui anti-aliases shapes but not meshes, so the outer vertices are transparent.
         mesh.colored_vertex(*p + across * (half + SOFT_EDGE), transparent);
         mesh.colored_vertex(*p + across * half, *colour);
         mesh.colored_vertex(*p - across * half, *colour);
@@ -76,7 +81,8 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
     painter.add(Shape::mesh(mesh));
 }
 
-/// Returns the mitre at a bend for a stripe of half width 1, at most [`MAX_MITRE`] long.
+/// Returns the offset of a bend's mitre point from the centre line, for a stripe whose half width
+/// is 1. The offset is at most [`MAX_MITRE`] long.
 fn mitre(incoming: Vec2, outgoing: Vec2) -> Vec2 {
     let (a, b) = (incoming.normalized(), outgoing.normalized());
     let across = |v: Vec2| vec2(v.y, -v.x);
@@ -85,7 +91,8 @@ fn mitre(incoming: Vec2, outgoing: Vec2) -> Vec2 {
     if length < 1e-3 {
         return across(a);
     }
-    // |sum| = 2 cos(turn / 2), and the mitre is 1 / cos(turn / 2) long.
+    // With the angle `turn` between the directions, |sum| = 2 cos(turn / 2), and the mitre is
+    // 1 / cos(turn / 2) long.
     sum / length * (2.0 / length).min(MAX_MITRE)
 }
 

@@ -1,4 +1,4 @@
-//! Colours of the match editor.
+//! Colours of the match editor, which follow the background colour of the project.
 
 use bevy_egui::egui::Color32;
 
@@ -7,31 +7,32 @@ use crate::app::ui::stage::area::{ink_on, is_light};
 use crate::app::ui::ui_state::UiState;
 use crate::colour::Rgb;
 
-/// Share of a design's colour in its fill (heuristic: the boundary stripe must stand out from it).
+/// Fraction of a design's colour in its fill; the rest is the background colour (heuristic: the
+/// boundary stripe must stand out from the fill).
 const FILL_SHARE: f32 = 0.28;
 
-/// Colours of the match editor on the project's background.
+/// Colours of the elements of the match editor.
 #[derive(Clone, Copy, Debug)]
 pub struct EditorColours {
-    /// Background.
+    /// Background of the panes.
     pub ground: Color32,
     /// Text and marks, readable on the background.
     pub ink: Color32,
-    /// Secondary lines.
+    /// Secondary lines, such as hatching and separators.
     pub faint: Color32,
-    /// Selected items.
+    /// Selected items and cuts.
     pub accent: Color32,
-    /// Errors.
+    /// Pins and messages of a failed match.
     pub problem: Color32,
     /// Whether the background is light.
     pub is_light: bool,
-    /// Fills of source and target.
+    /// Fill colours of the source and of the target.
     pub fills: [Color32; 2],
 }
 
 impl EditorColours {
-    /// Returns the colours for the open project. They follow the project's background, not the
-    /// theme of the panels.
+    /// Returns the colours for the open project. They depend on the background colour of the
+    /// project, not on the theme of the panels.
     pub fn of(state: &UiState) -> Self {
         let style = state.session.style();
         let colour = |Rgb([r, g, b]): Rgb| Color32::from_rgb(r, g, b);

@@ -1,4 +1,5 @@
-//! One design in the match editor: its fill, boundary rings, hatched unmatched parts and labels.
+//! Pane of one design in the match editor: draws its picture or fill, its boundary rings, hatching
+//! of unmatched parts, and labels, and converts between the design and the window.
 
 use bevy_egui::egui::epaint::Vertex;
 use bevy_egui::egui::{Align2, Color32, Id, Mesh, Painter, Pos2, Rect, Shape, Vec2, pos2, vec2};
@@ -18,26 +19,29 @@ use crate::app::ui::ui_state::UiState;
 use crate::correspondence::RingKind;
 use crate::geometry::{Bounds, DVec2, Side};
 
-/// Distance within which the pointer picks a handle, in points (a pin's radius and rim).
+/// Maximum distance of the pointer from a handle that it picks, in points: the radius of a pin
+/// with its rim.
 const REACH: f32 = 9.0;
 
-/// Longest side of an uploaded background image, in pixels (resource limit: GPU memory).
+/// Maximum length of the longer side of a picture that is uploaded, in pixels (resource limit: GPU
+/// memory).
 const MAX_IMAGE_PX: u32 = 1024;
 
-/// Distance between hatch lines, in points: wide enough for the fill to show between them.
+/// Distance between hatch lines, in points. The fill must be visible between the lines.
 const HATCH_SPACING: f32 = 8.0;
 
-/// Size from which a hole is labelled, in points: the label would cover a smaller one.
+/// Minimum size of a hole that is labelled, in points. A label would cover a smaller hole.
 const MIN_LABELLED_HOLE: f32 = 32.0;
 
-/// Pane of one design, with the transform from the common frame of both designs to the window.
+/// Pane of one design, with the map from the common frame of both designs to the window.
 #[derive(Clone, Debug)]
 pub struct DesignPane {
     /// Design that the pane shows.
     pub side: Side,
-    /// Rectangle of the pane.
+    /// Rectangle of the pane in the window.
     pub rect: Rect,
-    /// Part of the pane that the design is fitted into.
+    /// Part of the pane into which the design is fitted, clear of the toolbar and the
+    /// instructions.
     content_rect: Rect,
     centre: DVec2,
     px_per_unit: f64,
@@ -45,9 +49,9 @@ pub struct DesignPane {
 }
 
 impl DesignPane {
-    /// Fits `bounds` into `content_rect`, then applies the pane's zoom and pan.
+    /// Fits the bounds of the design into `content_rect`, then applies the zoom and pan of `view`.
     pub fn new(side: Side, rect: Rect, content_rect: Rect, bounds: Bounds, view: PaneView) -> Self {
-        // A horizontal line has no height; this avoids a division by zero.
+        // The bounds of a line may have no height; this avoids a division by zero.
         let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
         let fitted = (f64::from(content_rect.width().max(1.0)) / size.x)
             .min(f64::from(content_rect.height().max(1.0)) / size.y);
@@ -61,7 +65,8 @@ impl DesignPane {
         }
     }
 
-    /// Returns the offset from the pane's centre to the centre of the fitted area.
+    /// Returns the offset from the centre of the pane to the centre of the rectangle into which the
+    /// design is fitted.
     pub fn content_offset(&self) -> Vec2 {
         self.content_rect.center() - self.rect.center()
     }
@@ -75,15 +80,16 @@ impl DesignPane {
         self.rect.translate(vec2(dx, 0.0))
     }
 
-    /// Maps a point of the common frame to the window.
+    /// Maps a point of the common frame of both designs to the window.
     pub fn px(&self, p: DVec2) -> Pos2 {
         let from_centre = (p - self.centre) * self.px_per_unit;
-        // y points up in the frame and down on the screen.
+        // The y axis points up in the common frame and down in the window.
         let offset = vec2(from_centre.x as f32, -from_centre.y as f32);
         self.content_rect.center() + self.pan + offset
     }
 
-    /// Maps a pointer position to the common frame.
+    /// Returns the pointer at the position `at` in the window, as the match editor uses it: in the
+    /// common frame of both designs. `is_free` turns snapping off.
     pub fn pointer_target(&self, at: Pos2, is_free: bool) -> EditorPointer {
         let offset = at - self.content_rect.center() - self.pan;
         let offset = DVec2::new(f64::from(offset.x), -f64::from(offset.y));
@@ -95,18 +101,18 @@ impl DesignPane {
         }
     }
 
-    /// Returns a painter that is clipped to this pane.
+    /// Returns `painter`, clipped to this pane.
     pub fn clip(&self, painter: &Painter) -> Painter {
         painter.with_clip_rect(self.rect.intersect(painter.clip_rect()))
     }
 
-    /// Draws the design and its match.
+    /// Draws the design with its match and its labels, but without handles.
     pub fn draw(&self, stage: &Painter, state: &UiState, colours: &EditorColours) {
         let painter = self.clip(stage);
         let sheet = &state.sheet;
         self.picture(&painter, sheet);
         if sheet.shows_pictures() {
-            // The outline traced from a picture would cover the picture.
+            // The fill and the outline traced from a picture would cover the picture.
             return self.title(&painter, state, colours);
         }
         self.fill(&painter, state, colours);
@@ -120,7 +126,7 @@ impl DesignPane {
         self.title(&painter, state, colours);
     }
 
-    /// Draws the imported picture, if the project blends pictures.
+    /// Draws the picture of the design, if the project blends pictures.
     fn picture(&self, painter: &Painter, sheet: &MatchSheet) {
         let sides = sheet.sides.as_ref().filter(|_| sheet.shows_pictures());
         let Some(picture) = sides.and_then(|sides| sides[self.side].picture.as_ref()) else {
@@ -178,7 +184,8 @@ impl DesignPane {
             for face in mesh.faces().iter() {
                 for k in 0..3 {
                     let (a, b) = (face[k], face[(k + 1) % 3]);
-                    // Neighbouring faces share an edge in opposite directions: draw it once.
+                    // Two neighbouring faces contain an edge in opposite directions; this draws it
+                    // once.
                     if a < b {
                         painter.line_segment([points[a as usize], points[b as usize]], stroke);
                     }
@@ -209,7 +216,7 @@ impl DesignPane {
         }
     }
 
-    /// Returns the parts of the design, each an outline followed by its holes.
+    /// Returns the parts of the design; each part is an outline followed by its holes.
     fn parts_of<'a>(&self, sheet: &'a MatchSheet) -> &'a [Vec<Vec<DVec2>>] {
         let sides = sheet.sides.as_ref();
         sides.map_or(&[], |sides| &sides[self.side].parts)
@@ -219,7 +226,7 @@ impl DesignPane {
         points.iter().map(|p| self.px(*p)).collect()
     }
 
-    /// Labels a hole that exists in only one design.
+    /// Labels a hole that exists in only one design with "closes" or "opens".
     fn label_hole(&self, painter: &Painter, ring: &SheetRing, colours: &EditorColours) {
         let text = match (ring.kind, self.side) {
             (RingKind::Closes, Side::Source) => "closes",
@@ -227,16 +234,16 @@ impl DesignPane {
             _ => return,
         };
         let bounds = Rect::from_points(&self.line(&ring.sides[self.side]));
-        // A smaller hole would be covered; its dashed boundary marks it, and the label appears on
-        // zooming in.
+        // A smaller hole is marked only by its dashed boundary; the label appears when the user
+        // zooms in.
         if bounds.size().max_elem() > MIN_LABELLED_HOLE {
             label_card(painter, bounds.center(), text, colours, false);
         }
     }
 
-    /// Hatches a piece that has no partner.
+    /// Draws hatch lines at 45° over a piece (a connected part of the match) without a partner.
     fn hatch(&self, painter: &Painter, sheet: &MatchSheet, piece: usize, colour: Color32) {
-        // Rotated by 45 degrees, so that the hatch lines become horizontal.
+        // The rings are rotated by 45°, so that the hatch lines are horizontal.
         let rotate = |p: &DVec2| {
             let p = self.px(*p);
             DVec2::new(f64::from(p.x + p.y), f64::from(p.y - p.x))
@@ -250,9 +257,9 @@ impl DesignPane {
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return;
         };
-        // (x + y, y − x) is a rotation scaled by √2.
+        // The map (x, y) to (x + y, y − x) is a rotation that also scales by √2.
         let step = f64::from(HATCH_SPACING) * std::f64::consts::SQRT_2;
-        // Zoomed in far, most lines lie outside the pane and are skipped.
+        // Lines outside the pane are skipped; if the user has zoomed in far, these are most lines.
         let visible = self.rect.expand(HATCH_SPACING);
         let mut y = (bounds.min.y / step).ceil() * step;
         let min_visible = f64::from(visible.top() - visible.right());
@@ -283,7 +290,7 @@ impl DesignPane {
         if let Some((_, part, _)) = editor.first_part.filter(|(side, ..)| *side == self.side) {
             outline(part, 5.0);
         }
-        // A single part needs no name.
+        // If there is only one part, it needs no name.
         let is_plain = sheet.pieces.len() < 2 && editor.tool != EditorTool::Parts;
         if is_plain {
             return;
@@ -299,9 +306,10 @@ impl DesignPane {
         }
     }
 
-    /// Returns the offset of a part's name from its anchor: names of small parts move above them.
+    /// Returns the offset of a part's name from its usual place in the part. The name of a small
+    /// part is drawn above the part.
     fn name_offset(&self, sheet: &MatchSheet, piece: usize) -> Vec2 {
-        /// Size from which a part has room for its name, in points.
+        /// Minimum size of a part that contains its name, in points.
         const MIN_SIZE_FOR_NAME: f32 = 56.0;
         let rings = sheet.rings.iter().filter(|ring| ring.piece == piece);
         let points = rings.flat_map(|ring| self.line(&ring.sides[self.side]));
@@ -326,7 +334,8 @@ impl DesignPane {
     }
 }
 
-/// Draws a ring without a partner: dashed, or as a small circle if it has shrunk to a point.
+/// Draws a ring without a partner as a dashed line, or as a small circle if it is tiny on the
+/// screen.
 fn draw_unmatched_ring(painter: &Painter, mut points: Vec<Pos2>, colours: &EditorColours) {
     let Some(first) = points.first().copied() else {
         return;
@@ -340,7 +349,8 @@ fn draw_unmatched_ring(painter: &Painter, mut points: Vec<Pos2>, colours: &Edito
     painter.extend(Shape::dashed_line(&points, stroke, 5.0, 4.0));
 }
 
-/// Draws a label on a card, with an accented frame if the match was set by hand.
+/// Draws a label on a card centred at `at`. The frame of the card is accented if the match was set
+/// by hand (`is_manual`).
 pub fn label_card(
     painter: &Painter,
     at: Pos2,

@@ -1,4 +1,4 @@
-//! Film pane of the match editor: shows the stage itself next to the designs.
+//! Film pane of the match editor, next to the designs: the stage itself shows through it.
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{Align2, PointerButton, Rect, Sense, Ui, vec2};
@@ -13,8 +13,8 @@ use crate::app::ui::stage::area::{self, zoom_factor};
 use crate::app::ui::stage::{checks, onion};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Draws the surroundings and overlays of the film and handles panning and zooming; returns the
-/// rectangle through which the stage shows.
+/// Draws the parts of the pane above and below the film and the overlays of the film, and handles
+/// panning and zooming. Returns the rectangle in which the stage is visible.
 pub fn show(
     root: &Ui,
     state: &UiState,

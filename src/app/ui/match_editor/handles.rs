@@ -1,5 +1,5 @@
-//! Handles of the match editor: pins, automatic points, cuts and lines, the links between both
-//! panes, and the message about a failed match.
+//! Draws the handles of the match editor (pins, automatically matched points, cuts and lines), the
+//! link between the two places of a handle, and the message about a failed match.
 
 use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, StrokeKind, vec2};
 
@@ -21,7 +21,7 @@ const PIN_RADIUS: f32 = 8.5;
 /// Radius of an automatically matched point, in points.
 const FEATURE_RADIUS: f32 = 7.0;
 
-/// Draws all handles, and the link of the one under the pointer.
+/// Draws all handles in both panes, and the link of the handle under the pointer.
 pub fn draw(painter: &Painter, state: &UiState, panes: &[DesignPane; 2], colours: &EditorColours) {
     let (sheet, editor) = (&state.sheet, &state.editor);
     for pane in panes {
@@ -32,8 +32,8 @@ pub fn draw(painter: &Painter, state: &UiState, panes: &[DesignPane; 2], colours
             lines(&clipped, sheet, editor, pane, colours);
         }
     }
-    // The link crosses both panes, so it is not clipped. Pins lie on top, because they can be
-    // grabbed.
+    // The link crosses both panes, so it is not clipped. Pins are drawn above it, because the user
+    // grabs them.
     link(painter, sheet, editor, panes, colours);
     for pane in panes {
         let clipped = pane.clip(painter);
@@ -89,7 +89,8 @@ fn pins(painter: &Painter, state: &UiState, pane: &DesignPane, colours: &EditorC
     }
 }
 
-/// Draws each line with its number at the middle; its first end is a disc, its second a ring.
+/// Draws each line of a line warp with its number at the middle. The first end of a line is a disc,
+/// the second end a ring.
 fn lines(
     painter: &Painter,
     sheet: &MatchSheet,
@@ -105,7 +106,7 @@ fn lines(
         } else {
             colours.ink
         };
-        // A wider line in the background colour below makes it visible on any fill.
+        // A wider line in the background colour makes the line visible on any fill.
         painter.line_segment(ends, (5.0, colours.ground));
         painter.line_segment(ends, (2.0, colour));
         for (end, at) in ends.into_iter().enumerate() {
@@ -121,7 +122,7 @@ fn lines(
 }
 
 fn disc_label(painter: &Painter, at: Pos2, text: String, colour: Color32) {
-    // Three digits must fit into the disc too.
+    // A smaller font lets three digits fit into the disc.
     let size = if text.len() < 3 { 10.5 } else { 8.5 };
     let font = FontId::proportional(size);
     painter.text(at, Align2::CENTER_CENTER, text, font, colour);
@@ -158,7 +159,8 @@ fn cuts(
     }
 }
 
-/// Draws a dashed link between both places of the handle or boundary point under the pointer.
+/// Draws a dashed line between the places, in source and target, of the handle or boundary point
+/// under the pointer, or of the handle that the user drags.
 fn link(
     painter: &Painter,
     sheet: &MatchSheet,
@@ -192,7 +194,7 @@ fn link(
     }
 }
 
-/// Shows why the match failed: next to the pin that caused it, or in a corner.
+/// Draws a card that explains why the match failed, next to the pin that caused it or in a corner.
 fn problem_card(
     painter: &Painter,
     state: &UiState,
@@ -200,10 +202,10 @@ fn problem_card(
     problem: &str,
     colours: &EditorColours,
 ) {
-    /// Maximum width of the text, in points.
+    /// Maximum width of the card's text, in points.
     const WIDTH: f32 = 240.0;
     let editor = &state.editor;
-    // In the pane that is being edited, because the edit caused the problem.
+    // The card is drawn in the pane that the user edits, because the edit caused the problem.
     let side = editor.grabbed.map_or(Side::Source, |(side, _)| side);
     let pane = &panes[side];
     let faulty = state
@@ -233,9 +235,9 @@ fn problem_card(
         area.min + vec2(0.0, BAR_HEIGHT + GRID),
         area.max - vec2(0.0, INSTRUCTIONS_HEIGHT),
     );
-    // No pin is to blame: a corner, where the card covers least.
+    // If no pin caused the problem, the card goes to a corner, where it covers least.
     let corner = at.unwrap_or_else(|| area.left_bottom() - vec2(0.0, size.y));
-    // A card larger than the room would make `clamp` panic on an inverted range.
+    // If the card were larger than the area, `clamp` would panic on an inverted range.
     let max_corner = (area.max - size).max(area.min);
     let corner = corner.clamp(area.min, max_corner);
     let card = Rect::from_min_size(corner, size);

@@ -1,4 +1,5 @@
-//! Both design panes of the match editor, the instructions below them, and pointer input.
+//! Layout of the match editor (two design panes and the film pane), the line of instructions below
+//! the panes, and pointer input in the design panes.
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{
@@ -21,8 +22,8 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::design::Picture;
 use crate::geometry::Side;
 
-/// Draws both designs and the film pane and handles pointer input; returns the rectangle of the
-/// stage.
+/// Draws both designs and the film pane, and handles pointer input. Returns the rectangle in which
+/// the stage is visible.
 pub fn show(root: &mut Ui, state: &UiState, full_rect: Rect, intents: &mut Intents) -> Rect {
     let Some(sides) = &state.sheet.sides else {
         return full_rect;
@@ -48,12 +49,13 @@ pub fn show(root: &mut Ui, state: &UiState, full_rect: Rect, intents: &mut Inten
         let response = root.interact(pane.rect, id, Sense::click_and_drag());
         handle_pointer(root, state, pane, &response, intents);
     }
-    // Without a film pane the stage stays behind the designs, so that closing the editor does not
-    // move it.
+    // Without a film pane the stage keeps its rectangle behind the designs, so that its picture
+    // does not move when the editor is closed.
     shown.unwrap_or(full_rect)
 }
 
-/// Splits off the film pane: a third of the width, in whole points.
+/// Returns the rectangle of the designs and, if the film is shown, that of the film pane: a third
+/// of the width, in whole points.
 fn columns(state: &UiState, full_rect: Rect) -> (Rect, Option<Rect>) {
     if !state.editor.shows_film() {
         return (full_rect, None);
@@ -63,7 +65,7 @@ fn columns(state: &UiState, full_rect: Rect) -> (Rect, Option<Rect>) {
     (designs, Some(film))
 }
 
-/// Draws the toolbar above the panes.
+/// Draws the toolbar of the match editor above the panes.
 pub fn overlay(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
     toolbar::show(ctx, state, stage, intents);
 }
@@ -107,7 +109,8 @@ fn handle_pointer(
     if response.drag_started_by(primary)
         && let Some(origin) = origin
     {
-        // The press position: egui reports a drag only after the pointer has moved some points.
+        // egui reports a drag only after the pointer has moved by some points, so the position at
+        // which the button was pressed is sent.
         send(EditorAction::Press(pane.pointer_target(origin, shift)));
     }
     if let Some(pointer) = response.interact_pointer_pos() {
@@ -132,7 +135,8 @@ fn handle_pointer(
         send(EditorAction::Release);
     }
     if let Some(pointer) = response.hover_pos() {
-        // Only on movement: an intent in every frame would keep the window redrawing.
+        // An intent is sent only if the pointer moves; one in every frame would keep the window
+        // redrawing.
         if moved && !response.dragged() {
             send(EditorAction::Hover(Some(
                 pane.pointer_target(pointer, shift),
@@ -144,23 +148,24 @@ fn handle_pointer(
     }
 }
 
-/// Returns whether the pointer has left the panes while something is still highlighted.
+/// Returns whether the pointer has left both design panes while something is still highlighted.
 fn has_left(state: &UiState, pane: &DesignPane, response: &Response) -> bool {
     let editor = &state.editor;
     let is_highlighted =
         editor.hovered.is_some() || editor.trace.is_some() || editor.part.is_some();
-    // The other pane reports by itself what is under the pointer.
+    // If the pointer is over the other pane, that pane updates the highlight.
     let is_elsewhere = response
         .ctx
         .input(|input| input.pointer.hover_pos())
         .is_none_or(|p| !pane.rect.union(pane.opposite_pane()).contains(p));
-    // A handle that is being dragged stays highlighted wherever the pointer goes.
+    // A handle stays highlighted while the user drags it, wherever the pointer is.
     is_highlighted && is_elsewhere && editor.grabbed.is_none()
 }
 
 fn zoom(ui: &Ui, pane: &DesignPane, from_middle: egui::Vec2, send: &mut impl FnMut(EditorAction)) {
     if let Some(factor) = zoom_factor(ui) {
-        // The view zooms about the centre of the fitted area, which lies below the toolbar.
+        // The position is relative to the centre of the rectangle into which the design is fitted,
+        // which is not the centre of the pane.
         let at = from_middle - pane.content_offset();
         send(EditorAction::Zoom {
             pane: EditorPane::Design(pane.side),
@@ -170,7 +175,8 @@ fn zoom(ui: &Ui, pane: &DesignPane, from_middle: egui::Vec2, send: &mut impl FnM
     }
 }
 
-/// Draws one line of instructions for the current tool, or why the last action was refused.
+/// Draws instructions for the current tool at the lower edge, or the reason why the last action was
+/// refused.
 fn instructions(painter: &Painter, state: &UiState, stage: Rect, colours: &EditorColours) {
     let editor = &state.editor;
     let instruction = match (editor.tool, editor.first_part) {

@@ -1,4 +1,5 @@
-//! Toolbar of the match editor: tools, options for outlines, and views.
+//! Toolbar of the match editor: choice of the tool, options for outlines, and options of the
+//! panes' views.
 
 use bevy_egui::egui::{self, Align2, Context, Margin, Rect, vec2};
 
@@ -8,13 +9,13 @@ use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::{card, choice_button, fixed_layer, primary_button};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Height of the toolbar including the space above it, in points.
+/// Height of the match editor's toolbar including the space above it, in points.
 pub const BAR_HEIGHT: f32 = 48.0;
 
-/// Height of the line of instructions at the lower edge, in points.
+/// Height of the line of instructions at the lower edge of the match editor, in points.
 pub const INSTRUCTIONS_HEIGHT: f32 = 40.0;
 
-/// Draws the toolbar.
+/// Draws the toolbar of the match editor at the top of `stage`.
 pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
     let at = stage.center_top() + vec2(0.0, GRID);
     fixed_layer("match tools", Align2::CENTER_TOP, at).show(ctx, |ui| {
@@ -29,7 +30,7 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
 
 fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let is_free = state.sheet.has_free_pins();
-    // Lines control warps of the whole plane; parts exist only in outlines.
+    // Lines are used by warps of the whole plane; parts are paired only in matches of outlines.
     let tools = [
         (
             EditorTool::Pins,
@@ -69,7 +70,7 @@ fn tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     }
 }
 
-/// Draws the buttons for the film pane and for linked views.
+/// Draws the buttons that show the film pane and that link the views of all panes.
 fn views(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let panes = &state.editor.panes;
     let mut send = |action: EditorAction| intents.push(Intent::Editor(action));
@@ -84,7 +85,8 @@ fn views(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     }
 }
 
-/// Draws the buttons that only outlines need: snapping to corners, and the triangles inside.
+/// Draws the buttons that apply only to outlines: snapping to corners, and showing the triangles
+/// of the mesh.
 fn outline_tools(ui: &mut egui::Ui, state: &UiState, intents: &mut Intents) {
     let editor = &state.editor;
     let mut send = |action: EditorAction| intents.push(Intent::Editor(action));

@@ -1,4 +1,4 @@
-//! File dialog: opens, inserts, replaces and saves files.
+//! File dialog for opening, inserting, replacing and saving files.
 
 use std::path::Path;
 
@@ -13,10 +13,10 @@ use crate::app::ui::overlays::file_side_panel;
 use crate::app::ui::overlays::file_side_panel::TypedPath;
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Size of the dialog, in points: it fits into the smallest window.
+/// Size of the file dialog, in points. It must fit into the smallest window.
 const SIZE: Vec2 = vec2(760.0, 440.0);
 
-/// The open file dialog, if any.
+/// The file dialog, while it is open.
 #[derive(Resource, Default)]
 pub struct FileDialogState(Option<OpenFileDialog>);
 
@@ -26,7 +26,7 @@ struct OpenFileDialog {
     typed: TypedPath,
 }
 
-/// Draws the dialog while files are asked for.
+/// Draws the file dialog while the app requests files, and sends the user's answer.
 pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents: &mut Intents) {
     let Some(purpose) = state.dialog.purpose() else {
         files.0 = None;
@@ -40,12 +40,13 @@ pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents
         dialog: dialog(purpose, state),
         typed: TypedPath::default(),
     });
-    // Handled here, because the dialog itself would first take the focus off its text field.
+    // Escape is handled here, because the dialog itself would first remove the focus from its text
+    // field instead of closing.
     if ctx.input(|input| input.key_pressed(Key::Escape)) {
         intents.push(Intent::AnswerDialog(Vec::new()));
         return;
     }
-    // The dialog writes selected names in the colour of the selection's background.
+    // The dialog draws selected names in the colour of the selection's background.
     theme::with_bright_selection(ctx, |ctx| match purpose {
         DialogPurpose::Save(_) => {
             open_dialog.dialog.update(ctx);
@@ -62,7 +63,7 @@ pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents
     }
 }
 
-/// Draws a dialog that opens files, with the side panel next to the list.
+/// Draws the dialog for opening files, with the side panel next to the list of files.
 fn draw_with_side_panel(
     ctx: &Context,
     state: &UiState,
@@ -101,13 +102,15 @@ fn dialog(purpose: &DialogPurpose, state: &UiState) -> FileDialog {
         .default_size(SIZE)
         .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
         .resizable(false)
-        // The search field is black in both themes, and the completing path field replaces it.
+        // The search field would be black in both themes; the path field of the side panel replaces
+        // it.
         .show_search(false)
-        // A symbolic link keeps the name under which it was chosen.
+        // If the user selects a symbolic link, its own path is used, not that of its target.
         .canonicalize_paths(false);
     dialog.set_right_panel_width(file_side_panel::WIDTH);
     let recent = state.recent.folders();
-    // Start in the folder used last in this dialog, or else in the most recent project's folder.
+    // The dialog starts in the folder that was used last or, without one, in the folder of the most
+    // recent project.
     if let Some(folder) = state.dialog.folder().or(recent.first().copied()) {
         dialog = dialog.initial_directory(folder.to_owned());
     }

@@ -14,10 +14,11 @@ use crate::app::ui::kit::theme::{GRID, RADIUS, ThemePalette};
 use crate::app::ui::kit::widgets::secondary_text;
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Width of the side panel, in points.
+/// Width of the file dialog's side panel, in points.
 pub const WIDTH: f32 = 192.0;
 
-/// Typed path and its completions, which are looked up when the text changes, not in every frame.
+/// Path that the user types, with its completions. They are looked up only when the text or the
+/// folder changes.
 #[derive(Debug, Default)]
 pub struct TypedPath {
     text: String,
@@ -26,7 +27,7 @@ pub struct TypedPath {
 }
 
 impl TypedPath {
-    /// Returns whether completions are listed; they take the place of the preview.
+    /// Returns whether completions are listed. The preview is then hidden.
     pub fn has_completions(&self) -> bool {
         !self.completions.is_empty()
     }
@@ -44,7 +45,8 @@ impl TypedPath {
     }
 }
 
-/// Draws the path field and its completions; returns the file that was confirmed with Enter.
+/// Draws the path field and the completions of its text. Returns the file that the user confirmed
+/// with Enter.
 pub fn field(
     ui: &mut Ui,
     typed: &mut TypedPath,
@@ -54,7 +56,7 @@ pub fn field(
     typed.update_completions(folder, extensions);
     let id = ui.id().with("typed");
     let has_focus = ui.memory(|memory| memory.has_focus(id));
-    // Tab is consumed before the field handles it, which would move the focus away.
+    // Tab is consumed before the field sees it, because it would move the focus away.
     let is_tab_pressed =
         has_focus && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
     let mut chosen = is_tab_pressed
@@ -92,7 +94,7 @@ pub fn field(
     (is_entered && path.is_file()).then_some(path)
 }
 
-/// Puts the cursor behind the completed text, where typing goes on.
+/// Puts the text cursor at the end of the completed text.
 fn set_cursor(ui: &Ui, id: Id, char_index: usize) {
     use bevy_egui::egui::text::{CCursor, CCursorRange};
     let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
@@ -101,7 +103,7 @@ fn set_cursor(ui: &Ui, id: Id, char_index: usize) {
     state.store(ui.ctx(), id);
 }
 
-/// Draws the preview of the selected file.
+/// Draws the preview of `file`, the selected file, or the reason why there is none.
 pub fn preview(ui: &mut Ui, state: &UiState, file: Option<&Path>, intents: &mut Intents) {
     let Some(file) = file else {
         return;

@@ -1,4 +1,5 @@
-//! Frame times: how long each stage of a frame takes, as medians of the last frames.
+//! Strip of frame times: the median durations of solving, drawing and whole frames, and whether
+//! frames are solved or played from a recording.
 
 use bevy_egui::egui::{Panel, Ui};
 
@@ -7,10 +8,10 @@ use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
 use crate::app::ui::ui_state::UiState;
 use crate::transition::Transition;
 
-/// Height of the strip, in points.
+/// Height of the strip of frame times, in points.
 const HEIGHT: f32 = 32.0;
 
-/// Draws the strip above the stage.
+/// Draws the strip of frame times above the stage.
 pub fn strip(root: &mut Ui, state: &UiState) {
     let frame = panel_frame(root, [16, 16, 4, 4]);
     Panel::top("times")
@@ -44,7 +45,8 @@ fn line(ui: &mut Ui, state: &UiState) {
     ui.label(secondary_text(ui, label)).on_hover_text(details);
 }
 
-/// Returns where frames come from, as a short label and as a tooltip.
+/// Returns how frames are computed (solved, or played from a recording), as a short label and as a
+/// tooltip.
 fn frame_source(state: &UiState) -> (String, String) {
     let solved = || "Solved".to_owned();
     match state.session.transition().and_then(Transition::recording) {

@@ -1,4 +1,4 @@
-//! Keyboard shortcuts: the dialog that lists the key map in use.
+//! Dialog that lists the keyboard shortcuts of the key map in use.
 
 use bevy_egui::egui::{self, Align2, Context, Id, Modal, Ui, vec2};
 
@@ -8,16 +8,16 @@ use crate::app::ui::kit::theme::{GRID, SMALL, ThemePalette};
 use crate::app::ui::kit::widgets::{from_right, hint, secondary_text, text_card};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Width of the column of key caps, in points.
+/// Width of the space for the keys of a shortcut, in points.
 const KEYS_WIDTH: f32 = 136.0;
 
-/// Width of each of the two columns of shortcuts, in points.
+/// Width of each of the two columns of the list, in points.
 const COLUMN_WIDTH: f32 = 440.0;
 
-/// Height of a row, in points: the whole list fits into the smallest window.
+/// Height of a shortcut's row, in points. The whole list must fit into the smallest window.
 const ROW_HEIGHT: f32 = 20.0;
 
-/// Draws the dialog above everything else.
+/// Draws the dialog with the keyboard shortcuts, above everything else.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
     let response = Modal::new(Id::new("help")).show(ctx, |ui| {
         ui.set_width(2.0 * COLUMN_WIDTH + 2.0 * GRID);
@@ -31,7 +31,7 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
         });
         ui.add_space(GRID);
         let groups = groups(state.keys.rows());
-        // Two columns, because one would be taller than the smallest window.
+        // A single column would be taller than the smallest window.
         let (left, right) = groups.split_at(column_split(&groups));
         ui.horizontal_top(|ui| {
             for column in [left, right] {
@@ -58,9 +58,10 @@ fn groups(rows: &[KeyTableRow]) -> Vec<&[KeyTableRow]> {
     rows.chunk_by(|a, b| a.group == b.group).collect()
 }
 
-/// Returns how many groups go into the first of two columns, so that the taller one is minimal.
+/// Returns the number of groups of shortcuts in the first of two columns for which the taller
+/// column is as short as possible.
 fn column_split(groups: &[&[KeyTableRow]]) -> usize {
-    // A heading and the gap below a group are together as tall as two rows.
+    // The heading of a group and the gap below it are together as tall as two rows.
     let height =
         |groups: &[&[KeyTableRow]]| groups.iter().map(|rows| rows.len() + 2).sum::<usize>();
     let taller = |&k: &usize| height(&groups[..k]).max(height(&groups[k..]));

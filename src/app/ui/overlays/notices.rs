@@ -1,4 +1,4 @@
-//! Notices at the lower edge of the stage; errors stay until they are closed.
+//! Notices at the lower edge of the stage, as cards with buttons to close them and to act on them.
 
 use std::path::Path;
 
@@ -12,11 +12,11 @@ use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{card, fixed_layer, icon_button};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Maximum number of notices shown at once; older ones reappear as newer ones are closed
-/// (resource limit: room on the stage).
+/// Maximum number of notices that are shown at once; older notices reappear when newer ones are
+/// closed (resource limit: room on the stage).
 const MAX_SHOWN: usize = 4;
 
-/// Draws the notices.
+/// Draws the newest notices at the lower edge of `stage`.
 pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
     let list = state.notices.list();
     if list.is_empty() {
@@ -24,7 +24,7 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
     }
     let width = (stage.width() - 4.0 * GRID).clamp(160.0, 480.0);
     let at = stage.center_bottom() - vec2(0.0, 2.0 * GRID);
-    // In front of the checks and the progress: errors are read first.
+    // Notices may be errors, so they lie above the cards that show the progress of jobs.
     let area = fixed_layer("notices", Align2::CENTER_BOTTOM, at).order(Order::Foreground);
     area.show(ctx, |ui| {
         for notice in &list[list.len().saturating_sub(MAX_SHOWN)..] {
@@ -34,7 +34,8 @@ pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) 
     });
 }
 
-/// Returns whether the notice reports a transition that was not built because it would take long.
+/// Returns whether the notice reports that a transition was not built because the build would take
+/// too long.
 fn exceeds_limits(state: &UiState, notice: &Notice) -> bool {
     let problem = state.session.problem();
     notice.kind == NoticeKind::Problem(NoticeTopic::Transition)
@@ -57,10 +58,10 @@ fn message(ui: &mut Ui, notice: &Notice, exceeds_limits: bool, width: f32, inten
             ui.allocate_ui(vec2(text_width, 0.0), |ui| {
                 ui.set_width(text_width);
                 ui.spacing_mut().item_spacing.y = 0.0;
-                // Centres the first line on the icon; further lines follow below.
+                // The first line of the text is centred on the icon.
                 let line = ui.text_style_height(&egui::TextStyle::Body);
                 ui.add_space((24.0 - line) / 2.0);
-                // Selectable, so that an error can be copied into a bug report.
+                // The text is selectable, so that users can copy an error into a bug report.
                 ui.add(Label::new(&notice.text).wrap().selectable(true));
                 if let Some(file) = &notice.file {
                     ui.add_space(GRID);
@@ -82,7 +83,7 @@ fn message(ui: &mut Ui, notice: &Notice, exceeds_limits: bool, width: f32, inten
     });
 }
 
-/// Draws buttons that lead to an exported file.
+/// Draws the buttons that show the folder of an exported file and that copy its path.
 fn file_buttons(ui: &mut Ui, file: &Path) {
     ui.horizontal(|ui| {
         let folder = if file.is_dir() {
@@ -94,7 +95,7 @@ fn file_buttons(ui: &mut Ui, file: &Path) {
         if ui.button("Show folder").on_hover_text(tip).clicked()
             && let Some(folder) = folder
         {
-            // Without a file manager the notice still shows the path.
+            // If there is no file manager, this does nothing; the notice shows the path anyway.
             open::that_detached(folder).ok();
         }
         let tip = "Copies the path to the clipboard.";

@@ -1,4 +1,4 @@
-//! Progress of background jobs, each with a button to cancel it.
+//! Cards that show the progress of background jobs, each with a button to cancel the job.
 
 use std::sync::Arc;
 
@@ -11,10 +11,10 @@ use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{card, fixed_layer};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Longer side of the frame shown while a film is exported, in points.
+/// Length of the longer side of the film frame that is shown during an export, in points.
 const PREVIEW_SIDE: f32 = 120.0;
 
-/// Draws a card at the top of the stage for each running job.
+/// Draws a card for each running job (build, method search, export) at the top of `stage`.
 pub fn show(ctx: &Context, state: &UiState, stage: Rect, intents: &mut Intents) {
     let build = state.session.visible_work();
     let build = build.map(|work| (work, Intent::CancelWork));

@@ -1,4 +1,5 @@
-//! Modal questions: unsaved changes, recovered work, and what to do with a dropped file.
+//! Modal questions to the user: whether to save unsaved changes or stop an export, whether to
+//! recover unsaved work, and whether a dropped design is added to the film or replaces a design.
 
 use std::path::Path;
 use std::time::Duration;
@@ -11,7 +12,7 @@ use crate::app::ui::kit::widgets::primary_button;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::unsaved_question::UnsavedKind;
 
-/// Draws the pending question, if any.
+/// Draws the question that waits for an answer, if there is one.
 pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
     if let (Some(words), Some(kind)) = (state.question.text(), state.question.kind()) {
         ask_before_closing(ctx, kind, words, intents);
@@ -22,7 +23,8 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
     }
 }
 
-/// Heading, label that keeps the work, and label that discards it.
+/// Heading of the question, label of the button that keeps the work, and label of the button that
+/// discards it.
 fn labels(kind: UnsavedKind) -> [&'static str; 3] {
     match kind {
         UnsavedKind::Changes => ["Unsaved changes", "Save", "Don't save"],
@@ -51,7 +53,8 @@ fn ask_before_closing(ctx: &Context, kind: UnsavedKind, question: &str, intents:
     });
 }
 
-/// Offers to recover unsaved work after the program ended unexpectedly.
+/// Asks whether to recover unsaved work after the program ended unexpectedly. `age` is the time
+/// since the work was stored.
 fn ask_recover(ctx: &Context, title: &str, age: Option<Duration>, intents: &mut Intents) {
     Modal::new(Id::new("recover")).show(ctx, |ui| {
         ui.set_width(400.0);
@@ -97,7 +100,7 @@ fn ask_drop(ctx: &Context, state: &UiState, path: &Path, intents: &mut Intents) 
     let Some(project) = state.session.whole_project() else {
         return;
     };
-    // The two designs of the current segment.
+    // The dropped file can replace one of the two designs of the current segment.
     let [source, target] = project.segment_designs(state.session.segment());
     Modal::new(Id::new("drop")).show(ctx, |ui| {
         ui.set_width(440.0);

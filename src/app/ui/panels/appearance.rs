@@ -1,4 +1,5 @@
-//! Appearance section: visible layers, colours, and the drawing of bars.
+//! Appearance section of the inspector: visible elements of the stage, colours, options of painted
+//! parts, and the drawing of bars.
 
 use bevy_egui::egui::{Ui, vec2};
 
@@ -15,7 +16,7 @@ use crate::stage::StageVisibility;
 use crate::transition::{PaintLayerOptions, PaintRule};
 use crate::warp::WarpKind;
 
-/// Draws the section.
+/// Draws the appearance section.
 pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
     section(ui, "Appearance", |ui| {
         layers(ui, state, draft, intents);
@@ -39,7 +40,7 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
     });
 }
 
-/// Draws the options of painted parts: fading, and when their stacking order changes.
+/// Draws the options of painted parts: whether they fade, and when their stacking order changes.
 fn paint_layers(ui: &mut Ui, layers: &mut PaintLayerOptions) {
     let tip = "Fades parts that exist in only one design, in addition to scaling them.";
     toggle(ui, "Fade parts", tip, &mut layers.fade);
@@ -56,7 +57,8 @@ fn paint_layers(ui: &mut Ui, layers: &mut PaintLayerOptions) {
 
 const CONTOURS_TIP: &str = "Lines of equal distance in the blended field.";
 
-/// Toggle of one layer: whether it is visible, its name and tooltip, and whether it applies.
+/// Toggle of one element of the stage ("layer" in the window): whether the element is visible, its
+/// name and tooltip, and whether the transition can show it.
 type LayerToggle<'a> = (&'a mut bool, &'static str, &'static str, bool);
 
 fn layer_toggles<'a>(
@@ -66,9 +68,9 @@ fn layer_toggles<'a>(
     onion: &'a mut bool,
 ) -> [LayerToggle<'a>; 8] {
     let is_field = project.content == Some(ContentKind::Field);
-    // A distance field describes the area that the bars cover, not the bars themselves.
+    // A distance field represents the area that the bars cover, so it has no bars to show.
     let has_bars = state.session.has_bars() && !is_field;
-    // Boundary paths move only outlines, so there is no grid to deform.
+    // Boundary paths move only outlines, so they cannot deform a grid.
     let has_grid = project.warp != Some(WarpKind::Paths);
     [
         (&mut show.fill, "Fill", "The filled shape.", true),
@@ -112,7 +114,7 @@ fn layer_toggles<'a>(
     ]
 }
 
-/// Returns whether all layers that apply to the project are hidden.
+/// Returns whether all elements that the transition can show are hidden.
 pub fn is_blank(state: &UiState) -> bool {
     let (mut show, mut onion) = (state.preferences.show, false);
     let project = state.session.project();
@@ -142,7 +144,7 @@ fn layers(ui: &mut Ui, state: &UiState, draft: &Project, intents: &mut Intents) 
 fn layer(ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool) {
     ui.add_enabled_ui(applies, |ui| {
         let size = vec2(ui.available_width(), 24.0);
-        // A layer that does not apply is greyed out, but its state is remembered.
+        // An element that the transition cannot show is greyed out; its visibility is kept.
         let response = choice(ui, *on && applies, name, size);
         if response.clicked() {
             *on = !*on;

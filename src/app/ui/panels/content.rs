@@ -1,4 +1,5 @@
-//! Sections with the options of what is shown: the cross-fade of pictures, and distance fields.
+//! Sections of the inspector with the options of the content: the cross-fade of pictures, and
+//! distance fields.
 
 use bevy_egui::egui::Ui;
 
@@ -7,15 +8,16 @@ use crate::content::{BlendSpace, ColourMix, FieldBlend};
 use crate::field::Metric;
 use crate::transition::FieldOptions;
 
-/// Shortest range of the cross-fade, in t (tolerance: a range of zero length would be a jump).
+/// Minimum length of the cross-fade's range of t (tolerance: a range without length would be a
+/// jump).
 const MIN_RANGE: f64 = 0.01;
 
-/// Draws the options of the cross-fade between two pictures.
+/// Draws the section with the options of the cross-fade between two pictures.
 pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
     section(ui, "Colours", |ui| {
         let tip = "How fast one picture fades into the other.";
         choice_list(ui, "Curve", tip, &mut mix.curve);
-        // The limits keep both ends apart.
+        // The limits keep the two ends of the range apart.
         let from = drag_value(&mut mix.from, 0.0..=mix.to - MIN_RANGE, 0.005, 2);
         number(
             ui,
@@ -33,13 +35,13 @@ pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
     });
 }
 
-/// Draws the options of distance fields and of their blending.
+/// Draws the section with the options of distance fields and of their blending.
 pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
         blending(ui, &mut field.blend);
         let tip = "How distance is measured. The difference shows at corners.";
         choice_list(ui, "Distance", tip, &mut field.metric);
-        // Other metrics are computed per cell and have no position within one.
+        // Other metrics count whole cells, so the outline has no position within a cell.
         let is_euclidean = field.metric == Metric::Euclidean;
         let tip = "Position of the outline within a cell. Metrics other than Euclidean place it \
                    between cells.";
@@ -56,7 +58,7 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
     });
 }
 
-/// Draws the options of blending two distance fields.
+/// Draws the options of the blend of two distance fields.
 fn blending(ui: &mut Ui, blend: &mut FieldBlend) {
     let tip = "Scale on which distances are blended.";
     choice_row(ui, "Scale", tip, &mut blend.space);

@@ -1,4 +1,5 @@
-//! Designs section: order of the designs, their placement in the common frame, and import options.
+//! Designs section of the inspector: the list of all designs, and for each design of the current
+//! segment its file, its placement in the common frame, its import options and import notes.
 
 use std::ops::RangeInclusive;
 
@@ -19,19 +20,21 @@ use crate::colour::Rgb;
 use crate::design::{Format, ImportNote};
 use crate::project::{DesignEntry, MovedDesigns, Project};
 
-/// Initial threshold when it is set by hand: the middle of the 256 grey levels.
+/// Initial grey threshold of an image when the user turns off the automatic one: the middle of the
+/// 256 grey levels.
 const MIDDLE_GREY: u8 = 128;
 
-/// Range of the scale slider (tolerance: on a slider about 100 points long, a wider range could not
-/// be set precisely).
+/// Range of the slider for a design's scale. On a slider about 100 points long, a wider range could
+/// not be set precisely.
 const SCALE_RANGE: RangeInclusive<f64> = 0.25..=4.0;
 
-/// Draws the list of all designs, and all settings of those in the current segment.
+/// Draws the designs section: the list of all designs, and the settings of the designs in the
+/// current segment.
 pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
     let Some(project) = state.session.whole_project() else {
         return;
     };
-    // A path over the map blends all designs.
+    // A film along a path over the map blends all designs, so the settings of all are shown.
     let numbers = match project.follows_path() {
         true => (0..project.designs.len()).collect(),
         false => project.segment_designs(state.session.segment()).to_vec(),
@@ -66,7 +69,7 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
         }
         if !project.is_sequence() && swap(ui) {
             draft.designs.swap(0, 1);
-            // Settings made by hand refer to points of the designs, so they change sides too.
+            // Settings that refer to source and target must be swapped together with the designs.
             draft.options.matching = draft.options.matching.swapped();
             let parts = draft.options.parts.iter_mut();
             parts.for_each(|part| *part = part.swapped());
@@ -76,7 +79,7 @@ pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Int
     });
 }
 
-/// Draws the list of all designs, with buttons to reorder them.
+/// Draws the list of all designs with buttons to reorder them, and the option that closes the loop.
 fn order(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents) {
     let current = project.segment_designs(state.session.segment());
     for (k, entry) in project.designs.iter().enumerate() {
@@ -110,7 +113,7 @@ fn order(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents)
     }
 }
 
-/// Draws the buttons of one design in the list, from right to left.
+/// Draws the buttons of the design with the index `k` in the list, from right to left.
 fn list_buttons(ui: &mut Ui, project: &Project, k: usize, intents: &mut Intents) {
     let last = project.designs.len() - 1;
     let mut button = |icon, tip: &str, order: Option<Vec<MovedDesigns>>| {
@@ -144,19 +147,19 @@ fn swap(ui: &mut Ui) -> bool {
     icon_button(ui, icons::SWAP, tip, vec2(32.0, CONTROL_HEIGHT)).clicked()
 }
 
-/// Position, role and colour of a design in the current segment.
+/// Indices, role and colour of a design in the current segment.
 struct DesignHeading {
-    /// Index among the designs of the segment.
+    /// Index of the design among those of the segment.
     index: usize,
-    /// Index among all designs.
+    /// Index of the design among all designs of the project.
     number: usize,
-    /// Role in the segment, such as "Source".
+    /// Label of the design in the segment: "Source", "Target", or its number on a path.
     role: String,
-    /// Fill colour on the stage.
+    /// Fill colour of the design on the stage.
     colour: Rgb,
 }
 
-/// Draws one design of the current segment.
+/// Draws the name and the settings of one design of the current segment.
 fn design(ui: &mut Ui, heading: &DesignHeading, entry: &mut DesignEntry, intents: &mut Intents) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
@@ -185,7 +188,7 @@ fn design(ui: &mut Ui, heading: &DesignHeading, entry: &mut DesignEntry, intents
     });
 }
 
-/// Lists what was repaired or ignored when the design was imported.
+/// Draws the import notes of a design: reports of repairs and of ignored content.
 fn notes(ui: &mut Ui, index: usize, notes: &[ImportNote]) {
     let title = match notes {
         [] => return,
@@ -225,7 +228,8 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
     let mut degrees = place.rotation.to_degrees();
     let tip = "Rotates this design counter-clockwise, in degrees.";
     slider(ui, "Rotation", tip, &mut degrees, -180.0..=180.0, false);
-    // Degrees and back is inexact: drawing the slider alone must not change the project.
+    // The conversion to degrees and back is inexact. Without this test, drawing the slider would
+    // change the project.
     if (degrees - place.rotation.to_degrees()).abs() > 1e-9 {
         place.rotation = degrees.to_radians();
     }

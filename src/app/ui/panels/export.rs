@@ -1,4 +1,5 @@
-//! Export settings: preset, size, range and file type of films, and size of images.
+//! Export settings, which replace the inspector's sections: preset, size, range, file type and
+//! background of films, and size and background of images. Also the estimated cost of an export.
 
 use bevy_egui::egui::{Button, ComboBox, Frame, Key, Margin, Panel, Response, TextEdit, Ui, vec2};
 
@@ -17,7 +18,7 @@ use crate::export::{FilmKind, LayoutPreset, has_ffmpeg};
 use crate::io::sanitize::SanitizedLine;
 use crate::settings::Choice;
 
-/// Standard sizes, in pixels along the shorter side: value, label and tooltip.
+/// Standard sizes of films, in pixels along the shorter side, with label and tooltip.
 const STANDARD_SIZES: [(u32, &str, &str); 4] = [
     (480, "480", "480 pixels along the shorter side"),
     (720, "720", "720 pixels along the shorter side: HD"),
@@ -25,11 +26,11 @@ const STANDARD_SIZES: [(u32, &str, &str); 4] = [
     (2160, "4K", "2160 pixels along the shorter side: 4K"),
 ];
 
-/// Maximum frame rate of a GIF, in frames per second: its delays are whole hundredths of a second,
-/// and players slow down delays below two of them.
+/// Maximum frame rate of a GIF, in frames per second. The delays between its frames are whole
+/// hundredths of a second, and players lengthen delays below two hundredths.
 const MAX_GIF_FPS: u32 = 50;
 
-/// Draws the settings, in the place of the transition's.
+/// Draws the export settings.
 pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let mut draft = *state.preferences;
     ui.horizontal(|ui| {
@@ -51,7 +52,7 @@ pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     }
 }
 
-/// Draws the expected size and the export button, fixed below the scrolling settings.
+/// Draws the size of the film and the export button below the settings, where they do not scroll.
 pub fn foot(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = Frame::NONE.inner_margin(Margin::symmetric(0, 8));
     Panel::bottom("export").frame(frame).show(ui, |ui| {
@@ -91,12 +92,12 @@ fn film(ui: &mut Ui, state: &UiState, draft: &mut Preferences, intents: &mut Int
     format_advice(ui, state, draft);
 }
 
-/// Returns the kind of content on the stage.
+/// Returns the kind of content that the current segment shows.
 fn content(state: &UiState) -> Option<ContentKind> {
     state.session.project().and_then(|project| project.content)
 }
 
-/// File type with a limited frame rate and number of colours.
+/// GIF, the file type with a limited frame rate and number of colours.
 const GIF: FilmFileFormat = FilmFileFormat::Film(FilmKind::Gif);
 
 /// Draws the file types, and the settings that depend on the file type.
@@ -104,7 +105,7 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
     let before = draft.format(content(state));
     let mut format = before;
     let is_available = |format: &FilmFileFormat| *format != FilmFileFormat::OPAQUE || has_ffmpeg();
-    // Two rows: all types in one row would overlap.
+    // The file types are in two rows, because their labels would overlap in one.
     let (vector, pixels): (Vec<_>, Vec<_>) = formats().into_iter().partition(|(format, ..)| {
         let outlines = [FilmKind::Svg, FilmKind::Html, FilmKind::Lottie];
         outlines.map(FilmFileFormat::Film).contains(format)
@@ -145,13 +146,13 @@ fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
             !transparent || !is_opaque
         })
     });
-    // MP4 has no transparency; the setting is kept for other file types.
+    // MP4 cannot be transparent, but the setting is kept for other file types.
     if !is_opaque {
         draft.film.is_transparent = is_transparent;
     }
 }
 
-/// Draws the presets for common uses, which set most of the settings below.
+/// Draws the presets for common uses, which set most of the other settings.
 fn preset(ui: &mut Ui, draft: &mut Preferences) {
     let layout = &mut draft.film.layout;
     let before = LayoutPreset::ALL
@@ -173,7 +174,7 @@ fn preset(ui: &mut Ui, draft: &mut Preferences) {
     }
 }
 
-/// Draws the list of the user's own presets, with entries to save and delete one.
+/// Draws the list of the user's own presets, with entries that save and delete a preset.
 fn my_presets(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let in_use = state.presets.in_use(&state.preferences, content(state));
     let tip = "Your saved export settings, also for --preset on the command line.";
@@ -204,7 +205,7 @@ fn my_presets(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     });
 }
 
-/// Draws a field and a button that save the current settings under a name.
+/// Draws a text field and a button that save the current settings as a preset with this name.
 fn save_preset(ui: &mut Ui, intents: &mut Intents) {
     let id = ui.id().with("preset name");
     let mut name: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
@@ -223,7 +224,7 @@ fn save_preset(ui: &mut Ui, intents: &mut Intents) {
     ui.data_mut(|data| data.insert_temp(id, name));
 }
 
-/// Draws the lists that choose where the film starts and ends.
+/// Draws the two lists in which the user chooses the stops at which the film starts and ends.
 fn range(ui: &mut Ui, state: &UiState, options: &mut FilmExportOptions) {
     let tip = "Stops at which the film starts and ends. Add stops with M.";
     row(ui, "Range", tip, |ui| {
@@ -240,7 +241,8 @@ fn range(ui: &mut Ui, state: &UiState, options: &mut FilmExportOptions) {
     });
 }
 
-/// Drop-down list of the film's ends and the stops; `None` is the film's own end, `default_name`.
+/// Draws a drop-down list for an end of the film: all stops and ends, or `None` for the project's
+/// own end, which is called `default_name`.
 fn end_list(
     ui: &mut Ui,
     state: &UiState,
@@ -270,7 +272,7 @@ fn end_list(
     shown.response
 }
 
-/// Warns about file types that suit the content badly.
+/// Draws a warning if the file type is unsuitable for the content.
 fn format_advice(ui: &mut Ui, state: &UiState, draft: &Preferences) {
     let content = content(state);
     if draft.format(content) == GIF && content == Some(ContentKind::Colours) {
@@ -282,7 +284,7 @@ fn format_advice(ui: &mut Ui, state: &UiState, draft: &Preferences) {
     }
 }
 
-/// Describes the file that would be exported.
+/// Draws the size and duration of the film, and the estimated file size and export time.
 fn summary(ui: &mut Ui, state: &UiState) {
     let Some(framed) = &state.film_framing.0 else {
         let text = match state.session.transition() {
@@ -310,7 +312,7 @@ fn summary(ui: &mut Ui, state: &UiState) {
         .on_hover_text("Estimated from a few exported frames");
 }
 
-/// Formats an estimated file size, without digits that the estimate cannot know.
+/// Formats an estimated file size in bytes, with only as many digits as the estimate supports.
 fn size_of(bytes: f64) -> String {
     let (number, unit) = if bytes >= 1e6 {
         (bytes / 1e6, "MB")
@@ -332,7 +334,8 @@ fn time_of(secs: f64) -> String {
     }
 }
 
-/// Choices of a background: whether it is transparent, label and tooltip.
+/// Choices for the background of a film or image: whether it is transparent, with label and
+/// tooltip.
 const BACKGROUNDS: [(bool, &str, &str); 2] = [
     (false, "Coloured", "Background colour of the project"),
     (

@@ -1,6 +1,8 @@
-//! Inspector: the panel on the right with all settings of the transition.
+//! Inspector: the panel on the right with all settings of the transition, or the export settings in
+//! their place. Chooses the sections that apply to the project.
 //!
-//! The sections edit a copy of the project. If the copy has changed, it is sent as one intent.
+//! The sections edit a copy of the project's settings. If the user has changed the copy, it is sent
+//! as one intent.
 
 use bevy_egui::egui::{Panel, ScrollArea, Ui};
 
@@ -14,10 +16,10 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
 use crate::warp::WarpKind;
 
-/// Width of the panel, in points.
+/// Width of the inspector, in points.
 const WIDTH: f32 = 328.0;
 
-/// Draws the inspector, or the export settings in its place.
+/// Draws the inspector with the settings of the transition or of the export.
 pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 8, 0, 0]);
     Panel::right("inspector")
@@ -46,13 +48,14 @@ fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     if state.map.is_shown {
         map::show(ui, state, intents);
     }
-    // Not part of the copy: shortcuts change the method too, by an intent of its own.
+    // The method is not changed through the copy, but by a separate intent, as by the keyboard
+    // shortcut.
     method::show(ui, state, project, intents);
     let mut draft = project.clone();
     if state.session.has_match_editor() && draft.warp != Some(WarpKind::None) {
         matching::show(ui, state, &mut draft, intents);
     }
-    // Blends of many designs interpolate rigid parts in a fixed way.
+    // A film along a path blends all designs, for which these options of rigid parts do not exist.
     let is_pair = !draft.follows_path();
     if draft.warp == Some(WarpKind::Arap) && is_pair {
         rigid_motion::show(ui, state, &mut draft.options.arap);
@@ -80,7 +83,7 @@ fn sections(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     }
     designs::show(ui, state, &mut draft, intents);
     appearance::show(ui, state, &mut draft, intents);
-    // One intent for all sections, so that one change by the user is one undo step.
+    // All sections share one intent, so that each change by the user is one undo step.
     if draft != *project {
         intents.push(Intent::ReplaceSettings(Box::new(draft)));
     }

@@ -1,4 +1,5 @@
-//! Map sections of the inspector: the path over the map, and the saved blends.
+//! Map sections of the inspector: the path over the map with its stops, and the saved blends with
+//! name, rating and note.
 
 use bevy_egui::egui::{Color32, Id, Label, Rect, RichText, Sense, TextEdit, Ui, pos2, vec2};
 
@@ -12,13 +13,13 @@ use crate::colour::Rgb;
 use crate::project::{MapSettings, SavedBlend};
 use crate::space::MapPath;
 
-/// Width of a row's number, in points.
+/// Width of the number in the row of a stop, in points.
 const NUMBER_WIDTH: f32 = 16.0;
 
-/// Width of a star, in points.
+/// Width of a star of a rating, in points.
 const STAR_WIDTH: f32 = 14.0;
 
-/// Draws both sections.
+/// Draws the sections of the path and of the saved blends.
 pub fn show(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let Some(project) = state.session.whole_project() else {
         return;
@@ -103,7 +104,8 @@ fn saved_blends(ui: &mut Ui, state: &UiState, draft: &mut MapSettings, intents: 
     });
 }
 
-/// Draws the thumbnail of a blend; a click moves the marker there.
+/// Draws the thumbnail of the saved blend with the index `k`. A click moves the marker to the place
+/// of the blend.
 fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedBlend, intents: &mut Intents) {
     let side = 2.0 * CONTROL_HEIGHT + ui.spacing().item_spacing.y;
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
@@ -125,7 +127,7 @@ fn picture(ui: &mut Ui, state: &UiState, k: usize, place: &SavedBlend, intents: 
     }
 }
 
-/// Draws name, rating and note of a blend; returns whether it is to be removed.
+/// Draws name, rating and note of a saved blend; returns whether the user removes the blend.
 fn entry(ui: &mut Ui, place: &mut SavedBlend) -> bool {
     let mut is_removed = false;
     ui.horizontal(|ui| {
@@ -143,7 +145,8 @@ fn entry(ui: &mut Ui, place: &mut SavedBlend) -> bool {
     is_removed
 }
 
-/// Draws the rating: a click on a star sets it, a click on the last filled star clears it.
+/// Draws the rating of a saved blend. A click on a star sets the rating, a click on the last filled
+/// star clears it.
 fn stars(ui: &mut Ui, place: &mut SavedBlend) {
     ui.spacing_mut().item_spacing.x = 0.0;
     let rating = place.stars;

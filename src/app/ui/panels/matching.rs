@@ -1,4 +1,5 @@
-//! Match section: rules for matching outlines, mesh density, and the way to the match editor.
+//! Match section of the inspector: rules for matching outlines, quality, density of the mesh, and
+//! the button that opens the match editor.
 
 use bevy_egui::egui::Ui;
 
@@ -13,12 +14,13 @@ use crate::correspondence::MatchSettings;
 use crate::project::Project;
 use crate::warp::WarpKind;
 
-/// Initial edge length when it is set by hand, as a fraction of the design's size.
+/// Initial maximum edge length of the mesh when the user turns off the automatic one, as a fraction
+/// of the design's size.
 const DEFAULT_EDGE_LENGTH: f64 = 0.05;
 
-/// Draws the section.
+/// Draws the match section.
 pub fn show(ui: &mut Ui, state: &UiState, draft: &mut Project, intents: &mut Intents) {
-    // Rigid parts are moved by a mesh, also when they carry a field.
+    // The warp by rigid parts has a mesh, even if its content is a distance field.
     let has_mesh =
         draft.warp == Some(WarpKind::Arap) && draft.content != Some(ContentKind::Colours);
     section(ui, "Match", |ui| {

@@ -1,7 +1,7 @@
 //! Method section: the chosen method in words, and below it, folded away, a table of all methods
 //! with one row per warp and one column per content.
 //!
-//! Unavailable cells are greyed out, and their tooltips say why.
+//! Cells of methods that are unavailable are greyed out; their tooltips contain the reason.
 
 use bevy_egui::egui::text::LayoutJob;
 use bevy_egui::egui::{
@@ -20,13 +20,13 @@ use crate::settings::Choice;
 use crate::transition::TransitionMethod;
 use crate::warp::WarpKind;
 
-/// Width of the row heads, in points.
+/// Width of the labels of the table's rows, in points.
 const ROW_LABEL_WIDTH: f32 = 52.0;
 
-/// Height of a cell, in points: two lines of text.
+/// Height of a cell of the table, in points: enough for two lines of text.
 const CELL_HEIGHT: f32 = 40.0;
 
-/// Draws the chosen method, the button that chooses the best one, and the folded table.
+/// Draws the method section.
 pub fn show(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents) {
     section(ui, "Method", |ui| {
         if let (Some(warp), Some(content)) = (project.warp, project.content) {
@@ -55,9 +55,9 @@ fn table(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents)
     }
 }
 
-/// Draws the button that chooses the method by trying several.
+/// Draws the button that tries several methods and chooses the best one.
 fn choose(ui: &mut Ui, state: &UiState, content: ContentKind, intents: &mut Intents) {
-    // Pictures have only one suitable method.
+    // The search does not apply to pictures, for which only one method is suitable.
     if content == ContentKind::Colours {
         return;
     }
@@ -96,17 +96,17 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
     response.on_hover_text(name.sentence);
 }
 
-/// Returns the name of a method in running text.
+/// Returns the name of a method, as it is written in a sentence.
 fn method_name(warp: WarpKind, content: ContentKind) -> &'static str {
     TransitionMethod::new(warp, content).map_or("no method", |cell| cell.labels().name)
 }
 
-/// Returns the label of a cell.
+/// Returns the label of a method's cell in the table.
 fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
     TransitionMethod::new(warp, content).map_or("–", |cell| cell.labels().button)
 }
 
-/// Returns the description of a cell.
+/// Returns the description of a method, as a sentence.
 pub fn description(warp: WarpKind, content: ContentKind) -> &'static str {
     TransitionMethod::new(warp, content).map_or("Nothing moves and nothing blends.", |cell| {
         cell.labels().sentence
@@ -124,7 +124,7 @@ fn cell(
 ) {
     let available = state.session.check_method(warp, content);
     let is_chosen = (project.warp, project.content) == (Some(warp), Some(content));
-    // Not disabled: an unavailable cell must still show its tooltip.
+    // An unavailable cell does not react to clicks, but it must still show its tooltip.
     let sense = if available.is_ok() {
         Sense::click()
     } else {
@@ -163,7 +163,8 @@ fn paint_cell(
     };
     ui.painter()
         .rect(rect, RADIUS, fill, (1.0, line), StrokeKind::Inside);
-    // Wrapped and centred: the names of carried contents need two lines.
+    // The text is wrapped and centred, because long names such as "Carried by lattice" need two
+    // lines.
     let mut job = LayoutJob::simple(name.to_owned(), SMALL, text, rect.width() - GRID);
     job.halign = Align::Center;
     let words = ui.painter().layout_job(job);

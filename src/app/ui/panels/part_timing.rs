@@ -1,4 +1,5 @@
-//! Part timing section: a row per part with its time window and easing.
+//! Part timing section of the inspector: a row for each part with its time window and easing, and a
+//! menu that staggers the parts.
 
 use bevy_egui::egui::{Align2, Color32, FontId, Painter, Rect, ScrollArea, Sense, Shape, Ui, vec2};
 
@@ -16,20 +17,20 @@ use crate::time::EasingFunction;
 use crate::transition::PartTime;
 use crate::warp::PartClock;
 
-/// Height of the visible rows, in points: eight rows.
+/// Height of the list of parts, in points: eight rows; more rows are scrolled.
 const LIST_HEIGHT: f32 = 8.0 * (CONTROL_HEIGHT + 4.0);
 
 /// Width of a part's thumbnail, in points.
 const THUMBNAIL_WIDTH: f32 = 30.0;
 
-/// Width of the list of easings, in points.
+/// Width of the drop-down list of easings in a row, in points.
 const EASING_WIDTH: f32 = 84.0;
 
-/// Maximum number of rings for thumbnails that also show the other parts (tolerance: with more, a
-/// thumbnail would be solid ink).
+/// Maximum number of rings of a design for which thumbnails also show the other parts. With more
+/// rings, a thumbnail would be a solid area.
 const MAX_RINGS: usize = 60;
 
-/// Draws the section, if there is more than one part.
+/// Draws the part timing section, if there is more than one part; changes `times`.
 pub fn show(ui: &mut Ui, state: &UiState, times: &mut Vec<PartTime>) {
     let sheet = &state.sheet;
     if sheet.pieces.len() < 2 {
@@ -80,7 +81,7 @@ fn stagger(ui: &mut Ui, sheet: &MatchSheet, times: &mut Vec<PartTime>) {
     });
 }
 
-/// Draws the row of a part; returns its clock if it was changed.
+/// Draws the row of the part with the index `piece`. Returns its new clock if the user changed it.
 fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Option<PartClock> {
     let mut clock = before;
     ui.horizontal(|ui| {
@@ -96,13 +97,13 @@ fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Opti
         );
     });
     if before == PartClock::WHOLE && (clock.from, clock.to) != (0.0, 1.0) {
-        // A new window eases in and out at its own ends, as the whole film does.
+        // A new time window gets the default easing, so that the part starts and stops smoothly.
         clock.easing = EasingFunction::default();
     }
     (clock != before).then_some(clock)
 }
 
-/// Draws the part's letter and its thumbnail, in a design that contains the part.
+/// Draws the name of a part, and its thumbnail in a design that contains the part.
 fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let part = &sheet.pieces[piece];
     let (rect, response) =
@@ -130,7 +131,7 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let Some(sides) = &sheet.sides else { return };
     let frame = Rect::from_min_max(rect.left_top() + vec2(18.0, 1.0), rect.right_bottom());
     let view = PartThumbnail::of(sides[side].bounds, frame.shrink(1.0));
-    // With very many rings, only the part itself is drawn.
+    // If the design has very many rings, only those of the part are drawn.
     let shows_others = sheet.rings.len() <= MAX_RINGS;
     let rings = sheet.rings.iter();
     for ring in rings.filter(|ring| shows_others || ring.piece == piece) {
@@ -141,7 +142,7 @@ fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     }
 }
 
-/// Transform that fits a design into a thumbnail.
+/// Map that fits a design into the rectangle of a thumbnail.
 struct PartThumbnail {
     bounds: Bounds,
     rect: Rect,
@@ -161,7 +162,7 @@ impl PartThumbnail {
 
     fn draw(&self, painter: &Painter, ring: &[DVec2], width: f32, ink: Color32) {
         let middle = 0.5 * (self.bounds.min + self.bounds.max);
-        // 48 points per ring are enough for a thumbnail 30 points wide.
+        // About 48 vertices per ring are enough for a thumbnail 30 points wide.
         let step = ring.len().div_ceil(48).max(1);
         let points = ring.iter().step_by(step).map(|p| {
             let from_middle = (*p - middle).as_vec2() * self.scale;

@@ -1,4 +1,4 @@
-//! Rigid motion section: options of the as-rigid-as-possible interpolation.
+//! Rigid motion section of the inspector: options of the as-rigid-as-possible interpolation.
 
 use std::ops::RangeInclusive;
 
@@ -11,16 +11,18 @@ use crate::app::ui::kit::widgets::{
 use crate::app::ui::ui_state::UiState;
 use crate::warp::{ArapOptions, ArapPath, FaceWeights};
 
-/// Maximum number of parts with a row of their own (resource limit: room in the panel).
+/// Maximum number of parts for which extra turns can be set separately (resource limit: room in the
+/// panel).
 const MAX_PARTS: usize = 8;
 
-/// Maximum number of subdivisions in the window (resource limit: each one quadruples the faces).
+/// Maximum number of subdivisions that the window offers (resource limit: each subdivision
+/// quadruples the number of faces).
 const MAX_SUBDIVISIONS: u32 = 4;
 
-/// Extra turns that the window offers (tolerance: faster rotation cannot be followed by eye).
+/// Range of the extra turns that the window offers. The eye cannot follow faster rotation.
 const TURN_RANGE: RangeInclusive<i32> = -9..=9;
 
-/// Draws the section.
+/// Draws the rigid motion section.
 pub fn show(ui: &mut Ui, state: &UiState, arap: &mut ArapOptions) {
     section(ui, "Rigid motion", |ui| {
         let tip = "How each triangle is interpolated from source to target (homotopy).";
@@ -66,7 +68,7 @@ fn path(ui: &mut Ui, path: &mut ArapPath) {
                rotates about a fixed point.";
     row(ui, "Path", tip, |ui| {
         let (anchor, width) = match *path {
-            // Leaves room for the vertex number next to the three choices.
+            // The choices are narrower, which leaves room for the vertex number.
             ArapPath::Anchor(vertex) => (vertex, 128.0),
             ArapPath::Centroid | ArapPath::Pole => (0, ui.available_width()),
         };

@@ -1,4 +1,4 @@
-//! Sections with the options of all warps except rigid parts.
+//! Sections of the inspector with the options of all warps except rigid parts.
 
 use bevy_egui::egui::Ui;
 
@@ -7,14 +7,15 @@ use crate::warp::{
     FeatureTravel, LatticeOptions, LineOptions, PathOptions, RadialBasis, ScatteredOptions,
 };
 
-/// Maximum number of cells of the coarsest lattice (resource limit: with [`MAX_LEVELS`] the finest
-/// lattice has 1,024 cells).
+/// Maximum number of cells along a side of the coarsest lattice (resource limit: with
+/// [`MAX_LEVELS`], the finest lattice has 1,024 cells along a side).
 const MAX_CELLS: u32 = 16;
 
-/// Maximum number of lattices (resource limit, see [`MAX_CELLS`]).
+/// Maximum number of lattices, each twice as fine as the one before (resource limit: see
+/// [`MAX_CELLS`]).
 const MAX_LEVELS: u32 = 7;
 
-/// Draws the option of how pins and lines move from the source to the target.
+/// Draws the section with the option of how pins and lines move from source to target.
 pub fn travel(ui: &mut Ui, travel: &mut FeatureTravel) {
     section(ui, "Pins and lines", |ui| {
         choice_list(
@@ -26,7 +27,7 @@ pub fn travel(ui: &mut Ui, travel: &mut FeatureTravel) {
     });
 }
 
-/// Draws the option of how the points of an outline move.
+/// Draws the section with the option of how the points of an outline move.
 pub fn paths(ui: &mut Ui, paths: &mut PathOptions) {
     section(ui, "Boundary paths", |ui| {
         let tip = "How each point of the outline moves.";
@@ -34,7 +35,7 @@ pub fn paths(ui: &mut Ui, paths: &mut PathOptions) {
     });
 }
 
-/// Draws the options of warps by pairs of lines.
+/// Draws the section with the options of warps by pairs of lines.
 pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
     section(ui, "Lines", |ui| {
         let tip = "How a line is interpolated between source and target.";
@@ -52,7 +53,7 @@ pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
     });
 }
 
-/// Draws the options of warps by pins (radial basis functions).
+/// Draws the section with the options of warps by pins (radial basis functions).
 pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
     section(ui, "Points", |ui| {
         let tip = "How the influence of a pin spreads (basis function).";
@@ -80,7 +81,7 @@ pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
     });
 }
 
-/// Draws the options of warps by B-spline lattices.
+/// Draws the section with the options of warps by B-spline lattices.
 pub fn lattice(ui: &mut Ui, lattice: &mut LatticeOptions) {
     section(ui, "Lattice", |ui| {
         let tip = "On: the plane never folds, and pins that would fold it are not reached. Off: \

@@ -1,21 +1,21 @@
-//! A slow, direct implementation of picture rendering, against which the fast one is tested.
+//! Slow and direct implementation of picture rendering, against which the fast one is tested.
 
 use super::super::*;
 use image::Rgba;
 use proptest::prelude::*;
 
-/// Distance, in pixels, to an edge of a face below which a pixel may be assigned to either face
-/// (tolerance: far above the rounding of both implementations).
+/// Distance from an edge of a face, in pixels, below which a pixel may belong to the face on either
+/// side (tolerance: far above the rounding of both implementations).
 const UNDECIDED: f64 = 1e-5;
 
-/// Output pixels at a fraction of a pixel from those of the pictures.
+/// Output image whose pixels are shifted by fractions of a pixel against those of the pictures.
 const RASTER: PictureRaster = PictureRaster {
     size: [50, 40],
     corner: DVec2::new(-3.25, 36.5),
     pixel_size: 1.0,
 };
 
-/// A picture with opaque and transparent parts in which neighbouring pixels differ.
+/// Picture with opaque and transparent regions, in which neighbouring pixels differ.
 fn picture(width: u32, height: u32, seed: u32) -> Picture {
     let pixel = |x: u32, y: u32| {
         let value = |k: u32| ((x * x * 37 + y * 91 + x * y * k * 53 + seed * 17) % 256) as u8;
@@ -25,7 +25,7 @@ fn picture(width: u32, height: u32, seed: u32) -> Picture {
     Picture::new(RgbaImage::from_fn(width, height, pixel))
 }
 
-/// Converts sRGB with straight alpha to linear light with premultiplied alpha.
+/// Converts an sRGB pixel with straight alpha to linear light with premultiplied alpha.
 fn decoded(pixel: Rgba<u8>) -> [f64; 4] {
     let [.., alpha] = pixel.0.map(|v| f64::from(v) / 255.0);
     let light = |k: usize| {
@@ -40,7 +40,7 @@ fn decoded(pixel: Rgba<u8>) -> [f64; 4] {
     [light(0), light(1), light(2), alpha]
 }
 
-/// Converts linear light with premultiplied alpha to sRGB with straight alpha.
+/// Converts linear light with premultiplied alpha to an sRGB pixel with straight alpha.
 fn encoded(light: [f64; 4]) -> [u8; 4] {
     let alpha = light[3];
     let channel = |k: usize| {
@@ -63,8 +63,8 @@ fn sum(parts: &[(f64, [f64; 4])]) -> [f64; 4] {
     std::array::from_fn(|k| parts.iter().map(|(share, light)| share * light[k]).sum())
 }
 
-/// Looks up a picture at a point of the plane: bilinear between pixel centres, mirrored at the
-/// edges. Pixels have side length 1.
+/// Returns the light of a picture at a point of the plane: bilinear between pixel centres, mirrored
+/// at the edges. Pixels have the side length 1.
 fn look(picture: &Picture, p: DVec2) -> [f64; 4] {
     let pixels = picture.pixels();
     let last = DVec2::new(
@@ -92,8 +92,8 @@ fn look(picture: &Picture, p: DVec2) -> [f64; 4] {
     ])
 }
 
-/// Returns the last face that covers a point, with barycentric coordinates. `Some(None)` means that
-/// no face covers it, `None` that the point is too close to an edge to decide.
+/// Returns the last face that covers a point, with the barycentric coordinates of the point.
+/// `Some(None)` means that no face covers it, `None` that it is too close to an edge to decide.
 fn face_at(placement: &Placement, p: DVec2) -> Option<Option<([u32; 3], [f64; 3])>> {
     let mut last_cover = None;
     for &face in placement.faces.iter() {
@@ -114,7 +114,7 @@ fn face_at(placement: &Placement, p: DVec2) -> Option<Option<([u32; 3], [f64; 3]
     Some(last_cover)
 }
 
-/// Returns the expected pixel (x, y); `None` if the reference cannot decide.
+/// Returns the expected value of the output pixel (x, y); `None` if the reference cannot decide.
 fn expected_pixel(
     pictures: &[Picture; 2],
     placement: &Placement,
@@ -140,7 +140,8 @@ fn expected_pixel(
     Some(encoded(sum(&[(across.max(0.0) * down.max(0.0), light)])))
 }
 
-/// A grid of faces over the pictures, each vertex displaced in frame, source and target.
+/// Placement of a grid of faces over the pictures. Each vertex is displaced in the frame, in the
+/// source and in the target.
 fn placement(moves: &[[(f64, f64); 3]]) -> Placement {
     let at = |k: usize| 9.0 * DVec2::new((k % 6) as f64, (k / 6) as f64);
     let moved = |list: usize| {
@@ -170,7 +171,8 @@ fn pictures() -> [Picture; 2] {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// Random placements with folds and overlaps, through transparent parts.
+    /// Compares both implementations for random placements with folds and overlaps, and pictures
+    /// with transparent regions.
     #[test]
     fn pixels_are_those_of_the_reference(
         moves in prop::collection::vec(prop::array::uniform3((-9.0f64..9.0, -9.0f64..9.0)), 30),
@@ -189,7 +191,7 @@ proptest! {
     }
 }
 
-/// Vertices at infinity, NaN, far away, or all in one point.
+/// Renders placements with vertices that are NaN, infinite or far away.
 #[test]
 fn any_placement_is_rendered() {
     let pictures = pictures();
