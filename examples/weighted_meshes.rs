@@ -88,7 +88,7 @@ fn spawn_stars(mut commands: Commands) -> Result {
                 ground: Rgb([0x1b, 0x1f, 0x27]),
                 ..default()
             },
-            show: StageVisibility {
+            visibility: StageVisibility {
                 wireframe: true,
                 ..default()
             },

@@ -90,11 +90,12 @@ pub use mesh_family::{BlendWeights, MeshFamily};
 pub use pipelines::PipelinesReady;
 pub use stage_view::StageView;
 
-/// Bevy plugin that morphs every entity with a [`SourceMesh`], a [`TargetMesh`] and a [`Blend`]; a
-/// [`MeshFamily`] and [`BlendWeights`]; [`MorphDesigns`]; or a [`StageTransition`].
+/// Bevy plugin that morphs entities. An entity needs one of these sets of components:
+/// [`SourceMesh`], [`TargetMesh`] and [`Blend`]; [`MeshFamily`] and [`BlendWeights`];
+/// [`MorphDesigns`]; or [`StageTransition`].
 ///
-/// Add it after Bevy's own plugins. It draws only if a renderer is present; otherwise it builds and
-/// solves.
+/// Add it after Bevy's own plugins. Without a renderer, the plugin builds and solves transitions
+/// but does not draw them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MorphPlugin;
 

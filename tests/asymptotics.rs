@@ -112,7 +112,7 @@ fn polygons(rings: impl Iterator<Item = Vec<DVec2>>) -> String {
     serde_json::to_string(&rings.map(ring).collect::<Vec<_>>()).expect("numbers")
 }
 
-/// A regular polygon.
+/// Corners of a regular polygon with `points` corners.
 fn regular_polygon(centre: DVec2, radius: f64, points: u32) -> Vec<DVec2> {
     let point =
         |k: u32| centre + radius * DVec2::from_angle(TAU * f64::from(k) / f64::from(points));

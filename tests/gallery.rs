@@ -151,7 +151,7 @@ fn films_of_rigid_parts_are_recorded_in_few_solves() {
             let max_solves = match entry.name.as_str() {
                 // The fern's spiral turns three times.
                 "fern" => 32,
-                // The last letter of a word does not move until t = ½.
+                // The last letter of the word does not move until t = ½.
                 "day-to-night" => 32,
                 _ => 16,
             };

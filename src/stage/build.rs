@@ -161,7 +161,7 @@ pub(super) fn finish_builds(
     }
 }
 
-/// Turns transitions that were built elsewhere into morphs.
+/// Adds a [`Morph`] to each entity with a new [`StageTransition`].
 pub(super) fn adopt_transitions(
     mut commands: Commands,
     changed: Query<(Entity, &StageTransition, &Blend), Changed<StageTransition>>,
@@ -175,7 +175,7 @@ pub(super) fn adopt_transitions(
             .try_insert((morph, WithoutParts));
         match transition.compatible().and_then(|_| meshes(transition)) {
             Some(meshes) => entity.try_insert(meshes),
-            // The meshes of the previous transition would be stale.
+            // The entity must not keep the meshes of the previous transition.
             None => entity.try_remove::<(SourceMesh, TargetMesh)>(),
         };
     }

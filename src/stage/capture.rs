@@ -31,9 +31,9 @@ const MAX_WAIT_FRAMES: u32 = 1200;
 pub struct CaptureStage {
     /// Identifier that the answer repeats.
     pub id: u64,
-    /// Width and height in pixels.
+    /// Width and height of the picture, in pixels.
     pub size_px: UVec2,
-    /// Background colour; `None` is transparent.
+    /// Background colour of the picture; `None` for a transparent background.
     pub ground: Option<Rgb>,
     /// Region of the plane to show: all of it is visible, centred in the picture.
     pub view: Bounds,

@@ -29,7 +29,8 @@ const INSIDE: Srgba = Srgba::rgb(0.878, 0.51, 0.078);
 /// Colour of negative blended distances: violet.
 const OUTSIDE: Srgba = Srgba::rgb(0.502, 0.451, 0.675);
 
-/// Number of lines of equal distance along the longer side of the grid (heuristic).
+/// Length of the grid's longer side, as a multiple of the distance between two neighbouring values
+/// at which lines of equal distance are drawn (heuristic).
 const ISO_LINES: f32 = 40.0;
 
 /// Material with two distance fields, and with the way in which they are blended and drawn.
@@ -201,7 +202,7 @@ fn texture_of(field: &DistanceField) -> Image {
     texture(UVec2::new(grid.width, grid.height), field.values())
 }
 
-/// A texture of 32-bit floats.
+/// Creates a texture of the given size with one 32-bit float per texel.
 fn texture(size: UVec2, values: &[f32]) -> Image {
     Image::new(
         size.to_extents(),

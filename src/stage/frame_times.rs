@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use bevy::prelude::*;
 
-/// Number of frames that a median covers (heuristic).
+/// Number of durations in a [`DurationHistory`], over which its median is taken (heuristic).
 pub const HISTORY_LEN: usize = 120;
 
 /// The last [`HISTORY_LEN`] durations of one kind of work.
@@ -65,8 +65,8 @@ pub struct FrameTimes {
     pub solve: DurationHistory,
     /// Time to write render meshes and uniforms.
     pub draw: DurationHistory,
-    /// Whether the graphics card evaluated the last drawn frame from a recording, without solving
-    /// or writing vertices.
+    /// Whether the graphics card evaluated the last drawn frame from a recording, so that the CPU
+    /// neither solved it nor wrote vertices.
     pub is_gpu_played: bool,
 }
 

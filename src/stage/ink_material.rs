@@ -80,7 +80,7 @@ impl Material2d for InkMaterial {
         };
         fragment.shader_defs.push(definition.into());
         if key.bind_group_data == InkKind::Line {
-            // Only lines have a vertex shader of their own, in the same file.
+            // Lines have their own vertex shader, which is in the same file as the fragment shader.
             descriptor.vertex.shader = fragment.shader.clone();
             descriptor.vertex.shader_defs.push(definition.into());
         }

@@ -129,7 +129,7 @@ mod tests {
         let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)];
         let reversed: Vec<_> = square.iter().rev().copied().collect();
         for ring in [&square[..], &reversed] {
-            // Four edges and four corners.
+            // The quads of the four edges have the area 80; the rest is the area of the corners.
             assert!((area(ring, StrokeJoin::Mitre(4.0)) - 84.0).abs() < 1e-4);
             assert!((area(ring, StrokeJoin::Bevel) - 82.0).abs() < 1e-4);
             assert!((area(ring, StrokeJoin::Mitre(1.2)) - 82.0).abs() < 1e-4);

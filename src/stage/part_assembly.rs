@@ -249,7 +249,7 @@ impl PartFactory<'_, '_, '_> {
     fn add_solid(&mut self, solid: &SolidContent) {
         let count = self.frame.placement().faces.len();
         let has_loops = !solid.loops.is_empty();
-        // Faces cannot represent transient parts and holes.
+        // Faces cannot represent transient parts and holes, so rings are drawn instead.
         let has_transients = !solid.holes.is_empty() || !solid.swelling_shapes.is_empty();
         if let Some(stack) = &solid.paint_layers {
             self.add_paint_layers(LayerMesh::of_solid(self.frame, solid, stack));

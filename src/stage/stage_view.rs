@@ -13,7 +13,7 @@ use crate::geometry::Bounds;
 /// Minimum scale in units per pixel, relative to the scale of the last fit (resource limit: at
 /// smaller scales the rounding of single precision becomes visible).
 const MIN_SCALE: f64 = 1e-4;
-/// Maximum scale, relative to the scale of the last fit (heuristic).
+/// Maximum scale in units per pixel, relative to the scale of the last fit (heuristic).
 const MAX_SCALE: f64 = 1e2;
 
 /// Part of the plane that every [`StageCamera`](super::StageCamera) shows.
@@ -37,7 +37,7 @@ const MAX_SCALE: f64 = 1e2;
 pub struct StageView {
     /// Point of the plane that is shown in the middle of the viewport.
     pub centre: DVec2,
-    /// Units of the designs per logical pixel, positive.
+    /// Scale of the view: units of the plane per logical pixel, positive.
     pub units_per_px: f64,
     /// Size of the viewport in logical pixels. The plugin updates it if there is a
     /// [`StageCamera`](super::StageCamera).

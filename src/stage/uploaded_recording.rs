@@ -35,7 +35,7 @@ pub(super) struct UploadedInterval {
     /// Buffer with the rows that `played.wgsl` reads: the positions at both ends of the interval,
     /// then the polynomial coefficients.
     pub(super) rows: Buffer,
-    /// Number of vertices per row.
+    /// Number of entries in a row: one per vertex.
     pub(super) vertices: usize,
     /// Number of coefficient rows.
     pub(super) coefficients: usize,

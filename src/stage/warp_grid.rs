@@ -35,7 +35,7 @@ pub(super) struct GridUniform {
     /// Rectangle outside which no lines are drawn, relative to the part's origin: minimum x and y,
     /// maximum x and y.
     window: Vec4,
-    /// Side length of a square, in units of the plane.
+    /// Side length of a grid square, in units of the plane.
     spacing: f32,
 }
 

@@ -3,8 +3,8 @@
 //! Beier, Neely, "Feature-based image metamorphosis" (1992). Let PQ be a line in the frame and P′Q′
 //! the corresponding line in a design, with the unit normal n′. A frame point X at u along and v
 //! across PQ (§3.1) shows the design point P′ + u P′Q′ + v n′, where u is a fraction of the length
-//! of PQ and v a signed distance. For several lines (§3.2) the displacements D = P′ + u P′Q′ + v n′
-//! − X are averaged:
+//! of PQ and v a signed distance. For several lines (§3.2), the displacements from X to these
+//! design points, D, are averaged:
 //!
 //! X′ = X + Σ w D / Σ w,  w = (lengthᵖ / (a + dist))ᵇ,
 //!

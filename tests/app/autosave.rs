@@ -137,7 +137,8 @@ fn an_autosave_that_cannot_be_opened_is_kept() {
     assert_eq!(window.problems().len(), 1);
     window.send(Intent::OpenGallery(gallery_names().remove(0)));
     window.wait();
-    // New changes get a file of their own; the unreadable project is not overwritten.
+    // New changes are stored in another file, so the project that cannot be opened is not
+    // overwritten.
     window.send(Intent::CyclePlayMode);
     wait_until(&mut window, "autosaved", |_| {
         autosave_count(folder.path()) == 2

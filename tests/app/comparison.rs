@@ -89,7 +89,7 @@ fn the_film_on_the_stage_is_measured() {
     let measures = measured.measures().expect("measures");
     assert_eq!(measures.film.samples.len(), measures.verdict.steps);
     assert!(!measured.is_busy());
-    // A new transition is measured again.
+    // After a change of the method, the new film is measured.
     window.send(Intent::NextMethod);
     window.wait();
     wait_for_measures(&mut window);

@@ -19,9 +19,9 @@ use morphospace::transition::{BuildQuality, TransitionMethod};
 
 use crate::headless_window::HeadlessWindow;
 
-/// SVG path of a square.
+/// SVG path data of a square.
 const SQUARE: &str = "M10 10 H90 V90 H10 Z";
-/// SVG path of an L.
+/// SVG path data of an L.
 const TALL_L: &str = "M10 5 H30 V70 H80 V95 H10 Z";
 
 fn write_outline(folder: &Path, name: &str, d: &str) -> PathBuf {
@@ -56,7 +56,8 @@ fn edit(window: &mut HeadlessWindow, change: impl FnOnce(&mut Project)) {
     window.wait();
 }
 
-/// Pins three corners of the square so that two of the pins cross.
+/// Adds pins for three corners of the square, two of which cross: their order along the outlines
+/// differs between source and target.
 fn cross_pins(project: &mut Project) {
     let pin = |[a, b]: [[f64; 2]; 2]| PointPair {
         source: DVec2::from(a),
@@ -284,7 +285,7 @@ fn a_slow_build_shows_a_field_blend_meanwhile() {
     assert_eq!(current, Some((field.warp(), field.content())));
 }
 
-/// SVG path of a star with the given number of tips and inner radius; the outer radius is 45.
+/// SVG path data of a star with the given number of tips and inner radius; the outer radius is 45.
 fn star(tips: u32, inner: f64) -> String {
     let corner = |k: u32| {
         let radius = if k.is_multiple_of(2) { 45.0 } else { inner };

@@ -89,7 +89,7 @@ fn the_marker_sets_the_weights_and_the_blend() {
     );
     let sites = made.map().sites().to_vec();
     assert_eq!(sites.len(), 3);
-    // At the centre all designs have the same weight.
+    // The marker is at first at the centre of the map, where all designs have the same weight.
     let central = weights(&window);
     assert!(
         central.iter().all(|share| (share - 1.0 / 3.0).abs() < 1e-6),
@@ -189,7 +189,7 @@ fn a_path_is_drawn_played_and_undone() {
     let sequence = window.session().sequence().expect("a film");
     assert_eq!(sequence.end(), 2.0);
     assert_eq!(window.session().names_along_path().len(), 3);
-    // The marker follows the film.
+    // During the film the marker follows the path.
     window.send(Intent::Seek(1.0));
     window.update();
     window.update();
@@ -243,7 +243,7 @@ fn marker_movement_is_recorded_as_a_path_and_places_are_saved() {
         .map
         .path
         .clone();
-    // A straight path needs no stops between its ends.
+    // The recorded movement is straight, so the path has no places between its ends.
     assert_eq!(path.places.len(), 2, "{path:?}");
     assert!((path.places[1].at.x - 0.4).abs() < 1e-9);
     window.send(Intent::SaveBlend);

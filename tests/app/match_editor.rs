@@ -323,7 +323,7 @@ fn two_clicks_pair_parts_and_remove_unpairs_them() {
         source.y,
     )));
     assert!(window.matching().links.is_empty());
-    // A second click on empty space makes the part disappear.
+    // A click on a part and then on empty space of the other design makes the part disappear.
     window.wait();
     window.act(EditorAction::Click(pointer_at(
         Side::Source,

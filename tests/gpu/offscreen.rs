@@ -31,7 +31,7 @@ pub struct RenderedScene {
     pub name: &'static str,
     pub transition: Transition,
     pub style: TransitionStyle,
-    pub show: StageVisibility,
+    pub visibility: StageVisibility,
     pub ground: Option<Rgb>,
     /// Width and height of the image in pixels.
     pub size: [u32; 2],
@@ -51,7 +51,7 @@ impl RenderedScene {
             transition,
             ground: Some(style.ground),
             style,
-            show: StageVisibility::default(),
+            visibility: StageVisibility::default(),
             size: [640, 480],
             max_misplaced_pixels: 0,
         }
@@ -116,7 +116,7 @@ impl OffscreenRenderer {
         image
     }
 
-    /// Puts a scene on the stage until [`Self::clear`].
+    /// Puts a scene at `t` on the stage, where it stays until [`Self::clear`].
     pub fn place(&mut self, scene: &RenderedScene, t: f64) {
         let world = self.app.world_mut();
         let entity = world.spawn((
@@ -124,7 +124,7 @@ impl OffscreenRenderer {
             Blend { t },
             StageStyle {
                 style: scene.style,
-                show: scene.show,
+                show: scene.visibility,
             },
         ));
         self.staged = Some(entity.id());
@@ -162,7 +162,7 @@ impl OffscreenRenderer {
     /// Changes which parts of the scene on the stage are visible.
     pub fn change_visibility(&mut self, change: impl FnOnce(&mut StageVisibility)) {
         let mut staged = self.staged();
-        change(&mut staged.get_mut::<StageStyle>().expect("a style").show);
+        change(&mut staged.get_mut::<StageStyle>().expect("a style").visibility);
     }
 
     /// Replaces the transition of the scene on the stage, and draws a frame.

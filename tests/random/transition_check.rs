@@ -10,9 +10,9 @@ use morphospace::{Design, Transition};
 /// Counts of defects that a valid transition may have.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FilmDefects {
-    /// Maximum number of folded faces in a sampled frame.
+    /// Number of folded faces in the sampled frame that has most of them.
     pub folds: usize,
-    /// Maximum number of boundary crossings in a sampled frame.
+    /// Number of boundary crossings in the sampled frame that has most of them.
     pub crossings: usize,
 }
 

@@ -368,7 +368,7 @@ fn a_hidden_wireframe_is_updated_when_it_is_shown() {
         app.world_mut().entity_mut(entity).insert(style);
         app.update();
     };
-    // A part that was never shown has no mesh.
+    // The wireframe was never shown, so it has no mesh.
     assert!(wireframe(&app).is_none());
     show(&mut app, true);
     assert_eq!(wireframe(&app).expect("wires").1, Visibility::Inherited);

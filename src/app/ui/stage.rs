@@ -1,5 +1,5 @@
-//! Overlays of the stage and bars next to it: hints, invitation, comparison, map, checks and
-//! presentation.
+//! Overlays of the stage, bars above and below it, and views that replace it: hints, invitation,
+//! checks, onion skins, film frame, comparison, map and presentation.
 
 pub mod area;
 pub mod checks;

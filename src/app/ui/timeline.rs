@@ -1,4 +1,5 @@
-//! Panels at the bottom: transport controls, track with film strip, and graphs over time.
+//! Panels at the bottom of the window: the timeline (playback controls, track of t with stops, and
+//! film strip), and graphs of measured quantities over t.
 
 mod design_thumbnails;
 mod filmstrip;

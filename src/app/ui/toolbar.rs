@@ -1,4 +1,5 @@
-//! Toolbar at the top: program and project name, and buttons for files, history, export and views.
+//! Toolbar at the top of the window: name of the program, title of the project, and buttons for
+//! files, undo and redo, export, presentation, views, theme and help.
 
 use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichText, Ui, vec2};
 
@@ -16,7 +17,7 @@ const HEIGHT: f32 = 48.0;
 /// Width reserved for the word “edited” after the project's title, in points.
 const EDITED_WIDTH: f32 = 56.0;
 
-/// Draws the toolbar.
+/// Draws the toolbar at the top of the window.
 pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = egui::Frame::new()
         .fill(ThemePalette::of(root).panel)
@@ -32,14 +33,14 @@ pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
                 from_right(ui, |ui| {
                     buttons(ui, state, intents);
                     ui.add_space(GRID);
-                    // The title gets the space that the buttons leave.
+                    // The title gets the remaining space.
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| title(ui, state));
                 });
             });
         });
 }
 
-/// Draws the logo: a disc turning into a square.
+/// Draws the logo: a disc that becomes a square.
 fn logo(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(40.0, 24.0), egui::Sense::hover());
     let ends = [
@@ -107,7 +108,7 @@ fn buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     intent_button(ui, icons::OPEN, tip, Intent::AskOpen, intents);
 }
 
-/// Buttons for export and presenting, from right to left.
+/// Draws the buttons for export and presentation, from right to left.
 fn capture_buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let options = Preferences {
         film_options: !state.preferences.film_options,
@@ -150,7 +151,7 @@ fn match_button(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     });
 }
 
-/// Undo and redo, from right to left.
+/// Draws the buttons for redo and undo, from right to left.
 fn history_buttons(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.add_enabled_ui(state.session.can_redo(), |ui| {
         let tip = "Redo (Ctrl Shift Z or Ctrl Y)";

@@ -1,4 +1,5 @@
-//! Read-only view of the application for the panels, and the intents that they send back.
+//! Read-only access of the user interface to the application's resources, and the list of intents
+//! that it sends back.
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::Res;
@@ -36,7 +37,7 @@ use crate::app::view::frame_intervals::FrameIntervals;
 use crate::app::view::onion_skins::OnionSkins;
 use crate::stage::{FrameTimes, StageView};
 
-/// Resources that the panels read.
+/// Resources of the application that the user interface reads.
 #[derive(SystemParam)]
 pub struct UiState<'w> {
     pub session: Res<'w, Session>,
@@ -73,5 +74,5 @@ pub struct UiState<'w> {
     pub frame_intervals: Res<'w, FrameIntervals>,
 }
 
-/// Intents that the user triggered in this frame.
+/// List to which the user interface adds the intents that the user triggers in a frame.
 pub type Intents = Vec<Intent>;

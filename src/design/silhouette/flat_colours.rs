@@ -1,4 +1,5 @@
-//! Separates a picture of flat colours into one paint layer per colour.
+//! Separates a picture of flat colours into paint layers of one colour each, without the
+//! background.
 //!
 //! A colour is flat if it has pixels whose eight neighbours have almost the same colour. The
 //! background is the transparent area, or the flat colour of most pixels along the border. The

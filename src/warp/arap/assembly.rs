@@ -282,7 +282,7 @@ fn element_map(
     let along = |points: &[DVec2]| points[ends[1] as usize] - points[ends[0] as usize];
     let (p, q) = (along(mesh.source()), along(mesh.target()));
     let (length_p, length_q) = (p.length_squared(), q.length_squared());
-    // In each design the weight is length²/2 or 1, and the squared relative error is |Δv − e|² /
+    // The weight in each design is length²/2 or 1; the squared error |Δv − e|² is divided by
     // length².
     let side = |length: f64| if by_area { 0.5 } else { 1.0 / length };
     let stiffness = if symmetric {

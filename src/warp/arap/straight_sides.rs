@@ -151,8 +151,8 @@ mod tests {
         CompatibleMesh::from_piece(&[a], &[b], &PolygonOptions::default(), &Silent).expect("a mesh")
     }
 
-    /// Returns the largest distance of vertices 4 to 6 from the line through vertices 3 and 7 at t
-    /// = ½, relative to the distance of those two.
+    /// Evaluates the motion at t = ½. Returns the largest distance of vertices 4 to 6 from the line
+    /// through vertices 3 and 7, relative to the distance between those two.
     fn deviation(arap: &Arap) -> f64 {
         let mut placer = arap.placer();
         placer.place(0.5);

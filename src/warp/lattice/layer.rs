@@ -105,8 +105,9 @@ impl SplineLayer {
 
     /// Adds the requests of one feature to the sums of its control points.
     ///
-    /// With the basis value w of a control point and the feature's displacement z, the request is φ
-    /// = w z / Σ w². The sums grow by w² φ and w², times the feature's weight (eqs. 3 to 5).
+    /// A control point with the basis value w gets the request φ = w z / Σ w², where z is the
+    /// feature's displacement. The sums grow by w² φ and w², times the feature's weight (eqs. 3 to
+    /// 5).
     fn add(&mut self, pull: &FeaturePull) {
         let Some(SplineStencil { first, basis }) = self.stencil(pull.at) else {
             return;

@@ -48,8 +48,8 @@ type PlaceLanes = [f64; BLOCK];
 
 /// Decrease of a line's weight with distance: strength / qᵇ with q = a + dist.
 ///
-/// Two vectors of points are processed together, and one division gives both weights: 1/q₁ = q₂ /
-/// (q₁ q₂) and 1/q₂ = q₁ / (q₁ q₂).
+/// Two vectors of points are processed together, and one division gives both weights:
+/// 1/q₁ = q₂ / (q₁ q₂) and 1/q₂ = q₁ / (q₁ q₂).
 trait WeightFalloff: Copy {
     /// Returns `strength` / qᵇ for both vectors of q.
     fn weights<S: Simd>(self, simd: S, strength: S::f64s, q: VectorGroup<S>) -> VectorGroup<S>;

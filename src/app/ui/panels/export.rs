@@ -100,7 +100,8 @@ fn content(state: &UiState) -> Option<ContentKind> {
 /// GIF, the file type with a limited frame rate and number of colours.
 const GIF: FilmFileFormat = FilmFileFormat::Film(FilmKind::Gif);
 
-/// Draws the file types, and the settings that depend on the file type.
+/// Draws the choice of the file type, and the settings that depend on it: frame rate and
+/// background.
 fn file(ui: &mut Ui, state: &UiState, draft: &mut Preferences) {
     let before = draft.format(content(state));
     let mut format = before;
@@ -164,8 +165,8 @@ fn preset(ui: &mut Ui, draft: &mut Preferences) {
     choices_row(ui, "Preset", tip, &mut preset, &presets);
     if let Some(preset) = preset.filter(|_| preset != before) {
         *layout = preset.layout();
-        // Slides and posts accept MP4. For a web page, the type that plays without a player depends
-        // on the content.
+        // Slides and posts accept MP4. For a web page, the content determines the file type, so
+        // that the film plays without a video player.
         draft.record_format = match preset {
             LayoutPreset::WebPage => None,
             _ if has_ffmpeg() => Some(FilmFileFormat::Film(FilmKind::Mp4)),

@@ -1,5 +1,6 @@
-//! Method section: the chosen method in words, and below it, folded away, a table of all methods
-//! with one row per warp and one column per content.
+//! Method section of the inspector: the chosen method in words, the button that searches for the
+//! best method, and a collapsible table of all methods, with a row per warp and a column per
+//! content.
 //!
 //! Cells of methods that are unavailable are greyed out; their tooltips contain the reason.
 
@@ -40,7 +41,7 @@ pub fn show(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Inten
     });
 }
 
-/// Draws the table of all methods.
+/// Draws the table of all methods; a click on a cell chooses its method.
 fn table(ui: &mut Ui, state: &UiState, project: &Project, intents: &mut Intents) {
     let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / ContentKind::ALL.len() as f32;
     heads(ui, width);

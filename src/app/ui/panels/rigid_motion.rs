@@ -55,7 +55,8 @@ fn weights(ui: &mut Ui, weights: &mut FaceWeights) {
                 "All equal, as in the paper: finely divided parts are stiffer",
             ),
         ];
-        // Weights from a file cannot be edited here, but a click must not lose them either.
+        // Weights per face come from the project file. They cannot be edited here, but they are
+        // shown as a choice while they are selected.
         if matches!(weights, FaceWeights::PerFace(_)) {
             options.push((weights.clone(), "Custom", "The weights in the project file"));
         }

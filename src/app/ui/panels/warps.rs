@@ -7,8 +7,8 @@ use crate::warp::{
     FeatureTravel, LatticeOptions, LineOptions, PathOptions, RadialBasis, ScatteredOptions,
 };
 
-/// Maximum number of cells along a side of the coarsest lattice (resource limit: with
-/// [`MAX_LEVELS`], the finest lattice has 1,024 cells along a side).
+/// Maximum number of cells of the coarsest lattice along the longer side of the frame (resource
+/// limit: with [`MAX_LEVELS`], the finest of the chosen lattices has 1,024 cells there).
 const MAX_CELLS: u32 = 16;
 
 /// Maximum number of lattices, each twice as fine as the one before (resource limit: see

@@ -1,5 +1,5 @@
-//! Stage area: the part of the window in which the stage is visible. Handles panning and zooming,
-//! and shows a hint while the stage is empty.
+//! The part of the window in which the stage is visible: handles panning and zooming, and shows a
+//! hint while the stage is empty. Also colours that are readable on the stage's background.
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui};
@@ -9,12 +9,14 @@ use crate::app::ui::panels::appearance;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 
-/// Zoom exponent per point scrolled: eight lines of the wheel zoom by about 2.7 (heuristic).
+/// Natural logarithm of the zoom factor per point scrolled: eight lines of the wheel zoom by about
+/// 2.7 (heuristic).
 const ZOOM_PER_POINT: f32 = 0.0025;
 
-/// Turns dragging and scrolling over `rect` into intents that pan and zoom the view.
+/// Sends intents that pan, zoom and fit the view when the user drags, scrolls or double-clicks in
+/// `rect`.
 ///
-/// `rect` is the stage, or the second half of a comparison, which shows the same part of the plane.
+/// `rect` is the stage or the right half of a comparison, which shows the same part of the plane.
 pub fn show(root: &mut Ui, rect: Rect, name: &str, intents: &mut Intents) {
     let response = root.interact(rect, root.id().with(name), Sense::click_and_drag());
     if response.dragged() {
@@ -28,7 +30,8 @@ pub fn show(root: &mut Ui, rect: Rect, name: &str, intents: &mut Intents) {
         return;
     };
     if let Some(factor) = zoom_factor(root) {
-        // Relative to the half under the pointer, because both halves show the same view.
+        // Both halves of a comparison show the same view, so the position is relative to the half
+        // under the pointer.
         let at = pointer - rect.min;
         intents.push(Intent::Zoom {
             at: Vec2::new(at.x, at.y),
@@ -37,7 +40,7 @@ pub fn show(root: &mut Ui, rect: Rect, name: &str, intents: &mut Intents) {
     }
 }
 
-/// Shows a hint while there is nothing to see.
+/// Draws a hint if the stage shows nothing.
 pub fn empty_hint(root: &Ui, state: &UiState, rect: Rect) {
     if let Some(text) = empty_words(state) {
         let ink = ink_on(state.session.style().ground);
@@ -47,7 +50,7 @@ pub fn empty_hint(root: &Ui, state: &UiState, rect: Rect) {
     }
 }
 
-/// Returns the factor by which wheel or pinch zoom in this frame; `None` if they do not.
+/// Returns the factor by which the wheel or a pinch zooms in this frame; `None` without zooming.
 pub fn zoom_factor(ui: &Ui) -> Option<f32> {
     let factor = ui
         .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());
@@ -68,14 +71,15 @@ fn empty_words(state: &UiState) -> Option<&'static str> {
     appearance::is_blank(state).then_some("All layers are hidden. Turn on Fill under Appearance.")
 }
 
-/// Returns whether a background is light: its luminance is above 18 %, a middle grey to the eye.
+/// Returns whether a background is light: whether its relative luminance is above 0.18, that of a
+/// grey that the eye sees as halfway between black and white.
 pub fn is_light(ground: Rgb) -> bool {
     let [r, g, b] = ground.to_linear();
     // Relative luminance (WCAG 2.2).
     0.2126 * r + 0.7152 * g + 0.0722 * b > 0.18
 }
 
-/// Returns a subdued colour that is readable on a background.
+/// Returns a grey that is readable on a background.
 pub fn ink_on(ground: Rgb) -> Color32 {
     if is_light(ground) {
         Color32::from_gray(0x50)

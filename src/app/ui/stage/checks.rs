@@ -1,5 +1,6 @@
-//! Checks of the transition: a strip below the stage with findings and fixes, and marks on the
-//! stage where the findings are.
+//! Results of the automatic check of the transition: a strip below the stage that lists findings
+//! (defects such as folds, with cause and remedy), fixes and notes, and marks on the stage at the
+//! places of the findings.
 
 use bevy_egui::egui::{self, Label, Panel, Rect, RichText, Sense, Ui, vec2};
 
@@ -13,14 +14,15 @@ use crate::app::ui::stage::area::is_light;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::{Finding, Verdict};
 
-/// Height of one line, in points.
+/// Height of one line of the strip, in points.
 const ROW_HEIGHT: f32 = 24.0;
 
-/// Distance in t within which a finding is marked on the stage (tolerance: more than the measuring
-/// step of 1/64, so that playback shows the mark).
+/// Maximum difference between the current t and that of a finding at which the finding is marked on
+/// the stage (tolerance: more than the step of 1/64 at which the film is measured).
 const NEAR_T: f64 = 0.02;
 
-/// Draws the strip below the stage: above it, it would cover what it describes.
+/// Draws the strip with the results of the check below the stage, so that it does not cover the
+/// film.
 pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     if state.session.transition().is_none() {
         return;
@@ -28,7 +30,8 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let measures = state.measures.measures();
     let lines = measures.map_or(1, |measures| {
         let verdict = &measures.verdict;
-        // Without findings one line says so; otherwise one more line offers fixes.
+        // Besides findings and notes there is one line: it offers fixes or, without findings, says
+        // that there are none.
         verdict.findings.len() + 1 + verdict.notes.len()
     });
     let frame = panel_frame(root, [8, 8, 4, 4]);
@@ -42,7 +45,7 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         });
 }
 
-/// Draws the strip while there are no results: the checks are running or were stopped.
+/// Draws the strip while the check is running or after it was stopped.
 fn pending_row(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.horizontal(|ui| {
         ui.label(secondary_text(ui, unmeasured_reason(state)));
@@ -53,7 +56,7 @@ fn pending_row(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     });
 }
 
-/// Returns why there are no results.
+/// Returns the reason why there are no results of the check.
 pub fn unmeasured_reason(state: &UiState) -> String {
     match state.measures.visible_progress() {
         _ if state.session.transition().is_none() => "Nothing to check yet.".to_owned(),
@@ -63,7 +66,8 @@ pub fn unmeasured_reason(state: &UiState) -> String {
     }
 }
 
-/// Draws one line per finding (or one that all is clear), the fixes, and one line per note.
+/// Draws a line for each finding, then the fixes, or a line that there are no findings; then a line
+/// for each note.
 fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Intents) {
     let verdict = &measures.verdict;
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -88,7 +92,8 @@ fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Int
     }
 }
 
-/// Draws the clear result: for the sampled moments or, if it could be proved, for every moment.
+/// Draws the result of a check without findings. It holds for the sampled moments or, if that is
+/// proved, for every moment.
 fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents) {
     let sampled = format!("Checked {} moments from source to target.", verdict.steps);
     let clear_text = capitalised(verdict.clear);
@@ -137,7 +142,7 @@ fn row(ui: &mut Ui, is_clear: bool, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// Draws the headline of a finding; a click goes to its moment.
+/// Draws the headline of a finding. A click on it moves t to the moment of the finding.
 fn headline(ui: &mut Ui, state: &UiState, finding: &Finding, intents: &mut Intents) {
     let text = RichText::new(capitalised(&finding.headline()))
         .small()
@@ -162,7 +167,8 @@ fn headline(ui: &mut Ui, state: &UiState, finding: &Finding, intents: &mut Inten
     response.on_hover_text(tip);
 }
 
-/// Draws a button for each tested fix that helps.
+/// Draws a button for each suggestion: a change of the project that was tested and gives fewer
+/// defects.
 fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let suggestions = &state.suggestions;
     ui.horizontal(|ui| {
@@ -181,7 +187,7 @@ fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
             ([], true, _) => "Looking for fixes: flipping, rotating, other methods …",
             ([], _, true) => "No fix found: tried flipping, rotating and other methods.",
             ([], ..) => "",
-            // Short, because the offers follow it.
+            // The text is short, because the buttons follow it.
             _ => "Try:",
         };
         ui.label(secondary_text(ui, text));
@@ -202,7 +208,7 @@ fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     });
 }
 
-/// Draws a button that applies a finding's fix, if one click can do that.
+/// Draws a button that applies the remedy of a finding, if the remedy needs no further input.
 fn fix_button(ui: &mut Ui, index: usize, finding: &Finding, intents: &mut Intents) {
     if !is_one_click(&finding.remedy) {
         return;
@@ -216,7 +222,7 @@ fn fix_button(ui: &mut Ui, index: usize, finding: &Finding, intents: &mut Intent
     }
 }
 
-/// Marks the place of each finding on the stage while t is near the finding's moment.
+/// Marks the places of those findings on the stage whose moment is near the current t.
 pub fn mark(ui: &Ui, state: &UiState, stage: Rect) {
     let Some(measures) = state.measures.measures() else {
         return;

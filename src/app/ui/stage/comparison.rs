@@ -1,4 +1,5 @@
-//! Comparison: the stage on the left, a second method on the right.
+//! Comparison of two methods at the same t: the stage on the left, a second method on the right,
+//! and a strip with their names.
 
 use bevy_egui::egui::{Align2, ComboBox, FontId, Label, Panel, Rect, RichText, Ui, vec2};
 
@@ -12,12 +13,12 @@ use crate::app::ui::stage::area::{self, ink_on};
 use crate::app::ui::stage::checks;
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Width of a method's name, in points.
+/// Width of the space for the name of a method, in points.
 const NAME_WIDTH: f32 = 168.0;
 
-/// Handles both halves and draws their overlays; returns the rectangle of the stage.
+/// Handles the pointer in both halves and draws their overlays. Returns the rectangle of the stage.
 pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) -> Rect {
-    // Whole points, so that both halves begin on a pixel boundary.
+    // The width is in whole points, so that both halves begin on a pixel boundary.
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
     let right = left.translate(vec2(half.x, 0.0));
@@ -29,7 +30,7 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
     left
 }
 
-/// Draws hints and marks over both halves, and the line between them.
+/// Draws hints and marks of the check over the halves, and the line between them.
 fn overlays(root: &mut Ui, state: &UiState, [left, right]: [Rect; 2]) {
     area::empty_hint(root, state, left);
     checks::mark(root, state, left);
@@ -39,7 +40,8 @@ fn overlays(root: &mut Ui, state: &UiState, [left, right]: [Rect; 2]) {
     comparison_status(root, state, right);
 }
 
-/// Draws the names of both methods in a strip above the stage.
+/// Draws a strip above the stage with the name of the project's method and the choice of the second
+/// method.
 pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [8, 8, 4, 4]);
     Panel::top("methods")
@@ -54,14 +56,14 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         });
 }
 
-/// Shows why the right half is empty.
+/// Draws the reason why the right half is empty.
 fn comparison_status(ui: &Ui, state: &UiState, rect: Rect) {
     let comparison = &state.comparison;
     let text = match (comparison.transition(), comparison.problem()) {
         (Some(_), _) => return,
         (None, Some(problem)) => problem.to_string(),
         (None, None) if comparison.is_busy() => "Building …".to_owned(),
-        // Its job has not started; the next frame knows more.
+        // The build has not started yet; the next frame shows its state.
         (None, None) => return,
     };
     let ink = ink_on(state.session.style().ground);

@@ -1,4 +1,5 @@
-//! Frame of the exported film over the stage, shown while the export settings are open.
+//! Rectangle over the stage that shows the part of the plane in the exported film, while the export
+//! settings are open.
 
 use bevy_egui::egui::{Color32, Rect, Stroke, StrokeKind, Ui, vec2};
 
@@ -6,10 +7,10 @@ use crate::app::ui::kit::theme::ThemePalette;
 use crate::app::ui::stage::area::is_light;
 use crate::app::ui::ui_state::UiState;
 
-/// Opacity of the shade outside the frame, out of 255 (heuristic).
+/// Opacity of the shade outside the film's frame, out of 255 (heuristic).
 const SHADE: u8 = 40;
 
-/// Draws the frame and shades everything outside it.
+/// Draws the frame of the film and shades the stage outside it.
 pub fn frame(ui: &Ui, state: &UiState, stage: Rect) {
     let Some(framed) = &state.film_framing.0 else {
         return;

@@ -1,5 +1,5 @@
-//! Invitation of the first minute: a card below the film that says how to begin and offers gallery
-//! projects as pictures.
+//! Invitation shown after the program starts without files: a card below the film that says how to
+//! open files and offers gallery projects as examples.
 
 use bevy_egui::egui::text::{LayoutJob, TextWrapping};
 use bevy_egui::egui::{
@@ -21,40 +21,44 @@ const HEADLINE: &str = "Drop two or more files here";
 
 const FORMATS: &str = "SVG, DXF, PNG, OBJ, letters, trusses …";
 
-/// Maximum width of the card, in points (heuristic).
+/// Maximum width of the invitation's card, in points (heuristic).
 const MAX_WIDTH: f32 = 680.0;
 
-/// Minimum width of the card, in points: the headline and the button that closes it fit.
+/// Minimum width of the card, in points. The headline and the close button must fit next to each
+/// other.
 const MIN_WIDTH: f32 = 288.0;
 
-/// Gap around the card, in points.
+/// Gap between the card and the edges of the space around it, in points.
 const MARGIN: f32 = 12.0;
 
 /// Gap between the card's edge and its content, in points.
 const PADDING: f32 = 12.0;
 
-/// Height of the headline, in points.
+/// Height of the card's headline, in points.
 const HEADLINE_HEIGHT: f32 = 24.0;
 
-/// Height of the line below the headline, in points.
+/// Height of the line that lists file formats, in points.
 const FORMATS_HEIGHT: f32 = 20.0;
 
-/// Height of the row with the button, in points.
+/// Height of the row with the button that opens files, in points.
 const BUTTON_HEIGHT: f32 = 28.0;
 
-/// Minimum width of an example, in points (heuristic: most titles fit).
+/// Minimum width of an example (a gallery project) on the card, in points (heuristic: most titles
+/// fit).
 const MIN_EXAMPLE_WIDTH: f32 = 128.0;
 
-/// Height of an example's picture, in points.
+/// Height of the picture of an example, in points.
 const PICTURE_HEIGHT: f32 = 48.0;
 
-/// Height of an example with its title, in points.
+/// Height of an example with picture and title, in points.
 const EXAMPLE_HEIGHT: f32 = PICTURE_HEIGHT + 20.0;
 
-/// Maximum number of rows of examples (heuristic: the panel on the left lists all projects).
+/// Maximum number of rows of examples on the card (heuristic: the panel on the left lists all
+/// projects).
 const MAX_ROWS: usize = 2;
 
-/// Draws the card at the lower edge of the space that the panels leave; the film keeps the rest.
+/// Draws the invitation, if it is visible, at the lower edge of the space between the panels. The
+/// film gets the rest of this space.
 pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, intents: &mut Intents) {
     if !is_visible(state) {
         return;
@@ -68,7 +72,7 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
         .exact_size(plan.size().y + MARGIN)
         .resizable(false)
         .show_separator_line(false)
-        // Without a background, so that the card lies on the stage.
+        // The panel has no background, so that the stage is visible around the card.
         .frame(Frame::NONE)
         .show(root, |ui| {
             let room = ui.max_rect();
@@ -93,13 +97,14 @@ pub fn show(root: &mut Ui, state: &UiState, textures: &mut GalleryTextures, inte
         });
 }
 
-/// Returns whether the card is shown: not while a tool takes the place of the stage.
+/// Returns whether the card is shown. It is hidden while the match editor, the comparison or the
+/// map is open.
 fn is_visible(state: &UiState) -> bool {
     let is_tool_open = state.editor.is_open || state.comparison.is_shown || state.map.is_shown;
     state.invitation.is_shown() && !is_tool_open
 }
 
-/// Draws the background of the card.
+/// Draws the background and the outline of the card.
 fn frame(ui: &Ui, card: Rect) {
     let palette = ThemePalette::of(ui);
     let line = Stroke::new(1.0, palette.line);
@@ -107,7 +112,7 @@ fn frame(ui: &Ui, card: Rect) {
         .rect(card, CARD_RADIUS, palette.window, line, StrokeKind::Inside);
 }
 
-/// Lays out content from left to right in `rect`, centred vertically.
+/// Draws content from left to right in `rect`, centred vertically.
 fn row(ui: &mut Ui, rect: Rect, content: impl FnOnce(&mut Ui)) {
     let layout = Layout::left_to_right(Align::Center);
     ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), content);
@@ -134,7 +139,7 @@ fn show_button(ui: &mut Ui, has_examples: bool, intents: &mut Intents) {
     }
 }
 
-/// Draws the picture and title of a gallery project.
+/// Draws the picture and the title of a gallery project as an example.
 fn show_example(
     ui: &Ui,
     state: &UiState,
@@ -162,22 +167,22 @@ fn show_example(
     response.on_hover_text(&entry.description)
 }
 
-/// Width of the card and what it has room for.
+/// Layout of the card: its width, and the elements for which it has room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct CardPlan {
-    /// Width, in points.
+    /// Width of the card, in points.
     width: f32,
-    /// Whether it lists formats.
+    /// Whether the card lists file formats.
     has_formats: bool,
-    /// Number of examples in a row.
+    /// Number of examples (gallery projects) in a row of the card.
     columns: usize,
-    /// Number of rows of examples.
+    /// Number of rows of examples on the card.
     rows: usize,
 }
 
 impl CardPlan {
-    /// Returns the largest card that leaves half of the stage's height to the film, or the smallest
-    /// one if none does; `None` if not even that one fits.
+    /// Returns the layout of the largest card that leaves half the height of the stage to the film
+    /// or, if no card does, of the smallest card; `None` if even that is too large for the stage.
     fn fit(stage: Vec2, example_count: usize) -> Option<Self> {
         let width = (stage.x - 2.0 * MARGIN).min(MAX_WIDTH);
         if width < MIN_WIDTH {
@@ -186,7 +191,7 @@ impl CardPlan {
         let inner = width - 2.0 * PADDING;
         let columns = ((inner + GRID) / (MIN_EXAMPLE_WIDTH + GRID)) as usize;
         let columns = columns.clamp(1, example_count.max(1));
-        // Only full rows.
+        // Only rows that are full are shown.
         let max_rows = (example_count / columns).min(MAX_ROWS);
         let plan = |rows: usize, has_formats: bool| Self {
             width,
@@ -201,7 +206,7 @@ impl CardPlan {
         (chosen.size().y + MARGIN <= stage.y).then_some(chosen)
     }
 
-    /// Returns the size of the card.
+    /// Returns the size of the card, in points.
     fn size(&self) -> Vec2 {
         let formats = if self.has_formats {
             FORMATS_HEIGHT
@@ -213,7 +218,8 @@ impl CardPlan {
         vec2(self.width, 2.0 * PADDING + lines + examples)
     }
 
-    /// Returns the places of the headline, the formats and the button within the card's content.
+    /// Returns the rectangles of the headline, of the formats and of the button; `inner` is the
+    /// card without its padding.
     fn lines(&self, inner: Rect) -> [Rect; 3] {
         let line = |top: f32, height: f32| {
             Rect::from_min_size(pos2(inner.left(), top), vec2(inner.width(), height))
@@ -228,12 +234,13 @@ impl CardPlan {
         ]
     }
 
-    /// Returns the number of examples that are shown.
+    /// Returns the number of examples that the card shows.
     fn example_count(&self) -> usize {
         self.rows * self.columns
     }
 
-    /// Returns the place of an example within the card's content.
+    /// Returns the rectangle of the example with the given index; `inner` is the card without its
+    /// padding.
     fn example(&self, inner: Rect, index: usize) -> Rect {
         let [.., button] = self.lines(inner);
         let count = self.columns as f32;
@@ -254,7 +261,8 @@ mod tests {
 
     #[test]
     fn a_large_stage_shows_examples_and_keeps_half_its_height_for_the_film() {
-        // Stages of windows of 1920 × 1080, 1280 × 720, 1200 × 640 and 960 × 540 points.
+        // Sizes of the stage in windows of 1920 × 1080, 1280 × 720, 1200 × 640 and 960 × 540
+        // points, with the expected number of rows.
         let stages = [
             (vec2(1360.0, 832.0), 2),
             (vec2(720.0, 472.0), 1),
@@ -271,7 +279,7 @@ mod tests {
 
     #[test]
     fn a_small_stage_shows_less_and_a_tiny_one_nothing() {
-        // The stage of a window of 640 × 360 points.
+        // The first size is that of the stage in a window of 640 × 360 points.
         let plan = CardPlan::fit(vec2(312.0, 152.0), 10).expect("room for a card");
         assert_eq!((plan.rows, plan.has_formats), (0, false));
         assert_eq!(CardPlan::fit(vec2(312.0, 90.0), 10), None);
@@ -288,7 +296,7 @@ mod tests {
                 let examples = (0..plan.example_count()).map(|index| plan.example(inner, index));
                 let places: Vec<Rect> = plan.lines(inner).into_iter().chain(examples).collect();
                 for place in &places {
-                    // Rounding of the coordinates.
+                    // The margin allows for rounding errors.
                     assert!(
                         inner.expand(0.01).contains_rect(*place),
                         "{plan:?}: {place:?}"

@@ -1,5 +1,5 @@
-//! Map of all designs: on the left the map with its marker and path, on the right the blend under
-//! the marker.
+//! Map of all designs, which replaces the stage while it is open. On the left is the map with its
+//! marker and path; on the right is the blend under the marker, with a legend of its weights.
 
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -20,28 +20,30 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
 
-/// Radius of the marker, in points.
+/// Radius of the map's marker, in points.
 const MARKER_RADIUS: f32 = 11.0;
 
-/// Thickness of the ring of weights around the marker, in points.
+/// Thickness of the ring around the marker that shows the weights, in points.
 const RING_WIDTH: f32 = 4.0;
 
-/// Distance within which a design is grabbed, in points.
+/// Maximum distance between the pointer and a design that it grabs, in points.
 const GRAB_DISTANCE: f32 = 40.0;
 
-/// Longest side of an uploaded picture, in pixels (resource limit: GPU memory).
+/// Maximum length of the longer side of a picture that is uploaded, in pixels (resource limit: GPU
+/// memory).
 const MAX_IMAGE_PX: u32 = 2048;
 
-/// Drag in progress on the map.
+/// State of a drag on the map.
 #[derive(Clone, Default)]
 struct MapDrag {
-    /// Design being moved.
+    /// Index of the design that the user moves; `None` if the drag moves no design.
     design: Option<usize>,
-    /// Points of the path being drawn, in map coordinates.
+    /// Points of the line that the user draws as a path, in map coordinates.
     line: Vec<DVec2>,
 }
 
-/// Draws the map and the blend; returns the rectangle of the blend.
+/// Draws the map, the blend and the legend, and handles the pointer on the map. Returns the
+/// rectangle of the blend.
 pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) -> Rect {
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
@@ -57,7 +59,7 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
     };
     let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), right.y_range(), line);
-    // Below the blend is the legend of the designs' weights.
+    // The space below the blend is for the legend of the weights.
     let height = WeightLegend::height(root, pictures, right.width());
     let below = right.split_top_bottom_at_y(right.bottom() - height).1;
     right.max.y = below.top();
@@ -88,20 +90,21 @@ fn map_status(ui: &Ui, state: &UiState, rect: Rect, ink: Color32) {
     ui.painter().galley(at.min, galley, ink);
 }
 
-/// Converts map coordinates to the window; the map fills `square`.
+/// Converts map coordinates to a position in the window; `square` is the rectangle of the map.
 fn on_screen(square: Rect, place: DVec2) -> Pos2 {
     let fraction = (place / MAP_HALF_SIDE).as_vec2() * 0.5;
     let offset = vec2(fraction.x, -fraction.y) * square.width();
     square.center() + offset
 }
 
-/// Converts a position in the window to map coordinates.
+/// Converts a position in the window to map coordinates; `square` is the rectangle of the map.
 fn on_map(square: Rect, at: Pos2) -> DVec2 {
     let offset = (at - square.center()) / square.width() * 2.0;
     DVec2::new(f64::from(offset.x), f64::from(-offset.y)) * MAP_HALF_SIDE
 }
 
-/// Handles dragging: moves the marker, draws the path or, with Shift, moves a design.
+/// Handles clicks and drags on the map, which move the marker, extend the path or, with Shift, move
+/// a design.
 fn handle_drag(
     root: &Ui,
     state: &UiState,
@@ -129,7 +132,7 @@ fn handle_drag(
     }
     match drag.design {
         Some(design) => intents.push(Intent::MoveMapDesign(design, place)),
-        // The press position becomes the first point.
+        // The position at which the button is pressed becomes the first point.
         None if state.map.is_drawing_path && drag.line.last() != Some(&place) => {
             drag.line.push(place)
         }
@@ -178,9 +181,10 @@ fn draw(
     draw_marker(root, state, pictures, left, square, ink);
 }
 
-/// Draws the path with its stops, the line being drawn, and the saved blends.
+/// Draws the path with its stops, the line that the user is drawing, and a star at each saved
+/// blend.
 fn draw_path(root: &Ui, state: &UiState, left: Rect, square: Rect, ink: Color32) {
-    /// Number of points that the curve is drawn with, per segment.
+    /// Number of straight pieces with which each segment of the path's curve is drawn.
     const POINTS: usize = 48;
     let painter = root.painter_at(left);
     let stroke = Stroke::new(2.0, ink);
@@ -214,7 +218,7 @@ fn draw_path(root: &Ui, state: &UiState, left: Rect, square: Rect, ink: Color32)
     }
 }
 
-/// Returns a fill on which `ink` is readable.
+/// Returns a fill colour on which the colour `ink` is readable.
 fn contrast(ink: Color32) -> Color32 {
     match ink.r() > 127 {
         true => Color32::from_gray(24),
@@ -222,7 +226,7 @@ fn contrast(ink: Color32) -> Color32 {
     }
 }
 
-/// Draws the marker, with a ring that shows the weights of the designs.
+/// Draws the marker, and around it a ring whose arcs show the weights of the designs.
 fn draw_marker(
     root: &Ui,
     state: &UiState,
@@ -251,7 +255,7 @@ fn draw_marker(
     painter.circle_filled(at, 2.5, ink);
 }
 
-/// Returns the colour of a design on the map.
+/// Returns the fill colour of the design with the index `design`.
 fn colour_of(state: &UiState, pictures: &MapPictures, design: usize) -> Color32 {
     let mut weights = vec![0.0; pictures.weights().len()];
     weights[design] = 1.0;
@@ -262,7 +266,7 @@ fn colour_of(state: &UiState, pictures: &MapPictures, design: usize) -> Color32 
     Color32::from_rgb(r, g, b)
 }
 
-/// Draws the legend: the designs of the blend with their weights, from the top left.
+/// Draws the legend: the designs of the blend, with their colours and weights.
 fn draw_legend(root: &Ui, state: &UiState, pictures: &MapPictures, rect: Rect, ink: Color32) {
     let mut layout = WeightLegend::new(rect.width());
     for (design, words) in WeightLegend::labels(pictures, pictures.weights()) {
@@ -278,16 +282,16 @@ fn draw_legend(root: &Ui, state: &UiState, pictures: &MapPictures, rect: Rect, i
     }
 }
 
-/// Layout of the legend: labels from left to right, in as many rows as they need.
+/// Layout of the legend: places labels from left to right in rows.
 struct WeightLegend {
     width_limit: f32,
     next: Vec2,
 }
 
 impl WeightLegend {
-    /// Height of a row, in points.
+    /// Height of a row of the legend, in points.
     const ROW_HEIGHT: f32 = 18.0;
-    /// Width of a dot with the gap after it, in points.
+    /// Width of the coloured dot of a label with the gap after it, in points.
     const DOT_WIDTH: f32 = 13.0;
 
     fn new(width: f32) -> Self {
@@ -301,7 +305,8 @@ impl WeightLegend {
         FontId::proportional(12.0)
     }
 
-    /// Returns index and label of each design whose weight rounds to at least 1 %.
+    /// Returns the index and the label of each design whose weight rounds to at least 1 % or at
+    /// most −1 %.
     fn labels(pictures: &MapPictures, weights: &[f64]) -> Vec<(usize, String)> {
         let all = pictures.space().designs().iter().zip(weights).enumerate();
         let visible = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
@@ -310,7 +315,8 @@ impl WeightLegend {
             .collect()
     }
 
-    /// Returns the height with all designs at 100 %, so that it stays while the marker moves.
+    /// Returns the height that the legend has if it lists all designs with a weight of 100 %, so
+    /// that the height does not change while the marker moves.
     fn height(root: &Ui, pictures: &MapPictures, width: f32) -> f32 {
         let mut layout = Self::new(width);
         for (_, words) in Self::labels(pictures, &vec![1.0; pictures.weights().len()]) {
@@ -321,7 +327,8 @@ impl WeightLegend {
         layout.next.y + Self::ROW_HEIGHT + GRID
     }
 
-    /// Returns the position of the next label, which is `width` points wide.
+    /// Returns the position of the next label, relative to the legend; the label is `width` points
+    /// wide.
     fn place(&mut self, width: f32) -> Vec2 {
         let width = Self::DOT_WIDTH + width;
         if self.next.x + width > self.width_limit && self.next.x > 0.0 {

@@ -1,5 +1,5 @@
-//! Toolbar above the map: layout of the designs, contours, path tools, and how the designs are
-//! blended.
+//! Toolbar above the map: choice of the layout and of the contours, tools for paths and saved
+//! blends, and a text that says how the designs are blended.
 
 use bevy_egui::egui::{ComboBox, Label, Panel, Ui, vec2};
 
@@ -13,10 +13,10 @@ use crate::measure::MapMeasure;
 use crate::settings::Choice;
 use crate::space::MapLayout;
 
-/// Width of the layout choices, in points.
+/// Width of the buttons that choose the layout of the map, in points.
 const LAYOUTS_WIDTH: f32 = 288.0;
 
-/// Draws the toolbar.
+/// Draws the toolbar of the map.
 pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 16, 4, 4]);
     Panel::top("map")
@@ -49,7 +49,7 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         });
 }
 
-/// Draws the list of measures whose contours the map can show.
+/// Draws the drop-down list of measures whose contours the map can show.
 fn measures(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let measure_name =
         |measure: Option<MapMeasure>| measure.map_or("No contours", |m| m.name().title);
@@ -68,7 +68,7 @@ fn measures(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     }
 }
 
-/// Draws the buttons that draw or record a path and that save a blend.
+/// Draws the buttons for drawing a path, recording a path, and saving a blend.
 fn tools(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     let accent = ThemePalette::of(ui).accent;
     let size = vec2(32.0, CONTROL_HEIGHT);
@@ -95,7 +95,7 @@ fn tools(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     tool(icons::STAR, false, "Save this blend (K)", Intent::SaveBlend);
 }
 
-/// Returns how the designs are blended, or the first note about it.
+/// Returns a text that says how the designs are blended, or the first note about their blending.
 fn status(state: &UiState) -> String {
     match state.map.pictures() {
         _ if state.map.is_busy() => "Computing …".to_owned(),

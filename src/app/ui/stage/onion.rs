@@ -1,4 +1,4 @@
-//! Onion skins: the film at other moments, as thin lines over the stage.
+//! Onion skins: thin outlines of the film at its stops, drawn over the stage.
 
 use bevy_egui::egui::{Color32, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
@@ -6,10 +6,10 @@ use crate::app::ui::ui_state::UiState;
 use crate::geometry::DVec2;
 use crate::transition::colour_fraction;
 
-/// Opacity of an onion skin (heuristic).
+/// Opacity of an onion skin, from 0 to 1 (heuristic).
 const OPACITY: f32 = 0.55;
 
-/// Draws the onion skins, each in the colour of its t.
+/// Draws the onion skins, each in the fill colour at its t.
 pub fn show(ui: &Ui, state: &UiState, stage: Rect) {
     let painter = ui.painter().with_clip_rect(stage);
     let style = state.session.style();

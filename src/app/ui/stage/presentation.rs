@@ -1,4 +1,5 @@
-//! Presentation: captions over the drawing, or a black screen.
+//! Presentation mode: captions below the drawing, the black screen, and clicks that play to the
+//! next or previous stop.
 
 use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui, vec2};
 
@@ -6,7 +7,7 @@ use crate::app::input::intent::Intent;
 use crate::app::ui::ui_state::{Intents, UiState};
 use crate::export::Captions;
 
-/// Draws captions or black and handles clicks; returns the rectangle left for the drawing.
+/// Draws the caption or the black screen, and handles clicks. Returns the rectangle of the drawing.
 pub fn show(root: &Ui, state: &UiState, full_rect: Rect, intents: &mut Intents) -> Rect {
     let response = root.interact(full_rect, root.id().with("talk"), Sense::click());
     if response.clicked() {
@@ -31,7 +32,7 @@ pub fn show(root: &Ui, state: &UiState, full_rect: Rect, intents: &mut Intents) 
     stage
 }
 
-/// Draws one line centred at the bottom, as large as in exported films.
+/// Draws a caption as one line, centred at the lower edge and as large as in exported films.
 fn caption(root: &Ui, text: &str, full_rect: Rect, ink: Color32) {
     let shorter = full_rect.size().min_elem();
     let layout = |height: f32| {

@@ -1,5 +1,5 @@
-//! Thumbnails of the designs on the timeline: click to go there, drag to reorder, right-click for a
-//! menu.
+//! Pointer input on the thumbnails of designs in the film strip: a click moves t to the design, a
+//! drag reorders the designs, and a right-click opens a menu.
 
 use bevy_egui::egui::{Rect, Response, Sense, Ui, pos2};
 
@@ -10,16 +10,18 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::io::sanitize::SanitizedLine;
 use crate::project::Project;
 
-/// Pointer interaction with the thumbnails of designs.
+/// Handler of pointer input on the thumbnails of designs.
 pub struct ThumbnailDrag<'a> {
     project: &'a Project,
     ruler: TimelineRuler,
-    /// Index of the dragged design, and the index before which it would be inserted.
+    /// Index of the dragged design, and the index in the current order before which it would be
+    /// inserted; `None` if no design is dragged.
     dragged: Option<(usize, usize)>,
 }
 
 impl<'a> ThumbnailDrag<'a> {
-    /// Interaction for the open project; `None` if its designs have no order on the timeline.
+    /// Creates the handler for the open project; `None` if the project has only two designs or
+    /// follows a path, so that the order of its designs cannot be changed on the timeline.
     pub fn new(state: &'a UiState<'a>, ruler: TimelineRuler) -> Option<Self> {
         let project = state.session.whole_project()?;
         (project.is_sequence() && !project.follows_path()).then_some(Self {
@@ -29,10 +31,12 @@ impl<'a> ThumbnailDrag<'a> {
         })
     }
 
-    /// Handles the pointer on the thumbnail at `t`; returns its offset in points while dragged.
+    /// Handles the pointer on the thumbnail at `t`. Returns the horizontal offset of the thumbnail
+    /// in points, which is 0 unless it is being dragged.
     pub fn interact(&mut self, ui: &Ui, t: f64, rect: Rect, intents: &mut Intents) -> f32 {
         let k = t.round();
-        // Frames between designs cannot be dragged, nor the first design repeated by a closed loop.
+        // Thumbnails between designs cannot be dragged, nor can the first design at the end of a
+        // closed loop.
         if (t - k).abs() > 1e-9 || k < 0.0 || k as usize >= self.project.designs.len() {
             return 0.0;
         }
@@ -78,13 +82,14 @@ impl<'a> ThumbnailDrag<'a> {
         pointer.x - start.unwrap_or(pointer.x)
     }
 
-    /// Returns the index, in the current order, before which a thumbnail dropped at `x` would come.
+    /// Returns the index in the current order before which a design is inserted if its thumbnail is
+    /// dropped at `x`.
     fn drop_index(&self, x: f32) -> usize {
         let is_left = |k: &usize| self.ruler.x(*k as f64) < x;
         (0..self.project.designs.len()).filter(is_left).count()
     }
 
-    /// Marks where the dragged thumbnail would be inserted.
+    /// Draws a line where the dragged design would be inserted.
     pub fn draw_drop_marker(&self, ui: &Ui, top: f32, height: f32) {
         let Some((k, drop_index)) = self.dragged else {
             return;

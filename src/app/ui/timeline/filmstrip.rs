@@ -1,4 +1,4 @@
-//! Film strip below the track: thumbnails of the film, each at its t.
+//! Film strip below the track of the timeline: thumbnails of the film, each at its t.
 
 use bevy_egui::egui::{Color32, Id, LayerId, Order, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -10,19 +10,21 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::view::filmstrip;
 use crate::app::view::filmstrip::THUMBNAIL_PX;
 
-/// Height that the film strip adds to the timeline, in points.
+/// Height by which the film strip makes the timeline higher, in points.
 pub const HEIGHT: f32 = 40.0;
 
-/// Size of the largest thumbnail, in points: half its pixels, so it is sharp on 2× displays.
+/// Maximum width and height of a thumbnail, in points: half its size in pixels, so that it is sharp
+/// on displays with two pixels per point.
 const MAX_THUMBNAIL: (f32, f32) = (THUMBNAIL_PX.x as f32 / 2.0, THUMBNAIL_PX.y as f32 / 2.0);
 
-/// Minimum width of a recognisable thumbnail, in points: in less room some are skipped.
+/// Minimum width of a thumbnail, in points. If there is less room, some thumbnails are skipped.
 const MIN_THUMBNAIL_WIDTH: f32 = 40.0;
 
-/// Gap between two thumbnails, in points.
+/// Minimum gap between two thumbnails, in points.
 const GAP: f32 = 6.0;
 
-/// Draws the film strip below `top` and handles the pointer on the thumbnails of designs.
+/// Draws the film strip below the y coordinate `top`, and handles the pointer on the thumbnails of
+/// designs.
 pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &mut Intents) {
     let Some(pictures) = state.filmstrip.pictures() else {
         return;
@@ -35,7 +37,8 @@ pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &
     let last = count - 1;
     let t = |index: usize| segments as f64 * index as f64 / last as f64;
     let spacing = ruler.x(t(1)) - ruler.x(t(0));
-    // Steps that divide `last` (for a pair 1, 2, 5 or 10) always include both ends.
+    // Every `step`-th thumbnail is shown. A step that divides `last` includes both ends; for two
+    // designs it is 1, 2, 5 or 10.
     let Some(step) = (1..=last)
         .filter(|step| last.is_multiple_of(*step))
         .find(|step| spacing * *step as f32 >= MIN_THUMBNAIL_WIDTH + GAP)
@@ -54,7 +57,7 @@ pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &
             .as_mut()
             .map_or(0.0, |drag| drag.interact(ui, t(index), slot, intents));
         let rect = slot.translate(vec2(offset, 0.0));
-        // The dragged thumbnail lies above the others.
+        // The dragged thumbnail is drawn above the others.
         let painter = match offset == 0.0 {
             true => ui.painter().clone(),
             false => ui.painter().clone().with_layer_id(drag_layer()),

@@ -1,4 +1,5 @@
-//! Timeline panel at the bottom: transport controls, and the track below them.
+//! Timeline panel at the bottom of the window: playback controls, and below them the track with its
+//! film strip.
 
 use bevy_egui::egui::{Panel, Ui};
 
@@ -7,13 +8,13 @@ use crate::app::ui::kit::widgets::panel_frame;
 use crate::app::ui::timeline::{filmstrip, track, transport};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Height of the panel without the film strip, in points.
+/// Height of the timeline without the film strip, in points.
 const HEIGHT: f32 = 128.0;
 
-/// Height below the toolbar from which the film strip is shown, in points.
+/// Minimum height of the window below the toolbar at which the film strip is shown, in points.
 const MIN_HEIGHT_WITH_FILMSTRIP: f32 = 600.0;
 
-/// Draws the timeline.
+/// Draws the timeline, and sends changes of timing and stops.
 pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 16, 8, 8]);
     let has_pictures = root.available_height() >= MIN_HEIGHT_WITH_FILMSTRIP;
@@ -28,7 +29,7 @@ pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
             let mut draft = project.clone();
             transport::show(ui, state, &mut draft.timing, intents);
             track::show(ui, state, &mut draft, has_pictures, intents);
-            // Timing and stops belong to the project, so changing them can be undone.
+            // Timing and stops belong to the project, so changes of them can be undone.
             if draft != *project {
                 intents.push(Intent::ReplaceSettings(Box::new(draft)));
             }

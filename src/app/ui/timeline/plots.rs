@@ -1,4 +1,5 @@
-//! Graphs of the measured quantities over t, side by side; clicking or dragging seeks.
+//! Panel with graphs of the measured quantities over t, side by side. A click or drag on a graph
+//! moves the film to that t.
 
 use bevy_egui::egui::{Color32, Label, Panel, PointerButton, ScrollArea, Ui, vec2};
 use egui_plot::{AxisHints, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
@@ -11,13 +12,13 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::{FilmReport, Quantity};
 use crate::settings::Choice;
 
-/// Height of the panel, in points.
+/// Height of the panel with the graphs, in points.
 const HEIGHT: f32 = 168.0;
 
 /// Minimum width of one graph, in points.
 const MIN_WIDTH: f32 = 208.0;
 
-/// Draws the panel.
+/// Draws the panel with the graphs, or the reason why there are no measurements.
 pub fn show(root: &mut Ui, state: &UiState, intents: &mut Intents) {
     let frame = panel_frame(root, [16, 16, 8, 4]);
     Panel::bottom("plots")
@@ -42,7 +43,8 @@ fn graphs_row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Int
         .filter(|(_, series)| !series.is_empty())
         .collect();
     let gap = 2.0 * GRID;
-    // As many whole graphs as fit; the others are reached by scrolling.
+    // The graphs are as wide as possible so that only whole graphs are visible; the user scrolls to
+    // the others.
     let width = ui.available_width();
     let max_count = ((width + gap) / (MIN_WIDTH + gap)).floor().max(1.0);
     let count = max_count.min(graphs.len().max(1) as f32);
@@ -59,7 +61,7 @@ fn graphs_row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Int
     });
 }
 
-/// Shown instead of a graph for a quantity without any finite value.
+/// Text that replaces the graph of a quantity without finite values.
 const UNBOUNDED_TEXT: &str = "Unbounded at every t: some triangle has no area or is flipped, so \
     it is stretched and sheared without limit.";
 
@@ -71,7 +73,7 @@ fn graph(
     intents: &mut Intents,
 ) {
     let palette = ThemePalette::of(ui);
-    // Within the current segment, as are the measurements.
+    // Like the measurements, t is relative to the current segment.
     let t = state.session.segment_t(state.playback.t());
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
@@ -105,7 +107,7 @@ fn graph(
     let is_pressed = response.response.is_pointer_button_down_on()
         || response.response.dragged_by(PointerButton::Primary);
     if let Some(pointer) = response.inner.filter(|_| is_pressed) {
-        // The axis extends a little beyond the measured range.
+        // The axis extends slightly beyond the measured range [0, 1].
         let t = state.session.whole_t(pointer.x.clamp(0.0, 1.0));
         intents.push(Intent::Seek(t));
     }
@@ -115,10 +117,10 @@ fn graph(
     ));
 }
 
-/// Returns an empty plot with axes; it cannot be panned or zoomed.
+/// Returns an empty plot with the axes of a quantity, which cannot be panned or zoomed.
 fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
     let plot = Plot::new(("plot", quantity.name().title))
-        // All graphs show the same range of t, so that they can be compared.
+        // Panning and zooming are off, so that all graphs show the same range of t.
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)
@@ -130,7 +132,7 @@ fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
         .grid_color(colour)
         .include_x(0.0)
         .include_x(1.0)
-        // Leaves room for half of the last label.
+        // The margin leaves room for half of the last label.
         .set_margin_fraction(vec2(0.04, 0.08))
         .label_formatter(|_| None)
         .y_grid_spacer(|input| marks(input.bounds.0, input.bounds.1))
@@ -142,7 +144,7 @@ fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
         .fold(plot, Plot::include_y)
 }
 
-/// Returns whether a quantity is a ratio; they span many powers of ten when a part appears.
+/// Returns whether a quantity is a ratio, whose values span many powers of ten when a part appears.
 fn is_ratio(quantity: Quantity) -> bool {
     matches!(
         quantity,
@@ -150,7 +152,7 @@ fn is_ratio(quantity: Quantity) -> bool {
     )
 }
 
-/// Maps a value to its axis, which is logarithmic for ratios.
+/// Maps a value of a quantity to the quantity's axis, which is logarithmic for ratios.
 fn axis_value(quantity: Quantity, value: f64) -> f64 {
     if is_ratio(quantity) {
         value.log10()
@@ -165,8 +167,8 @@ fn t_axis(colour: Color32) -> AxisHints<'static> {
         .formatter(|mark, _| format!("{}", (mark.value * 100.0).round() / 100.0))
 }
 
-/// Returns three to six marks at round steps. (egui's own steps are powers of ten, which leaves an
-/// axis up to 9,000 without any mark that fits.)
+/// Returns three to six marks of an axis from `min` to `max`, at round steps. (The steps of egui
+/// are powers of ten, of which none suits an axis up to 9,000.)
 fn marks(min: f64, max: f64) -> Vec<GridMark> {
     let min_step = (max - min) / 5.0;
     let power_of_ten = 10_f64.powf(min_step.log10().floor());
@@ -187,7 +189,8 @@ fn marks(min: f64, max: f64) -> Vec<GridMark> {
 fn value_axis(quantity: Quantity, colour: Color32) -> AxisHints<'static> {
     AxisHints::new_y()
         .tick_label_color(colour)
-        // As wide as the longest number, so that graphs do not move when their numbers change.
+        // The axis is as wide as the longest number, so that a graph does not move when its numbers
+        // change.
         .min_thickness(36.0)
         .formatter(move |mark, _| {
             let value = mark.value;
@@ -207,7 +210,7 @@ fn zero_line(y: f64, colour: Color32) -> HLine {
         .allow_hover(false)
 }
 
-/// Draws the quantity's name and its value at the current t.
+/// Draws the name of a quantity and its value at the current t.
 fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
     let nearest = series
         .iter()
@@ -220,7 +223,7 @@ fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
     });
 }
 
-/// Splits a series at infinite values, which cannot be drawn.
+/// Splits a series of points (t, value) at infinite values, which cannot be drawn.
 fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     series
         .split(|[_, value]| !value.is_finite())
@@ -229,7 +232,7 @@ fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
         .collect()
 }
 
-/// Returns the values that an axis always includes, such as 0 and 1 for counts.
+/// Returns the values that the axis of a quantity always includes, such as 0 and 1 for counts.
 fn included_values(quantity: Quantity) -> Vec<f64> {
     match quantity {
         Quantity::Area | Quantity::Perimeter | Quantity::Turning => vec![0.0],

@@ -1,4 +1,4 @@
-//! Mapping between t and horizontal positions on the timeline.
+//! Mapping between t and horizontal positions on the track of the timeline.
 
 use bevy_egui::egui::{Rect, vec2};
 
@@ -6,35 +6,38 @@ use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::ui_state::UiState;
 use crate::transition::TransitionStop;
 
-/// Range shown beyond either end by default, as a fraction of the film's range of t.
+/// Range of t that the track shows beyond each end of the film by default, as a fraction of the
+/// film's range of t.
 const DEFAULT_MARGIN: f64 = 0.25;
 
-/// Linear mapping between t and the x coordinate in the window.
+/// Linear mapping between t and the x coordinate in the window, in points.
 #[derive(Clone, Copy)]
 pub struct TimelineRuler {
     left: f32,
     width: f32,
     /// y coordinate of the track's line.
     pub y: f32,
-    /// First t shown.
+    /// Smallest t that the track shows.
     pub from: f64,
-    /// Last t shown.
+    /// Largest t that the track shows.
     pub to: f64,
     /// t of the last design.
     pub end: f64,
 }
 
 impl TimelineRuler {
-    /// Mapping that shows the film, all stops and the current t.
+    /// Creates the mapping for a track in `rect`, which shows the film, all stops and the current
+    /// t.
     pub fn new(rect: Rect, state: &UiState, stops: &[TransitionStop]) -> Self {
         let timing = state.session.timing();
         let places = stops
             .iter()
             .map(|stop| stop.t)
             .chain([timing.from, timing.to]);
-        // The current t may be typed or played far outside and must stay visible.
+        // The current t may lie far outside the film, and must be visible there too.
         let places = places.chain([state.playback.t()]);
-        // Relative to the film, so the margin does not depend on the number of segments.
+        // The margin is proportional to the film, so its width does not depend on the number of
+        // segments.
         let end = state.session.segment_count() as f64;
         let (mut from, mut to) = (-DEFAULT_MARGIN * end, (1.0 + DEFAULT_MARGIN) * end);
         for t in places {
@@ -57,7 +60,7 @@ impl TimelineRuler {
         self.left + ((t - self.from) / (self.to - self.from)) as f32 * self.width
     }
 
-    /// Returns the t at an x coordinate.
+    /// Returns the t at the x coordinate `x`.
     pub fn t(&self, x: f32) -> f64 {
         self.from + f64::from((x - self.left) / self.width) * (self.to - self.from)
     }

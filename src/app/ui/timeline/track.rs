@@ -1,5 +1,5 @@
-//! Track of the timeline: t from left to right, with stops, playhead and the extrapolated ranges
-//! beyond both ends.
+//! Track of the timeline: t from left to right, with stops and their menus, the playhead, and the
+//! extrapolated ranges beyond both ends of the film.
 
 use bevy_egui::egui::text::{LayoutJob, TextWrapping};
 use bevy_egui::egui::{
@@ -17,14 +17,14 @@ use crate::io::sanitize::SanitizedLine;
 use crate::project::Project;
 use crate::transition::{SequenceLayout, TransitionStop, TransitionStyle, colour_fraction};
 
-/// Distance within which scrubbing snaps to designs and stops, in points (tolerance: tenths are
-/// about 60 points apart in the smallest window).
+/// Maximum distance between the pointer and a design or stop to which t snaps, in points
+/// (tolerance: tenths of t are about 60 points apart in the smallest window).
 const SNAP_DISTANCE: f32 = 5.0;
 
-/// Initial value of a custom time to the next stop, in seconds.
+/// Initial value of the custom time from a stop to the next one, in seconds.
 const DEFAULT_CUSTOM_SECS: f64 = 2.0;
 
-/// Height of the coloured bar, in points.
+/// Height of the coloured bar that represents the film, in points.
 const BAR_HEIGHT: f32 = 6.0;
 
 /// Font of numbers and names on the track.
@@ -33,10 +33,11 @@ const FONT: FontId = FontId::proportional(11.5);
 /// Width of the word “extrapolation”, in points.
 const EXTRAPOLATION_WIDTH: f32 = 76.0;
 
-/// Width from which a design's name is drawn, in points.
+/// Minimum width of the space for the name of a design in which the name is drawn, in points.
 const MIN_NAME_WIDTH: f32 = 48.0;
 
-/// Draws the track, with the film strip below it if there is room, and handles the pointer.
+/// Draws the track and, if `has_pictures`, the film strip below it, and handles the pointer on
+/// them. Changes of stops are made in `draft`.
 pub fn show(
     ui: &mut Ui,
     state: &UiState,
@@ -69,7 +70,7 @@ fn scrub(
     stops: &[TransitionStop],
     intents: &mut Intents,
 ) {
-    // A press moves t at once, before it counts as a drag.
+    // A press of the button already moves t, before the pointer moves.
     let is_pressed = response.dragged() || response.is_pointer_button_down_on();
     let Some(pointer) = response.interact_pointer_pos().filter(|_| is_pressed) else {
         return;
@@ -80,7 +81,8 @@ fn scrub(
     let snap_candidates = snap_ts
         .map(|t| (t, (ruler.x(t) - pointer.x).abs()))
         .filter(|(_, d)| *d < SNAP_DISTANCE);
-    // A point on screen is wider than a thousandth of t; snapping makes designs and stops exact.
+    // A point on the screen is wider than a thousandth of t, so designs and stops could not be
+    // reached exactly without snapping.
     let snapped = snap_candidates
         .min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(t, _)| t);
@@ -89,7 +91,7 @@ fn scrub(
     ));
 }
 
-/// Rounds to thousandths, the finest value shown.
+/// Rounds a t to thousandths, as precisely as the window shows it.
 fn rounded(t: f64) -> f64 {
     (t * 1000.0).round() / 1000.0
 }
@@ -131,7 +133,8 @@ fn bar(ui: &Ui, ruler: TimelineRuler, style: &TransitionStyle, layout: SequenceL
     ui.painter().add(Shape::mesh(mesh));
 }
 
-/// Draws a number at each tenth of a pair, or the name of each design of a longer film.
+/// Draws the ticks of the track: a number at each tenth of t for a film of two designs, the name of
+/// each design for longer films.
 fn ticks(ui: &Ui, ruler: TimelineRuler, names: &[String], is_path: bool) {
     if ruler.end > 1.0 || is_path {
         return designs(ui, ruler, names);
@@ -155,11 +158,12 @@ fn ticks(ui: &Ui, ruler: TimelineRuler, names: &[String], is_path: bool) {
     }
 }
 
-/// Draws the number of each design and, as far as it fits, its name.
+/// Draws the number of each design and, if there is room, its name.
 fn designs(ui: &Ui, ruler: TimelineRuler, names: &[String]) {
     let palette = ThemePalette::of(ui);
     let segment_room = ruler.x(1.0) - ruler.x(0.0) - 2.0 * GRID;
-    // The outermost names must not cover the word “extrapolation”, centred beyond the ends.
+    // The first and the last name must not cover the word “extrapolation”, which is centred in the
+    // ranges beyond the ends.
     let margin_room = ruler.x(0.0) - ruler.x(ruler.from);
     let end_room = margin_room - EXTRAPOLATION_WIDTH - 2.0 * GRID;
     for (k, name) in names.iter().enumerate() {
@@ -204,12 +208,12 @@ fn stops(
     stops: &mut Vec<TransitionStop>,
     intents: &mut Intents,
 ) {
-    // Removed after the loop, which borrows the list.
+    // The stop is removed after the loop, because the loop borrows the list.
     let mut deleted = None;
     let places: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
     for (index, stop) in stops.iter_mut().enumerate() {
         let at = pos2(ruler.x(stop.t), ruler.y - 14.0);
-        // Identified by index: the name may be edited while its menu is open.
+        // The id is the index, because the name can be edited while the menu is open.
         let id = ui.id().with(("stop", index));
         let name = label(stop, &places);
         let response = marker(ui, at, id, &name);
@@ -238,7 +242,7 @@ fn stops(
     }
 }
 
-/// Returns the stop's name or, if it has none, its number from left to right.
+/// Returns the name of a stop or, if it has none, its number from left to right.
 fn label(stop: &TransitionStop, places: &[f64]) -> String {
     if !stop.name.is_empty() {
         return SanitizedLine(&stop.name).to_string();
@@ -269,7 +273,8 @@ fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
     response
 }
 
-/// Draws the stop's menu; returns whether the stop is to be deleted.
+/// Draws the menu of a stop, in which its properties are edited; returns whether the user deletes
+/// the stop.
 fn stop_menu(ui: &mut Ui, stop: &mut TransitionStop) -> bool {
     ui.set_width(240.0);
     ui.add(

@@ -1,4 +1,5 @@
-//! Transport controls of the timeline: playback buttons, the current t, and the film's timing.
+//! Playback controls of the timeline: buttons, a field with the current t, and the timing of the
+//! film.
 
 use bevy_egui::egui::{self, DragValue, Response, RichText, Ui, vec2};
 
@@ -14,13 +15,13 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::settings::Choice;
 use crate::transition::{PlayMode, Timing};
 
-/// Height of the row, in points.
+/// Height of the row of playback controls, in points.
 const ROW_HEIGHT: f32 = 36.0;
 
-/// Maximum duration and pause that can be set in the window, in seconds.
+/// Maximum duration and maximum pause of a film that can be set in the window, in seconds.
 const MAX_SECS: f64 = 600.0;
 
-/// Draws the row above the track.
+/// Draws the row of playback controls above the track; changes `timing`.
 pub fn show(ui: &mut Ui, state: &UiState, timing: &mut Timing, intents: &mut Intents) {
     ui.allocate_ui(vec2(ui.available_width(), ROW_HEIGHT), |ui| {
         ui.horizontal_centered(|ui| {
@@ -82,7 +83,7 @@ fn time_field(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     if response.changed() {
         intents.push(Intent::Seek(t));
     }
-    // In words as well, because colour alone must not carry this meaning.
+    // Words say that t is outside the film, because colour alone must not carry this meaning.
     let range_text = match state.playback.t() {
         t if t < 0.0 => "before the source",
         t if t > state.session.segment_count() as f64 => "beyond the target",
@@ -91,7 +92,7 @@ fn time_field(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.label(RichText::new(range_text).small().color(palette.amber));
 }
 
-/// Draws speed, timing and play mode, from right to left.
+/// Draws the controls of speed, timing and play mode, from right to left.
 fn timing_controls(ui: &mut Ui, state: &UiState, timing: &mut Timing, intents: &mut Intents) {
     ui.spacing_mut().item_spacing.x = 4.0;
     speed(ui, state, intents);
