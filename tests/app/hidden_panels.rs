@@ -83,7 +83,7 @@ fn show_all_messages(window: &mut HeadlessWindow) {
     }
     let mut notices = window.0.world_mut().resource_mut::<Notices>();
     notices.problem(NoticeTopic::Film, "a problem");
-    notices.done("a confirmation");
+    notices.confirm("a confirmation");
 }
 
 #[test]

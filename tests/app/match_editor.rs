@@ -90,12 +90,15 @@ fn a_click_on_a_boundary_pins_it_to_its_match() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path(), L, TALL_L);
     let at = corner(&window, Side::Source, DVec2::new(100.0, 0.0));
-    let partner = window.sheet().partner(Side::Source, at).expect("a partner");
+    let partner = window
+        .sheet()
+        .matched_point(Side::Source, at)
+        .expect("a partner");
     // A click on a handle selects the handle; only a click away from handles sets a pin.
     let away_from_handles = at + DVec2::new(-12.0, 0.0);
     let on = window
         .sheet()
-        .on_boundary(Side::Source, away_from_handles)
+        .nearest_boundary_point(Side::Source, away_from_handles)
         .expect("a boundary");
     let mut pointer = pointer_at(Side::Source, on.point.x, on.point.y);
     pointer.pick_radius = 1.0;
@@ -196,7 +199,7 @@ fn a_dragged_point_becomes_a_pin_that_snaps_to_a_corner() {
     assert!(window.sheet().pins[0].target.distance(to) < 1e-9, "snapped");
     assert!(window.session().problem().is_none());
     let pin = window.sheet().pins[0];
-    let honoured = window.sheet().partner(Side::Source, pin.source);
+    let honoured = window.sheet().matched_point(Side::Source, pin.source);
     assert!(honoured.is_some_and(|p| p.distance(pin.target) < 1e-6));
     window.send(Intent::Undo);
     assert_eq!(
@@ -388,7 +391,7 @@ fn a_click_on_painted_parts_selects_the_visible_one() {
     // The label of each part lies where no other part covers it.
     for piece in 0..3 {
         let at = window.sheet().pieces[piece].label_at[0];
-        let part = window.sheet().part(Side::Source, at, 0.0);
+        let part = window.sheet().part_at(Side::Source, at, 0.0);
         assert_eq!(part, window.sheet().pieces[piece].parts[0], "{piece}");
     }
     // Pair the gold disc of the source with the teal one of the target, then teal with gold.

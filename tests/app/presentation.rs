@@ -32,7 +32,7 @@ fn a_presentation_starts_at_the_first_stop_and_advances_by_stops() {
     let mut window = with_stops();
     window.send(Intent::Seek(0.6));
     start_presentation(&mut window);
-    assert!(presentation(&window).is_on());
+    assert!(presentation(&window).is_active());
     assert_eq!(window.t(), 0.25);
     assert!(!window.preferences().panels);
     window.press(KeyCode::PageDown, Key::PageDown);
@@ -41,7 +41,7 @@ fn a_presentation_starts_at_the_first_stop_and_advances_by_stops() {
     }
     assert_eq!(window.t(), 0.75);
     window.press(KeyCode::Escape, Key::Escape);
-    assert!(!presentation(&window).is_on() && window.preferences().panels);
+    assert!(!presentation(&window).is_active() && window.preferences().panels);
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn closing_ends_the_presentation_and_asks_about_unsaved_changes() {
     let mut window = with_stops();
     start_presentation(&mut window);
     window.send(Intent::Close);
-    assert!(!presentation(&window).is_on() && window.preferences().panels);
+    assert!(!presentation(&window).is_active() && window.preferences().panels);
     let question = window.0.world().resource::<UnsavedQuestion>();
     assert!(question.text().is_some() && window.0.should_exit().is_none());
 }
@@ -132,7 +132,7 @@ fn a_presentation_of_a_missing_file_ends_with_the_reason() {
     for _ in 0..3 {
         window.update();
     }
-    assert!(!presentation(&window).is_on() && window.preferences().panels);
+    assert!(!presentation(&window).is_active() && window.preferences().panels);
     assert_eq!(window.problems().len(), 1);
     assert!(window.0.should_exit().is_none());
 }

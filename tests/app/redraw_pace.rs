@@ -99,7 +99,7 @@ fn the_window_redraws_until_a_confirmation_disappears() {
     let mut window = HeadlessWindow::with_panels();
     wait_for_idle(&mut window);
     let mut notices = window.0.world_mut().resource_mut::<Notices>();
-    notices.done("a confirmation");
+    notices.confirm("a confirmation");
     let frames = wait_for_idle(&mut window);
     assert!(frames > 250, "six seconds of 20 ms: {frames}");
     assert!(window.0.world().resource::<Notices>().list().is_empty());

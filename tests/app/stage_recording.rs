@@ -41,7 +41,7 @@ fn the_transition_on_the_stage_is_recorded_and_proved() {
         "{} solves",
         film.evaluation_count()
     );
-    let proved = window.0.world().resource::<StageRecording>().proved();
+    let proved = window.0.world().resource::<StageRecording>().proof();
     assert!(proved.expect("an answer").holds(), "{proved:?}");
     // The transition that replaces it is recorded as well.
     window.send(Intent::OpenGallery("letters".to_owned()));
@@ -72,7 +72,7 @@ fn a_recording_above_the_memory_limit_is_refused_with_the_reason() {
         .recording();
     assert!(film.is_none(), "{film:?}");
     let recording = window.0.world().resource::<StageRecording>();
-    let reason = recording.refused().expect("a reason");
+    let reason = recording.recording_error().expect("a reason");
     assert!(
         matches!(reason, RecordingError::TooLarge { .. }),
         "{reason}"

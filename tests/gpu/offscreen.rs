@@ -124,7 +124,7 @@ impl OffscreenRenderer {
             Blend { t },
             StageStyle {
                 style: scene.style,
-                show: scene.visibility,
+                visibility: scene.visibility,
             },
         ));
         self.staged = Some(entity.id());

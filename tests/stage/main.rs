@@ -360,11 +360,14 @@ fn a_hidden_wireframe_is_updated_when_it_is_shown() {
         meshes_of(app, entity).into_iter().find(is_wireframe)
     };
     let show = |app: &mut App, wireframe: bool| {
-        let show = StageVisibility {
+        let visibility = StageVisibility {
             wireframe,
             ..default()
         };
-        let style = StageStyle { show, ..default() };
+        let style = StageStyle {
+            visibility,
+            ..default()
+        };
         app.world_mut().entity_mut(entity).insert(style);
         app.update();
     };
