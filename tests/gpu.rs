@@ -274,9 +274,9 @@ fn overlays_change_the_image(renderer: &mut OffscreenRenderer) {
             solid(0.0)
         };
         let mut scene = RenderedScene::new(name, transition);
-        scene.show = fill_only;
+        scene.visibility = fill_only;
         let plain = renderer.render(&scene, 0.4).expect("a picture");
-        switch(&mut scene.show);
+        switch(&mut scene.visibility);
         let with_overlay = renderer.render(&scene, 0.4).expect("a picture");
         let changed = different_fraction(&plain, &with_overlay);
         assert!(changed > 0.01, "{name} changes {changed} of the image");

@@ -262,7 +262,7 @@ fn marker_movement_is_recorded_as_a_path_and_places_are_saved() {
     // The map is measured on a grid that is refined in the background, up to 64 × 64 points.
     let grid_side = made
         .contours()
-        .found()
+        .landscape()
         .map(morphospace::measure::MapLandscape::side);
     assert_eq!(grid_side, Some(64));
 }

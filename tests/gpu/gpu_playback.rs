@@ -80,7 +80,7 @@ pub fn gpu_playback_matches_solved_frames(renderer: &mut OffscreenRenderer) {
 /// The GPU plays without new meshes while t is in [0, 1]; for other t, frames are solved.
 pub fn gpu_playback_writes_no_meshes(renderer: &mut OffscreenRenderer) {
     let mut scene = RenderedScene::new("unwritten", recorded(spiral(15.0)));
-    scene.show.wireframe = true;
+    scene.visibility.wireframe = true;
     renderer.place(&scene, 0.5);
     renderer.wait_for_gpu_playback();
     renderer.take_written_count();
@@ -95,7 +95,7 @@ pub fn gpu_playback_writes_no_meshes(renderer: &mut OffscreenRenderer) {
         let (outside, solved) = (renderer.capture(&scene), {
             let hidden = renderer.hide();
             let mut solved = RenderedScene::new("unwritten", spiral(15.0));
-            solved.show = scene.show;
+            solved.visibility = scene.show;
             let image = renderer.render(&solved, t);
             renderer.unhide(hidden);
             image
@@ -118,11 +118,11 @@ pub fn gpu_playback_writes_no_meshes(renderer: &mut OffscreenRenderer) {
 pub fn gpu_playback_of_wireframes_matches_solved_frames(renderer: &mut OffscreenRenderer) {
     let [mut played, mut solved] = [recorded(spiral(15.0)), spiral(15.0)].map(|transition| {
         let mut scene = RenderedScene::new("wires", transition);
-        scene.show.wireframe = true;
+        scene.visibility.wireframe = true;
         scene
     });
     for fill in [true, false] {
-        (played.show.fill, solved.show.fill) = (fill, fill);
+        (played.visibility.fill, solved.show.fill) = (fill, fill);
         renderer.place(&played, 0.4);
         renderer.wait_for_gpu_playback();
         for t in [0.0, 0.3, 0.77, 1.0] {
