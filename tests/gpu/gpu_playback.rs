@@ -95,7 +95,7 @@ pub fn gpu_playback_writes_no_meshes(renderer: &mut OffscreenRenderer) {
         let (outside, solved) = (renderer.capture(&scene), {
             let hidden = renderer.hide();
             let mut solved = RenderedScene::new("unwritten", spiral(15.0));
-            solved.visibility = scene.show;
+            solved.visibility = scene.visibility;
             let image = renderer.render(&solved, t);
             renderer.unhide(hidden);
             image
@@ -122,7 +122,7 @@ pub fn gpu_playback_of_wireframes_matches_solved_frames(renderer: &mut Offscreen
         scene
     });
     for fill in [true, false] {
-        (played.visibility.fill, solved.show.fill) = (fill, fill);
+        (played.visibility.fill, solved.visibility.fill) = (fill, fill);
         renderer.place(&played, 0.4);
         renderer.wait_for_gpu_playback();
         for t in [0.0, 0.3, 0.77, 1.0] {
