@@ -11,14 +11,15 @@
 //! | `jobs`, `notices` | background threads; messages shown to the user |
 //! | `session` | the open project: files, undo history, building its transition |
 //! | `files`, `unsaved_question` | open, edit, save and close; file dialog; invitation; gallery |
-//! | `playback`, `presentation` | t and how it moves; talks and the speaker's window |
+//! | `playback`, `presentation` | the blend parameter t and its change over time; talks and the
+//! speaker's window |
 //! | `view`, `stage_area`, `stage_sync` | pan and zoom, filmstrip; what the stage shows |
 //! | `escape` | what Esc closes or cancels, full screen |
 //! | `redraw_pace` | how often the window redraws |
 //! | `screen_fit` | size of the window on small screens |
-//! | `map` | the map of all designs, its thumbnails and contours |
-//! | `analysis` | measures of the film, method search, suggestions |
-//! | `compare` | a second method next to the stage |
+//! | `map` | the map on which the designs are placed, its thumbnails and contours |
+//! | `analysis` | measures of the film, search for the best method, suggested changes |
+//! | `compare` | a second method shown next to the stage, at the same t |
 //! | `editing` | the match editor |
 //! | `capture`, `output_files` | images and films written to files or the clipboard |
 //! | `persistence` | autosave, recent files, presets, gallery cache |

@@ -60,6 +60,7 @@ mod spec;
 mod stiffening;
 mod style;
 mod transients;
+#[expect(clippy::module_inception, reason = "the file is named after its type")]
 mod transition;
 
 #[cfg(test)]

@@ -8,7 +8,8 @@ pub mod transition_memo;
 
 use crate::transition::Transition;
 
-/// Whether cached results belong to the transition on the stage.
+/// Whether results computed for the transition `cached` are valid for the transition on the stage,
+/// `staged`.
 fn is_same(cached: Option<&Transition>, staged: Option<&Transition>) -> bool {
     match (cached, staged) {
         (Some(cached), Some(staged)) => cached.is_same(staged),

@@ -1,4 +1,5 @@
-//! Esc and full screen: intents whose effect depends on everything that is open.
+//! Handles the intents of Esc, which closes or cancels the first of all things that are open or
+//! running, and of full screen.
 
 use crate::app::analysis::film_measures::StageMeasures;
 use crate::app::analysis::method_search::MethodSearch;
@@ -14,7 +15,7 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::window::{PrimaryWindow, WindowMode};
 
-/// Switches between full screen and window.
+/// Switches the main window between full screen and windowed mode.
 pub fn window_mode(
     mut intents: MessageReader<Intent>,
     mut window: Single<&mut Window, With<PrimaryWindow>>,
@@ -39,7 +40,7 @@ pub struct EscapeBlockers<'w> {
 }
 
 impl EscapeBlockers<'_> {
-    /// Whether something else handles Esc.
+    /// Whether a question or a talk handles Esc.
     fn any(&self) -> bool {
         self.questions.any() || self.presentation.is_active()
     }
@@ -60,8 +61,8 @@ pub struct CancellableWork<'w> {
     exporter: Res<'w, FilmExporter>,
 }
 
-/// Handles Esc: each press closes or cancels one thing, in the order of the branches below. The
-/// last resort is cancelling an export.
+/// Handles Esc: each press closes or cancels one thing, in the order of the branches below. With
+/// nothing else open, it cancels a running export.
 pub fn handle_escape(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,

@@ -43,7 +43,7 @@ pub struct KeyContext<'w> {
 }
 
 impl KeyContext<'_> {
-    /// Whether the intent of a key may be carried out now.
+    /// Whether an intent triggered by a key may be carried out now.
     fn allows(&self, intent: &Intent) -> bool {
         match intent {
             Intent::Escape => !self.focus.0,
@@ -55,8 +55,8 @@ impl KeyContext<'_> {
 
 /// Turns key presses into intents; does nothing while a text field has the focus.
 ///
-/// Modifiers are tracked from the same messages, in order: in a slow frame Shift may be released
-/// again before the frame that handles Shift+S.
+/// The state of the modifiers follows the same messages in order: when frames are slow, Shift may
+/// be released before the frame that handles Shift+S.
 pub fn read_keys(
     mut inputs: MessageReader<KeyboardInput>,
     mut focus_lost: MessageReader<KeyboardFocusLost>,
@@ -70,7 +70,8 @@ pub fn read_keys(
         *held = KeyModifiers::default();
     }
     for input in inputs.read() {
-        // Also while text is entered: modifiers held when the focus leaves the field still count.
+        // Modifiers are followed even while a text field has the focus: those held when it loses
+        // the focus still count.
         held.update(input);
         let key_intent = map.intent(input, *held, context.editor.is_open);
         if let Some(intent) = key_intent.filter(|intent| context.allows(intent)) {

@@ -137,14 +137,15 @@ fn init_resources(app: &mut App) {
 /// is opened before it is played.
 fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
-        // First of all readers of intents, so that closing the window takes no longer than a key
-        // press.
+        // Before all readers of intents, so that closing the window takes effect in the same frame,
+        // as a key press does.
         unsaved_question::read_close_requests,
-        // Before anything is opened or shown: Esc leaves the state in which it was pressed.
+        // Before anything is opened or shown, so that Esc acts on what was open when it was
+        // pressed.
         (escape::handle_escape, presenter::apply).chain(),
         (preference_actions::apply, film_presets::apply).chain(),
-        // Questions run before the actions that wait for them, the lowest question first: each
-        // checks whether another question lies above it.
+        // Questions are handled before the actions that wait for their answers. The bottom question
+        // comes first, because each checks whether another question is still open above it.
         (
             drop::close_drop_question,
             autosave::answer_recovery,
@@ -160,7 +161,8 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
             .chain(),
         (
             opening::open,
-            // After opening, which does not add a single design to the project shown so far.
+            // After `open`, which needs to know whether the invitation is still shown: it never
+            // adds a dropped design to the project that plays next to the invitation.
             invitation::apply,
             opening::edit,
             actions::apply,
@@ -181,8 +183,8 @@ fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSyste
             (map_actions::apply, update::follow, saved_blends::export).chain(),
         )
             .chain(),
-        // Advance first, then seek: otherwise the time spent standing still would be played at
-        // once.
+        // Advance t before intents start or move it: otherwise the time since the last frame, in
+        // which nothing moved, would be played at once.
         (player::advance, presenter::begin, player::apply).chain(),
         (stage_sync::select_segment, presenter::hide_pointer).chain(),
         (

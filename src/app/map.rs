@@ -1,4 +1,5 @@
-//! The map of all designs: marker, saved blends, paths, thumbnails and contours.
+//! The map on which the designs are placed: its marker, saved blends, paths, thumbnails and
+//! contours.
 
 pub mod contours;
 pub mod map_actions;

@@ -25,14 +25,14 @@ pub enum NoWindowError {
     Graphics,
 }
 
-/// Beginnings of the panic messages of Bevy 0.19, and what each means.
+/// Beginnings of the two panic messages, as of Bevy 0.19, and the reason that each stands for.
 const PANICS: [(&str, NoWindowError); 2] = [
     ("Failed to build event loop", NoWindowError::Display),
     ("Unable to find a GPU", NoWindowError::Graphics),
 ];
 
 impl NoWindowError {
-    /// Reason named by a panic's message, if it is one of the two.
+    /// Reason that the panic's message stands for; `None` for all panics but these two.
     fn of(panic: &dyn Any) -> Option<Self> {
         let text = match panic.downcast_ref::<String>() {
             Some(text) => text.as_str(),
@@ -46,7 +46,7 @@ impl NoWindowError {
 /// Runs `program` and turns a panic about a missing display or driver into an error.
 ///
 /// # Errors
-/// [`NoWindowError`]; all other panics are passed on.
+/// [`NoWindowError`] for these two panics; all others propagate.
 pub(super) fn catch_no_window<T>(program: impl FnOnce() -> T) -> Result<T, NoWindowError> {
     let default_hook = take_hook();
     set_hook(Box::new(move |panic| {

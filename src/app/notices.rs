@@ -12,10 +12,11 @@ use crate::io::sanitize::SanitizedLine;
 /// Seconds for which a confirmation stays (heuristic: long enough to read a file path).
 const CONFIRMATION_SECS: f32 = 6.0;
 
-/// Seconds for which notes and notices with a button stay; they take longer to read (heuristic).
+/// Seconds for which notes and notices about written files stay; they take longer to read
+/// (heuristic).
 const NOTE_SECS: f32 = 10.0;
 
-/// Topic of a problem; all problems of a topic disappear when it is resolved.
+/// Topic of a problem; all problems of a topic disappear together when the topic is resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoticeTopic {
     /// Opening files.
@@ -35,16 +36,16 @@ pub enum NoticeTopic {
 pub enum NoticeKind {
     /// Something went wrong; stays until dismissed or resolved.
     Problem(NoticeTopic),
-    /// Something succeeded; disappears.
+    /// Something succeeded; disappears after some seconds.
     Confirmation,
     /// A file was written; disappears after enough time to click the link to its folder.
     FileWritten,
-    /// Information that the user may not expect; disappears.
+    /// Information that the user may not expect; disappears after some seconds.
     Note,
 }
 
 impl NoticeKind {
-    /// Seconds for which it stays; `None` for problems.
+    /// Seconds for which a notice of this kind stays; `None` for problems, which do not expire.
     fn stays_secs(self) -> Option<f32> {
         match self {
             Self::Problem(_) => None,
@@ -57,13 +58,14 @@ impl NoticeKind {
 /// One message shown to the user.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
-    /// Id by which it is dismissed.
+    /// Id by which [`Intent::DismissNotice`] refers to the notice.
     pub id: u64,
     /// Kind of notice.
     pub kind: NoticeKind,
-    /// One sentence.
+    /// Message to the user, one sentence.
     pub text: String,
-    /// The file it refers to, which can be shown in its folder.
+    /// Written file that the notice reports and whose folder the user can open; `None` for other
+    /// kinds.
     pub file: Option<PathBuf>,
     age_secs: f32,
 }
@@ -99,14 +101,14 @@ impl Notices {
         self.push(NoticeKind::Note, text.into());
     }
 
-    /// Whether there is a problem with this topic.
+    /// Whether a problem of this topic is on screen.
     #[must_use]
     pub fn has_problem(&self, about: NoticeTopic) -> bool {
         let kind = NoticeKind::Problem(about);
         self.list.iter().any(|notice| notice.kind == kind)
     }
 
-    /// Marks the topic as resolved and removes its problems.
+    /// Removes all problems of a topic, because it is resolved.
     pub fn resolve(&mut self, about: NoticeTopic) {
         let kind = NoticeKind::Problem(about);
         self.list.retain(|notice| notice.kind != kind);
@@ -118,10 +120,10 @@ impl Notices {
         &self.list
     }
 
-    /// Adds a notice, replacing an equal one.
+    /// Adds a notice as the newest; an older one with the same text is removed.
     fn push(&mut self, kind: NoticeKind, text: String) {
         let text = SanitizedLine(text).to_string();
-        // A repeated message becomes the newest: it moves to the end and its time restarts.
+        // A repeated message moves to the end and its time on screen restarts.
         self.list.retain(|notice| notice.text != text);
         self.next_id += 1;
         self.list.push(Notice {
@@ -133,7 +135,7 @@ impl Notices {
         });
     }
 
-    /// Whether a notice will disappear by itself.
+    /// Whether some notice will disappear by itself.
     #[must_use]
     pub fn has_expiring(&self) -> bool {
         self.list
@@ -157,8 +159,8 @@ impl Notices {
     }
 }
 
-/// Removes dismissed and expired notices. Nothing expires while the panels are hidden, because
-/// nothing has been seen.
+/// Removes dismissed and expired notices. Nothing expires while the panels are hidden, because the
+/// user cannot see the notices.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     time: Res<Time>,

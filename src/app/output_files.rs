@@ -1,5 +1,5 @@
-//! Output files: the capture folder, free file names, and the scratch folder for unfinished
-//! exports.
+//! Output files: the folder for exports, file names that are still free, and the scratch folder for
+//! unfinished exports.
 
 use std::fs::{File, OpenOptions};
 use std::io;
@@ -15,7 +15,8 @@ use crate::io::file_name::safe_file_name;
 pub struct CaptureFolder(pub PathBuf);
 
 impl CaptureFolder {
-    /// The requested folder, or `Morphospace` in the user's pictures, home or current folder.
+    /// Returns the requested folder, or else the folder `Morphospace` in the user's pictures
+    /// folder, home folder or current folder, whichever is known first.
     #[must_use]
     pub fn choose(requested: Option<PathBuf>) -> Self {
         let pictures = || {
@@ -39,7 +40,7 @@ pub struct CreateFileError {
 /// touches an existing file, even if two processes do this at once.
 ///
 /// # Errors
-/// The folder or file cannot be created.
+/// The folder or the file cannot be created.
 pub fn create_new(
     folder: &Path,
     stem: &str,
@@ -49,7 +50,8 @@ pub fn create_new(
     first_free(folder, stem, &format!(".{extension}"), create)
 }
 
-/// Calls `create` with `stem`, `stem-2` and so on until a name is free.
+/// Calls `create` with the paths `stem`, `stem-2` and so on, each followed by `suffix`, until one
+/// is free; returns its result and the path.
 fn first_free<T>(
     folder: &Path,
     stem: &str,
@@ -110,8 +112,8 @@ impl ScratchFolder {
     }
 }
 
-/// Checks that a folder can be written to, and creates it if missing; called before long work
-/// rather than after.
+/// Checks that a folder can be written to, and creates it if missing; called before a long export,
+/// so that it does not fail at its end.
 ///
 /// # Errors
 /// The folder cannot be created or written to.
@@ -126,7 +128,7 @@ pub fn check_writable(folder: &Path) -> Result<(), CreateFileError> {
 /// Moves a finished file or folder into `folder` under a free name; returns its path.
 ///
 /// # Errors
-/// The folder cannot be created or written to; nothing is left there then.
+/// The folder cannot be created or written to. In this case nothing is left there.
 pub fn move_to_free_name(
     source_path: &Path,
     folder: &Path,
@@ -152,7 +154,7 @@ pub fn move_to_free_name(
     Ok(path)
 }
 
-/// Copies to a new file; for other disks and file systems without links.
+/// Copies a file to a new path, for other disks and for file systems without hard links.
 fn copy_new(source_path: &Path, path: &Path) -> io::Result<()> {
     // Reserves the name; the content then replaces the empty file in one step.
     drop(OpenOptions::new().write(true).create_new(true).open(path)?);
@@ -166,7 +168,7 @@ fn copy_new(source_path: &Path, path: &Path) -> io::Result<()> {
     })
 }
 
-/// Moves a folder to a new name; copies it where it cannot be renamed.
+/// Moves a folder to a new path; copies its files if it cannot be renamed, as between two disks.
 fn move_folder(source_path: &Path, path: &Path) -> io::Result<()> {
     // Created first, because `rename` may overwrite an empty folder.
     std::fs::create_dir(path)?;
@@ -243,7 +245,7 @@ mod tests {
         );
         assert_eq!(std::fs::read(folder.join("a-2.gif"))?, b"frames");
         assert_eq!(std::fs::read(folder.join("a").join("0.png"))?, b"frame");
-        // As between two disks.
+        // Copying, as is done between two disks.
         copy_new(&film, &folder.join("b.gif"))?;
         assert_eq!(std::fs::read(folder.join("b.gif"))?, b"frames");
         assert!(copy_new(&film, &folder.join("b.gif")).is_err());

@@ -37,9 +37,9 @@ use crate::app::session::state::Session;
 use crate::app::view::filmstrip::Filmstrip;
 use crate::stage::PipelinesReady;
 
-/// Possible intervals at which progress is redrawn while work runs; results wake the window at
-/// once. Longer intervals leave time to the work where frames are slow, as with software rendering.
-/// Fixed steps, because each change of the mode costs a frame (heuristic).
+/// Intervals, shortest first, at which the progress of background work may be redrawn. Where frames
+/// are slow, as with software rendering, a longer interval leaves time for the work. The choices
+/// are few, because each change of the update mode costs a frame (heuristic).
 const PROGRESS_INTERVALS: [Duration; 4] = [
     Duration::from_millis(50),
     Duration::from_millis(100),
@@ -47,23 +47,25 @@ const PROGRESS_INTERVALS: [Duration; 4] = [
     Duration::from_millis(400),
 ];
 
-/// Redraw interval while a clock is shown: never more than half a second behind.
+/// Redraw interval while the speaker's window shows its clock, which then lags by half a second at
+/// most.
 const CLOCK_INTERVAL: Duration = Duration::from_millis(500);
 
-/// Interval at rest. Finite, because winit otherwise keeps its last wake-up time, which has passed,
-/// and wakes continuously.
+/// Redraw interval while nothing changes. Finite, because winit without a new wake-up time keeps
+/// the last one, which has passed, and wakes continuously.
 const REST_INTERVAL: Duration = Duration::from_secs(3600);
 
-/// Number of frames until everything that follows from an event is on screen: panels are drawn
-/// after the systems, their intents are applied one frame later and visible in the next, and the
-/// renderer lags another frame and reports missing pipelines one frame later still.
+/// Number of frames to draw after an event until all its effects are on screen: panels are drawn
+/// after the other systems, their intents are applied one frame later and visible in the next, and
+/// the renderer lags another frame and reports missing pipelines one frame later still.
 const SETTLING_FRAMES: u8 = 6;
 
-/// The same while a transition is being built, to leave time to the work (heuristic).
+/// Number of frames to draw after an event while a transition is being built: fewer, to leave time
+/// for the build (heuristic).
 const SETTLING_FRAMES_AT_WORK: u8 = 2;
 
-/// Time until the panels want to be redrawn by themselves; `Duration::MAX` if nothing in them
-/// moves.
+/// Time after which the panels must be redrawn even without input; `Duration::MAX` if nothing in
+/// them moves.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PanelRepaint(pub Duration);
 
@@ -73,18 +75,19 @@ impl Default for PanelRepaint {
     }
 }
 
-/// Reasons to redraw the window.
+/// Reasons for and against redrawing the window, from which its update mode follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RedrawPace {
-    /// Something moves, or the effect of an event is not on screen yet.
+    /// Whether something moves, or the effects of an event are not all on screen yet.
     pub is_moving: bool,
-    /// Work is in progress, or a notice is about to disappear.
+    /// Whether background work is in progress, or something will change by itself, such as a
+    /// notice.
     pub is_waiting: bool,
-    /// A clock is shown.
+    /// Whether the speaker's window shows its clock.
     pub has_clock: bool,
-    /// The window is minimised or covered.
+    /// Whether the window is minimised or covered, and nothing else needs its frames.
     pub is_hidden: bool,
-    /// Duration of a frame.
+    /// Time that the last frame took, without waiting.
     pub frame: Duration,
 }
 
@@ -109,8 +112,8 @@ impl RedrawPace {
         }
     }
 
-    /// Interval for redrawing progress: at least twice the frame duration, so that half the time is
-    /// left to the work.
+    /// Interval for redrawing progress: at least twice the frame duration, so that at least half
+    /// the time is left for the background work.
     fn progress_interval(self) -> Duration {
         let [.., longest] = PROGRESS_INTERVALS;
         let is_long_enough = |interval: &Duration| *interval >= self.frame * 2;
@@ -121,7 +124,7 @@ impl RedrawPace {
     }
 }
 
-/// All state that the redraw rate depends on.
+/// Resources and entities that the redraw rate depends on.
 #[derive(SystemParam)]
 pub struct RedrawInputs<'w, 's> {
     session: Res<'w, Session>,
@@ -166,7 +169,7 @@ impl RedrawInputs<'_, '_> {
 
     /// Whether something will change by itself, such as the progress of work.
     fn is_work_pending(&self) -> bool {
-        // For example a blinking cursor, or a tooltip about to appear.
+        // The panels have a repaint due, for example for a blinking cursor or a tooltip.
         self.repaint.0 < REST_INTERVAL
             || self.presentation.has_pending_change()
             || self.session.work().is_some()
@@ -188,7 +191,7 @@ impl RedrawInputs<'_, '_> {
             || (self.preferences.panels && self.notices.has_expiring())
     }
 
-    /// Whether work has a result whose effect must be drawn.
+    /// Whether background work has delivered a result that must be drawn.
     fn has_new_results(&self) -> bool {
         self.session.is_changed()
             || self.method_search.is_changed()
@@ -210,16 +213,16 @@ pub struct RedrawMessages<'w, 's> {
     events: MessageReader<'w, 's, WindowEvent>,
     /// The user's intents.
     intents: MessageReader<'w, 's, Intent>,
-    /// Windows that were covered or uncovered.
+    /// Reports that a window was covered or uncovered.
     occlusions: MessageReader<'w, 's, WindowOccluded>,
-    /// Requests to redraw at once; missing without a window backend.
+    /// Requests to redraw at once; `None` without a window backend.
     requests: Option<ResMut<'w, Messages<RequestRedraw>>>,
 }
 
 /// State that [`set_redraw_pace`] carries from frame to frame.
 #[derive(SystemParam)]
 pub struct RedrawState<'s> {
-    /// Number of frames until the effects of the last event are on screen.
+    /// Number of frames still to draw until the effects of the last event are on screen.
     settling: Local<'s, u8>,
     /// Whether the main window is covered by other windows.
     is_covered: Local<'s, bool>,
@@ -245,11 +248,12 @@ pub fn set_redraw_pace(
         (true, false) => SETTLING_FRAMES,
         (false, _) => state.settling.saturating_sub(1),
     };
-    // In continuous mode the frame time includes no waiting.
+    // In continuous mode the time between two frames includes no waiting.
     if settings.focused_mode == UpdateMode::Continuous {
         *state.frame = time.delta();
     }
-    // A transition being built matters more than sliding panels: they jump to their end position.
+    // While a transition is being built and frames are slow, panels jump to their end position
+    // instead of sliding, which leaves more time for the build.
     let skips_sliding = is_building && *state.frame * 2 > PROGRESS_INTERVALS[0];
     if skips_sliding && let Some(requests) = &mut messages.requests {
         requests.clear();
@@ -260,7 +264,8 @@ pub fn set_redraw_pace(
     if let Some(last) = messages.occlusions.read().filter(is_stage_window).last() {
         *state.is_covered = last.occluded;
     }
-    // Needed even if hidden: the speaker's window is visible, or an autosave is pending.
+    // Frames of a hidden window are still needed while the speaker's window is open or an autosave
+    // is pending.
     let is_needed = inputs.speaker.is_open() || inputs.autosave.is_behind();
     let pace = RedrawPace {
         is_moving: *state.settling > 0
@@ -272,8 +277,8 @@ pub fn set_redraw_pace(
         frame: *state.frame,
     };
     let mode = pace.update_mode();
-    // The same mode without focus: the film goes on while another window is used. Compared first,
-    // to avoid needless change events.
+    // The same mode with and without focus, so that the film goes on while another window is used.
+    // Compared first, to avoid needless change events.
     if (settings.focused_mode, settings.unfocused_mode) != (mode, mode) {
         (settings.focused_mode, settings.unfocused_mode) = (mode, mode);
     }

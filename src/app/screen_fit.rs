@@ -1,5 +1,5 @@
-//! Keeps the window within the screen it opens on: its first size, its minimum size, and the size
-//! of a point.
+//! Keeps the window within the screen it opens on: sets its first size, its minimum size, and its
+//! scale factor.
 //!
 //! The panels need [`MIN_SIZE`] points. On a screen that has fewer, such as 1280 × 720 pixels at
 //! scale factor 2, points are made smaller than the system asks for, so that nothing is cut off.
@@ -7,17 +7,18 @@
 use bevy::prelude::{Has, Local, Query, Single, UVec2, Vec2, With};
 use bevy::window::{Monitor, OnMonitor, PrimaryMonitor, PrimaryWindow, Window, WindowMode};
 
-/// Minimum size of the window, in points: the list of keys, the largest panel, fits.
+/// Minimum size of the window, in points: large enough for the list of keys, the largest panel.
 const MIN_SIZE: Vec2 = Vec2::new(960.0, 540.0);
 
-/// Part of the screen left free at first, in logical pixels: a title bar and a task bar, or a dock
-/// at the side.
+/// Width and height of the screen that the window leaves free when it opens, in logical pixels:
+/// room for a title bar and a task bar, or for a dock at the side.
 const MARGIN: Vec2 = Vec2::splat(80.0);
 
-/// Minimum scale factor (tolerance: text of 14 points is then 7 pixels high, just legible).
+/// Minimum scale factor, in pixels per point (heuristic: text of 14 points is then 7 pixels high,
+/// just legible).
 const MIN_SCALE: f32 = 0.5;
 
-/// Sizes that suit one screen.
+/// Screen for which the window's sizes are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenFit {
     /// Size of the screen, in pixels.
@@ -27,7 +28,7 @@ pub struct ScreenFit {
 }
 
 impl ScreenFit {
-    /// Size that the window may have at first, in pixels.
+    /// Maximum size of the window when it opens, in pixels.
     fn free_px(&self) -> Vec2 {
         (self.screen_px.as_vec2() - MARGIN * self.system_scale).max(Vec2::ONE)
     }
@@ -43,8 +44,8 @@ impl ScreenFit {
         MIN_SIZE * self.scale() / self.system_scale
     }
 
-    /// Applies the sizes to a window. At first it stays clear of the screen's edges; later the user
-    /// may have made it as large as the screen.
+    /// Sets the scale factor, minimum size and size of a window. When it opens (`is_first`), it
+    /// leaves the margin free; later it may be as large as the screen.
     fn apply(&self, window: &mut Window, is_first: bool) {
         let is_smaller = self.scale() < self.system_scale;
         let scale = is_smaller.then_some(self.scale());
@@ -61,7 +62,7 @@ impl ScreenFit {
     }
 }
 
-/// Fits the window to the screen it is on, whenever that changes.
+/// Fits the window to the screen it is on, whenever the screen or its scale factor changes.
 pub fn fit_to_screen(
     window: Single<(&mut Window, Option<&OnMonitor>), With<PrimaryWindow>>,
     monitors: Query<(&Monitor, Has<PrimaryMonitor>)>,
@@ -74,7 +75,8 @@ pub fn fit_to_screen(
         return;
     }
     let current = on_monitor.and_then(|on| monitors.get(on.0).ok());
-    // Until the system says where the window is: where it probably opens, or where it surely fits.
+    // Until the system reports the window's screen, assume the primary one, where it probably
+    // opens, or else the smallest one, on which it surely fits.
     let primary = monitors.iter().find(|(_, is_primary)| *is_primary);
     let area = |(monitor, _): &(&Monitor, bool)| monitor.physical_size().element_product();
     let smallest = monitors.iter().min_by_key(area);
@@ -97,7 +99,7 @@ mod tests {
     use super::*;
     use bevy::window::WindowResolution;
 
-    /// A new window on a screen, as the system creates it: 1280 × 720 points.
+    /// New window of 1280 × 720 points, as the system creates it, fitted to a screen.
     fn fitted_window(screen_px: UVec2, system_scale: f32) -> Window {
         let size = Vec2::new(1280.0, 720.0) * system_scale;
         let mut resolution = WindowResolution::new(size.x as u32, size.y as u32);
@@ -138,10 +140,10 @@ mod tests {
                 let free = screen_px.as_vec2() - MARGIN * scale;
                 let size = window.physical_size();
                 assert!(size.as_vec2().cmple(free).all(), "{context}");
-                // One pixel less, because sizes are rounded down.
+                // One pixel is added, because pixel sizes are rounded down.
                 let points = (size + UVec2::ONE).as_vec2() / window.scale_factor();
                 assert!(points.cmpge(MIN_SIZE).all(), "{context}: {points}");
-                // The system's minimum is no larger than the window.
+                // The minimum size does not exceed the window's size.
                 let constraints = window.resize_constraints;
                 let min = Vec2::new(constraints.min_width, constraints.min_height) * scale;
                 assert!(
@@ -157,7 +159,7 @@ mod tests {
         let window = fitted_window(UVec2::new(1280, 720), 1.0);
         assert_eq!(window.resolution.scale_factor_override(), None);
         let window = fitted_window(UVec2::new(1280, 720), 2.0);
-        // 720 pixels, less the margin, hold 540 points.
+        // The screen's 720 pixels of height, less the margin of 160, hold 540 points.
         let scale = (720.0 - 160.0) / 540.0;
         assert!((window.scale_factor() - scale).abs() < 1e-5);
     }

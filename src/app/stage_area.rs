@@ -1,11 +1,11 @@
-//! The part of the window that shows the stage, and whether the view stays fitted to it.
+//! The area of the window that shows the stage, and whether the view stays fitted to it.
 
 use bevy::prelude::{Resource, Vec2};
 
-/// Part of the window that the panels leave to the stage, in logical pixels.
+/// Area of the window that the panels leave free for the stage, in logical pixels.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct StageArea {
-    /// Top left corner, y down.
+    /// Top left corner, from that of the window, y down.
     pub corner: Vec2,
     /// Width and height.
     pub size: Vec2,
@@ -20,7 +20,8 @@ impl Default for StageArea {
     }
 }
 
-/// Whether the view shows the whole transition and stays fitted when the area changes.
+/// Whether the view shows the whole transition and stays fitted to it when the stage's area
+/// changes.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AutoFit(pub bool);
 

@@ -11,17 +11,17 @@ use crate::app::session::state::Session;
 use crate::stage::{Blend, StageStyle, StageTransition};
 use crate::transition::Transition;
 
-/// Render layer of the comparison.
+/// Render layer of the comparison; only the comparison's camera draws it.
 pub const COMPARISON_LAYER: RenderLayers = RenderLayers::layer(1);
 
-/// Marks the entity on the stage.
+/// Marks the entity that shows the session's transition on the stage.
 #[derive(Component, Debug)]
 pub struct OnStage;
 
-/// The entity with marker `Of` and its transition.
+/// Query for the entity with the marker component `Of`, and its transition.
 type StagedEntity<'w, 's, Of> = Query<'w, 's, (Entity, &'static StageTransition), With<Of>>;
 
-/// Puts the current transition on the stage when it changes.
+/// Puts the transition of the current segment on the stage whenever the session changes.
 pub fn stage_transition(
     mut commands: Commands,
     session: Res<Session>,
@@ -36,7 +36,7 @@ pub fn stage_transition(
     }
 }
 
-/// Adds, replaces or removes the compared transition when it changes.
+/// Adds, replaces or removes the comparison's transition whenever the comparison changes.
 pub fn stage_comparison(
     mut commands: Commands,
     comparison: Res<Comparison>,
@@ -59,7 +59,8 @@ pub fn stage_comparison(
     }
 }
 
-/// Updates the entity with these markers; spawns or despawns it as needed.
+/// Updates the transition of the entity with the marker `Of`. Spawns the entity with all `markers`
+/// if it is missing, and despawns it if `transition` is `None`.
 fn stage<Of: Component>(
     commands: &mut Commands,
     transition: Option<&Transition>,
@@ -69,7 +70,7 @@ fn stage<Of: Component>(
 ) {
     match (transition, staged.single()) {
         (Some(new), Ok((_, StageTransition(old))))
-            // Clones share their data; inserting one would upload its meshes again.
+            // Clones share their data. Inserting a clone would upload the same meshes again.
             if new.is_same(old) => {}
         (Some(new), Ok((entity, _))) => {
             let new = (StageTransition(new.clone()), blend);
@@ -83,10 +84,10 @@ fn stage<Of: Component>(
     }
 }
 
-/// Filter: on the stage or in the comparison.
+/// Query filter: entities on the stage or in the comparison.
 type StageOrComparison = Or<(With<OnStage>, With<OnComparison>)>;
 
-/// Sets t of everything on the stage.
+/// Sets t of the stage and of the comparison.
 pub fn stage_t(
     playback: Res<Playback>,
     session: Res<Session>,
@@ -101,7 +102,7 @@ pub fn stage_t(
     }
 }
 
-/// Selects the segment that t is in.
+/// Makes the segment that contains the playback's t the current one.
 pub fn select_segment(playback: Res<Playback>, mut session: ResMut<Session>) {
     let segment = session.segment_at(playback.t());
     // Compared first, because writing marks the session as changed.
@@ -110,7 +111,7 @@ pub fn select_segment(playback: Res<Playback>, mut session: ResMut<Session>) {
     }
 }
 
-/// Applies the project's colours and the display preferences to everything on the stage.
+/// Applies the project's colours and the display preferences to the stage and the comparison.
 pub fn stage_style(
     session: Res<Session>,
     preferences: Res<Preferences>,
@@ -120,7 +121,7 @@ pub fn stage_style(
     let style = session.segment_style();
     let [r, g, b] = style.ground.0;
     let colour = Color::srgb_u8(r, g, b);
-    // Compared first, here and below: writing marks it as changed and redraws it.
+    // Compared first, here and below, because each write counts as a change and causes a redraw.
     if clear_colour.0 != colour {
         clear_colour.0 = colour;
     }

@@ -40,7 +40,7 @@ struct PendingIntent {
 }
 
 impl UnsavedQuestion {
-    /// Text of the open question.
+    /// Text of the open question; `None` if no question is open.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         let pending = self
@@ -50,13 +50,14 @@ impl UnsavedQuestion {
         Some(&pending.text)
     }
 
-    /// Kind of work that would be lost by the waiting intent.
+    /// Kind of work that the waiting intent would lose; also after the user's answer, while the
+    /// intent waits for the save or export.
     #[must_use]
     pub fn kind(&self) -> Option<UnsavedKind> {
         self.pending.as_ref().map(|pending| pending.kind)
     }
 
-    /// Holds an intent back and asks.
+    /// Holds an intent back and opens a question with this text.
     pub fn ask(&mut self, intent: Intent, kind: UnsavedKind, text: String) {
         self.pending = Some(PendingIntent {
             intent,
@@ -66,19 +67,20 @@ impl UnsavedQuestion {
         });
     }
 
-    /// Call when the work is saved or discarded: returns the intent that waited for it.
+    /// Takes the intent that waited for this kind of work; to be called once the work has been
+    /// saved or discarded. `None` if no answered question waits for it.
     pub fn take_if_resolved(&mut self, kind: UnsavedKind) -> Option<Intent> {
         let waits = |pending: &mut PendingIntent| pending.is_answered && pending.kind == kind;
         Some(self.pending.take_if(waits)?.intent)
     }
 
-    /// Call when saving was cancelled or failed: drops the intent that waited for it.
+    /// Drops the intent that waited for a save; to be called when saving was cancelled or failed.
     pub fn save_cancelled(&mut self) {
         self.take_if_resolved(UnsavedKind::Changes);
     }
 }
 
-/// Turns a request to close the window into an intent.
+/// Turns the system's request to close the main window into [`Intent::Close`].
 pub fn read_close_requests(
     mut requests: MessageReader<WindowCloseRequested>,
     others: Query<(), (With<Window>, Without<PrimaryWindow>)>,
@@ -91,7 +93,7 @@ pub fn read_close_requests(
     }
 }
 
-/// Closes the window, or asks first.
+/// Closes the window, or asks first if unsaved changes or a running export would be lost.
 pub fn close(
     mut intents: MessageReader<Intent>,
     session: Res<Session>,
@@ -127,7 +129,7 @@ pub fn answer(
     for intent in intents.read() {
         match intent {
             Intent::AnswerUnsaved(UnsavedAnswer::Cancel) | Intent::Escape => {
-                // After the answer, Esc means something else.
+                // Esc cancels an open question only; once answered, the intent keeps waiting.
                 question.pending.take_if(|pending| !pending.is_answered);
             }
             Intent::AnswerUnsaved(answer) => {
@@ -137,11 +139,11 @@ pub fn answer(
                         // Saving may open a dialog and take long; the intent waits for the result.
                         (UnsavedKind::Changes, UnsavedAnswer::Save) => next.push(Intent::Save),
                         (UnsavedKind::Changes, _) => {
-                            // Otherwise the intent, sent again, would raise the same question.
+                            // Otherwise the intent, when sent again, would raise the same question.
                             session.mark_saved();
                             next.extend(question.take_if_resolved(UnsavedKind::Changes));
                         }
-                        // Waits for the export to end.
+                        // The intent waits for the export to end.
                         (UnsavedKind::Film, UnsavedAnswer::Save) => {}
                         // The export first deletes its partial file; the intent waits for that.
                         (UnsavedKind::Film, _) => exporter.cancel(),

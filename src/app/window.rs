@@ -69,7 +69,7 @@ fn program(options: AppOptions) -> App {
     limit_arenas();
     let autosave = autosave();
     let mut app = App::new();
-    // Bevy's own Ctrl-C handler does not wake a resting event loop; `handle_termination` does.
+    // Bevy's own Ctrl-C handler does not wake an idle event loop; `handle_termination` does.
     let plugins = DefaultPlugins
         .set(window(starts_talk))
         .disable::<TerminalCtrlCHandlerPlugin>();
@@ -88,7 +88,7 @@ fn program(options: AppOptions) -> App {
                 intents.write(Intent::Present { is_all: true });
             }
         })
-        // Before anything is laid out.
+        // In `First`, because the panels are laid out with the window's final size.
         .add_systems(First, screen_fit::fit_to_screen)
         .add_systems(Startup, (watch, let_jobs_wake_window))
         .add_systems(Update, TerminalCtrlCHandlerPlugin::exit_on_flag);
@@ -96,8 +96,8 @@ fn program(options: AppOptions) -> App {
     app
 }
 
-/// Handles Ctrl-C and the system's request to quit. Wakes the window, because a resting window
-/// draws no frame in which the request would be seen.
+/// Handles Ctrl-C and the system's request to quit. Wakes the window, because an idle window runs
+/// no frame in which it would notice the request.
 fn handle_termination() {
     let handler_result = ctrlc::set_handler(|| {
         TerminalCtrlCHandlerPlugin::gracefully_exit();
@@ -108,7 +108,7 @@ fn handle_termination() {
     }
 }
 
-/// Watches the files of the open designs; a change wakes the resting window.
+/// Watches the files of the open designs; a change wakes the idle window.
 fn watch(watch: Res<FileWatcher>, events: Res<EventLoopProxyWrapper>) {
     let events = events.clone();
     watch.start(move || {
@@ -117,7 +117,7 @@ fn watch(watch: Res<FileWatcher>, events: Res<EventLoopProxyWrapper>) {
     });
 }
 
-/// Lets background jobs wake the resting window.
+/// Lets background jobs wake the idle window.
 fn let_jobs_wake_window(events: Res<EventLoopProxyWrapper>) {
     let events = events.clone();
     job::set_waker(move || {
@@ -137,7 +137,8 @@ fn autosave() -> Autosave {
     })
 }
 
-/// Opens the files of the command line, or shows how to begin.
+/// Returns the intent with which the window starts: to open the files of the command line, or,
+/// without any, to show the invitation.
 fn first_intent(files: &[PathBuf]) -> Intent {
     let bundled = match files {
         [] => return Intent::Welcome,
@@ -151,7 +152,7 @@ fn first_intent(files: &[PathBuf]) -> Intent {
     bundled.map_or_else(|| Intent::Open(files.to_vec()), Intent::OpenGallery)
 }
 
-/// The main window's properties.
+/// Properties of the main window; it starts in full screen if a talk starts at once.
 fn window(starts_talk: bool) -> WindowPlugin {
     WindowPlugin {
         primary_window: Some(Window {
@@ -190,7 +191,8 @@ impl Plugin for WindowPlugins {
             .init_resource::<filmstrip::Filmstrip>()
             .init_resource::<speaker_window::SpeakerWindow>()
             .add_systems(Startup, spawn_cameras)
-            // In `Last`: the work started in this frame decides how soon the next one is drawn.
+            // In `Last`, because work started in this frame decides how soon the next frame is
+            // drawn.
             .add_systems(Last, redraw_pace::set_redraw_pace)
             .add_systems(
                 Update,
@@ -231,7 +233,8 @@ impl Plugin for WindowPlugins {
     }
 }
 
-/// Spawns three cameras: the stage, the comparison to its right, and the panels above both.
+/// Spawns three cameras: for the stage, for the comparison to its right, and for the panels above
+/// both.
 fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
     // Otherwise egui would attach to the stage's camera, which covers only part of the window.
     egui.auto_create_primary_context = false;

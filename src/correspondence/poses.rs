@@ -28,8 +28,8 @@ const POSE_ROUNDS: usize = 3;
 /// the pose is searched again with all samples (heuristic).
 const NEAR_TIE: f64 = 1.15;
 
-/// Maximum difference between a match's rotation and its pose at which the search has converged, in
-/// radians (tolerance: about one degree).
+/// The search has converged if the rotation of the match it found differs from the pose it assumed
+/// by less than this angle, in radians (tolerance: about one degree).
 const SAME_POSE: f64 = 0.02;
 
 /// A closed path through sample pairs, and the dissimilarities for which the search found it.

@@ -15,7 +15,8 @@ use crate::numerics::DenseLu;
 use std::sync::LazyLock;
 
 /// Maximum number of nodes within an interval, not counting its ends (resource limit: an interval
-/// that needs more is halved). The number is odd: the middle, then pairs.
+/// that needs more is halved). The number is odd, because the first
+/// node is the middle and the others come in pairs s and 1 − s.
 pub(crate) const MAX_NODES: usize = 23;
 
 /// Number of candidate positions for the next node in the first half of an interval (resource

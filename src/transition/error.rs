@@ -79,7 +79,7 @@ pub enum BuildError {
     /// The boundary paths could not be built.
     #[error(transparent)]
     Paths(#[from] PathsError),
-    /// The bar width is not above 0 and at most 1, as a fraction of the diameter of the designs.
+    /// The bar width, as a fraction of the largest design's diameter, is outside 0 < width ≤ 1.
     #[error("the bar width {0} is not between 0 and 1; give a fraction of the design's size")]
     BarWidth(f64),
     /// The work would take very long or very much memory.

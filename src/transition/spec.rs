@@ -183,7 +183,7 @@ impl TransitionSpec {
 /// design's diameter.
 ///
 /// # Errors
-/// [`BuildError::BarWidth`] if the requested fraction is not above 0 and at most 1.
+/// [`BuildError::BarWidth`] unless the requested fraction is above 0 and at most 1.
 pub(crate) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
     let fraction = spec.options.bar_width;
     if !(fraction > 0.0 && fraction <= 1.0) {

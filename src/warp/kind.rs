@@ -26,7 +26,7 @@ pub enum WarpKind {
 }
 
 named! { WarpKind {
-    None: "none", "No motion", "All points stay where they are.";
+    None: "none", "None", "All points stay where they are.";
     Paths: "paths", "Paths",
         "Each outline vertex moves along its own path, straight or with rotating edges \
          (Sederberg et al. 1993).";

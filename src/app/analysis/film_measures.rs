@@ -19,19 +19,19 @@ use crate::transition::Transition;
 use crate::warp::WarpKind;
 use crate::work::progress::{Cancelled, OverallProgress, Progress, ProgressSpan};
 
-/// Number of t at which a film is sampled for the check and the graphs: both ends and 63 between
-/// them, including halves and quarters. More samples would find shorter defects and take longer
-/// (heuristic).
+/// Number of values of t at which a film is sampled for the check and the graphs: both ends and 63
+/// between them, including halves and quarters. More samples would find shorter defects and take
+/// longer (heuristic).
 pub const FILM_SAMPLES: usize = 65;
 
-/// Work is shown, and cancelled by Esc, only after this time; anything shorter is over before Esc
-/// could be meant for it (heuristic).
+/// Time after which a running measurement is shown and Esc cancels it. A shorter one ends before
+/// the user could press Esc because of it (heuristic).
 const SHOWN_AFTER: Duration = Duration::from_millis(1000);
 
 /// Measures of a film over time, and the result of the check.
 #[derive(Clone, Debug)]
 pub struct FilmMeasures {
-    /// Measures over t.
+    /// Measures of the film as functions of t.
     pub film: FilmReport,
     /// The defects found, with their place, cause and remedy.
     pub verdict: Verdict,
@@ -43,14 +43,15 @@ pub struct StageMeasures {
     transition: Option<Transition>,
     job: Option<BackgroundJob<FilmMeasures, Cancelled>>,
     measures: Option<FilmMeasures>,
-    /// Whether the work has ended; without measures if it was cancelled or failed.
+    /// Whether measuring has ended; if it was cancelled or failed, `measures` is `None`.
     is_done: bool,
-    /// Results for other segments, which return while a film of several segments plays.
+    /// Measures of other segments, which return to the stage while a film of several segments
+    /// plays.
     memo: TransitionMemo<FilmMeasures>,
 }
 
 impl StageMeasures {
-    /// The measures; `None` while they are being taken.
+    /// The measures; `None` until measuring is complete, or if it was cancelled or failed.
     #[must_use]
     pub fn measures(&self) -> Option<&FilmMeasures> {
         self.measures.as_ref()
@@ -68,7 +69,7 @@ impl StageMeasures {
         self.is_done && self.measures.is_none()
     }
 
-    /// Progress, 0 to 1, once measuring has taken long enough to be shown.
+    /// Progress of measuring, in [0, 1]; `None` until it has taken long enough to be shown.
     #[must_use]
     pub fn visible_progress(&self) -> Option<f64> {
         let job = self
@@ -84,7 +85,7 @@ impl StageMeasures {
         self.is_done |= self.job.take().is_some();
     }
 
-    /// Adopts the transition on the stage and starts measuring it once no build is running.
+    /// Switches to the transition on the stage, and starts measuring it once no build is running.
     fn adopt_stage(&mut self, session: &Session) {
         let transition = session.transition();
         if !is_same(self.transition.as_ref(), transition) {
@@ -111,7 +112,7 @@ impl StageMeasures {
         }
     }
 
-    /// Collects the result; returns whether there was one.
+    /// Collects the result of a finished measurement; returns whether there was one.
     fn collect_result(&mut self) -> bool {
         let Some(answer) = BackgroundJob::take_result(&mut self.job) else {
             return false;
@@ -122,7 +123,7 @@ impl StageMeasures {
     }
 }
 
-/// Share of the progress bar given to sampling (heuristic).
+/// Share of the measurement's progress that sampling takes; checking takes the rest (heuristic).
 const SAMPLING_SHARE: f64 = 0.8;
 
 /// Samples the film, then checks it for defects.

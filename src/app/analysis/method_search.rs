@@ -16,7 +16,7 @@ use crate::work::progress::{OverallProgress, Progress};
 /// The chosen method and the rating of its film; pictures have no rating.
 type MethodChoice = (TransitionMethod, Option<FilmRating>);
 
-/// The method search, while it runs.
+/// The running method search; `None` while no search is running.
 #[derive(Resource, Debug, Default)]
 pub struct MethodSearch(Option<MethodSearchJob>);
 
@@ -29,7 +29,7 @@ struct MethodSearchJob {
 }
 
 impl MethodSearch {
-    /// Progress of the search, 0 to 1; `None` if none runs.
+    /// Progress of the search, in [0, 1]; `None` if no search is running.
     #[must_use]
     pub fn visible_progress(&self) -> Option<f64> {
         Some(self.0.as_ref()?.job.progress().1)
@@ -53,8 +53,8 @@ impl MethodSearch {
         self.0 = Some(MethodSearchJob { settings, job });
     }
 
-    /// Result of a finished search, returned once. A search for designs or options that have
-    /// changed since is dropped.
+    /// Result of a finished search, returned once. If the designs or options have changed since it
+    /// started, the search is cancelled and has no result.
     fn take_result(
         &mut self,
         session: &Session,
@@ -73,7 +73,7 @@ impl MethodSearch {
     }
 }
 
-/// Builds and rates the suitable methods; returns the best one.
+/// Builds and rates the film of each suitable method; returns the best method and its rating.
 fn search(loaded: &LoadedProject, progress: &dyn Progress) -> Result<MethodChoice, ProjectError> {
     let progress = &OverallProgress::new(progress);
     let (transition, rating) = build_best_method(&loaded.spec()?, progress)?;

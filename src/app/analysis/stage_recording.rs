@@ -1,8 +1,9 @@
-//! Records the transition on the stage and proves properties of its film, in the background.
+//! Records the transition on the stage and proves properties of its film for all t, in the
+//! background.
 //!
 //! The transition can be played at once; when its recording is ready, the same frames are read from
-//! memory and nothing changes on screen. The recording is then checked at every t; the result
-//! appears below the stage.
+//! memory and nothing changes on screen. The recording is then checked for all t, not only at
+//! samples; the result appears below the stage.
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
@@ -14,7 +15,7 @@ use crate::app::session::state::Session;
 use crate::recording::{RecordingError, RecordingOptions};
 use crate::transition::{Transition, TransitionProof};
 
-/// The recording in progress, or the result of the last one.
+/// The recording and proof in progress, or the result for the transition on the stage.
 #[derive(Resource, Debug, Default)]
 pub struct StageRecording {
     options: RecordingOptions,
@@ -22,12 +23,13 @@ pub struct StageRecording {
     job: Option<BackgroundJob<Option<TransitionProof>, RecordingError>>,
     proof: Option<TransitionProof>,
     error: Option<RecordingError>,
-    /// Results for other segments, which return while a film of several segments plays.
+    /// Proofs for other segments, which return to the stage while a film of several segments plays.
     memo: TransitionMemo<TransitionProof>,
 }
 
 impl StageRecording {
-    /// Records with a memory limit in MiB; `None` is the default limit.
+    /// Creates the resource with a memory limit for each recording, in MiB; `None` is the default
+    /// limit.
     #[must_use]
     pub fn with_memory_limit(mebibytes: Option<usize>) -> Self {
         let defaults = RecordingOptions::default();
@@ -41,20 +43,22 @@ impl StageRecording {
         }
     }
 
-    /// Why the transition on the stage cannot be recorded, if so.
+    /// Reason why the transition on the stage could not be recorded or checked; `None` if there was
+    /// no error.
     #[must_use]
     pub fn recording_error(&self) -> Option<&RecordingError> {
         self.error.as_ref()
     }
 
-    /// Properties proved for the film on the stage; `None` until then, and for methods without a
-    /// mesh.
+    /// Properties proved for the film on the stage; `None` until the proof is complete, and for
+    /// methods without a mesh.
     #[must_use]
     pub fn proof(&self) -> Option<&TransitionProof> {
         self.proof.as_ref()
     }
 
-    /// Current stage of the work and progress in it, 0 to 1.
+    /// Name of the current stage of the recording or proof, and its last reported progress in [0,
+    /// 1]; `None` if neither is in progress.
     #[must_use]
     pub fn progress(&self) -> Option<(&'static str, f64)> {
         self.job.as_ref().map(BackgroundJob::progress)
@@ -103,7 +107,7 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<StageRecording>) {
             BackgroundJob::start("the recording", move |progress| {
                 let recorded = transition.record(&options, progress);
                 let proved = recorded.and_then(|_| transition.prove(&options, progress));
-                // The previous transition has been freed by now.
+                // The memory of the previous transition has been freed by now.
                 return_free_memory();
                 proved
             })

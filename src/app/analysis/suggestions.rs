@@ -33,12 +33,13 @@ const SEARCH_DELAY: Duration = Duration::from_millis(800);
 /// Maximum number of suggestions (heuristic: they share one line).
 const MAX_SUGGESTIONS: usize = 3;
 
-/// Maximum increase of overshoot (excess turning and change of area, as a fraction) that a
-/// suggestion may cost. Without this limit, letting all parts appear and disappear would be offered
-/// although hardly anything is left halfway (heuristic).
+/// Maximum overshoot (excess turning and change of area, as a fraction) that a suggestion may add
+/// to the film. Without this limit, a change that lets all parts appear and disappear would be
+/// offered, although hardly anything of the designs is visible halfway (heuristic).
 const MAX_ADDED_OVERSHOOT: f64 = 0.2;
 
-/// Penalty, as such a fraction, for mirroring or rotating the target (heuristic).
+/// Penalty, added to the overshoot when suggestions are ranked, for mirroring or rotating the
+/// target (heuristic).
 const CHANGED_TARGET_PENALTY: f64 = 0.25;
 
 /// A change of the settings that may remove defects.
@@ -46,7 +47,7 @@ const CHANGED_TARGET_PENALTY: f64 = 0.25;
 pub enum SuggestedChange {
     /// Mirror the target.
     Mirror,
-    /// Rotate the target counter-clockwise, in degrees.
+    /// Rotate the target counter-clockwise by this angle, in degrees.
     Turn(i32),
     /// Use another placement of the designs relative to each other.
     Fit(DesignFit),
@@ -68,7 +69,8 @@ pub struct Suggestion {
 }
 
 impl SuggestedChange {
-    /// Changes to try for a project, in order: first those that leave the designs as they are.
+    /// Changes to try for a project, in this order; those that leave the designs as they are come
+    /// first.
     fn all(loaded: &LoadedProject) -> Vec<Self> {
         let matching = &loaded.project.options.matching;
         let other_rules = PartRule::ALL
@@ -172,7 +174,7 @@ impl Suggestion {
 pub struct Suggestions {
     /// The transition on the stage.
     transition: Option<Transition>,
-    /// When its film was found to have defects; the search starts after [`SEARCH_DELAY`].
+    /// Time at which the film was found to have defects; the search starts [`SEARCH_DELAY`] later.
     since: Option<Instant>,
     search: Option<SuggestionJob>,
     /// Rating of the film on the stage.
@@ -182,7 +184,7 @@ pub struct Suggestions {
     is_done: bool,
 }
 
-/// A running search; suggestions arrive through the channel.
+/// A running search for suggestions, which arrive through a channel.
 #[derive(Debug)]
 struct SuggestionJob {
     job: BackgroundJob<(), ProjectError>,
@@ -190,13 +192,14 @@ struct SuggestionJob {
 }
 
 impl Suggestions {
-    /// The best suggestions, best first.
+    /// The best suggestions found so far, the best one first.
     #[must_use]
     pub fn suggestions(&self) -> &[Suggestion] {
         &self.suggestions[..self.suggestions.len().min(MAX_SUGGESTIONS)]
     }
 
-    /// Rating of the film on the stage, comparable with those of the suggestions.
+    /// Rating of the film on the stage, comparable with the ratings of the suggestions; `None`
+    /// before the first search.
     #[must_use]
     pub fn current_rating(&self) -> Option<FilmRating> {
         self.rating
@@ -214,13 +217,14 @@ impl Suggestions {
         self.search.is_some()
     }
 
-    /// Whether all changes have been tried.
+    /// Whether the search for this film has ended: all changes were tried, enough flawless films
+    /// were found, or it was cancelled.
     #[must_use]
     pub fn is_done(&self) -> bool {
         self.is_done
     }
 
-    /// Cancels the search and starts no other for this film.
+    /// Cancels the search; no other search starts for this film.
     pub fn stop(&mut self) {
         self.is_done |= self.is_busy();
         (self.search, self.since) = (None, None);
@@ -245,12 +249,13 @@ impl Suggestions {
         });
     }
 
-    /// Collects new suggestions; returns whether anything is new.
+    /// Collects new suggestions; returns whether there are any or the search has ended.
     fn collect_results(&mut self) -> bool {
         let Some(search) = &self.search else {
             return false;
         };
-        // Polled before receiving: suggestions sent before the end are then in the channel.
+        // The job is polled before receiving, so that all suggestions sent before its end are in
+        // the channel.
         let is_done = search.job.poll().is_some();
         let receiver = search
             .receiver
@@ -269,13 +274,14 @@ impl Suggestions {
     }
 }
 
-/// Rating from the measures that the check uses; `None` for pictures.
+/// Rating of a film, from the same measures as the check for defects; `None` for pictures.
 fn rating(transition: &Transition, film: &FilmReport) -> Option<FilmRating> {
     let content = transition.method().content();
     (content != ContentKind::Colours).then(|| FilmRating::of_report(film, content))
 }
 
-/// Builds and rates each change and sends those that help; stops early when enough are flawless.
+/// Builds and rates the film of each change and sends those that help; stops early when enough
+/// films are flawless.
 fn try_all(
     loaded: &LoadedProject,
     now: &FilmRating,
@@ -312,7 +318,8 @@ fn try_all(
     Ok(())
 }
 
-/// Restarts the search when the stage changes, and collects suggestions.
+/// Discards the suggestions when the stage changes, starts a search if the film has defects, and
+/// collects new suggestions.
 pub fn follow(
     session: Res<Session>,
     measured: Res<StageMeasures>,
@@ -331,7 +338,7 @@ pub fn follow(
     let defective = measured
         .measures()
         .filter(|measures| !measures.verdict.is_clear());
-    // Not for a path over the map: the changes apply to a pair of designs.
+    // Changes apply to a pair of designs, so there are no suggestions for a path on the map.
     let is_pair = session
         .whole_project()
         .is_some_and(|project| !project.follows_path());

@@ -1,9 +1,9 @@
-//! Cache of results about transitions, for those that return to the stage.
+//! Cache of results computed for transitions that may return to the stage.
 
 use crate::transition::{Transition, TransitionId};
 
-/// Results by transition. An entry is dropped with its transition, so the cache covers the
-/// segments of open projects and nothing that was closed.
+/// Results, each with the id of its transition. The entry of a dropped transition is removed on the
+/// next insertion, so the cache does not grow with projects that were closed.
 #[derive(Debug)]
 pub struct TransitionMemo<T>(Vec<(TransitionId, T)>);
 
@@ -14,7 +14,7 @@ impl<T> Default for TransitionMemo<T> {
 }
 
 impl<T> TransitionMemo<T> {
-    /// Stores a result for as long as the transition exists.
+    /// Stores a result for a transition, and removes the results of dropped transitions.
     pub fn insert(&mut self, of: &Transition, result: T) {
         self.0.retain(|(id, _)| !id.is_dropped());
         self.0.push((of.id(), result));

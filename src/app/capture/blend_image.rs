@@ -1,5 +1,5 @@
 //! Saves or copies the blend under the map's marker, while the map is shown in place of the stage.
-//! Drawn by the export code on the CPU, so no rendered frame is needed.
+//! The export code draws it on the CPU, so no rendered frame is needed.
 
 use bevy::prelude::{MessageReader, NonSendMut, Res, ResMut};
 
@@ -12,7 +12,7 @@ use crate::app::notices::{NoticeTopic, Notices};
 use crate::app::output_files::CaptureFolder;
 use crate::export::{PixelSize, rasterise, to_svg};
 
-/// Takes over image intents while the map is shown.
+/// Handles the intents to save or copy an image while the map is shown.
 pub fn capture_blend(
     mut intents: MessageReader<Intent>,
     inputs: StageImageInputs,

@@ -26,7 +26,7 @@ impl SystemClipboard {
         self.0.as_mut().map_or(Ok(()), put)
     }
 
-    /// Copies an image and reports it.
+    /// Copies an image and reports the result as a notice.
     pub fn copy_image(&mut self, image: &RgbaImage, notices: &mut Notices) {
         let data = ImageData {
             width: image.width() as usize,
@@ -40,7 +40,7 @@ impl SystemClipboard {
         );
     }
 
-    /// Copies an SVG document as text and reports it.
+    /// Copies an SVG document as text and reports the result as a notice.
     pub fn copy_text(&mut self, text: String, notices: &mut Notices) {
         report(
             self.with_clipboard(|clipboard| clipboard.set_text(text)),
@@ -50,7 +50,7 @@ impl SystemClipboard {
     }
 }
 
-/// Reports whether copying succeeded.
+/// Shows a notice that names the copied content (`done`) or the error.
 fn report(result: Result<(), Error>, done: &str, notices: &mut Notices) {
     match result {
         Ok(()) => {
@@ -61,7 +61,7 @@ fn report(result: Result<(), Error>, done: &str, notices: &mut Notices) {
     }
 }
 
-/// Copies the stage as an SVG document.
+/// Copies the stage to the clipboard as an SVG document, unless the map is shown.
 pub fn copy_svg(
     mut intents: MessageReader<Intent>,
     mut clipboard: NonSendMut<SystemClipboard>,

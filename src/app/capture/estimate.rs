@@ -15,10 +15,10 @@ use crate::app::session::state::Session;
 /// (heuristic).
 const QUIET_TIME: Duration = Duration::from_millis(500);
 
-/// Preferences that the estimate depends on, apart from the project.
+/// Preferences that the estimate depends on; it depends on the project, too.
 type EstimateKey = (FilmExportOptions, Option<FilmFileFormat>);
 
-/// Estimate for the current export settings, while they are shown.
+/// Estimate for the current export settings; made only while they are shown.
 #[derive(Resource, Debug, Default)]
 pub struct ExportEstimate {
     key: Option<EstimateKey>,
@@ -60,7 +60,8 @@ pub fn follow(
         now.key = key;
     }
     let is_quiet = now.since.is_some_and(|since| since.elapsed() >= QUIET_TIME);
-    // Not during an export: both would slow each other down and spoil the estimate.
+    // No estimate runs during a build or an export: both would slow each other down and spoil the
+    // estimate.
     if is_quiet && session.work().is_none() && exporter.work().is_none() {
         now.since = None;
         now.job = FilmRequest::new(&preferences, &session, &folder, &scratch).map(|request| {

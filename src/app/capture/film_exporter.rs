@@ -22,18 +22,19 @@ pub struct FilmExporter {
     preview: FilmPreview,
 }
 
-/// Maximum time that exiting waits for a cancelled export; four times the expected time (resource
-/// limit).
+/// Maximum time for which the program, on exit, waits until a cancelled export has deleted its
+/// partial file (resource limit: four times the expected time).
 const EXIT_WAIT: Duration = Duration::from_secs(2);
 
 impl FilmExporter {
-    /// Progress text and progress of the export, 0 to 1.
+    /// Text and progress, in [0, 1], of the running export; `None` if no export is running.
     #[must_use]
     pub fn work(&self) -> Option<(&'static str, f64)> {
         self.job.as_ref().map(|job| ("Exporting", job.progress().1))
     }
 
-    /// Image of the frame being exported.
+    /// Image of the frame being exported; `None` until the first one is drawn, and without an
+    /// export.
     #[must_use]
     pub fn preview(&self) -> Option<Arc<RgbaImage>> {
         self.job.as_ref().and_then(|_| self.preview.get())
@@ -91,7 +92,7 @@ pub fn apply(
                 }
             }
             Intent::ExportFilm => {
-                // Problems of the last export are outdated.
+                // Problems of the last export are no longer of interest.
                 notices.resolve(NoticeTopic::Film);
                 exporter.preview = FilmPreview::default();
                 let preview = exporter.preview.clone();

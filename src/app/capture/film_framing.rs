@@ -1,4 +1,5 @@
-//! Frame of the film to be exported, drawn over the stage while the export settings are shown.
+//! Frame of the film to be exported: the section of the plane that it shows, drawn as a rectangle
+//! over the stage while the export settings are shown.
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
@@ -15,16 +16,16 @@ pub struct FilmFraming(pub Option<FilmFrameInfo>);
 /// Frame and length of a film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilmFrameInfo {
-    /// Mapping from the plane to the film's pixels.
+    /// Mapping from the plane to the pixels of the film.
     pub view: PlaneView,
-    /// Number of frames.
+    /// Number of frames of the film.
     pub frames: usize,
-    /// Duration in seconds.
+    /// Duration of the film in seconds.
     pub secs: f64,
 }
 
 impl FilmFrameInfo {
-    /// Visible section of the plane.
+    /// Section of the plane that the film shows.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let corners = [glam::DVec2::ZERO, self.view.size().as_dvec2()];
@@ -36,13 +37,13 @@ impl FilmFrameInfo {
     }
 }
 
-/// Why there is no film.
+/// Reason why the export settings give no film.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmFramingError {
     /// The film would have no duration.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// The timing makes no film.
+    /// No sequence of frames follows from the timing.
     #[error(transparent)]
     Film(#[from] FilmSpecError),
     /// The film would have no size.
@@ -50,10 +51,11 @@ pub enum FilmFramingError {
     Size(#[from] PixelSizeError),
 }
 
-/// The film of a timing and its view: the same for the export and for the preview of its frame.
+/// Frame times of the film that the settings give, and its view of the plane. Both the export and
+/// the preview of its frame use this function.
 ///
 /// # Errors
-/// [`FilmFramingError`] if the timing or the size makes no film.
+/// [`FilmFramingError`] if the timing or the size gives no film.
 pub fn frame_film(
     sequence: &Sequence,
     timing: &Timing,

@@ -1,4 +1,5 @@
-//! One film or sheet to export, with everything it needs, so that the project may change meanwhile.
+//! One film or comparison sheet to export, with a copy of everything it needs, so that the project
+//! may change during the export.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -23,16 +24,16 @@ use crate::settings::Choice;
 use crate::transition::Sequence;
 use crate::work::progress::{Cancelled, Progress};
 
-/// Why a film or a sheet was not exported.
+/// Reason why a film or comparison sheet was not exported.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmExportError {
     /// Cancelled by the user.
     #[error("Export cancelled")]
     Cancelled,
-    /// The timing or the size makes no film.
+    /// The timing or the size gives no film.
     #[error(transparent)]
     Film(#[from] FilmFramingError),
-    /// The film has no such section.
+    /// The section used for the estimate is not part of the film.
     #[error(transparent)]
     Section(#[from] FilmSpecError),
     /// The output file could not be created.
@@ -76,10 +77,10 @@ const SHEET_COLUMNS: usize = 7;
 /// Number of frames exported to estimate the duration and size of an export (heuristic).
 const TRIAL_FRAMES: usize = 12;
 
-/// Longer side of the progress image, in pixels (heuristic).
+/// Longer side of the image that shows the current frame during an export, in pixels (heuristic).
 const PREVIEW_PX: f64 = 240.0;
 
-/// Minimum interval between progress images (heuristic).
+/// Minimum time between two such images of the current frame (heuristic).
 const PREVIEW_EVERY: Duration = Duration::from_millis(400);
 
 /// Image of the frame being exported, shared with the export's thread.
@@ -87,7 +88,7 @@ const PREVIEW_EVERY: Duration = Duration::from_millis(400);
 pub struct FilmPreview(Arc<Mutex<Option<Arc<RgbaImage>>>>);
 
 impl FilmPreview {
-    /// The image, once available.
+    /// The image; `None` until the first one is drawn.
     #[must_use]
     pub fn get(&self) -> Option<Arc<RgbaImage>> {
         self.0
@@ -100,9 +101,9 @@ impl FilmPreview {
 /// Estimated cost of an export.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmCost {
-    /// Duration in seconds.
+    /// Duration of the export in seconds.
     pub secs: f64,
-    /// Size of all files in bytes.
+    /// Size of all exported files in bytes.
     pub bytes: f64,
 }
 
@@ -170,7 +171,8 @@ impl FilmRequest {
         Ok(move_to_free_name(&path, &self.folder, &self.stem)?)
     }
 
-    /// Path for the export in its format; for PNG images, a new empty folder.
+    /// Path in `folder` of a file with the export's extension or, for PNG images, of a new empty
+    /// folder.
     fn path_in(&self, folder: &Path, name: &str) -> std::io::Result<PathBuf> {
         let path = folder.join(name);
         match self.format {
@@ -182,8 +184,8 @@ impl FilmRequest {
         }
     }
 
-    /// Estimates the cost of the export by exporting one frame and [`TRIAL_FRAMES`] frames, and
-    /// extrapolating.
+    /// Estimates the cost of the export: exports one frame, then [`TRIAL_FRAMES`] frames, and
+    /// extrapolates.
     ///
     /// # Errors
     /// There is no film, or those frames cannot be written.
@@ -250,7 +252,8 @@ impl FilmRequest {
     ) -> Result<PathBuf, FilmExportError> {
         check_writable(&self.folder)?;
         let rows = MethodRow::all(&staged.spec()?, progress)?;
-        // A segment is compared over all of it; a whole project over its film's range.
+        // The columns of a segment span all of it; those of a whole project span its film's range
+        // of t.
         let timing = &staged.project.timing;
         let times = if staged.is_segment() {
             even_times(0.0, 1.0, SHEET_COLUMNS)
@@ -266,8 +269,8 @@ impl FilmRequest {
     }
 }
 
-/// Index of the first trial frame: a section in which every frame moves, at close to the average
-/// speed. Resting or fast sections would be unrepresentative.
+/// Index of the frame at which the trial section starts. Every frame of the section moves, at close
+/// to the average speed: sections at rest or faster ones would be unrepresentative.
 fn typical_start(times: &[f64]) -> usize {
     let moves: Vec<f64> = times
         .windows(2)
@@ -294,7 +297,8 @@ fn size_on_disk(path: &Path) -> std::io::Result<u64> {
     Ok(all)
 }
 
-/// Forwards progress and occasionally draws the current frame.
+/// Progress receiver that forwards all reports and now and then draws the current frame for the
+/// preview.
 struct PreviewingProgress<'a> {
     camera: Camera,
     times: &'a [f64],

@@ -41,7 +41,7 @@ enum ImageDestination {
     Clipboard,
 }
 
-/// Why an image was not saved.
+/// Reason why an image was not saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveImageError {
     /// The file could not be created.
@@ -101,7 +101,7 @@ pub fn request_images(
     }
 }
 
-/// Resolution of an image of the visible stage.
+/// Width and height, in pixels, of an image of the visible stage.
 pub fn size_px(view: &StageView, scale_factor: f32, scale: ImageScale) -> UVec2 {
     let on_screen = view.viewport_px * scale_factor;
     let factor = match scale {
@@ -122,7 +122,7 @@ fn window_captured(
         .clone()
         .try_into_dynamic()
     {
-        // The alpha channel of a window has no meaning for the image.
+        // The alpha channel of a window has no meaning in an image file.
         Ok(image) => captures.write(&folder, &name, image.to_rgb8().into()),
         Err(error) => notices.problem(
             NoticeTopic::Picture,
@@ -132,7 +132,7 @@ fn window_captured(
 }
 
 impl ImageCaptures {
-    /// Whether an image is still being rendered, which takes frames.
+    /// Whether an image is still being rendered, for which the window must draw frames.
     pub fn is_rendering(&self) -> bool {
         !self.awaited.is_empty()
     }
@@ -154,7 +154,7 @@ impl ImageCaptures {
 
 /// Encodes an image as PNG and writes it to a new file.
 fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, SaveImageError> {
-    // Encoded before the file is created, so that it is incomplete only for a moment.
+    // Encoded before the file is created, so that the file is incomplete only for a moment.
     let mut encoded = std::io::Cursor::new(Vec::new());
     let encoding = image.write_to(&mut encoded, ImageFormat::Png);
     let (mut file, path) = create_new(folder, name, "png")?;
@@ -166,7 +166,7 @@ fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, Save
     keep_if_written(path, written)
 }
 
-/// Receives rendered images of the stage.
+/// Receives rendered images of the stage and passes each to its file or to the clipboard.
 pub fn receive(
     mut answers: MessageReader<StageCaptured>,
     mut captures: ResMut<ImageCaptures>,
@@ -188,7 +188,7 @@ pub fn receive(
     }
 }
 
-/// Reports images that were saved.
+/// Reports images that were saved and errors in saving.
 pub fn report(mut captures: ResMut<ImageCaptures>, mut notices: ResMut<Notices>) {
     captures.bypass_change_detection().writing.retain(|job| {
         match job.poll() {

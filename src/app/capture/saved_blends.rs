@@ -13,14 +13,14 @@ use crate::app::output_files::{CaptureFolder, CreateFileError, create_new_folder
 use crate::app::session::state::Session;
 use crate::export::{Catalogue, CatalogueOrder, ExportError};
 
-/// The export of saved blends, while it runs.
+/// The running export of saved blends; `None` while there is none.
 #[derive(Resource, Debug, Default)]
 pub struct SavedBlendsExport(Option<BackgroundJob<PathBuf, SavedBlendsError>>);
 
-/// Why the saved blends were not exported.
+/// Reason why the saved blends were not exported.
 #[derive(Debug, thiserror::Error)]
 pub enum SavedBlendsError {
-    /// Their folder cannot be created.
+    /// The folder for the files cannot be created.
     #[error(transparent)]
     Folder(#[from] CreateFileError),
     /// A file could not be written.

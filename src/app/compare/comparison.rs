@@ -31,30 +31,30 @@ pub struct Comparison {
     problem: Option<JobError<TransitionProblem>>,
 }
 
-/// Marks the entity of the compared transition.
+/// Marks the entity that shows the compared transition.
 #[derive(Component, Debug)]
 pub struct OnComparison;
 
 impl Comparison {
-    /// The compared transition.
+    /// The compared transition; `None` until it is built.
     #[must_use]
     pub fn transition(&self) -> Option<&Transition> {
         self.transition.as_ref()
     }
 
-    /// Why the compared transition could not be built.
+    /// Reason why the compared transition could not be built; `None` if there is no problem.
     #[must_use]
     pub fn problem(&self) -> Option<&JobError<TransitionProblem>> {
         self.problem.as_ref()
     }
 
-    /// Whether it is being built.
+    /// Whether the compared transition is being built.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.job.is_some()
     }
 
-    /// Method compared with a project: the user's choice or the default.
+    /// Method with which a project is compared: the user's choice, or the default for its content.
     #[must_use]
     pub fn method_for(&self, project: &Project) -> ComparisonMethod {
         self.method
@@ -70,7 +70,8 @@ impl Comparison {
         };
     }
 
-    /// Starts building the comparison if the settings on the stage, or the method, have changed.
+    /// Starts building the compared transition if the settings on the stage or the second method
+    /// have changed.
     fn start_if_changed(&mut self, session: &Session) {
         let Some(staged) = session.staged_segment() else {
             self.discard();
@@ -96,7 +97,7 @@ impl Comparison {
         }
     }
 
-    /// Collects the result; returns whether there was one.
+    /// Collects the result of a finished build; returns whether there was one.
     fn collect_result(&mut self) -> bool {
         let Some(answer) = BackgroundJob::take_result(&mut self.job) else {
             return false;
@@ -132,13 +133,15 @@ pub fn apply(mut intents: MessageReader<Intent>, mut comparison: ResMut<Comparis
     }
 }
 
-/// Builds the comparison and collects the result.
+/// Starts building the comparison while it is shown, collects the result, and discards it once the
+/// comparison is hidden.
 pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
     let is_new = session.is_changed() || comparison.is_changed();
     let now = comparison.bypass_change_detection();
     let has_result = now.collect_result();
     if !now.is_shown {
-        // Only once: resetting it each frame would report a change each frame.
+        // Discarded only once: resetting the comparison in each frame would report a change in each
+        // frame.
         if now.settings.is_some() {
             now.discard();
             comparison.set_changed();
@@ -154,13 +157,13 @@ pub fn follow(session: Res<Session>, mut comparison: ResMut<Comparison>) {
     }
 }
 
-/// Sets a project to this method.
+/// Changes the settings of a project to those of this method.
 fn set_method(method: ComparisonMethod, project: &mut Project) {
     let cell = method.method();
     (project.warp, project.content) = (Some(cell.warp()), Some(cell.content()));
     match method {
         ComparisonMethod::Straight => {
-            // With linear local maps, the ARAP solution is exactly straight lines.
+            // With linear local maps, all vertices of the ARAP solution move along straight lines.
             project.options.arap.homotopy = Homotopy::Linear;
             project.options.arap.extra_turns.clear();
         }

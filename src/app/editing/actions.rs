@@ -47,7 +47,8 @@ pub fn apply(
         let before = matching.clone();
         editor.act(act, &sheet, &session, &mut matching);
         if *act == EditorAction::Toggle && editor.is_open {
-            // Only on opening: a user who later selects a method without a warp means it.
+            // Done only when the editor opens, so that the user can still select a method without a
+            // warp later.
             session.change(gesture.id(), ensure_warp);
             let is_free = session
                 .project()
@@ -81,7 +82,7 @@ fn ensure_warp(project: &mut Project) {
 }
 
 impl MatchEditor {
-    /// Applies one action; changes to the match go to `matching`.
+    /// Applies one action of the user; changes of the match settings go to `matching`.
     fn act(
         &mut self,
         act: &EditorAction,
@@ -121,7 +122,7 @@ impl MatchEditor {
         }
     }
 
-    /// Updates what is highlighted under the pointer.
+    /// Updates which handle, boundary point or part under the pointer is highlighted.
     fn hover(&mut self, touch: Option<EditorPointer>, sheet: &MatchSheet) {
         let is_pinning = self.tool != EditorTool::Parts;
         self.hovered = touch.and_then(|touch| sheet.handle_at(touch));
@@ -159,7 +160,7 @@ impl MatchEditor {
         self.grabbed = Some((touch.side, grab));
     }
 
-    /// Moves what is being dragged.
+    /// Moves the dragged object to the pointer, or pans by `delta` if the view is dragged.
     fn drag(
         &mut self,
         touch: EditorPointer,
@@ -272,7 +273,7 @@ impl MatchEditor {
         }
     }
 
-    /// Selects the first part of a pair, or completes the pair.
+    /// Selects the part under the pointer as the first of a pair, or completes the pair with it.
     fn pair(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
         let Some(part) = sheet.part_at(touch.side, touch.position, touch.pick_radius) else {
             match self.first_part.take() {
@@ -303,7 +304,8 @@ impl MatchEditor {
         }
     }
 
-    /// Deletes the handle under the pointer or, with the parts tool, the part's pairings.
+    /// Deletes the handle under the pointer or, with the parts tool, all pairings of the part under
+    /// the pointer.
     fn remove(&mut self, touch: EditorPointer, sheet: &MatchSheet, matching: &mut MatchSettings) {
         self.refusal = None;
         if let Some(handle) = sheet.handle_at(touch) {
@@ -319,7 +321,8 @@ impl MatchEditor {
     }
 }
 
-/// Converts an automatic point or cut to one of the project's when the user starts to move it.
+/// Converts an automatic point or cut, or a new line, to an entry of the project when the user
+/// starts to move it.
 fn make_explicit(grab: EditorGrab, sheet: &MatchSheet, matching: &mut MatchSettings) -> EditorGrab {
     match grab {
         EditorGrab::Feature(k) => match sheet.features.get(k) {
@@ -353,8 +356,8 @@ fn make_explicit(grab: EditorGrab, sheet: &MatchSheet, matching: &mut MatchSetti
     }
 }
 
-/// Warps of the plane use no automatic pins once the user sets one. So the automatic ones are added
-/// to the project before the first change.
+/// Warps of the plane use no automatic pins once the user sets a pin or line. So the automatic pins
+/// are added to the project before the user's first change.
 fn adopt_automatic_pins(sheet: &MatchSheet, matching: &mut MatchSettings) {
     if sheet.has_free_pins() && matching.pins.is_empty() && matching.lines.is_empty() {
         let automatic = sheet.features.iter().map(|pair| sheet.to_designs(pair));
@@ -381,7 +384,8 @@ fn remove_handle(handle: EditorHandle, sheet: &MatchSheet, matching: &mut MatchS
     }
 }
 
-/// Removes all pairings of these parts, including the mark "no partner".
+/// Removes all pairings of these parts, of the source and of the target, including marks that a
+/// part has no partner.
 fn unlink(sheet: &MatchSheet, matching: &mut MatchSettings, parts: [Option<usize>; 2]) {
     matching.links.retain(|link| {
         Side::BOTH.into_iter().all(|side| {
@@ -397,7 +401,7 @@ fn unlink(sheet: &MatchSheet, matching: &mut MatchSettings, parts: [Option<usize
 }
 
 impl MatchSheet {
-    /// Whether there is a part without a partner here.
+    /// Whether the part under the pointer has no partner.
     fn is_unmatched_part(&self, touch: EditorPointer) -> bool {
         let part = self.part_at(touch.side, touch.position, touch.pick_radius);
         let is_of_part = |piece: &SheetPiece| piece.parts[touch.side] == part;

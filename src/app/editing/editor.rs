@@ -34,17 +34,17 @@ pub enum CutEnd {
 pub enum EditorGrab {
     /// A pin, by its index in the project.
     Pin(usize),
-    /// An automatic point, by its index on the sheet; becomes a pin when it moves.
+    /// An automatically matched point, by its index on the sheet; becomes a pin when it moves.
     Feature(usize),
-    /// An automatic cut, by its index on the sheet; becomes one of the project's when it moves.
+    /// An automatic cut, by its index on the sheet; becomes a cut of the project when it moves.
     AutomaticCut(usize, CutEnd),
-    /// A cut, by its index in the project.
+    /// A cut set by the user, by its index in the project.
     Cut(usize, CutEnd),
     /// End 0 or 1 of a line, by the line's index in the project.
     Line(usize, usize),
-    /// A new line from this point; created when the pointer moves.
+    /// A new line that starts at this point; created in the project when the pointer moves.
     NewLine(DVec2),
-    /// The second end of a new line, in both designs.
+    /// The second end of a new line, in both designs at once, by the line's index in the project.
     NewLineEnd(usize),
     /// The view of a pane.
     View,
@@ -63,7 +63,8 @@ pub struct MatchEditor {
     pub triangles: bool,
     /// The handle under the pointer.
     pub hovered: Option<EditorHandle>,
-    /// The boundary point under the pointer and its match: source and target.
+    /// The boundary point under the pointer and the point matched with it, in the order source,
+    /// target.
     pub trace: Option<[DVec2; 2]>,
     /// The part under the pointer, while the tool pairs parts: design and index.
     pub part: Option<(Side, usize)>,
@@ -73,9 +74,9 @@ pub struct MatchEditor {
     pub grabbed: Option<(Side, EditorGrab)>,
     /// The first of two parts being paired: design, index, and the point that was clicked.
     pub first_part: Option<(Side, usize, DVec2)>,
-    /// Why the last action had no effect.
+    /// Reason why the last click had no effect, as a message; `None` if it had one.
     pub refusal: Option<&'static str>,
-    /// Views of the designs and the film.
+    /// Pan and zoom of the designs and the film.
     pub panes: EditorPanes,
 }
 

@@ -5,12 +5,12 @@
 
 use crate::correspondence::PointPair;
 
-/// Maximum distance, as a fraction of the designs' size, at which a point counts as the same as
-/// before: a new pin shifts matched points slightly along the outline (heuristic).
+/// Maximum distance, as a fraction of the designs' size, at which a point counts as the same as an
+/// earlier one: a new pin shifts matched points slightly along the outline (heuristic).
 pub const SAME_POINT_DISTANCE: f64 = 0.02;
 
-/// Letter indices of `points`, 0 for a. A point within `reach` of an earlier one keeps its letter;
-/// the others get the first letters that are free.
+/// Letter index of each of `points`, 0 for a. A point within `reach` of one in `before`, in the
+/// source or in the target, takes over its letter; the others get the first letters that are free.
 #[must_use]
 pub fn stable_letters(
     points: &[PointPair],
@@ -37,7 +37,7 @@ pub fn stable_letters(
             letters[k] = Some(letter);
         }
     }
-    // Letters just used for other points are not reused, to avoid confusion.
+    // Letters of earlier points that are gone are not reused at once, to avoid confusion.
     let was_used = |letter: &usize| before.iter().any(|(_, other)| other == letter);
     let mut free = (0..).filter(|letter| !was_used(letter));
     let letters = letters.into_iter();
@@ -58,8 +58,8 @@ pub fn part_label(number: usize) -> String {
     letter(number, b'A')
 }
 
-/// Letter number `number` of the alphabet that starts at `first`; after the last, the letters
-/// repeat with 2, 3 and so on.
+/// Letter with index `number`, from 0, in the alphabet that starts at `first`; after the last, the
+/// letters repeat with 2, 3 and so on.
 fn letter(number: usize, first: u8) -> String {
     let letter = char::from(first + (number % 26) as u8);
     match number / 26 {

@@ -4,15 +4,16 @@ use bevy::prelude::Vec2;
 
 use crate::app::input::editor_action::EditorPane;
 
-/// Minimum and maximum zoom (heuristic: prevents losing the design by a slip of the wheel).
+/// Minimum and maximum zoom factor (heuristic: the user cannot lose the design by a slip of the
+/// wheel).
 const ZOOM_RANGE: [f32; 2] = [0.2, 100.0];
 
-/// Pan and zoom of a pane, relative to fitting all of it.
+/// Pan and zoom of a pane, relative to the view that fits all of its content.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaneView {
     /// Offset in logical pixels, y down.
     pub pan: Vec2,
-    /// Zoom factor.
+    /// Zoom factor; 1 fits the content.
     pub zoom: f32,
 }
 
@@ -66,7 +67,7 @@ impl EditorPanes {
         self.views[index(pane)]
     }
 
-    /// Fits all panes again.
+    /// Resets all views, so that the content of each pane fits.
     pub fn fit(&mut self) {
         self.views = [PaneView::default(); 3];
     }

@@ -1,8 +1,9 @@
-//! Time windows of parts, edited piece by piece.
+//! Edits the time windows of parts, the intervals of the film in which they move, piece by piece.
 //!
-//! The project identifies a part by a point of a design. A piece is identified in a design in which
-//! it is the only piece of its part; so setting the time of one half of a part that splits does not
-//! affect the other half.
+//! A piece is a part of the source matched with a part of the target, or an unmatched part. A part
+//! that splits belongs to several pieces. The project identifies a part by a point of one design.
+//! For a piece, the point lies in a design where no other piece has the same part; so setting the
+//! time of one half of a part that splits does not affect the other half.
 
 use crate::app::editing::polyline;
 use crate::app::editing::sheet::MatchSheet;
@@ -33,7 +34,8 @@ named! { StaggerOrder {
     FromTheMiddle: "from-the-middle", "From the centre", "Part nearest to the centre starts first";
 } }
 
-/// For each piece, the index of its time window in the project; later entries win.
+/// For each piece, the index in `times` of the time window that applies to it; the last one, if
+/// several apply.
 #[must_use]
 pub fn time_of_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Option<usize>> {
     let mut time_of_piece = vec![None; sheet.pieces.len()];
@@ -45,8 +47,8 @@ pub fn time_of_pieces(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Option<usiz
     time_of_piece
 }
 
-/// Sets the time window of one piece and leaves other pieces unchanged. The whole film is the
-/// default and needs no entry.
+/// Sets the time window of one piece and leaves those of other pieces unchanged. The whole film is
+/// the default and needs no entry in `times`.
 pub fn set_part_time(
     sheet: &MatchSheet,
     times: &mut Vec<PartTime>,
@@ -103,12 +105,12 @@ pub fn staggered_times(sheet: &MatchSheet, order: StaggerOrder) -> Vec<PartTime>
     pieces.into_iter().enumerate().filter_map(time).collect()
 }
 
-/// Rounds to a thousandth, within the film.
+/// Rounds a time to a thousandth of the film, within [0, 1].
 fn round_to_thousandth(t: f64) -> f64 {
     (t.clamp(0.0, 1.0) * 1000.0).round() / 1000.0
 }
 
-/// Time window of a piece, identified by a point of it.
+/// Entry for the project with the time window of a piece, which a point of the piece identifies.
 fn part_time_of_piece(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Option<PartTime> {
     let side = identifying_side(sheet, piece);
     let at = sheet.frame_from_design[side]
@@ -124,7 +126,8 @@ fn part_time_of_piece(sheet: &MatchSheet, piece: usize, clock: PartClock) -> Opt
     })
 }
 
-/// The design in which a piece is identified.
+/// The design whose point identifies a piece: one in which no other piece has the same part, or
+/// else the first that contains the piece.
 fn identifying_side(sheet: &MatchSheet, piece: usize) -> Side {
     let parts = &sheet.pieces[piece].parts;
     let is_only_piece_in = |side: &Side| {
@@ -177,7 +180,7 @@ fn pieces_of_times(sheet: &MatchSheet, times: &[PartTime]) -> Vec<Vec<usize>> {
         let Some(topmost) = containing.max_by_key(|&k| part(k)).or_else(nearest) else {
             return Vec::new();
         };
-        // A time set for a part applies to all its pieces.
+        // A time window set for a part applies to all pieces of the part.
         let is_of_part =
             |&k: &usize| k == topmost || (part(k).is_some() && part(k) == part(topmost));
         (0..rings_of_piece.len()).filter(is_of_part).collect()
@@ -219,7 +222,7 @@ mod tests {
         }
     }
 
-    /// Second half of the film.
+    /// Time window of the second half of the film.
     const LATE: PartClock = PartClock {
         from: 0.5,
         to: 1.0,

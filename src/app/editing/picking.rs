@@ -24,7 +24,8 @@ impl MatchSheet {
         }
     }
 
-    /// The cut to draw: the requested one while it is dragged, otherwise the actual one.
+    /// The cut to draw: as the user requested it while it is dragged, otherwise as the match uses
+    /// it.
     #[must_use]
     pub fn cut_to_draw(&self, cut: &SheetCut, grab: Option<EditorGrab>) -> RingCut {
         let is_dragged =
@@ -50,7 +51,7 @@ impl MatchSheet {
             .chain(features)
     }
 
-    /// Nearest handle within the pointer's reach.
+    /// Nearest handle within the pointer's pick radius.
     #[must_use]
     pub fn handle_at(&self, touch: EditorPointer) -> Option<EditorHandle> {
         let in_reach = self.handles().filter_map(|handle| {
@@ -65,8 +66,8 @@ impl MatchSheet {
             .map(|(_, handle)| handle)
     }
 
-    /// Where a new or moved pin lands: on a corner or the boundary, or exactly here if pins may lie
-    /// anywhere.
+    /// Position where a new or moved pin lands: on a corner, on the boundary, or, if pins may lie
+    /// anywhere, exactly at the pointer.
     #[must_use]
     pub fn pin_position(&self, touch: EditorPointer, snaps: bool) -> Option<DVec2> {
         if self.shows_pictures() {
@@ -89,7 +90,8 @@ impl MatchSheet {
         corner.or_else(on_boundary)
     }
 
-    /// The boundary point under the pointer and its match: source and target.
+    /// The boundary point under the pointer and the point matched with it, in the order source,
+    /// target.
     #[must_use]
     pub fn trace(&self, touch: EditorPointer) -> Option<[DVec2; 2]> {
         if self.has_free_pins() {

@@ -5,8 +5,8 @@
 
 use crate::geometry::{DVec2, nearest_segment_parameter};
 
-/// Minimum turn of a vertex, in radians, that counts as a corner to snap to; flattened curves turn
-/// less (heuristic).
+/// Minimum turning angle, in radians, at a vertex that counts as a corner for pins to snap to; the
+/// vertices of flattened curves turn less (heuristic).
 const MIN_CORNER_TURN: f64 = 0.44;
 
 /// The nearest point on a set of rings.
@@ -14,11 +14,11 @@ const MIN_CORNER_TURN: f64 = 0.44;
 pub struct NearestRingPoint {
     /// Index of the ring.
     pub ring: usize,
-    /// Index of the vertex where the edge starts.
+    /// Index of the edge that contains the point: that of the vertex where it starts.
     pub edge: usize,
     /// Position along the edge, 0 to 1.
     pub along: f64,
-    /// The point.
+    /// The nearest point itself.
     pub point: DVec2,
     /// Distance from the query point.
     pub distance: f64,
@@ -70,8 +70,8 @@ fn crossings<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> impl Itera
         .map(move |(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
 }
 
-/// A point inside the rings where a label fits: in the widest interval, near middle height, that no
-/// shape in `above` covers. `None` if everything is covered.
+/// A point for a label inside the rings: the middle of the widest horizontal interval, near middle
+/// height, that no shape in `above` covers. `None` if these shapes cover everything.
 pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2> {
     let ys = || rings.iter().flat_map(|ring| ring.iter().map(|p| p.y));
     let low = ys().reduce(f64::min)?;
@@ -99,14 +99,14 @@ pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2>
     widest(&[0.5, 0.4, 0.6, 0.25, 0.75]).or_else(|| widest(&dense_shares))
 }
 
-/// Parts of intervals outside another interval.
+/// Returns the parts of `intervals` that lie outside the interval from `from` to `to`.
 fn subtract(intervals: Vec<[f64; 2]>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let remainders = |[a, b]: [f64; 2]| [[a, b.min(from)], [a.max(to), b]];
     let remainders = intervals.into_iter().flat_map(remainders);
     remainders.filter(|[a, b]| a < b).collect()
 }
 
-/// Corners of a ring.
+/// Vertices of a ring that count as corners for pins to snap to.
 pub fn corners(points: &[DVec2]) -> Vec<DVec2> {
     let n = points.len();
     (0..n)
@@ -123,8 +123,8 @@ pub fn turning_angle(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }
 
-/// Arc-length position of each vertex as a fraction of the ring, from 0 at the first, and the total
-/// length.
+/// Arc-length position of each vertex, as a fraction of the ring's length from 0 at the first
+/// vertex, and the length.
 pub fn arc_length_positions(points: &[DVec2]) -> (Vec<f64>, f64) {
     let mut places = Vec::with_capacity(points.len());
     let mut length = 0.0;
@@ -138,14 +138,15 @@ pub fn arc_length_positions(points: &[DVec2]) -> (Vec<f64>, f64) {
     (places, length)
 }
 
-/// The point at an arc-length position, a fraction that wraps round.
+/// The point of a ring at the arc-length position `place`, a fraction that wraps round. `places`
+/// are the positions of the vertices.
 ///
 /// # Panics
 /// If there are no points.
 pub fn point_at(points: &[DVec2], places: &[f64], place: f64) -> DVec2 {
     let place = place.rem_euclid(1.0);
     let next = places.partition_point(|p| *p <= place);
-    // The first position is 0, so there is always one before.
+    // The first vertex is at 0, so there is always a vertex at or before `place`.
     let k = next.saturating_sub(1);
     let end = places.get(next).copied().unwrap_or(1.0);
     let gap = end - places[k];

@@ -15,14 +15,15 @@ pub fn refresh(
     mut sheet: ResMut<MatchSheet>,
     mut was_open: Local<bool>,
 ) {
-    // Also while the editor is closed, because a panel lists the parts.
+    // The sheet is rebuilt even while the editor is closed, because a panel lists the parts.
     let is_opened = editor.is_open && !*was_open;
     *was_open = editor.is_open;
     if !(is_opened || session.is_changed()) {
         return;
     }
     let mut rebuilt = MatchSheet::of(&session);
-    // Points of other designs are different even if they coincide with earlier ones.
+    // Letters are kept only for the same designs: points of other designs are different even if
+    // they coincide with earlier ones.
     let before = std::mem::take(&mut *sheet);
     let is_same = !is_opened && before.sides == rebuilt.sides;
     rebuilt.assign_letters(is_same.then_some(&before));
@@ -36,13 +37,14 @@ pub fn refresh(
 }
 
 impl MatchSheet {
-    /// Sheet of the designs on the stage and their match.
+    /// Sheet of the designs on the stage and their match; empty if there are not exactly two
+    /// designs.
     #[must_use]
     pub fn of(session: &Session) -> Self {
         Self::try_of(session).unwrap_or_default()
     }
 
-    /// As [`Self::of`]; `None` if there are not exactly two designs.
+    /// As [`Self::of`], but `None` if there are not exactly two designs.
     fn try_of(session: &Session) -> Option<Self> {
         let (project, staged) = (session.project()?, session.staged_segment()?);
         let [source, target] = staged.designs.as_slice() else {
@@ -68,7 +70,8 @@ impl MatchSheet {
             )
         };
         if sheet.has_free_pins() {
-            // The user's first pin disables automatic ones, while the stage may still show them.
+            // The user's first pin disables the automatic pins, although the transition on the
+            // stage may still use them.
             let has_no_pins = sheet.pins.is_empty() && sheet.lines.is_empty();
             let with_automatic_pins = transition.filter(|_| has_no_pins);
             sheet.features =

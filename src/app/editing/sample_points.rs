@@ -10,16 +10,18 @@ use crate::geometry::DVec2;
 /// boundary, few enough for their labels not to cover it (heuristic).
 const TOTAL_POINTS: f64 = 12.0;
 
-/// Minimum number of points on each ring, because the share of a small ring may round to none
+/// Minimum number of points shown on each ring, because the share of a small ring may round to none
 /// (heuristic).
 const MIN_PER_RING: usize = 2;
 
-/// Distance before and after a vertex over which its turn is measured, as a fraction of the ring:
-/// rounded corners count, flattened curves hardly do (heuristic).
+/// Distance before and after a vertex over which its turning angle is measured, as a fraction of
+/// the ring's length. It is long enough for rounded corners to count, and short enough for
+/// flattened curves hardly to count (heuristic).
 const TURN_REACH: f64 = 0.03;
 
-/// Score of a vertex that is no corner; a reversal of direction on both sides scores 1. Above 0, so
-/// that circles get points too, and well below the ½ of a square's corner (heuristic).
+/// Score of a vertex that is no corner. A vertex at which the ring reverses its direction in both
+/// designs scores 1. Above 0, so that circles get points too, and well below the ½ of a square's
+/// corner (heuristic).
 const BASE_SCORE: f64 = 0.02;
 
 /// Selects points of the matched rings, keeping a distance from pins and from each other.
@@ -45,7 +47,7 @@ fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<Poi
         .iter()
         .filter_map(|pin| ring.position_of(pin))
         .collect();
-    // Half the gap between points if all were evenly spaced, as a fraction of the ring.
+    // Minimum gap: half of that between evenly spaced points, as a fraction of the ring's length.
     let min_gap = 0.5 / (count + occupied.len()) as f64;
     let mut vertices = Vec::new();
     for _ in 0..count {
@@ -55,7 +57,8 @@ fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<Poi
             let value = if distance < min_gap {
                 0.0
             } else {
-                // Beyond three times that distance, only the sharper corner counts.
+                // Beyond three times the minimum gap, the distance no longer matters and the
+                // sharper corner wins.
                 scores[k] * (distance / min_gap).min(3.0)
             };
             (value, k)
@@ -79,13 +82,13 @@ fn choose_on_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<Poi
     vertices.into_iter().map(pair).collect()
 }
 
-/// Distance between two places on a closed ring of length 1.
+/// Distance between two arc-length positions on a closed ring of length 1.
 fn ring_distance(a: f64, b: f64) -> f64 {
     let gap = (a - b).abs();
     gap.min(1.0 - gap)
 }
 
-/// Corner score of each vertex, summed over both sides.
+/// Corner score of each vertex, summed over both designs.
 fn scores(ring: &SheetRing) -> Vec<f64> {
     let mut scores = vec![BASE_SCORE; ring.positions.len()];
     for points in &ring.sides {
@@ -96,7 +99,7 @@ fn scores(ring: &SheetRing) -> Vec<f64> {
                 points[k] - step(-TURN_REACH),
                 step(TURN_REACH) - points[k],
             );
-            // A reversal turns by π, so both sides together score 1.
+            // A reversal turns by π, so a reversal in both designs scores 1.
             *score += turn.abs() / std::f64::consts::TAU;
         }
     }

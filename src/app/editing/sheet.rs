@@ -15,18 +15,19 @@ use crate::design::{Design, DesignForm, Picture};
 use crate::geometry::{Bounds, DVec2, Side, Similarity};
 use crate::transition::PaintRule;
 
-/// Maximum distance, as a fraction of the designs' size, between a requested cut and the actual one
-/// that counts as its result; the match may move a cut (heuristic).
+/// Maximum distance, summed over both ends and as a fraction of the designs' size, between a cut
+/// that the user requested and an actual cut that counts as its result. The match may move a cut
+/// (heuristic).
 const CUT_SHIFT: f64 = 0.25;
 
-/// Both designs and their match.
+/// Both designs and their match, placed in the common frame.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct MatchSheet {
-    /// Source and target; `None` if there is nothing to match.
+    /// Source and target; `None` if they are not both outlines.
     pub sides: Option<[SheetSide; 2]>,
-    /// The matched rings; empty while there is no transition.
+    /// Rings of all pieces, matched or not; empty while there is no transition.
     pub rings: Vec<SheetRing>,
-    /// The matched pieces.
+    /// Pieces of the match; empty while there is no transition.
     pub pieces: Vec<SheetPiece>,
     /// Pins of the project, in frame coordinates.
     pub pins: Vec<PointPair>,
@@ -34,18 +35,18 @@ pub struct MatchSheet {
     pub faulty_pins: Vec<usize>,
     /// Automatically matched points that are shown.
     pub features: Vec<PointPair>,
-    /// Letter index of each of them, 0 for a.
+    /// Letter index of each point in `features`, 0 for a.
     pub letters: Vec<usize>,
-    /// Points of the previous sheet missing here, with their letters: they may return, as when a
-    /// draft is replaced by the best film.
+    /// Points of the previous sheet that are missing here, with their letter indices. They may
+    /// return, as when the best film replaces a draft.
     pub missing_points: Vec<(PointPair, usize)>,
     /// Pairs of lines of the project, in frame coordinates.
     pub lines: Vec<LinePair>,
-    /// Content of the film; it decides what pins are for.
+    /// Content of the film; it decides whether pins move a boundary or the plane.
     pub content: Option<ContentKind>,
-    /// Pairs of parts set by the user.
+    /// Pairs of parts set by the user, each given by a point in the source and one in the target.
     pub links: Vec<PointPair>,
-    /// Cuts that open rings around holes.
+    /// Cuts that open rings around holes, automatic or set by the user.
     pub cuts: Vec<SheetCut>,
     /// Transformations from each design's own coordinates to the frame.
     pub frame_from_design: [Similarity; 2],
@@ -54,28 +55,29 @@ pub struct MatchSheet {
 /// One design on the sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetSide {
-    /// Its parts as matched, each an outline followed by its holes; later parts cover earlier ones.
+    /// Parts of the design as they are matched, each an outline followed by its holes; later parts
+    /// cover earlier ones.
     pub parts: Vec<Vec<Vec<DVec2>>>,
     /// Corners that pins snap to.
     pub corners: Vec<DVec2>,
-    /// Bounding box.
+    /// Bounding box of the parts.
     pub bounds: Bounds,
-    /// The picture it was read from, placed in the frame.
+    /// Picture that the design was read from, placed in the frame; `None` if it was not a picture.
     pub picture: Option<Picture>,
 }
 
-/// One piece in both designs.
+/// A piece: a part of the source matched with a part of the target, or a part of only one design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetPiece {
-    /// Label, the same in both designs.
+    /// Label of the piece, the same in both designs.
     pub name: String,
     /// Whether it exists in both designs.
     pub fate: PieceFate,
-    /// Position of its label in the source and in the target.
+    /// Position of the label in the source and in the target.
     pub label_at: [DVec2; 2],
-    /// Whether the user paired it, or marked it as unmatched.
+    /// Whether the user paired the piece's parts, or marked its part as unmatched.
     pub is_linked: bool,
-    /// Indices of its parts in the source and in the target.
+    /// Index of the piece's part in the source and in the target; `None` where it has none.
     pub parts: [Option<usize>; 2],
 }
 
@@ -93,17 +95,17 @@ pub enum PieceFate {
 /// A cut that opens a ring around a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheetCut {
-    /// The actual cut.
+    /// The cut that the match uses, or the request if the match has none for it.
     pub cut: RingCut,
-    /// The cut as requested by the user, if it was.
+    /// The cut as the user requested it; `None` for an automatic cut.
     pub requested: Option<RingCut>,
     /// Index of the project's cut that requested it; `None` for an automatic cut.
     pub requested_index: Option<usize>,
 }
 
 impl MatchSheet {
-    /// Lays out a pair of designs, given as imported, in the paint they were matched in. Empty if
-    /// one of them has a mesh or bars of its own.
+    /// Lays out a pair of designs, given as imported, in the frame. `paint` is the rule by which
+    /// their paint layers were matched. The sheet is empty if one of them is not an outline.
     #[must_use]
     pub fn new(
         designs: [&Design; 2],
@@ -139,8 +141,8 @@ impl MatchSheet {
         }
     }
 
-    /// Assigns letters to the automatic points; points already on one of the last two sheets keep
-    /// theirs.
+    /// Assigns letters to the automatic points; points that were on one of the last two sheets keep
+    /// their letters.
     pub fn assign_letters(&mut self, before: Option<&Self>) {
         let sizes = self.sides.iter().flatten();
         let largest = sizes.map(|side| side.bounds.diameter()).fold(0.0, f64::max);
@@ -186,7 +188,7 @@ impl MatchSheet {
         polyline::nearest(parts.iter().flatten().map(Vec::as_slice), p)
     }
 
-    /// Nearest corner within `reach`.
+    /// Nearest corner of one design within the distance `reach`.
     #[must_use]
     pub fn corner_near(&self, side: Side, p: DVec2, reach: f64) -> Option<DVec2> {
         let corners = &self.sides.as_ref()?[side].corners;
@@ -206,11 +208,13 @@ impl MatchSheet {
         (ring.kind == RingKind::Matched).then(|| a.lerp(b, foot.along))
     }
 
-    /// The topmost part containing a point, or else the nearest one within `reach`.
+    /// Index of the topmost part that contains a point, or else of the nearest part within the
+    /// distance `reach`.
     #[must_use]
     pub fn part_at(&self, side: Side, p: DVec2, reach: f64) -> Option<usize> {
         let parts = &self.sides.as_ref()?[side].parts;
-        // Containing wins over near: a part may lie in the hole of another.
+        // A part that contains the point is preferred to a nearer boundary: a part may lie in the
+        // hole of another.
         uppermost(parts, p).or_else(|| {
             let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
             let distance =
@@ -221,7 +225,7 @@ impl MatchSheet {
     }
 }
 
-/// The last part containing a point, because later parts are painted over earlier ones.
+/// Index of the last part that contains a point; later parts are painted over earlier ones.
 fn uppermost(parts: &[Vec<Vec<DVec2>>], p: DVec2) -> Option<usize> {
     parts
         .iter()
@@ -265,7 +269,7 @@ fn side(design: &Design, by: &Similarity, paint: PaintRule) -> Option<SheetSide>
     })
 }
 
-/// All rings of all pieces, including those in only one design.
+/// Rings of all pieces, including rings that exist in only one design.
 fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
     let rings_of_piece = |(k, piece): (usize, &PieceMatch)| -> Vec<SheetRing> {
         let ring = |ring: &crate::correspondence::RingMatch| {
@@ -291,7 +295,7 @@ fn label_pieces(
     let unmatched: Vec<(Side, Option<usize>)> = unmatched
         .map(|part| (part.side, part_at(part.side, part.at)))
         .collect();
-    // Pairings name parts by points, pieces by indices.
+    // Pairings refer to parts by points, but pieces refer to them by indices.
     let is_user_set = |parts: &[Option<usize>; 2]| {
         let is_linked = parts.iter().all(Option::is_some) && linked.contains(parts);
         let is_unmatched =
@@ -339,15 +343,16 @@ fn label_position(piece: &PieceMatch, side: Side, above: &[&[Vec<DVec2>]]) -> DV
     let rings = rings.map(|ring| [&ring.source, &ring.target][side].as_slice());
     let rings: Vec<&[DVec2]> = rings.collect();
     let first = rings.first().and_then(|ring| ring.first());
-    // If the piece is covered, the label stands where it would be; a ring that is a point has no
-    // inside.
+    // A covered piece is labelled as if nothing lay above it. A ring shrunk to a point has no
+    // inside and is labelled at that point.
     polyline::label_point(&rings, above)
         .or_else(|| polyline::label_point(&rings, &[]))
         .or(first.copied())
         .unwrap_or_default()
 }
 
-/// The actual cuts, each with the request it answers; then requests without an actual cut.
+/// The cuts that the match uses, each with the user's request it fulfils; then the requests that
+/// the match does not fulfil.
 fn cuts(pieces: &[PieceMatch], requests: &[RingCut], diameter: f64) -> Vec<SheetCut> {
     let gap = |a: &RingCut, b: &RingCut| a.outer.distance(b.outer) + a.hole.distance(b.hole);
     let mut open_requests: Vec<usize> = (0..requests.len()).collect();
@@ -360,7 +365,7 @@ fn cuts(pieces: &[PieceMatch], requests: &[RingCut], diameter: f64) -> Vec<Sheet
                 requests[k].side == cut.side && gap(&requests[k], cut) < CUT_SHIFT * diameter
             })
             .min_by(|&a, &b| gap(&requests[a], cut).total_cmp(&gap(&requests[b], cut)));
-        // Each request is answered by at most one cut.
+        // Each request belongs to at most one cut.
         open_requests.retain(|k| Some(*k) != nearest);
         cuts.push(SheetCut {
             cut: *cut,

@@ -4,7 +4,7 @@ use crate::app::editing::polyline;
 use crate::correspondence::{PointPair, RingKind};
 use crate::geometry::DVec2;
 
-/// A ring in both designs, vertex by vertex.
+/// A ring in both designs; vertex k of the source is matched with vertex k of the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetRing {
     /// Index of the piece that it belongs to.
@@ -13,7 +13,8 @@ pub struct SheetRing {
     pub kind: RingKind,
     /// Vertices in the source and in the target.
     pub sides: [Vec<DVec2>; 2],
-    /// Arc-length position of each vertex, 0 to 1, common to both designs.
+    /// Arc-length position of each vertex, 0 to 1: the mean of both designs, or that of the only
+    /// design in which the ring is no point.
     pub positions: Vec<f64>,
 }
 
@@ -40,14 +41,15 @@ impl SheetRing {
         }
     }
 
-    /// Mean of its lengths in both designs.
+    /// Mean of the ring's lengths in both designs.
     #[must_use]
     pub fn length(&self) -> f64 {
         let [a, b] = [0, 1].map(|k: usize| polyline::arc_length_positions(&self.sides[k]).1);
         0.5 * (a + b)
     }
 
-    /// Arc-length position of a pin, if it lies on the ring.
+    /// Arc-length position of the vertex before a pin; `None` if the pin's source point is not on
+    /// the ring.
     #[must_use]
     pub fn position_of(&self, pin: &PointPair) -> Option<f64> {
         let foot = polyline::nearest([self.sides[0].as_slice()].into_iter(), pin.source)?;

@@ -10,8 +10,8 @@ use crate::app::persistence::autosave::Autosave;
 use crate::app::presentation::presenter::Presentation;
 use crate::app::unsaved_question::UnsavedQuestion;
 
-/// A single dropped design for which the user must choose between source, target and a new
-/// position.
+/// A single dropped or opened design, while the user is asked whether it replaces the source or the
+/// target or is added.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct DroppedDesign {
     undecided: Option<PathBuf>,
@@ -30,7 +30,7 @@ impl DroppedDesign {
         self.undecided.is_some()
     }
 
-    /// Asks where a single design should go.
+    /// Opens the question where this single design should go.
     pub fn ask(&mut self, path: PathBuf) {
         self.undecided = Some(path);
     }
@@ -55,8 +55,8 @@ fn natural_sort_key(name: &str) -> Vec<(String, u64)> {
     words_and_numbers
 }
 
-/// Opens all files dropped together. The system reports them one by one, but all before the next
-/// frame (`winit` on X11, Windows and macOS).
+/// Opens all files that were dropped together. The system reports them one by one, but all before
+/// the next frame (`winit` on X11, Windows and macOS).
 pub fn read_drops(
     mut drops: MessageReader<FileDragAndDrop>,
     presentation: Res<Presentation>,
@@ -74,21 +74,21 @@ pub fn read_drops(
     if files.is_empty() {
         return;
     }
-    // Many files arrive in arbitrary order; sort them as file managers do.
+    // More than two files arrive in arbitrary order; sort them as file managers do.
     if files.len() > 2 {
         files.sort_by_cached_key(|path| natural_sort_key(&path.to_string_lossy()));
     }
     intents.write(Intent::Open(files));
 }
 
-/// Closes the question once it is answered.
+/// Closes the question about a single design once it is answered.
 pub fn close_drop_question(
     mut intents: MessageReader<Intent>,
     mut dropped: ResMut<DroppedDesign>,
     question: Res<UnsavedQuestion>,
     autosave: Res<Autosave>,
 ) {
-    // Esc is meant for the topmost question.
+    // Esc closes only the topmost question.
     let is_topmost = question.text().is_none() && autosave.recoverable().is_none();
     let is_decided = |intent: &Intent| match intent {
         Intent::Escape => is_topmost,

@@ -14,14 +14,14 @@ use crate::app::unsaved_question::UnsavedQuestion;
 use crate::design::{Format, extensions};
 use crate::project::Project;
 
-/// Purpose of the dialog.
+/// Purpose for which the file dialog is open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DialogPurpose {
     /// Open a project or designs.
     Open,
     /// Replace the design with this index.
     Replace(usize),
-    /// Insert designs at this index; the number of designs appends.
+    /// Insert designs before the design with this index; the number of designs appends them.
     Insert(usize),
     /// Save the project, with this suggested file name.
     Save(String),
@@ -39,7 +39,7 @@ impl DialogPurpose {
         }
     }
 
-    /// File filters, the default first: name and extensions.
+    /// File filters, the default first: the name of each and its extensions.
     #[must_use]
     pub fn filters(&self) -> Vec<(String, Vec<&'static str>)> {
         let projects = ("Projects".to_owned(), vec![Project::EXTENSION]);
@@ -74,14 +74,14 @@ impl FileDialogRequest {
         self.purpose.as_ref()
     }
 
-    /// Folder last chosen from.
+    /// Folder that the dialog shows when it opens: that of the last choice, else the project's.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
 }
 
-/// Opens the dialog.
+/// Opens the dialog on intents that need a file name; does nothing if one is already open.
 pub fn open(
     mut intents: MessageReader<Intent>,
     mut dialog: ResMut<FileDialogRequest>,
@@ -155,8 +155,8 @@ pub fn apply_choice(
                 commands.write_message(Intent::InsertDesigns(at, paths.clone()));
             }
             (Some(DialogPurpose::Save(_)), Some(path)) => match with_extension(path) {
-                // The dialog confirmed overwriting a different file: the name without the
-                // extension.
+                // The dialog has checked only the name without the extension, so the user has not
+                // confirmed overwriting this file.
                 full_path if full_path != *path && full_path.exists() => {
                     let name = full_path.file_name().unwrap_or_default().to_string_lossy();
                     notices.problem(
@@ -176,7 +176,7 @@ pub fn apply_choice(
     }
 }
 
-/// Appends the project extension if it is missing.
+/// Path with the extension of project files, appended if it is missing.
 fn with_extension(path: &Path) -> PathBuf {
     if Project::has_document_extension(path) {
         path.to_owned()

@@ -1,4 +1,4 @@
-//! Preview of a file's content in the file dialog.
+//! Preview of the selected file in the file dialog, drawn in the background.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use crate::transition::{TransitionStyle, VectorFigure};
 /// Width and height of the preview in pixels: twice its size on screen at scale factor 1.
 pub const PREVIEW_PX: (u32, u32) = (352, 352);
 
-/// Maximum number of a project's designs in the preview (heuristic: more would be too small).
+/// Maximum number of designs in the preview of a project (heuristic: more would be too small).
 const MAX_DESIGNS: usize = 4;
 
 /// Margin around each design, as a fraction of its diameter (heuristic).
@@ -32,14 +32,14 @@ pub struct FilePreview {
     picture: Option<Result<Arc<RgbaImage>, String>>,
 }
 
-/// Why there is no preview.
+/// Reason why a file has no preview.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct FilePreviewError(String);
 
 impl FilePreview {
-    /// Preview of a file, with straight alpha on a transparent background, or the reason why there
-    /// is none; `None` until it is known.
+    /// Preview of a file, with straight alpha on a transparent background, or the reason why it has
+    /// none; `None` until the preview is ready.
     #[must_use]
     pub fn of(&self, path: &Path) -> Option<Result<&Arc<RgbaImage>, &str>> {
         let is_it = self.path.as_deref() == Some(path);
@@ -47,7 +47,7 @@ impl FilePreview {
         Some(picture.as_ref().map_err(String::as_str))
     }
 
-    /// Whether the preview is of this file.
+    /// Whether this file is the one being previewed, even if its preview is not ready yet.
     #[must_use]
     pub fn is_for(&self, path: &Path) -> bool {
         self.path.as_deref() == Some(path)
@@ -64,7 +64,7 @@ pub fn follow(
         Intent::PreviewFile(path) => Some(path),
         _ => None,
     });
-    // Runs each frame; change detection is set by hand.
+    // This system runs each frame; only a new preview counts as a change.
     let now = preview.bypass_change_detection();
     if let Some(path) = requested.last()
         && now.path.as_ref() != Some(path)
@@ -106,7 +106,7 @@ fn draw_preview(path: &Path) -> Result<RgbaImage, FilePreviewError> {
     side_by_side(&designs).map_err(|error| preview_error(&error))
 }
 
-/// Scales an image down to the size of the preview.
+/// Scales an image down to fit the preview; never up.
 fn scale_to_preview(pixels: &RgbaImage) -> RgbaImage {
     let (width, height) = pixels.dimensions();
     let ratio = |px: u32, max_px: u32| f64::from(max_px) / f64::from(px.max(1));
@@ -130,7 +130,7 @@ fn side_by_side(designs: &[Arc<Design>]) -> Result<RgbaImage, crate::export::Pix
         let bounds = design.extent.padded(MARGIN * design.extent.diameter());
         let corner = DVec2::new(index as f64 * cell.x, 0.0);
         let view = PlaneView::fit_cell(bounds, size, corner, cell);
-        // In its source or target colour.
+        // The first design has the source's colour, the last one the target's.
         let t = index as f64 / (designs.len().max(2) - 1) as f64;
         drawing.push_figure(&VectorFigure::of(design, t), t, &style, &view);
     }

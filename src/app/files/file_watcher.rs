@@ -13,7 +13,7 @@ use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 use crate::app::notices::Notices;
 use crate::app::session::state::Session;
 
-/// Polling interval (heuristic).
+/// Time between two polls of the files (heuristic).
 const POLL_INTERVAL: Duration = Duration::from_millis(700);
 
 /// Modification time and size of a file; `None` if it does not exist.
@@ -29,9 +29,9 @@ fn stamp(path: &Path) -> FileStamp {
 #[derive(Debug)]
 struct WatchedFile {
     path: PathBuf,
-    /// State when it was last read.
+    /// State of the file when the program last read it.
     read: FileStamp,
-    /// State at the last poll.
+    /// State of the file at the last poll.
     last: FileStamp,
 }
 
@@ -50,9 +50,9 @@ impl FileWatcher {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Polls all files; returns whether any has changed since it was read.
+    /// Polls all files; returns whether any change waits to be handled by [`follow`].
     pub fn poll(&self) -> bool {
-        // Without holding the lock, because network drives may be slow.
+        // The files are polled without holding the lock, because network drives may be slow.
         let paths: Vec<PathBuf> = self
             .files()
             .watched
@@ -63,7 +63,7 @@ impl FileWatcher {
         let mut files = self.files();
         let mut changed = Vec::new();
         for (path, now) in paths.into_iter().zip(stamps) {
-            // Another project may have been opened meanwhile.
+            // The file may no longer be watched, because another project has been opened meanwhile.
             let Some(watched) = files.watched.iter_mut().find(|file| file.path == path) else {
                 continue;
             };
@@ -118,7 +118,7 @@ pub fn follow(mut session: ResMut<Session>, watch: Res<FileWatcher>, mut notices
             }
         }
     }
-    // A running build uses the old files; reload after it.
+    // A running build uses the old files; changed ones are reloaded after it.
     if files.changed.is_empty() || session.work().is_some() {
         return;
     }

@@ -1,4 +1,4 @@
-//! Draws the gallery's film strips in the background, one after the other.
+//! Draws the gallery's thumbnails, strips of a few frames, in the background, one after the other.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -20,7 +20,8 @@ use crate::work::progress::Progress;
 /// Width and height of a strip in pixels: twice its size on screen at scale factor 1.
 pub const STRIP_PX: (u32, u32) = (384, 128);
 
-/// Number of frames in a strip: both ends and one between (heuristic).
+/// Number of frames in the strip of a project with two designs: both ends and one in between
+/// (heuristic).
 const FRAMES: usize = 3;
 
 /// Maximum number of frames in a strip (heuristic: more would be too small).
@@ -36,7 +37,7 @@ pub struct GalleryThumbnails {
 
 type StripsByName = HashMap<String, RgbaImage>;
 
-/// How a strip is obtained.
+/// Task of a background job that obtains strips.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum StripTask {
     /// Read all strips cached by an earlier start.
@@ -49,7 +50,7 @@ impl FromWorld for GalleryThumbnails {
     fn from_world(world: &mut World) -> Self {
         let entries = &world.resource::<GalleryEntries>().0;
         let mut names: Vec<&String> = entries.iter().map(|entry| &entry.name).collect();
-        // The invitation shows these large and at once.
+        // The examples of the invitation come first, because it shows their strips at the start.
         names.sort_by_key(|name| !EXAMPLES.contains(&name.as_str()));
         let drawing_tasks = names.into_iter().map(|name| StripTask::Draw(name.clone()));
         Self {
@@ -68,14 +69,15 @@ impl GalleryThumbnails {
         self.running.is_some() || !self.waiting.is_empty()
     }
 
-    /// Strip of a gallery project, once available: straight alpha, on a transparent background
-    /// unless the designs have their own colours.
+    /// Strip of a gallery project, once available, with straight alpha; its background is
+    /// transparent unless the designs have their own colours.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&RgbaImage> {
         self.done.get(name)
     }
 
-    /// Collects finished strips and returns the next task.
+    /// Collects finished strips and returns the next task. While more urgent work runs elsewhere,
+    /// cancels a running task and returns no drawing task.
     fn next(&mut self, is_urgent_elsewhere: bool) -> Option<StripTask> {
         if let Some((task, job)) = &self.running {
             // Strips must not slow down the transition that the user waits for.
@@ -125,7 +127,8 @@ pub fn advance(
     thumbnails.running = Some((task, job));
 }
 
-/// Why a strip could not be drawn; never shown, because opening the project shows it.
+/// Reason why a strip could not be drawn; never shown, because the user sees it on opening the
+/// project.
 type StripError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Loads and builds a gallery project and draws its strip.
@@ -137,7 +140,7 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let sequence = Sequence::new(built).ok_or("a project has at least one segment")?;
     let sequence = sequence.closed(loaded.project.ends_where_it_starts());
     let timing = loaded.project.timing;
-    // With several segments, a selection of the designs without in-betweens.
+    // With several segments, as many frames as designs, up to `MAX_FRAMES`.
     let frames = if segments.len() > 1 {
         segments.len() + 1
     } else {
@@ -148,7 +151,8 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let cell_px = UVec2::new(STRIP_PX.0 / frames as u32, STRIP_PX.1);
     let style = &loaded.project.style;
     let strip = draw_strip(&sequence, style, &times, cell_px)?;
-    // Designs with their own colours were drawn for paper: navy letters vanish on a dark window.
+    // Designs with their own colours get the project's background colour: navy letters would vanish
+    // on a dark window.
     if loaded
         .designs
         .iter()

@@ -1,5 +1,5 @@
-//! Invitation of the first minute: whether the window says how to begin, next to a gallery project
-//! that plays.
+//! Invitation: the panel that says how to begin, shown next to a playing gallery project when the
+//! program starts without files.
 
 use bevy::prelude::{MessageReader, ResMut, Resource};
 
@@ -10,7 +10,8 @@ use crate::project::gallery::GalleryEntry;
 /// and every part of it moves.
 pub const START_PROJECT: &str = "gecko";
 
-/// Gallery projects that the invitation offers, in this order: one of each kind of design first.
+/// Names of the gallery projects that the invitation offers, in this order: one for each kind of
+/// design first.
 pub const EXAMPLES: [&str; 10] = [
     "day-to-night",
     "three-portraits",
@@ -31,19 +32,19 @@ pub struct Invitation {
 }
 
 impl Invitation {
-    /// Whether it is shown.
+    /// Whether the invitation is shown.
     #[must_use]
     pub fn is_shown(&self) -> bool {
         self.is_shown
     }
 
-    /// Closes it; returns whether it was shown.
+    /// Closes the invitation; returns whether it was shown.
     pub fn close(&mut self) -> bool {
         std::mem::take(&mut self.is_shown)
     }
 }
 
-/// The gallery projects that the invitation offers, in its order.
+/// Entries of the gallery projects that the invitation offers, in the order of [`EXAMPLES`].
 #[must_use]
 pub fn examples(gallery: &[GalleryEntry]) -> Vec<&GalleryEntry> {
     let entry = |name: &&str| gallery.iter().find(|entry| entry.name == **name);

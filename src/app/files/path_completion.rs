@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 /// Maximum number of completions (heuristic: as many as fit next to the file list).
 const MAX_COMPLETIONS: usize = 6;
 
-/// The typed path, relative to `folder`; `~` is the user's home folder.
+/// Full path for a path typed relative to `folder`; `~` stands for the user's home folder.
 #[must_use]
 pub fn expand_path(typed: &str, folder: &Path) -> PathBuf {
     let typed = typed.trim();
@@ -56,7 +56,7 @@ pub fn completions(typed: &str, folder: &Path, extensions: &[&str]) -> Vec<PathB
     matches.into_iter().map(|(_, _, path)| path).collect()
 }
 
-/// The path as text; folders end with a separator.
+/// The path as text for the input field; folders end with a separator.
 #[must_use]
 pub fn text(path: &Path) -> String {
     let separator = if path.is_dir() {

@@ -49,8 +49,8 @@ pub fn open(
                 [project] if Project::has_document_extension(project) => {
                     LoadRequest::File(project.clone())
                 }
-                // With a project open, a single design may replace or extend its designs; not those
-                // of the project that plays next to the invitation.
+                // If a project is open, ask whether the single design replaces or extends its
+                // designs. The project that plays next to the invitation does not count.
                 [design] if session.project().is_some() && !invitation.is_shown() => {
                     drop.ask(design.clone());
                     continue;
@@ -160,7 +160,7 @@ pub fn edit(
     }
 }
 
-/// Reports an error, or `nothing` if there was nothing to do.
+/// Reports an error, or shows the text `nothing` if there was nothing to do.
 fn report_result(result: Result<bool, SaveError>, nothing: &str, notices: &mut Notices) {
     match result {
         Ok(true) => {}
@@ -210,7 +210,7 @@ fn set_method(project: &mut Project, warp: WarpKind, content: ContentKind) {
     project.content = Some(content);
 }
 
-/// The next method after the current one that the designs support.
+/// The next method after the current one, in cyclic order, that the designs support.
 fn next_method(session: &Session) -> Option<(WarpKind, ContentKind)> {
     let project = session.project()?;
     // All warps for the same content first, so that pictures stay pictures.
@@ -220,7 +220,7 @@ fn next_method(session: &Session) -> Option<(WarpKind, ContentKind)> {
         .collect();
     let current = (project.warp?, project.content?);
     let current = methods.iter().position(|method| *method == current)?;
-    // Without the current method, which would come up again after a full round.
+    // All other methods, in cyclic order from the current one.
     let after = methods
         .iter()
         .cycle()
@@ -251,7 +251,7 @@ fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
     is_added
 }
 
-/// Saves the project, reports the result, and continues what waited for it.
+/// Saves the project, reports the result, and sends the intent that waited for the save.
 pub fn save(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
@@ -304,7 +304,7 @@ pub fn poll(
     presentation: Res<Presentation>,
     mut state: PollState,
 ) {
-    // Polled each frame; only an outcome counts as a change.
+    // The session is polled each frame; only an outcome counts as a change.
     let can_swap = playback.can_swap_film(session.timing());
     let outcome = session.bypass_change_detection().poll(can_swap);
     if outcome.is_some() {
@@ -343,8 +343,8 @@ pub fn poll(
             *state.is_to_play = plays && !presentation.is_active();
         }
     }
-    // Not before the requested film is there, if only as a draft, and not if the user has already
-    // moved t.
+    // Playback starts once the requested film is there, even as a draft, unless the user has
+    // already moved t.
     if *state.is_to_play && session.has_film() {
         *state.is_to_play = false;
         if !playback.is_playing() && playback.t() == session.timing().from {
@@ -354,7 +354,7 @@ pub fn poll(
     notices.resolve(NoticeTopic::Opening);
     show_notes(session.all_designs(), &mut state.reported, &mut notices);
     if let Some(problem) = session.problem() {
-        // Only the latest problem: earlier settings are no longer requested.
+        // Only the latest problem is shown: earlier settings are no longer requested.
         notices.resolve(NoticeTopic::Transition);
         notices.problem(
             NoticeTopic::Transition,
@@ -366,7 +366,7 @@ pub fn poll(
 /// Shows once, for each design, what was repaired or ignored when it was read.
 fn show_notes(designs: &[Arc<Design>], reported: &mut Vec<Arc<Design>>, notices: &mut Notices) {
     for design in designs {
-        // A single design is its own partner and has been read twice.
+        // A single design, paired with itself, has been read twice.
         let is_reported = reported.contains(design);
         reported.push(Arc::clone(design));
         let mut notes = design.notes.iter().filter(|_| !is_reported);

@@ -11,15 +11,16 @@ pub enum EditorAction {
     Toggle,
     /// Select the tool that a click applies.
     SelectTool(EditorTool),
-    /// Whether pins snap to corners.
+    /// Set whether pins snap to corners.
     SetSnapping(bool),
-    /// Whether the triangles of the mesh are shown.
+    /// Set whether the triangles of the mesh are shown.
     ShowTriangles(bool),
-    /// The pointer hovers here; `None` when it leaves the designs.
+    /// The pointer hovers at this position; `None` when it leaves the designs.
     Hover(Option<EditorPointer>),
-    /// The mouse button goes down here.
+    /// The mouse button is pressed at this position.
     Press(EditorPointer),
-    /// The pointer is dragged to here, by an offset in logical pixels, y down.
+    /// The pointer is dragged to this position, by an offset in logical pixels, y down, since the
+    /// last event.
     Drag(EditorPointer, Vec2),
     /// The mouse button is released.
     Release,
@@ -31,9 +32,9 @@ pub enum EditorAction {
     RemoveSelected,
     /// Delete all pins, lines, cuts and part pairings set by hand; matching rules stay.
     Clear,
-    /// Whether the film is shown next to the designs.
+    /// Set whether the film is shown next to the designs.
     ShowFilm(bool),
-    /// Whether all panes pan and zoom together.
+    /// Set whether all panes pan and zoom together.
     LinkPanes(bool),
     /// Move a pane by an offset in logical pixels, y down.
     Pan(EditorPane, Vec2),
@@ -57,7 +58,7 @@ pub struct EditorPointer {
     pub position: DVec2,
     /// Maximum distance, in the frame, at which the pointer picks something.
     pub pick_radius: f64,
-    /// Whether snapping is suspended (a modifier key is down).
+    /// Whether snapping is suspended, because a modifier key is held down.
     pub ignores_snapping: bool,
 }
 
@@ -67,9 +68,9 @@ pub enum EditorTool {
     /// Sets a pin: a pair of points that correspond.
     #[default]
     Pins,
-    /// Draws pairs of lines.
+    /// Draws pairs of lines that correspond.
     Lines,
-    /// Pairs parts.
+    /// Pairs parts of the two designs.
     Parts,
 }
 

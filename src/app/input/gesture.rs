@@ -1,4 +1,5 @@
-//! Keyboard focus and mouse gestures: which changes belong to one undo step.
+//! Keyboard focus, text selection, and gestures of the mouse or keyboard, whose changes form one
+//! undo step each.
 
 use bevy::input::ButtonInput;
 use bevy::prelude::{MouseButton, Res, ResMut, Resource};
@@ -11,8 +12,8 @@ pub struct KeyboardFocus(pub bool);
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TextSelected(pub bool);
 
-/// Number of frames after the release of a button during which changes still belong to it. Panels
-/// are drawn after the systems have run, so their changes arrive one frame later.
+/// Number of frames after the release of a mouse button during which changes still belong to its
+/// gesture. Panels are drawn after the systems have run, so their changes arrive one frame later.
 const FRAMES_AFTER: u8 = 2;
 
 /// The mouse gesture or text entry in progress, numbered so that its changes form one undo step.
@@ -24,7 +25,8 @@ pub struct Gesture {
 }
 
 impl Gesture {
-    /// Number of the gesture in progress; changes with the same number are one undo step.
+    /// Number of the gesture in progress; changes with the same number form one undo step. `None`
+    /// between gestures.
     #[must_use]
     pub fn id(&self) -> Option<u64> {
         (self.frames_left > 0).then_some(self.number)
@@ -49,7 +51,8 @@ pub fn track_gesture(
     typing: Res<KeyboardFocus>,
     mut gesture: ResMut<Gesture>,
 ) {
-    // All typing into one field is one step: a field that receives the focus starts a new gesture.
+    // All text typed into one field is one undo step: a field that receives the focus starts a new
+    // gesture.
     let begins_typing = typing.0 && !gesture.was_typing;
     let is_new = buttons.get_just_pressed().next().is_some() || begins_typing;
     let is_ongoing = buttons.get_pressed().next().is_some() || typing.0;

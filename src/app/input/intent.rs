@@ -24,7 +24,7 @@ pub enum Intent {
     TogglePlay,
     /// Reverse the direction of playback.
     Reverse,
-    /// Move t by this many hundredths.
+    /// Move t by this many hundredths, backwards if negative.
     Step(i32),
     /// Set t to any finite number; outside 0..1 the blend extrapolates.
     Seek(f64),
@@ -40,9 +40,9 @@ pub enum Intent {
     PlayToNextStop,
     /// Play backwards to the previous stop and wait there.
     PlayToPreviousStop,
-    /// Next faster playback speed.
+    /// Select the next faster playback speed.
     Faster,
-    /// Next slower playback speed.
+    /// Select the next slower playback speed.
     Slower,
     /// Reset the playback speed to 1.
     NormalSpeed,
@@ -62,13 +62,13 @@ pub enum Intent {
     SetMethod(WarpKind, ContentKind),
     /// Use the next method that these designs support.
     NextMethod,
-    /// Try all suitable methods in the background, then use the best.
+    /// Try all suitable methods in the background, then use the best one.
     ChooseBestMethod,
     /// Stop trying methods.
     CancelMethodSearch,
     /// Open the dialog that asks for files to open.
     AskOpen,
-    /// Files chosen in the dialog; empty if it was cancelled.
+    /// Close the dialog with these chosen files; none if it was cancelled.
     AnswerDialog(Vec<PathBuf>),
     /// Preview this file in the dialog.
     PreviewFile(PathBuf),
@@ -93,7 +93,7 @@ pub enum Intent {
     InsertDesigns(usize, Vec<PathBuf>),
     /// Replace the list of designs: each entry is new or names the index it had before.
     ReorderDesigns(Vec<MovedDesigns>),
-    /// Close the loop: whether the last design leads back to the first.
+    /// Set whether the film is a closed loop, in which the last design leads back to the first.
     CloseLoop(bool),
     /// Save the project to its file; asks for a file if it has none.
     Save,
@@ -139,11 +139,11 @@ pub enum Intent {
     ToggleHelp,
     /// Show or hide the frame times.
     ToggleFrameTimes,
-    /// Show or hide the graphs over time.
+    /// Show or hide the graphs of the film's measures over time.
     TogglePlots,
-    /// Apply the remedy suggested for the finding with this index.
+    /// Apply the remedy for the defect with this index in the list of findings.
     ApplyRemedy(usize),
-    /// Apply the suggestion with this index.
+    /// Apply the suggested change with this index, in the order shown.
     ApplySuggestion(usize),
     /// Measure the film again after measuring was stopped.
     MeasureAgain,
@@ -159,11 +159,11 @@ pub enum Intent {
     MoveMarker(DVec2),
     /// Move the design with this index to this point of the map.
     MoveMapDesign(usize, DVec2),
-    /// Replace the map's settings.
+    /// Replace the settings of the map, including its path and saved blends.
     EditMap(Box<MapSettings>),
     /// Show contours of this measure on the map; `None` shows none.
     ShowMapMeasure(Option<MapMeasure>),
-    /// Whether a click on the map adds a stop to the path instead of moving the marker.
+    /// Set whether a click on the map adds a stop to the path instead of moving the marker.
     SetPathDrawing(bool),
     /// Extend the path through these points of the map; the last becomes a stop.
     ExtendPath(Vec<DVec2>),
@@ -175,7 +175,8 @@ pub enum Intent {
     SaveBlend,
     /// Export the saved blends to files.
     ExportSavedBlends,
-    /// Esc: close the topmost question, overlay or mode, and last cancel an export.
+    /// Esc: close or cancel one thing, the topmost question, overlay, work or mode; with nothing
+    /// else left, cancel an export.
     Escape,
     /// Fit the whole transition into the view.
     FitView,
@@ -207,7 +208,7 @@ pub enum Intent {
     DismissNotice(u64),
     /// Close the window; asks first if work would be lost.
     Close,
-    /// Answer to the question about unsaved work.
+    /// Answer to the question about unsaved changes or a running export.
     AnswerUnsaved(UnsavedAnswer),
     /// Answer to the offer to recover unsaved work.
     AnswerRecovery(RecoveryAnswer),
@@ -218,7 +219,7 @@ pub enum Intent {
 pub enum RecoveryAnswer {
     /// Open the recovered project.
     Restore,
-    /// Delete it.
+    /// Delete the recovered project.
     Discard,
     /// Ask again at the next start.
     Later,
@@ -253,12 +254,12 @@ impl Intent {
     }
 }
 
-/// Answer to a question about unsaved work.
+/// Answer to a question about unsaved changes or a running export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnsavedAnswer {
     /// Save the project, or wait for the export, then continue.
     Save,
-    /// Continue without saving.
+    /// Continue without saving, or cancel the export and continue.
     Discard,
     /// Cancel the action that raised the question.
     Cancel,

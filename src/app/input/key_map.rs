@@ -29,18 +29,18 @@ pub enum KeyTrigger {
 /// A key combination and the intent it triggers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyBinding {
-    /// The key.
+    /// Key of the combination.
     pub trigger: KeyTrigger,
     /// Modifiers that must be held; checked for letters and named keys only.
     pub held: KeyModifiers,
-    /// The intent it triggers.
+    /// Intent that the combination triggers.
     pub intent: Intent,
 }
 
 /// One line of the list of keys: combinations that belong together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyTableRow {
-    /// Heading of the group.
+    /// Heading of the group that the row belongs to.
     pub group: &'static str,
     /// Description of the action.
     pub help: &'static str,
@@ -60,7 +60,7 @@ pub struct KeyModifiers {
 }
 
 impl KeyModifiers {
-    /// Updates the modifiers from a key event; ignores other keys.
+    /// Updates the modifiers from a key event; ignores keys that are no modifiers.
     pub fn update(&mut self, input: &KeyboardInput) {
         let is_down = input.state.is_pressed();
         match input.key_code {
@@ -94,7 +94,7 @@ impl KeyMap {
         &self.0
     }
 
-    /// Intent of a key event, if any.
+    /// Intent that a key event triggers, given the modifiers held; `None` if no binding matches.
     ///
     /// A sign wins over a digit: if a digit's key prints a bound sign, the sign counts. Bindings of
     /// the match editor win while it is open.
@@ -174,7 +174,7 @@ impl KeyBinding {
         format!("{}{}", self.modifiers(), self.trigger)
     }
 
-    /// Prefix with the names of the modifiers.
+    /// Prefix with the names of the modifiers; empty if there are none.
     const fn modifiers(&self) -> &'static str {
         match (self.held.control, self.held.shift) {
             (true, true) => "Ctrl Shift ",
@@ -228,7 +228,7 @@ fn printed(input: &KeyboardInput) -> Option<char> {
 
 /// Digit at a physical key position, on the number row or the number pad.
 fn digit_at(code: KeyCode) -> Option<u8> {
-    /// Number-row and number-pad key of each digit.
+    /// Keys of each digit, from 0: on the number row and on the number pad.
     const DIGIT_KEYS: [[KeyCode; 2]; 10] = [
         [KeyCode::Digit0, KeyCode::Numpad0],
         [KeyCode::Digit1, KeyCode::Numpad1],

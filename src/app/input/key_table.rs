@@ -254,8 +254,8 @@ mod tests {
 
     use super::*;
 
-    /// Key combinations in one row of the documented table, such as `R`, `→ ←`, `1 – 9`, `Ctrl+S,
-    /// Ctrl+O`.
+    /// Key combinations in one row of the documented table, from its columns `keys`, such as `R`,
+    /// `→ ←`, `1 – 9` or `Ctrl+S, Ctrl+O`, and `does`.
     fn chords(keys: &str, does: &str) -> BTreeSet<String> {
         let keys = keys.replace("Page ", "Page_").replace('`', "");
         let mut words: Vec<String> = keys

@@ -64,16 +64,17 @@ pub struct FilmExportOptions {
     pub layout: PictureLayout,
     /// Frames per second.
     pub fps: u32,
-    /// First and last t, where they differ from those of the film on the stage.
+    /// First and last t of the export; `None` uses that of the film on the stage.
     pub range: [Option<f64>; 2],
-    /// Behaviour at the end of the film.
+    /// Behaviour at the end of the exported film.
     pub ending: FilmEnding,
     /// Whether the background is transparent, if the file type supports it.
     pub is_transparent: bool,
 }
 
 impl Default for FilmExportOptions {
-    /// Layout for slides at 25 fps, a rate that GIF's clock of 1/100 s represents exactly.
+    /// Layout for slides at 25 frames per second, a rate that GIF's clock of 1/100 s represents
+    /// exactly.
     fn default() -> Self {
         Self {
             layout: PictureLayout::default(),
@@ -86,8 +87,9 @@ impl Default for FilmExportOptions {
 }
 
 impl FilmExportOptions {
-    /// First and last t of the export. Drops values that are neither an end nor a stop of the
-    /// project: another project may be open by now, or a stop may have been removed.
+    /// First and last t of the export; `None` for the end of the whole film. Drops values that are
+    /// neither an end nor a stop of the project: another project may be open by now, or a stop may
+    /// have been removed.
     #[must_use]
     pub fn valid_range(&self, whole_film: &Timing, stops: &[TransitionStop]) -> [Option<f64>; 2] {
         let exists = |t: &f64| {
@@ -120,12 +122,12 @@ impl FilmExportOptions {
 /// Behaviour at the end of an exported film.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FilmEnding {
-    /// As played on the stage.
+    /// Like the film on the stage.
     #[default]
     AsPlayed,
-    /// It stops.
+    /// The film stops.
     Once,
-    /// It plays back to its start, so that it can loop.
+    /// The film plays back to its start, so that it loops without a jump.
     Loop,
 }
 
@@ -148,7 +150,7 @@ pub enum ThemeChoice {
 /// Resolution of a saved image of the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ImageScale {
-    /// The window's own pixels.
+    /// As many pixels as the stage has on screen.
     #[default]
     One,
     /// Twice as many pixels along each side.
@@ -167,7 +169,7 @@ pub enum FilmFileFormat {
 }
 
 impl FilmFileFormat {
-    /// The type without transparency: its films always get the background colour.
+    /// The file type without transparency; films of this type always get the background colour.
     pub const OPAQUE: Self = Self::Film(FilmKind::Mp4);
 }
 
@@ -181,8 +183,8 @@ impl Preferences {
 }
 
 impl FilmFileFormat {
-    /// GIF, which plays everywhere; for pictures MP4 or APNG, because GIF has few colours and
-    /// becomes large.
+    /// Default file type for films with this content: GIF, which plays everywhere, or, for
+    /// pictures, MP4 or APNG, because GIF has few colours and becomes large.
     fn default_for_content(content: Option<ContentKind>) -> Self {
         Self::Film(match content {
             Some(ContentKind::Colours) if has_ffmpeg() => FilmKind::Mp4,
@@ -197,12 +199,12 @@ impl FilmFileFormat {
 pub enum ComparisonMethod {
     /// Every vertex of the shared mesh moves on a straight line.
     Straight,
-    /// A cell of the table of methods (warp × content).
+    /// A method, given by its warp and content.
     Method(TransitionMethod),
 }
 
 impl ComparisonMethod {
-    /// All methods, in the order of the list.
+    /// All methods to compare with, in the order in which the window lists them.
     pub fn all() -> impl Iterator<Item = Self> {
         std::iter::once(Self::Straight).chain(TransitionMethod::all().map(Self::Method))
     }
@@ -217,7 +219,7 @@ impl ComparisonMethod {
         }
     }
 
-    /// The cell of the method table that builds this comparison.
+    /// The method, a warp and a content, with which the comparison is built.
     #[must_use]
     pub fn method(self) -> TransitionMethod {
         match self {

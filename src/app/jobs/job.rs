@@ -28,7 +28,7 @@ pub fn wake() {
     }
 }
 
-/// Wakes the window on drop, so that a panic is noticed as soon as a result.
+/// Wakes the window on drop, so that it notices a panic as quickly as a result.
 struct WakeOnDrop;
 
 impl Drop for WakeOnDrop {
@@ -48,7 +48,8 @@ pub struct JobTracker {
 impl Progress for JobTracker {
     fn report(&self, stage: &'static str, fraction: f64) {
         *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
-        // There is no atomic float; a progress bar of 120 points shows no more than a thousandth.
+        // Stored in thousandths, because there is no atomic float; a progress bar of 120 points
+        // shows no finer steps.
         let permille = (fraction.clamp(0.0, 1.0) * 1000.0) as u32;
         // Relaxed, here and below: the values are independent of each other.
         self.permille.store(permille, Ordering::Relaxed);
@@ -65,7 +66,7 @@ pub enum JobError<E> {
     /// The work itself returned an error.
     #[error(transparent)]
     Failed(E),
-    /// The thread panicked or could not be started; the job's name.
+    /// The thread panicked or could not be started; contains the job's name.
     #[error("internal error ({0}); this is a bug, please report it")]
     Panicked(&'static str),
 }
@@ -138,7 +139,8 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
         self.started.elapsed()
     }
 
-    /// Current stage and progress in it, 0 to 1.
+    /// Name of the current stage of the work, and the last reported progress of the whole work in
+    /// [0, 1].
     #[must_use]
     pub fn progress(&self) -> (&'static str, f64) {
         let stage = *self
@@ -152,7 +154,7 @@ impl<T: Send + 'static, E: Send + 'static> BackgroundJob<T, E> {
         )
     }
 
-    /// Asks the work to stop; it still returns a result.
+    /// Asks the work to stop at its next cancellation check; the job then still returns a result.
     pub fn cancel(&self) {
         self.tracker.cancelled.store(true, Ordering::Relaxed);
     }

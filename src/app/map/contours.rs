@@ -1,5 +1,5 @@
-//! Contours of a measure over the map, and hatching where blends fold or cross themselves. Sampled
-//! in the background, first coarsely, then finely.
+//! Draws the contours of a measure over the map, and hatching where blends fold or cross
+//! themselves. The measures are sampled in the background, first coarsely, then finely.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::work::progress::Cancelled;
 /// grid takes some seconds).
 const SAMPLES_PER_SIDE: [usize; 2] = [16, 64];
 
-/// Side of the image, in pixels (heuristic).
+/// Side of the square image of the contours, in pixels (heuristic).
 const SIDE_PX: u32 = 704;
 
 /// Number of contours between the smallest and the largest value (heuristic).
@@ -29,12 +29,13 @@ const HATCH_PX: (u32, u32) = (9, 2);
 /// Colour of the hatching, visible on light and dark backgrounds.
 const HATCH_COLOUR: Rgb = Rgb([196, 84, 40]);
 
-/// Samples of all measures over the map, and the image drawn from them.
+/// Samples of all measures over the map, and the image of the contours drawn from them.
 #[derive(Debug, Default)]
 pub struct MapContours {
     landscape: Option<MapLandscape>,
     sampling: Option<BackgroundJob<MapLandscape, Cancelled>>,
-    /// Content of the image: the measure, the colour, and the samples per side.
+    /// Content of the drawn image: the measure, the colour, and the number of samples per side of
+    /// the map.
     drawn: Option<(ShownMeasure, Rgb, usize)>,
     drawing: Option<BackgroundJob<Arc<RgbaImage>, Cancelled>>,
     picture: Option<Arc<RgbaImage>>,
@@ -44,13 +45,13 @@ pub struct MapContours {
 type ShownMeasure = Option<MapMeasure>;
 
 impl MapContours {
-    /// The image; `None` until it is drawn.
+    /// Image of the contours and hatching; `None` until it is drawn.
     #[must_use]
     pub fn picture(&self) -> Option<&Arc<RgbaImage>> {
         self.picture.as_ref()
     }
 
-    /// The samples taken so far.
+    /// Samples of all measures, the finest taken so far; `None` until the first are complete.
     #[must_use]
     pub fn landscape(&self) -> Option<&MapLandscape> {
         self.landscape.as_ref()
@@ -131,7 +132,7 @@ fn draw(landscape: &MapLandscape, shown: ShownMeasure, ink: Rgb) -> RgbaImage {
                 height(at + DVec2::X * px)? - centre_height,
                 height(at + DVec2::Y * px)? - centre_height,
             );
-            // Distance to the nearest contour, in pixels.
+            // First-order distance to the nearest contour, in pixels.
             let distance_px =
                 (centre_height - centre_height.round()).abs() / slope.length().max(1e-9);
             // Antialiased lines on top of a shade that grows with the value.

@@ -12,11 +12,11 @@ use crate::geometry::DVec2;
 use crate::project::{MAX_PLACES, MapSettings, SavedBlend};
 use crate::space::{MapPath, Waypoint, simplify_polyline};
 
-/// Distance within which a new stop snaps to a design or another stop (heuristic).
+/// Distance on the map within which a new stop snaps to a design or another stop (heuristic).
 const SNAP_DISTANCE: f64 = 0.05 * MAP_HALF_SIDE;
 
-/// Maximum deviation of the simplified path from a line drawn by hand (heuristic: removes the
-/// trembling of a hand).
+/// Maximum distance on the map between a line drawn by hand and the path simplified from it
+/// (heuristic: removes the trembling of the hand).
 const PATH_TOLERANCE: f64 = 0.015 * MAP_HALF_SIDE;
 
 /// Applies the intents that concern the map.
@@ -60,7 +60,7 @@ pub fn apply(
     }
 }
 
-/// Applies those intents that only change the project.
+/// Applies those intents of the map that change only the project.
 fn change_project(
     intent: &Intent,
     view: &MapView,
@@ -139,7 +139,7 @@ fn new_stop(at: DVec2, path: &MapPath, view: &MapView) -> Waypoint {
     }
 }
 
-/// Name of the blend at a point.
+/// Default name of the blend at a point; empty until the map is built.
 fn blend_name(at: DVec2, view: &MapView) -> String {
     view.pictures().map_or_else(String::new, |pictures| {
         let mut weights = vec![0.0; pictures.map().sites().len()];
@@ -148,7 +148,7 @@ fn blend_name(at: DVec2, view: &MapView) -> String {
     })
 }
 
-/// Saved blend at the marker.
+/// New saved blend at the marker, with its default name.
 fn saved_blend(view: &MapView) -> SavedBlend {
     SavedBlend {
         name: blend_name(view.marker(), view),

@@ -1,8 +1,9 @@
 //! The map of all designs, shown in place of the stage: every point is a blend, and a marker
 //! selects one.
 //!
-//! The space of blends and its thumbnails are built in the background. The blend under the marker
-//! is drawn in the frame in which the marker moves; during playback the marker follows the film.
+//! The space of blends and its thumbnails are built in the background. Whenever the marker moves,
+//! the blend under it is redrawn in the same screen update; during playback the marker follows the
+//! film.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -26,7 +27,7 @@ use crate::transition::{BuildQuality, Timing, TransitionStyle, segment_at};
 /// Distance that an arrow key moves the marker, as a fraction of the map's half side (heuristic).
 const MARKER_STEP: f64 = 0.02;
 
-/// Why the map could not be built.
+/// Reason why the map could not be built.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct MapBuildError(Arc<ProjectError>);
@@ -38,15 +39,15 @@ pub struct MapView {
     pub is_shown: bool,
     /// Whether a click on the map adds a stop to the path.
     pub is_drawing_path: bool,
-    /// Measure whose contours are shown.
+    /// Measure whose contours are shown; `None` shows none.
     pub measure: Option<MapMeasure>,
     /// Position of the marker, y up.
     marker: DVec2,
     /// Positions of the marker since recording started; `None` when not recording.
     recorded: Option<Vec<DVec2>>,
-    /// Playback position in the previous frame.
+    /// Playback's t in the previous frame of the window.
     t: Option<f64>,
-    /// The project that the map shows.
+    /// The project whose designs the map shows.
     loaded: Option<LoadedProject>,
     curve: Option<MapCurve>,
     /// Whether the space being built is a draft.
@@ -54,7 +55,7 @@ pub struct MapView {
     job: Option<BackgroundJob<DesignSpace, MapBuildError>>,
     problem: Option<JobError<MapBuildError>>,
     pictures: Option<MapPictures>,
-    /// Durations from a move of the marker to the new image of the blend.
+    /// Times taken to redraw the blend after each move of the marker.
     times: DurationHistory,
 }
 
@@ -77,7 +78,7 @@ impl MapView {
         self.curve.as_ref()
     }
 
-    /// Why the map could not be built.
+    /// Reason why the map could not be built; `None` if there is no problem.
     #[must_use]
     pub fn problem(&self) -> Option<&JobError<MapBuildError>> {
         self.problem.as_ref()
@@ -104,8 +105,9 @@ impl MapView {
         self.recorded.take()
     }
 
-    /// Replacement for the intent of a key while the map is shown: arrow keys move the marker, and
-    /// the stop key adds a stop to the path.
+    /// Intent that replaces that of a key while the map is shown; `None` if the key keeps its
+    /// meaning. Arrow keys move the marker, and the keys for stops, the match editor and the grid
+    /// edit or record the path.
     #[must_use]
     pub fn map_intent(&self, intent: &Intent) -> Option<Intent> {
         let direction = match intent {
@@ -134,7 +136,8 @@ impl MapView {
         }
     }
 
-    /// Places of all designs after moving one of them; `None` if it cannot be there.
+    /// Places of all designs on the map after moving one of them to `to`; `None` if it cannot be
+    /// there.
     #[must_use]
     pub fn sites_with(&self, design: usize, to: DVec2) -> Option<Vec<DVec2>> {
         let mut sites = self.pictures.as_ref()?.map().sites().to_vec();
@@ -199,13 +202,13 @@ impl MapView {
         is_new
     }
 
-    /// Durations of the last moves of the marker, up to the new image of the blend.
+    /// Times taken to redraw the blend after each of the last moves of the marker.
     #[must_use]
     pub fn draw_times(&self) -> &DurationHistory {
         &self.times
     }
 
-    /// Adopts a newly built space and lays out its map.
+    /// Takes a newly built space of blends and lays out its map.
     fn adopt_space(&mut self, space: DesignSpace) {
         let Some(loaded) = &self.loaded else {
             return;
@@ -222,7 +225,7 @@ impl MapView {
         }
     }
 
-    /// Adopts the project's current settings; returns whether the map changes.
+    /// Switches to the project's current settings; returns whether the map changes.
     fn adopt_project(&mut self, loaded: LoadedProject) -> bool {
         let before = self.loaded.replace(loaded.clone());
         let is_same = before.is_some_and(|before| {
@@ -243,7 +246,7 @@ impl MapView {
             return true;
         }
         self.problem = None;
-        // A draft first, so that a map appears at once.
+        // A draft is built first, so that a map appears at once.
         self.is_draft = loaded.project.options.quality != BuildQuality::Draft;
         self.start(loaded, self.is_draft.then_some(BuildQuality::Draft));
         true
@@ -262,7 +265,8 @@ impl MapView {
         (self.problem, self.pictures, self.is_draft) = (Some(problem), None, false);
     }
 
-    /// Collects a space that was built; returns whether there was a result.
+    /// Collects the result of building the space, and starts the final build after a draft; returns
+    /// whether there was a result.
     fn collect_space(&mut self) -> bool {
         match BackgroundJob::take_result(&mut self.job) {
             None => return false,
@@ -281,7 +285,8 @@ impl MapView {
     }
 }
 
-/// Whether two projects have the same space; timing, colours and layout do not affect it.
+/// Whether two projects have the same space of blends; timing, colours and the layout of the map do
+/// not affect it.
 fn have_same_space(a: &Project, b: &Project) -> bool {
     let bare = |project: &Project| Project {
         title: String::new(),

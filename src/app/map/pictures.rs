@@ -20,8 +20,8 @@ use crate::transition::TransitionStyle;
 /// Side of a saved blend's thumbnail, in pixels (heuristic).
 const SAVED_BLEND_PX: u32 = 96;
 
-/// Maximum number of them drawn in one frame (resource limit: a blend of fields takes some
-/// milliseconds).
+/// Maximum number of saved blends whose thumbnails are drawn in one frame (resource limit: a blend
+/// of fields takes some milliseconds).
 const SAVED_BLENDS_PER_FRAME: usize = 4;
 
 /// The map of a space of designs with everything drawn on it.
@@ -33,15 +33,15 @@ pub struct MapPictures {
     /// Thumbnails of blends and designs.
     thumbnails: Option<MapThumbnails>,
     drawing: Option<BackgroundJob<MapThumbnails, PixelSizeError>>,
-    /// Colours used for the thumbnails.
+    /// Colours with which the thumbnails were drawn or are being drawn.
     style: Option<TransitionStyle>,
     /// The blend under the marker.
     blend: Option<BlendPicture>,
-    /// Contours of a measure.
+    /// Contours of a measure over the map.
     contours: MapContours,
     /// Thumbnails of the saved blends, by their place on the map.
     saved_blends: Vec<(DVec2, Arc<RgbaImage>)>,
-    /// Whether some of them are not drawn yet.
+    /// Whether some saved blends have no thumbnail yet.
     lacks_saved_blends: bool,
 }
 
@@ -82,7 +82,7 @@ impl MapPictures {
         &self.map
     }
 
-    /// Weights of the blend drawn last.
+    /// Weights of the designs in the blend drawn last.
     #[must_use]
     pub fn weights(&self) -> &[f64] {
         self.frame.weights()
@@ -94,13 +94,13 @@ impl MapPictures {
         self.thumbnails.as_ref()
     }
 
-    /// Contours of a measure.
+    /// Contours of a measure over the map.
     #[must_use]
     pub fn contours(&self) -> &MapContours {
         &self.contours
     }
 
-    /// Image of the blend under the marker.
+    /// Image of the blend under the marker; `None` until it is drawn.
     #[must_use]
     pub fn blend(&self) -> Option<&Arc<RgbaImage>> {
         self.blend.as_ref().map(|blend| &blend.picture)
@@ -114,7 +114,7 @@ impl MapPictures {
         self.space.family().is_some() && forms.any(|form| matches!(form, DesignForm::Outline(_)))
     }
 
-    /// Thumbnail of the saved blend at a place.
+    /// Thumbnail of the saved blend at this place on the map; `None` until it is drawn.
     #[must_use]
     pub fn saved_blend(&self, at: DVec2) -> Option<&Arc<RgbaImage>> {
         let saved = self.saved_blends.iter().find(|(place, _)| *place == at);
@@ -145,13 +145,13 @@ impl MapPictures {
         }
         let is_new = self.saved_blends.len() > before;
         if is_new {
-            // The frame was moved off the marker; the blend must be drawn again.
+            // `frame` no longer holds the blend under the marker, which must be drawn again.
             self.blend = None;
         }
         is_new
     }
 
-    /// Vector drawing of the blend drawn last, on a background colour or none.
+    /// Vector drawing of the blend to which `frame` was moved last, on a background colour or none.
     #[must_use]
     pub fn drawing(
         &self,
@@ -166,7 +166,7 @@ impl MapPictures {
         drawing
     }
 
-    /// Draws the blend at a place unless the current image shows it; returns whether it drew.
+    /// Draws the blend at the marker unless the current image shows it; returns whether it drew.
     pub fn draw_blend(&mut self, marker: DVec2, size: PixelSize, style: TransitionStyle) -> bool {
         let mut weights = vec![0.0; self.space.designs().len()];
         self.map.weights(marker, &mut weights);
@@ -197,7 +197,7 @@ impl MapPictures {
     ) -> bool {
         let mut is_new = self.update_thumbnails(style);
         is_new |= self.draw_saved_blends(saved_places, &style);
-        // Thumbnails first, measures afterwards.
+        // Contours are drawn only after all thumbnails.
         if is_final && self.thumbnails.is_some() && self.drawing.is_none() {
             let ink = text_colour_on(Some(style.ground));
             is_new |= self.contours.update(&self.space, &self.map, shown, ink);

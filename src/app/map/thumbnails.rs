@@ -9,28 +9,28 @@ use crate::geometry::{Bounds, DVec2};
 use crate::space::{DesignSpace, WeightMap};
 use crate::transition::TransitionStyle;
 
-/// Half the side of the map. The designs lie within 1 of its centre; the rest is margin
-/// (heuristic).
+/// Half the side of the square map, in map units. The designs lie within 1 of its centre along each
+/// axis; the rest is margin (heuristic).
 pub const MAP_HALF_SIDE: f64 = 1.2;
 
 /// Number of blend thumbnails along each side of the map (heuristic).
 const CELLS: u32 = 9;
 
-/// Side of the thumbnail images, in pixels (heuristic).
+/// Side of the square images of the whole map, in pixels (heuristic).
 const SIDE_PX: u32 = 1056;
 
 /// Size of a design's thumbnail relative to that of a blend (heuristic).
 const DESIGN_SCALE: f64 = 1.3;
 
-/// Images of the whole map, from −[`MAP_HALF_SIDE`] to [`MAP_HALF_SIDE`] along each axis; straight alpha on a
-/// transparent background.
+/// Images of the whole map, from −[`MAP_HALF_SIDE`] to [`MAP_HALF_SIDE`] along each axis, with
+/// straight alpha on a transparent background.
 #[derive(Clone, Debug)]
 pub struct MapThumbnails {
-    /// Number of designs.
+    /// Number of designs on the map.
     pub count: usize,
-    /// Thumbnails of the blends.
+    /// Image with the thumbnails of the blends.
     pub blends: Arc<RgbaImage>,
-    /// Thumbnails of the designs.
+    /// Image with the thumbnails of the designs.
     pub designs: Arc<RgbaImage>,
 }
 

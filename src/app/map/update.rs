@@ -1,5 +1,5 @@
-//! System that keeps the map up to date and redraws the blend under the marker in the frame in
-//! which the marker moves.
+//! System that keeps the map up to date; whenever the marker moves, it redraws the blend under the
+//! marker in the same screen update.
 
 use bevy::math::Vec2;
 use bevy::prelude::{DetectChanges, DetectChangesMut, Query, Res, ResMut, With};
@@ -15,7 +15,8 @@ use crate::export::PixelSize;
 /// on large windows).
 const MAX_SIDE_PX: f32 = 1400.0;
 
-/// Builds the map where needed and draws the blend under the marker.
+/// Rebuilds the map if the project has changed, moves the marker along with playback, and draws the
+/// blend under the marker.
 pub fn follow(
     session: Res<Session>,
     area: Res<StageArea>,

@@ -34,22 +34,23 @@ pub fn folder() -> Option<PathBuf> {
 pub struct Autosave {
     /// Current slot of this window; `None` switches autosave off, as in tests.
     slot: Option<AutosaveSlot>,
-    /// Slot that this window started with, after it has taken over a recovered one.
+    /// Slot that this window started with; kept locked once the slot of a recovered project has
+    /// replaced it.
     initial_slot: Option<AutosaveSlot>,
     /// Slot of the project being recovered; it becomes this window's once the project is open.
     opening_slot: Option<AutosaveSlot>,
     /// Autosaves left behind by windows that ended without saving.
     abandoned: Vec<AbandonedProject>,
-    /// The project written last, and when.
+    /// The project written last, and the time of writing.
     written: Option<(Project, Instant)>,
     /// Whether the open project differs from the autosave.
     is_behind: bool,
     /// Whether the slot contains changes of the open project.
     slot_is_ours: bool,
-    /// Whether those changes have been saved or discarded, so that the slot can be cleared.
+    /// Whether the changes in the slot have been saved or discarded, so that it can be cleared.
     is_resolved: bool,
     job: Option<BackgroundJob<(), io::Error>>,
-    /// Whether a failed autosave has been reported; reported only once.
+    /// Whether a failed autosave has been reported; only the first one is.
     is_reported: bool,
 }
 
@@ -71,7 +72,7 @@ impl Autosave {
         ScratchFolder(self.slot.as_ref().map(AutosaveSlot::scratch_folder))
     }
 
-    /// The newest autosave to recover: its title and its age.
+    /// The newest autosave to recover: its title and, if known, its age.
     #[must_use]
     pub fn recoverable(&self) -> Option<(&str, Option<Duration>)> {
         let abandoned = self.abandoned.first()?;
@@ -114,7 +115,7 @@ pub fn answer_recovery(
     for intent in intents.read() {
         let answer = match intent {
             Intent::AnswerRecovery(answer) => *answer,
-            // Another question lies above this one.
+            // If another question is open above this one, Esc closes that question.
             Intent::Escape if question.text().is_none() => RecoveryAnswer::Later,
             _ => continue,
         };
@@ -122,7 +123,7 @@ pub fn answer_recovery(
             continue;
         }
         match answer {
-            // Stays in its slot for the next start.
+            // All autosaves stay in their slots for the next start.
             RecoveryAnswer::Later => autosave.abandoned.clear(),
             RecoveryAnswer::Discard => autosave.abandoned.remove(0).slot.clear(),
             RecoveryAnswer::Restore if session.is_dirty() => {
@@ -131,14 +132,15 @@ pub fn answer_recovery(
             RecoveryAnswer::Restore => {
                 let abandoned = autosave.abandoned.remove(0);
                 session.open(LoadRequest::Recovered(Box::new(abandoned.project)));
-                // Keeps the lock: the autosave is still the only copy of these changes.
+                // Keeping the slot keeps its lock: the autosave is still the only copy of these
+                // changes.
                 autosave.opening_slot = Some(abandoned.slot);
             }
         }
     }
 }
 
-/// Writes changes, and clears the autosave after saving.
+/// Autosaves changes, and deletes the autosave once they have been saved or discarded.
 pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices: ResMut<Notices>) {
     // Change detection is not used for this resource.
     let autosave = autosave.bypass_change_detection();
@@ -147,7 +149,7 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
         return;
     };
     if let Some(Err(error)) = BackgroundJob::take_result(&mut autosave.job) {
-        // Tried again later.
+        // Writing is tried again later.
         autosave.is_behind = session.is_dirty();
         if !std::mem::replace(&mut autosave.is_reported, true) {
             notices.problem(NoticeTopic::Saving, autosave_problem(&slot.path, &error));
@@ -182,10 +184,11 @@ fn autosave_problem(path: &Path, error: &JobError<io::Error>) -> String {
 
 impl Autosave {
     /// Takes over the slot of a recovered project, so that its autosave stays until the project is
-    /// saved. If it could not be opened, the slot stays for the next start.
+    /// saved. If the project could not be opened, the autosave stays in its slot for the next
+    /// start.
     fn take_over_recovered_slot(&mut self, session: &Session) {
         if session.is_opening() {
-            // Still unknown whether it can be opened.
+            // It is still unknown whether the recovered project can be opened.
         } else if session.is_recovered() {
             if let Some(slot) = self.opening_slot.take() {
                 let previous = self.slot.replace(slot);

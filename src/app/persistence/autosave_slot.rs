@@ -25,11 +25,11 @@ pub struct AutosaveSlot {
 /// An autosave left behind by a window that ended without saving.
 #[derive(Debug)]
 pub struct AbandonedProject {
-    /// The project.
+    /// The project with its unsaved changes.
     pub project: UnsavedProject,
-    /// When it was written.
+    /// Time at which the autosave was written; `None` if unknown.
     pub written_at: Option<SystemTime>,
-    /// Its slot.
+    /// Slot that contains the autosave, now locked by this process.
     pub slot: AutosaveSlot,
 }
 
@@ -60,14 +60,15 @@ impl AutosaveSlot {
             let is_occupied = ["json", "making"]
                 .iter()
                 .any(|kind| folder.join(format!("{number}.{kind}")).exists());
-            // One free slot is enough; all others only matter if they hold something.
+            // One free slot is enough; further slots matter only if they contain an autosave or
+            // unfinished exports.
             if free.is_some() && !is_occupied {
                 continue;
             }
             let Some(slot) = Self::try_lock(folder, number)? else {
                 continue;
             };
-            // Exports of the window that ended will not be finished.
+            // The slot's former window has ended and will not finish its exports.
             fs::remove_dir_all(slot.scratch_folder()).ok();
             match UnsavedProject::read(&slot.path) {
                 Ok(project) => abandoned.push(AbandonedProject {
@@ -98,7 +99,7 @@ impl AutosaveSlot {
 
 impl Drop for AutosaveSlot {
     fn drop(&mut self) {
-        // Only if it is empty, that is, no export is in progress.
+        // The folder is removed only if it is empty, that is, if no export is in progress.
         fs::remove_dir(self.scratch_folder()).ok();
     }
 }

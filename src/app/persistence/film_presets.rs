@@ -16,7 +16,7 @@ use crate::export::{FilmPreset, FilmPresets};
 #[derive(Resource, Clone, Debug, Default)]
 pub struct StoredPresets {
     presets: FilmPresets,
-    /// `None` if nothing is written, as in tests.
+    /// File of the presets; `None` if nothing is written, as in tests.
     path: Option<PathBuf>,
 }
 
@@ -57,7 +57,7 @@ impl StoredPresets {
         self.presets.0.keys().map(String::as_str)
     }
 
-    /// Name of the preset that equals the current export settings.
+    /// Name of the preset that equals the current export settings, if any.
     #[must_use]
     pub fn in_use(&self, preferences: &Preferences, content: Option<ContentKind>) -> Option<&str> {
         let now = preset(preferences, content);

@@ -1,5 +1,5 @@
-//! Disk cache of the gallery's film strips; drawing all of them takes a small machine half a
-//! minute.
+//! Disk cache of the gallery's thumbnails, strips of a few frames each. Drawing all of them takes
+//! half a minute on a small machine.
 
 use std::collections::HashMap;
 use std::fs;
@@ -17,7 +17,7 @@ use crate::io::atomic_file::AtomicFile;
 /// Cached strips by project name. Failures are harmless: a missing strip is drawn again.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct GalleryStripCache {
-    /// `None` if nothing is cached, as in tests.
+    /// Folder of the cache; `None` if nothing is cached, as in tests.
     cache_folder: Option<StripCacheFolder>,
 }
 
@@ -29,19 +29,20 @@ struct StripCacheFolder {
 }
 
 impl StripCacheFolder {
-    /// Subfolder of this version.
+    /// Subfolder for the strips of this version of the program.
     fn version_folder(&self) -> PathBuf {
         self.root.join(&self.version)
     }
 
-    /// Creates the subfolder and deletes those of other versions, which would never be cleaned up.
+    /// Creates the subfolder of this version and deletes those of other versions, which would
+    /// otherwise stay for ever.
     fn create(&self) -> io::Result<()> {
         fs::create_dir_all(self.version_folder())?;
         for other in fs::read_dir(&self.root)?.flatten() {
             let name = other.file_name();
             let is_version = name.to_str().is_some_and(is_version_id);
             if is_version && name != *self.version {
-                // Another installed version draws its strips again.
+                // If another version is still installed, it draws its strips again.
                 fs::remove_dir_all(other.path()).ok();
             }
         }
@@ -76,7 +77,7 @@ impl GalleryStripCache {
         strips.collect()
     }
 
-    /// Stores a strip.
+    /// Stores the strip of the project with this name.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -108,7 +109,8 @@ fn version() -> Option<String> {
     Some(format!("{:016x}", hasher.finish()))
 }
 
-/// Whether a name is such an identifier; nothing else is deleted.
+/// Whether a folder's name has the form of the identifiers from [`version`]; other folders are
+/// never deleted.
 fn is_version_id(name: &str) -> bool {
     name.len() == 16 && name.bytes().all(|byte| byte.is_ascii_hexdigit())
 }

@@ -1,4 +1,5 @@
-//! Recent files: what was opened last, one click away at the next start.
+//! Recent files: the projects and designs opened last, which the next start offers for opening with
+//! one click.
 
 use crate::project::title::title_of;
 use std::io::{self, Write};
@@ -17,7 +18,7 @@ const MAX_ENTRIES: usize = 5;
 /// Files that were opened together.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecentEntry {
-    /// One project, or designs.
+    /// Paths of one project file, or of designs opened together.
     pub files: Vec<PathBuf>,
 }
 
@@ -77,7 +78,7 @@ impl RecentFiles {
 #[derive(Resource, Clone, Debug, Default)]
 pub struct StoredRecentFiles {
     recent: RecentFiles,
-    /// `None` if nothing is written, as in tests.
+    /// File of the list; `None` if nothing is written, as in tests.
     path: Option<PathBuf>,
 }
 
@@ -86,7 +87,7 @@ impl StoredRecentFiles {
     #[must_use]
     pub fn of_file(path: Option<PathBuf>) -> Self {
         let mut recent = path.as_deref().map(RecentFiles::read).unwrap_or_default();
-        // Missing files are dropped; checked once and not in each frame.
+        // Entries with missing files are dropped; this is checked only here, not in each frame.
         let exists = |opened: &RecentEntry| opened.files.iter().all(|file| file.exists());
         recent.opened.retain(exists);
         Self { recent, path }
@@ -142,7 +143,7 @@ pub fn follow(session: Res<Session>, mut recent: ResMut<StoredRecentFiles>) {
         return;
     }
     if let Err(error) = recent.add(RecentEntry { files }) {
-        // Logged only: the user loses nothing.
+        // The error is only logged, because the user loses nothing.
         warn!("cannot write the list of recent files: {error}");
     }
 }

@@ -1,4 +1,4 @@
-//! Playback: moves t over time and handles stops like slides.
+//! Playback: moves the blend parameter t over time and handles stops like slides.
 //!
 //! [`Playback`] is a plain value whose actions are methods, so that tests can call them. The film
 //! runs on [`Timing`], which the export shares. Playing to a stop uses a separate motion: it starts
@@ -11,7 +11,8 @@ use crate::app::input::intent::Intent;
 use crate::app::session::state::Session;
 use crate::transition::{EasingFunction, PlayMode, Timing, TransitionStop};
 
-/// Two t closer than this are the same stop (tolerance: the finest step on screen is 0.001).
+/// Difference in t below which two stops are the same (tolerance: the finest step on screen is
+/// 0.001).
 pub const STOP_TOLERANCE_T: f64 = 1e-6;
 
 /// Distance in t from a design within which two films of the same designs look the same
@@ -21,11 +22,11 @@ const SWAP_DISTANCE_T: f64 = 0.03;
 /// Playback speeds that `[` and `]` step through, as factors (heuristic).
 pub const SPEEDS: [f64; 10] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
 
-/// How t moves.
+/// Motion of t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum PlaybackMotion {
     Still,
-    /// Plays the film; `secs` is the time since its start.
+    /// Plays the film; `secs` is the current position, in seconds from its start.
     Film {
         secs: f64,
     },
@@ -33,7 +34,7 @@ enum PlaybackMotion {
     ToStop(SegmentToStop),
 }
 
-/// Motion to a stop, eased over `secs`.
+/// Motion from one t to that of a stop, eased over `secs` seconds, of which `elapsed` have passed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SegmentToStop {
     from: f64,
@@ -43,7 +44,7 @@ struct SegmentToStop {
     easing: EasingFunction,
 }
 
-/// Current t and how it moves.
+/// Current t and its motion.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct Playback {
     t: f64,
@@ -76,8 +77,8 @@ impl Playback {
         self.motion != PlaybackMotion::Still
     }
 
-    /// Whether the film may be replaced unnoticed by another one of the same designs: at rest, near
-    /// a design, or at any time if the film never reaches a design.
+    /// Whether another film of the same designs may replace this one unnoticed: while t is at rest
+    /// or near a design, or at any time if the film neither starts nor ends at a design.
     #[must_use]
     pub fn can_swap_film(&self, timing: &Timing) -> bool {
         // At the designs all films of a segment are equal.
@@ -98,7 +99,7 @@ impl Playback {
         self.speed
     }
 
-    /// Stops at the start of the film; keeps the speed.
+    /// Moves t to the start of the film, stops there and resets the direction; keeps the speed.
     pub fn rewind(&mut self, timing: &Timing) {
         self.motion = PlaybackMotion::Still;
         self.backwards = false;
@@ -152,7 +153,7 @@ impl Playback {
         self.motion = PlaybackMotion::Film { secs };
     }
 
-    /// Reverses the direction; a motion to a stop returns to where it started.
+    /// Reverses the direction of playback; a motion to a stop turns back to its start.
     pub fn reverse(&mut self) {
         self.backwards = !self.backwards;
         if let PlaybackMotion::ToStop(motion) = &mut self.motion {
@@ -173,7 +174,7 @@ impl Playback {
 
     /// Plays to `to` and waits there.
     pub fn play_to(&mut self, to: f64, timing: &Timing, stops: &[TransitionStop]) {
-        // As fast as the film covers the same distance.
+        // The motion takes about as long as the film takes for the same distance.
         let middle = 0.5 * (self.t + to);
         let secs = (to - self.t).abs() / timing.speed_at(middle, stops);
         self.motion = PlaybackMotion::ToStop(SegmentToStop {
@@ -185,16 +186,17 @@ impl Playback {
         });
     }
 
-    /// The t from which the next stop is counted: where t is, or where it is already heading.
+    /// The t from which the next stop is counted: the current t, or the stop to which it is already
+    /// moving.
     fn heading(&self) -> f64 {
         match self.motion {
-            // Pressing twice in a row means the stop after the next.
+            // A second key press during the motion leads to the stop after the next.
             PlaybackMotion::ToStop(motion) => motion.to,
             PlaybackMotion::Still | PlaybackMotion::Film { .. } => self.t,
         }
     }
 
-    /// Next stop from here; `None` after the last.
+    /// Value of t at the next stop or end of the film; `None` after the last.
     #[must_use]
     pub fn next_stop(&self, timing: &Timing, stops: &[TransitionStop]) -> Option<f64> {
         next_landmark(self.heading(), false, timing, stops)
@@ -218,7 +220,7 @@ impl Playback {
         }
     }
 
-    /// Moves t by `dt_secs` of real time.
+    /// Advances playback by `dt_secs` seconds of real time.
     pub fn advance(&mut self, dt_secs: f64, timing: &Timing, stops: &[TransitionStop]) {
         let step = dt_secs * self.speed;
         match self.motion {
@@ -235,7 +237,7 @@ impl Playback {
     }
 
     fn advance_to_stop(&mut self, motion: SegmentToStop) {
-        // Also if the motion takes no time, so that the division below is safe.
+        // Also true for a motion that takes no time, so that the division below is safe.
         if motion.elapsed >= motion.secs {
             self.t = motion.to;
             self.motion = PlaybackMotion::Still;
@@ -246,7 +248,8 @@ impl Playback {
         self.motion = PlaybackMotion::ToStop(motion);
     }
 
-    /// Moves along the film to time `raw`, in seconds, and handles its ends.
+    /// Moves to the position `unclamped_secs` in the film, in seconds from its start, and handles
+    /// positions beyond its ends.
     fn advance_film(&mut self, unclamped_secs: f64, timing: &Timing, stops: &[TransitionStop]) {
         let film_secs = timing.film_secs(stops);
         let is_past_end = if self.backwards {
@@ -255,7 +258,7 @@ impl Playback {
             unclamped_secs >= film_secs
         };
         let secs = match timing.play {
-            // A film without duration ends at once; nothing may be divided by it.
+            // A film without duration ends at once; dividing by its duration is avoided.
             _ if film_secs <= 0.0 => 0.0,
             PlayMode::Once => unclamped_secs.clamp(0.0, film_secs),
             PlayMode::Loop => unclamped_secs.rem_euclid(film_secs),
@@ -281,7 +284,8 @@ impl Playback {
     }
 }
 
-/// The t that stop navigation visits: the stops and both ends of the film, sorted.
+/// Values of t, in ascending order, between which the keys for stops move: all stops and both ends
+/// of the film.
 #[must_use]
 pub fn landmarks(timing: &Timing, stops: &[TransitionStop]) -> Vec<f64> {
     let mut all: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
@@ -292,8 +296,8 @@ pub fn landmarks(timing: &Timing, stops: &[TransitionStop]) -> Vec<f64> {
     all
 }
 
-/// Where a talk starts: the first stop in the film's direction, or the film's start if there are no
-/// stops.
+/// Value of t at which a talk starts: the first stop in the film's direction, or the film's start
+/// if there are no stops.
 #[must_use]
 pub fn first_stop(timing: &Timing, stops: &[TransitionStop]) -> f64 {
     let along = |stop: &TransitionStop| {
@@ -307,7 +311,8 @@ pub fn first_stop(timing: &Timing, stops: &[TransitionStop]) -> f64 {
     first.map_or(timing.from, |stop| stop.t)
 }
 
-/// The first landmark after `t` in the film's direction, or with `backwards` the last before it.
+/// The first of the [`landmarks`] after `t` in the film's direction or, if `backwards`, the last
+/// one before `t`; `None` if there is none.
 #[must_use]
 pub fn next_landmark(
     t: f64,
@@ -326,7 +331,7 @@ pub fn next_landmark(
     }
 }
 
-/// Applies the intents that concern time.
+/// Applies the intents that control playback.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut playback: ResMut<Playback>,
@@ -339,7 +344,7 @@ pub fn apply(
 }
 
 impl Playback {
-    /// Applies one intent; ignores those that do not concern time.
+    /// Applies one intent; ignores intents that do not control playback.
     pub fn apply_intent(&mut self, intent: &Intent, timing: &Timing, stops: &[TransitionStop]) {
         match intent {
             Intent::TogglePlay => self.toggle(timing, stops),
@@ -360,7 +365,7 @@ impl Playback {
         }
     }
 
-    /// Jumps to the next or previous stop.
+    /// Jumps to the next stop or, if `backwards`, to the previous one.
     fn jump_to_neighbour(&mut self, backwards: bool, timing: &Timing, stops: &[TransitionStop]) {
         if let Some(t) = next_landmark(self.t, backwards, timing, stops) {
             self.motion = PlaybackMotion::Still;
@@ -368,7 +373,7 @@ impl Playback {
         }
     }
 
-    /// Plays to the next or previous stop.
+    /// Plays to the next stop or, if `backwards`, to the previous one.
     fn play_to_neighbour(&mut self, backwards: bool, timing: &Timing, stops: &[TransitionStop]) {
         if let Some(t) = next_landmark(self.heading(), backwards, timing, stops) {
             self.play_to(t, timing, stops);
@@ -376,7 +381,7 @@ impl Playback {
     }
 }
 
-/// Moves t with the clock.
+/// Advances playback by the time since the last frame.
 pub fn advance(time: Res<Time>, mut playback: ResMut<Playback>, session: Res<Session>) {
     if playback.is_playing() {
         playback.advance(time.delta_secs_f64(), session.timing(), session.stops());

@@ -1,7 +1,7 @@
 //! Talks: the drawing in full screen, from stop to stop.
 //!
 //! During a talk the panels are hidden and only the keys of a talk work, so that nothing else can
-//! appear before an audience. It starts at the first stop.
+//! appear before an audience. A talk starts at the first stop.
 
 use std::time::{Duration, Instant};
 
@@ -23,10 +23,10 @@ use crate::app::playback::player::{Playback, first_stop};
 use crate::app::session::state::Session;
 use crate::export::Captions;
 
-/// Seconds after which a resting pointer is hidden (heuristic).
+/// Seconds after which the pointer is hidden if it does not move (heuristic).
 const POINTER_SECS: f32 = 1.0;
 
-/// State of the talk, if one is given.
+/// The talk in progress, if any.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Presentation {
     talk: Option<ActiveTalk>,
@@ -37,10 +37,10 @@ pub struct Presentation {
 struct ActiveTalk {
     /// Whether the window was opened for the talk and closes with it.
     is_all: bool,
-    /// Whether it has reached its first stop, which requires a film.
+    /// Whether t has been moved to the first stop, which requires a film.
     has_begun: bool,
     is_black: bool,
-    /// Captions on or off, if the user chose; `None` shows them if stops are named.
+    /// Whether captions are shown, if the user chose; `None` shows them if a stop has a name.
     captions: Option<bool>,
     began: Instant,
     /// Seconds since the pointer last moved.
@@ -50,7 +50,7 @@ struct ActiveTalk {
 }
 
 impl Presentation {
-    /// Whether a talk is given.
+    /// Whether a talk is in progress.
     #[must_use]
     pub fn is_active(&self) -> bool {
         self.talk.is_some()
@@ -114,7 +114,7 @@ pub struct ToolViews<'w> {
 }
 
 impl ToolViews<'_> {
-    /// Whether one of them is open.
+    /// Whether one of these views is open.
     #[must_use]
     pub fn is_any_open(&self) -> bool {
         self.editor.is_open || self.comparison.is_shown || self.map.is_shown
@@ -164,7 +164,7 @@ pub fn apply(
                 presentation.talk = None;
             }
             (Intent::ToggleBlackScreen, Some(talk)) => talk.is_black = !talk.is_black,
-            // Toggles what is visible now, whether it was chosen or is the default.
+            // Toggles the captions as they are visible now, whether by choice or by default.
             (Intent::ToggleCaptions, Some(_)) => {
                 let are_shown = presentation.captions(&session).is_some();
                 if let Some(talk) = &mut presentation.talk {
@@ -182,7 +182,7 @@ pub fn fullscreen_mode() -> WindowMode {
     WindowMode::BorderlessFullscreen(MonitorSelection::Current)
 }
 
-/// Moves to the first stop as soon as there is a film; ends the talk if there will be none.
+/// Moves to the first stop as soon as there is a film; ends the talk if no film can be built.
 pub fn begin(
     mut presentation: ResMut<Presentation>,
     session: Res<Session>,
@@ -201,8 +201,8 @@ pub fn begin(
     if session.transition().is_some() {
         let (timing, stops) = (session.timing(), session.stops());
         playback.rewind(timing);
-        // With several segments, stops lie at the designs between; the talk starts at the very
-        // first.
+        // With several segments, the stops lie at the designs in between; the talk starts at the
+        // first design.
         if session.segment_count() == 1 {
             playback.seek(first_stop(timing, stops), timing, stops);
         }
@@ -214,7 +214,7 @@ pub fn begin(
     }
 }
 
-/// Hides the pointer when it has rested.
+/// Hides the pointer during a talk once it has not moved for some time.
 pub fn hide_pointer(
     mut moved: MessageReader<CursorMoved>,
     time: Res<Time<Real>>,
@@ -222,7 +222,7 @@ pub fn hide_pointer(
     mut cursors: Query<&mut CursorOptions, With<PrimaryWindow>>,
 ) {
     let is_moved = moved.read().count() > 0;
-    // The time at rest is no visible change and must not trigger a redraw.
+    // Counting the time at rest is no visible change and must not trigger a redraw.
     let Some(talk) = &mut presentation.bypass_change_detection().talk else {
         return;
     };

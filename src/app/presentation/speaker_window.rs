@@ -1,7 +1,7 @@
 //! The speaker's window of a talk: elapsed time, notes and the next stop.
 //!
-//! It opens by itself if there is a second screen, which the audience's window then uses. With one
-//! screen it opens on request.
+//! If there is a second screen, the speaker's window opens by itself when a talk starts, and the
+//! audience's window moves to the second screen. With one screen it opens on request.
 
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ pub struct SpeakerCamera;
 pub struct SpeakerWindow {
     /// The window and its camera, while open.
     window: Option<(Entity, Entity)>,
-    /// The film and the t that the image shows.
+    /// The film and the value of t that the image shows.
     shown: Option<(Sequence, f64)>,
     picture: Option<Arc<RgbaImage>>,
     job: Option<BackgroundJob<RgbaImage, PixelSizeError>>,
@@ -54,14 +54,14 @@ impl SpeakerWindow {
         self.window.is_some_and(|(own, _)| own == window)
     }
 
-    /// Image of the next stop.
+    /// Image of the film at the next stop; `None` until it is drawn, and after the last stop.
     #[must_use]
     pub fn picture(&self) -> Option<Arc<RgbaImage>> {
         self.picture.clone()
     }
 }
 
-/// Opens and closes the window.
+/// Opens and closes the speaker's window.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut closing: MessageReader<WindowCloseRequested>,
@@ -71,8 +71,8 @@ pub fn apply(
     mut audience: Query<(&mut Window, Option<&OnMonitor>), With<PrimaryWindow>>,
     mut commands: Commands,
 ) {
-    // A screen other than the window's own. Some systems do not report it; then nothing opens by
-    // itself.
+    // A screen other than that of the audience's window. Some systems do not report a window's
+    // screen; then the speaker's window does not open by itself.
     let audience_screen = audience.single().ok().and_then(|(_, on)| Some(on?.0));
     let second = audience_screen.and_then(|first| monitors.iter().find(|screen| *screen != first));
     for intent in intents.read() {

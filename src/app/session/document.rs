@@ -22,21 +22,21 @@ use crate::transition::{Sequence, Transition, TransitionMethod};
 /// A project that is open.
 #[derive(Debug)]
 pub struct OpenDocument {
-    /// Current settings, with the designs of what is on the stage.
+    /// Current settings, with the designs that the segments on the stage were built from.
     pub loaded: LoadedProject,
-    /// Settings of what is on the stage.
+    /// Settings that the segments on the stage were built from.
     pub staged: Project,
     /// Undo history.
     pub history: UndoHistory,
-    /// Whether a design file has changed on disk.
+    /// Whether a design file has changed on disk, so that the designs must be read again.
     pub must_reread: bool,
-    /// Whether it was recovered from an autosave.
+    /// Whether the project was recovered from an autosave and has not been saved since.
     pub is_recovered: bool,
     /// The segments on the stage: one for each pair of consecutive designs.
     segments: Vec<BuiltSegment>,
     /// Index of the current segment: the one at the current t.
     segment_index: usize,
-    /// Current settings of the current segment.
+    /// Current settings of the current segment, as a project of two designs.
     segment_settings: Project,
     origin: ProjectOrigin,
     /// Settings as last opened or saved.
@@ -62,7 +62,7 @@ impl OpenDocument {
         }
     }
 
-    /// Opens a recovered project: all of it counts as unsaved.
+    /// Opens a recovered project; all its settings count as unsaved.
     #[must_use]
     pub fn unsaved(loaded: BuiltProject, origin: ProjectOrigin) -> Self {
         Self {
@@ -72,11 +72,12 @@ impl OpenDocument {
         }
     }
 
-    /// Whether it consists of different designs just opened together, without changes.
+    /// Whether the project consists of different designs that were opened together and not changed
+    /// since.
     #[must_use]
     pub fn has_new_designs(&self) -> bool {
         let designs = &self.loaded.project.designs;
-        // A single design is its own partner.
+        // A single design has been paired with itself.
         let are_different = designs.windows(2).any(|pair| pair[0].path != pair[1].path);
         are_different && self.origin == ProjectOrigin::Unsaved && !self.is_dirty()
     }
@@ -113,19 +114,20 @@ impl OpenDocument {
         self.segment_settings = self.loaded.project.segment(self.segment_index.min(last));
     }
 
-    /// Current settings of the current segment.
+    /// Current settings of the current segment, as a project of two designs.
     #[must_use]
     pub fn segment_project(&self) -> &Project {
         &self.segment_settings
     }
 
-    /// The whole project, with the designs and settings on the stage.
+    /// The whole project, with the designs and settings that the stage was built from.
     #[must_use]
     pub fn staged_project(&self) -> LoadedProject {
         self.loaded.with_project(self.staged.clone())
     }
 
-    /// The current segment, with the designs and settings on the stage.
+    /// The current segment as a project of two designs, with the settings that the stage was built
+    /// from.
     #[must_use]
     pub fn staged_segment(&self) -> LoadedProject {
         let mut segments = self.staged_project().segments();
@@ -147,13 +149,15 @@ impl OpenDocument {
         self.stage().map(|stage| &stage.transition)
     }
 
-    /// The same, with the settings it was built from.
+    /// Playable part of the current segment on the stage: its transition and the settings that the
+    /// transition was built from.
     #[must_use]
     pub fn stage(&self) -> Option<&PlayableSegment> {
         self.segments.get(self.segment_index)?.playable.as_ref()
     }
 
-    /// All transitions on the stage; `None` unless every segment has one.
+    /// Transitions of all segments on the stage, as one sequence; `None` unless every segment has
+    /// one.
     #[must_use]
     pub fn sequence(&self) -> Option<Sequence> {
         let segments = self
@@ -173,8 +177,8 @@ impl OpenDocument {
         boxes.reduce(|a, b| a.union(&b))
     }
 
-    /// Why the current settings make no transition: the problem of the current segment, or else the
-    /// first one.
+    /// Reason why the current settings give no transition: the problem of the current segment, or
+    /// else the first problem of another segment.
     #[must_use]
     pub fn problem(&self) -> Option<&TransitionProblem> {
         let current = self
@@ -195,7 +199,7 @@ impl OpenDocument {
         }
     }
 
-    /// File that the project is saved to.
+    /// File that the project is saved to; `None` if it has none yet.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
         match &self.origin {
@@ -204,7 +208,7 @@ impl OpenDocument {
         }
     }
 
-    /// Gallery name of a bundled project.
+    /// Gallery name of the project; `None` if it is not a bundled one.
     #[must_use]
     pub fn gallery_name(&self) -> Option<&str> {
         match &self.origin {
@@ -220,7 +224,7 @@ impl OpenDocument {
         let entries = self.loaded.project.designs.iter();
         let sources = entries.filter_map(|entry| match folder {
             Some(folder) => Some(DesignSource::in_folder(folder, &entry.path)),
-            // A user's file that replaced a bundled design.
+            // In a bundled project, only a user's file that replaced a design has an absolute path.
             None => entry
                 .path
                 .is_absolute()
@@ -231,22 +235,23 @@ impl OpenDocument {
             .collect()
     }
 
-    /// Name of the project file without extension.
+    /// Name of the project file without extension; `None` if the project has no file.
     fn stem(&self) -> Option<String> {
         let stem = self.path().and_then(Path::file_stem);
         stem.map(|stem| SanitizedLine(stem.to_string_lossy()).to_string())
     }
 
-    /// Title of the project.
+    /// Title of the project: its explicit title, else the name of its file, else the names of its
+    /// designs.
     #[must_use]
     pub fn title(&self) -> String {
         let stem = self.stem();
-        // An explicit title comes first, then the file name, then the names of the designs.
         stem.filter(|_| self.loaded.project.title.is_empty())
             .unwrap_or_else(|| self.loaded.title())
     }
 
-    /// Base name for files exported from the project.
+    /// Base name for files exported from the project, without extension; names the path on the map
+    /// if there is one.
     #[must_use]
     pub fn file_stem(&self) -> String {
         let name = || self.gallery_name().map(str::to_owned);
@@ -270,7 +275,8 @@ impl OpenDocument {
         self.saved = self.loaded.project.clone();
     }
 
-    /// Replaces the settings. Changes with the same `mark` are one undo step.
+    /// Replaces the settings of the whole project. Changes with the same gesture number `mark` form
+    /// one undo step.
     pub fn edit(&mut self, project: Project, mark: Option<u64>) {
         let before = self.snapshot();
         self.loaded.project = project;
@@ -298,8 +304,8 @@ impl OpenDocument {
             return Ok(false);
         };
         self.loaded.project = match &self.loaded.folder {
-            // Saved elsewhere since: the paths of the step refer to a folder that is no longer the
-            // project's.
+            // The project has been saved to another folder since: its paths must be relative to
+            // that folder.
             Some(now) if folder.as_ref() != Some(now) => {
                 save::with_relative_paths(project, folder.as_deref(), now)?
             }
@@ -309,8 +315,8 @@ impl OpenDocument {
         Ok(true)
     }
 
-    /// Whether the settings require another transition than the one on the stage. If not, problems
-    /// are cleared.
+    /// Whether the settings require another transition than the one on the stage. If not, clears
+    /// the problems of all segments that are shown.
     pub fn is_stale(&mut self) -> bool {
         let is_stale = self.must_reread || load::needs_build(&self.staged, &self.loaded.project);
         if !is_stale {
@@ -319,7 +325,7 @@ impl OpenDocument {
         is_stale
     }
 
-    /// Clears the problems of all segments that have something to show.
+    /// Clears the problems of all segments that have a playable part.
     fn clear_problems_of_shown_segments(&mut self) {
         for segment in self
             .segments
@@ -345,10 +351,11 @@ impl OpenDocument {
         }
     }
 
-    /// Adopts newly built segments; returns whether anything on the stage changes.
+    /// Puts newly built segments on the stage; returns whether anything on the stage changes.
     ///
-    /// The settings are kept, because they may have changed again; so is any segment on the stage
-    /// whose replacement could not be built.
+    /// The current settings stay, because they may have changed since the build started. While the
+    /// number of segments stays the same, a segment whose replacement could not be built stays on
+    /// the stage.
     pub fn restage(&mut self, built: BuiltProject) -> bool {
         let can_stay = built.segments.len() == self.segments.len();
         if can_stay
@@ -362,7 +369,7 @@ impl OpenDocument {
             new.for_each(|(segment, built)| segment.problem = built.problem);
             return false;
         }
-        // The current settings may be newer than those that were built.
+        // The designs are adopted, but not the settings: the current ones may be newer.
         self.loaded.designs = built.project.designs;
         self.staged = built.settings;
         self.must_reread = false;
@@ -381,7 +388,8 @@ impl OpenDocument {
         true
     }
 
-    /// Resets the settings to those on the stage; the change leaves no undo step.
+    /// Resets the settings to those that the stage was built from, and removes the rejected change
+    /// from the undo history.
     pub fn reset_settings(&mut self) {
         self.must_reread = false;
         let method = self.method_on_stage();
@@ -396,7 +404,8 @@ impl OpenDocument {
         self.clear_problems_of_shown_segments();
     }
 
-    /// Method by which all segments are shown; `None` if they differ.
+    /// Method that all segments on the stage use; `None` if their methods differ or one has no
+    /// transition.
     fn method_on_stage(&self) -> Option<TransitionMethod> {
         let method = |segment: &BuiltSegment| Some(segment.playable.as_ref()?.transition.method());
         let first = method(self.segments.first()?)?;
@@ -404,7 +413,7 @@ impl OpenDocument {
         self.segments.iter().all(is_same).then_some(first)
     }
 
-    /// Resets the designs to those on the stage, because a file cannot be read.
+    /// Resets the designs to those on the stage, because the file of a new one cannot be read.
     pub fn reset_designs(&mut self) {
         self.must_reread = false;
         self.amend(|now, staged| {
@@ -419,7 +428,7 @@ impl OpenDocument {
     }
 
     /// Changes the settings and corrects the last undo step accordingly; `change` receives the
-    /// settings on the stage as second argument.
+    /// settings that the stage was built from as second argument.
     fn amend(&mut self, change: impl FnOnce(&mut Project, &Project)) {
         let before = self.snapshot();
         change(&mut self.loaded.project, &self.staged);
@@ -432,7 +441,7 @@ impl OpenDocument {
     /// # Errors
     /// The project file or a bundled design cannot be written; the project stays as it was.
     pub fn save(&mut self, path: PathBuf) -> Result<(), SaveError> {
-        // Results of the search are saved only if the stage shows what the settings ask for.
+        // The matches found for the stage are saved only if they belong to the current settings.
         if !load::needs_build(&self.staged, &self.loaded.project) {
             for (k, segment) in self.segments.iter().enumerate() {
                 if let Some(cached) = segment

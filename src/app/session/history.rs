@@ -14,7 +14,7 @@ use crate::project::Project;
 /// if triangles have individual weights).
 const MAX_STEPS: usize = 200;
 
-/// The project at one moment.
+/// The project at one moment, as stored in an undo step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProjectSnapshot {
     /// The project's settings.
@@ -45,7 +45,7 @@ impl Edit for HistoryStep {
     }
 
     fn merge(&mut self, other: Self) -> Merged<Self> {
-        // A change without a gesture number is always a step of its own.
+        // A change without a gesture number is a step of its own, unless it amends the step before.
         let is_same = self.mark.is_some() && self.mark == other.mark;
         if !(is_same || other.amends) {
             return Merged::No(other);
@@ -111,12 +111,14 @@ impl UndoHistory {
         self.0.can_redo()
     }
 
-    /// Undoes the last step; returns the project to restore.
+    /// Undoes the last step; returns the project as it was before it, or `None` if there is no step
+    /// to undo.
     pub fn undo(&mut self) -> Option<ProjectSnapshot> {
         self.0.undo(&mut ())
     }
 
-    /// Redoes the next step; returns the project to restore.
+    /// Redoes the next step; returns the project as it was after it, or `None` if there is no step
+    /// to redo.
     pub fn redo(&mut self) -> Option<ProjectSnapshot> {
         self.0.redo(&mut ())
     }

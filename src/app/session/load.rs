@@ -21,8 +21,8 @@ use crate::work::progress::{Cancelled, Progress, ProgressShares, ProgressSpan, c
 pub struct BuiltProject {
     /// The project and its designs.
     pub project: LoadedProject,
-    /// Settings that the transitions were built from: the project's own, or those of the plainest
-    /// method or of drafts while the final result is being built.
+    /// Settings that the transitions were built from: those of `project`, or, in an interim result,
+    /// those of the plainest method or of a draft.
     pub settings: Project,
     /// One entry per segment of the path through the designs.
     pub segments: Vec<BuiltSegment>,
@@ -31,18 +31,18 @@ pub struct BuiltProject {
 /// Result of building one segment: the part of the film between two consecutive designs.
 #[derive(Debug, Default)]
 pub struct BuiltSegment {
-    /// The playable part; `None` if nothing could be built.
+    /// The transition to show and its settings; `None` if none could be built.
     pub playable: Option<PlayableSegment>,
-    /// Why the segment differs from what the project asks for.
+    /// Reason why the requested transition could not be built; `None` if it was.
     pub problem: Option<TransitionProblem>,
 }
 
-/// A built segment.
+/// A built segment that can be played.
 #[derive(Clone, Debug)]
 pub struct PlayableSegment {
-    /// Settings it was built from.
+    /// Settings that the transition was built from.
     pub settings: SegmentSettings,
-    /// The transition.
+    /// Transition between the two designs of the segment.
     pub transition: Transition,
 }
 
@@ -88,7 +88,7 @@ impl SegmentSettings {
         }
     }
 
-    /// Whether the settings `now` require another transition.
+    /// Whether the settings `now` require another transition than these settings.
     fn needs_build(&self, now: &Self) -> bool {
         let context = (&self.all_designs, self.path_segment);
         needs_build(&self.segment_project, &now.segment_project)
@@ -96,13 +96,13 @@ impl SegmentSettings {
     }
 }
 
-/// Why a segment has no transition.
+/// Reason why the requested transition of a segment cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum TransitionProblem {
     /// The settings do not fit the designs.
     #[error(transparent)]
     Project(#[from] ProjectError),
-    /// No transition can be built from them.
+    /// No transition can be built from the designs with these settings.
     #[error(transparent)]
     Build(#[from] BuildError),
 }
@@ -122,17 +122,18 @@ pub enum LoadRequest {
     Rebuild(Box<RebuildRequest>),
 }
 
-/// The open project with its new settings, and what is on the stage.
+/// Input for rebuilding the open project: its new settings, and the segments on the stage, which
+/// may be reused.
 #[derive(Clone, Debug)]
 pub struct RebuildRequest {
-    /// New settings with the old designs. Designs are read again if their file, or the way it is
-    /// imported, has changed.
+    /// New settings with the old designs. A design is read again if the new settings name another
+    /// file or import it differently.
     pub requested: LoadedProject,
-    /// Settings of what is on the stage.
+    /// Settings that the segments on the stage were built from.
     pub staged: Project,
     /// Segments on the stage.
     pub segments: Vec<PlayableSegment>,
-    /// Whether a design file has changed on disk.
+    /// Whether a design file has changed on disk, so that all designs are read again.
     pub must_reread: bool,
 }
 
@@ -141,18 +142,18 @@ pub struct RebuildRequest {
 pub enum InterimResult {
     /// Built by the plainest method: a blend without a warp.
     Plain(BuiltProject),
-    /// A draft: the first film found, before better ones are tried.
+    /// A draft: the first film found, before the search for a better one.
     Draft(BuiltProject),
 }
 
 impl RebuildRequest {
-    /// Rebuilds the segments, reusing as much as possible.
+    /// Rebuilds the segments, reusing those on the stage as far as possible.
     fn carry_out(
         self,
         progress: &dyn Progress,
         on_interim: &mut dyn FnMut(InterimResult),
     ) -> Result<BuiltProject, LoadError> {
-        // Shortcut for sliders being dragged: distance transforms take far longer than the blend.
+        // Shortcuts for sliders being dragged, which avoid the slow steps of a build.
         if !self.must_reread
             && let Some(stages) = self
                 .with_new_field_blend()
@@ -179,7 +180,8 @@ impl RebuildRequest {
         ))
     }
 
-    /// Reuses the films if only the times of parts or the order of paint layers changed.
+    /// Segments derived from those on the stage, if only the times of parts or the order of paint
+    /// layers has changed; `None` otherwise.
     fn with_new_part_times(&self) -> Option<Vec<PlayableSegment>> {
         let change = |options: &mut TransitionOptions, now: &TransitionOptions| {
             options.parts.clone_from(&now.parts);
@@ -191,7 +193,8 @@ impl RebuildRequest {
         })
     }
 
-    /// Reuses the distance transforms if only the blend of the fields changed.
+    /// Segments that reuse the distance transforms of those on the stage, if only the blend of the
+    /// distance fields has changed; `None` otherwise.
     fn with_new_field_blend(&self) -> Option<Vec<PlayableSegment>> {
         let blend = self.requested.project.options.field.blend;
         let change = |options: &mut TransitionOptions, now: &TransitionOptions| {
@@ -200,17 +203,18 @@ impl RebuildRequest {
         self.reuse_segments(change, |_, transition| transition.with_blend(blend).ok()?)
     }
 
-    /// Derives each segment's transition from the one on the stage, if `change` accounts for all
-    /// differences in its settings; `None` otherwise.
+    /// Derives the new transition of each segment from the one on the stage, by `make`. Returns
+    /// `None` if the old and new settings still differ after `change` has copied some of the new
+    /// options to the old ones.
     ///
-    /// A segment on the stage that stands in for one that failed has other settings and is never
-    /// reused.
+    /// A fallback on the stage, shown for a segment that could not be built, has other settings and
+    /// is never reused.
     fn reuse_segments(
         &self,
         change: impl Fn(&mut TransitionOptions, &TransitionOptions),
         make: impl Fn(&LoadedProject, &Transition) -> Option<Transition>,
     ) -> Option<Vec<PlayableSegment>> {
-        // Added designs have not been read yet.
+        // With another number of segments, designs may have been added that have not been read yet.
         if self.requested.project.segment_count() != self.segments.len() {
             return None;
         }
@@ -237,7 +241,7 @@ impl RebuildRequest {
     }
 }
 
-/// Why nothing could be opened.
+/// Reason why a project could not be opened or rebuilt.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// The project or one of its designs cannot be read.
@@ -261,7 +265,7 @@ impl LoadRequest {
         })
     }
 
-    /// Settings to be built, if known before reading any file.
+    /// Settings to be built, if known before reading any file: only for a rebuild.
     #[must_use]
     pub fn settings(&self) -> Option<&Project> {
         match self {
@@ -273,12 +277,12 @@ impl LoadRequest {
     /// Carries out the request.
     ///
     /// When opening, `on_interim` receives the project built by the plainest method, and then a
-    /// draft, while the requested transition is being built. If that fails, the last of these is
-    /// returned.
+    /// draft, while the requested transition is being built. If that cannot be built, the last
+    /// interim result takes its place.
     ///
     /// # Errors
     /// The project or a design cannot be read. A transition that cannot be built is no error: the
-    /// returned segments contain the reason.
+    /// returned segment contains the reason.
     pub fn carry_out(
         self,
         progress: &dyn Progress,
@@ -355,13 +359,13 @@ fn fully_built(project: LoadedProject, stages: Vec<PlayableSegment>) -> BuiltPro
     }
 }
 
-/// Share of the progress bar given to drafts (heuristic).
+/// Share of a segment's progress that building its draft takes (heuristic).
 const DRAFT_SHARE: f64 = 0.25;
 
 /// Builds the segments of a project, with drafts first where they are quicker.
 ///
-/// Segments in `reusable` are reused. One that cannot be built is replaced by its draft, or else
-/// by the `plain` one, if given.
+/// A segment that `reusable` contains with the same settings is not built again. A segment that
+/// cannot be built is replaced by its draft, or else by its entry in `plain`.
 fn build_in_steps(
     project: LoadedProject,
     reusable: &[PlayableSegment],
@@ -383,7 +387,7 @@ fn build_in_steps(
     };
     let drafts: Vec<Option<PlayableSegment>> = (0..segments.len()).map(draft).collect();
     let has_drafts = drafts.iter().any(Option::is_some);
-    // Shown for a segment until, or unless, it is built.
+    // Shown until the segment is built, and afterwards if building it fails.
     let fallback = |index: usize| {
         let before = plain.get(index).cloned().flatten();
         reusable[index].clone().or(drafts[index].clone()).or(before)
@@ -442,7 +446,7 @@ fn build_segment(
     }
 }
 
-/// A segment that was built from the same settings before.
+/// The candidate that was built from the same settings, if any.
 fn find_reusable(
     candidates: &[PlayableSegment],
     settings: &SegmentSettings,
@@ -453,7 +457,7 @@ fn find_reusable(
     same.cloned()
 }
 
-/// A project with interim segments.
+/// Interim result: a project with segments that were built from `settings`.
 fn with_interim_segments(
     project: &LoadedProject,
     settings: Project,
@@ -470,8 +474,8 @@ fn with_interim_segments(
     }
 }
 
-/// Draft of a segment, if its settings ask for the best of several films; `None` otherwise, or if
-/// it cannot be built.
+/// Draft of a segment. `None` if its settings do not ask for the best of several films, or if the
+/// draft cannot be built.
 fn draft(
     whole_project: &LoadedProject,
     index: usize,
@@ -487,8 +491,8 @@ fn draft(
     })
 }
 
-/// Segments built by the method without a warp, which suits almost any two designs and takes no
-/// time; `None` if the project asks for that method anyway.
+/// Segments built by the method without a warp, which suits almost any two designs and takes hardly
+/// any time; `None` if the project asks for that method anyway.
 fn build_plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<BuiltProject> {
     let requested = project.segments()[0].method().ok()?;
     let method = requested.fallback();
@@ -564,13 +568,14 @@ impl TransitionProblem {
     }
 }
 
-/// Whether two projects differ in settings that affect the transition: all except title,
+/// Whether two projects differ in settings that affect a transition: all settings except title,
 /// description, timing, stops, colours and the layout of the map.
 #[must_use]
 pub fn needs_build(staged: &Project, now: &Project) -> bool {
     let relevant = |project: &Project| Project {
-        // Settings without effect on the transition are reset in both. So a setting added later
-        // causes a rebuild by default: maybe needless, but never wrong.
+        // Settings without effect on the transition are reset in both projects; all others are
+        // compared. A setting added later therefore causes a rebuild by default, which is never
+        // wrong.
         title: String::new(),
         description: String::new(),
         timing: Timing::default(),

@@ -15,7 +15,7 @@ pub enum ProjectOrigin {
     Unsaved,
 }
 
-/// Absolute path of a design; keeps the part of the name that selects something within a file.
+/// Absolute path of a design; keeps the part of the path that selects something within the file.
 #[must_use]
 pub fn absolute(path: &Path) -> PathBuf {
     // Not canonicalised: a symbolic link must keep naming whatever it points to later.

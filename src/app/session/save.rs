@@ -1,7 +1,7 @@
 //! Saves a project so that it can be opened again from its new place.
 //!
-//! Paths of designs are relative to the project file. They are rewritten when it moves to another
-//! folder; bundled designs are written next to it.
+//! Paths of designs are relative to the project file. They are rewritten when the project is saved
+//! to another folder; bundled designs are written next to the project file.
 
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -29,7 +29,7 @@ pub enum SaveError {
     },
 }
 
-/// Saves a project to `path`; on success its designs are named relative to the new folder.
+/// Saves a project to `path`; on success the paths of its designs are relative to the new folder.
 ///
 /// # Errors
 /// The project file or a bundled design cannot be written; the loaded project stays as it was.
@@ -44,8 +44,8 @@ pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
     Ok(())
 }
 
-/// Rewrites the paths of designs from folder `old` to `folder`. With `old` being `None` the project
-/// is bundled, and its designs are written to `folder`.
+/// Rewrites the paths of designs from folder `old` to `folder`. If `old` is `None`, the project is
+/// bundled, and its designs are written to `folder`.
 ///
 /// # Errors
 /// A bundled design cannot be written.
@@ -69,7 +69,8 @@ pub fn with_relative_paths(
     Ok(project)
 }
 
-/// Writes a bundled design into a folder; an existing file with the same content is reused.
+/// Writes a bundled design into a folder and returns the name of its file; an existing file with
+/// the same content is reused.
 fn write_bundled_design(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveError> {
     let failed = |error: io::Error| SaveError::Design {
         file: folder.join(bundled).display().to_string(),
@@ -89,8 +90,8 @@ fn write_bundled_design(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveEr
     Ok(path.file_name().map(PathBuf::from).unwrap_or(path))
 }
 
-/// Relative path from a folder to a file, both absolute; the file's own path if there is none, as
-/// between two drives.
+/// Relative path from a folder to a file, both absolute; `file` itself if no relative path exists,
+/// as between two drives.
 fn relative(folder: &Path, file: &Path) -> PathBuf {
     let (from, to): (Vec<_>, Vec<_>) = (parts(folder), parts(file));
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();

@@ -1,8 +1,9 @@
 //! The open project, the transition on the stage, and the background work on the next one.
 //!
-//! The stage keeps showing the old transition until the new one is ready, or for good if that
-//! fails. While a build runs, newer settings wait for it, so that a slider being dragged shows
-//! intermediate results; a build that takes long is abandoned for the newest settings.
+//! The stage keeps showing the old transition until the new one is ready, and afterwards if the new
+//! one cannot be built. While a build runs, newer settings wait for it, so that intermediate
+//! results appear while a slider is dragged; a build that takes long is abandoned in favour of the
+//! newest settings.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
@@ -34,14 +35,14 @@ pub enum WorkOutcome {
     Opened,
     /// The open project has a new transition.
     Rebuilt,
-    /// The settings make no transition and the old one stays; [`Session::problem`] gives the
-    /// reason.
+    /// No transition can be built from the new settings, and the old one stays;
+    /// [`Session::problem`] gives the reason.
     RebuildFailed,
     /// Opening or rebuilding failed.
     Failed(JobError<LoadError>),
 }
 
-/// Why a method is not available.
+/// Reason why a method is not available.
 #[derive(Debug, thiserror::Error)]
 pub enum MethodUnavailable {
     /// No project is open.
@@ -60,8 +61,8 @@ pub struct Session {
     is_stale: bool,
 }
 
-/// Work is shown to the user only after this time: while a slider or pin is dragged, one short
-/// build follows the other (heuristic).
+/// Time after which a build is shown to the user as work in progress. While a slider or pin is
+/// dragged, one short build follows another, and none of them is shown (heuristic).
 const SHOWN_AFTER: Duration = Duration::from_millis(300);
 
 /// Progress text while a draft can already be played.
@@ -104,7 +105,7 @@ impl Session {
         open.map_or(&[], |open| &open.loaded.designs)
     }
 
-    /// Names of the designs along the film, one for each whole t.
+    /// Names of the designs along the film, one for each integer t, starting at 0.
     #[must_use]
     pub fn names_along_path(&self) -> Vec<String> {
         self.open.as_ref().map_or_else(Vec::new, |open| {
@@ -156,7 +157,7 @@ impl Session {
         within + self.segment() as f64
     }
 
-    /// Index of the segment that is shown at `t`.
+    /// Index of the segment that is shown at `t` of the whole film.
     #[must_use]
     pub fn segment_at(&self, t: f64) -> usize {
         let segment_count = self.open.as_ref().map_or(1, OpenDocument::segment_count);
@@ -185,7 +186,7 @@ impl Session {
         Some(open.staged_segment())
     }
 
-    /// Why the current settings make no transition.
+    /// Reason why the current settings give no transition; `None` if they give one.
     #[must_use]
     pub fn problem(&self) -> Option<&TransitionProblem> {
         self.open.as_ref()?.problem()
@@ -228,13 +229,13 @@ impl Session {
         self.whole_project().map_or(&[], |project| &project.stops)
     }
 
-    /// File that the project is saved to.
+    /// File that the project is saved to; `None` if it has none yet.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
         self.open.as_ref()?.path()
     }
 
-    /// Gallery name of the open project.
+    /// Gallery name of the open project; `None` if it is not a bundled one.
     #[must_use]
     pub fn gallery_name(&self) -> Option<&str> {
         self.open.as_ref()?.gallery_name()
@@ -266,7 +267,7 @@ impl Session {
     /// Whether the open designs can be shown by this method.
     ///
     /// # Errors
-    /// The reason why not, as tooltip of a disabled button.
+    /// The reason why not, worded as the tooltip of a disabled button.
     pub fn check_method(
         &self,
         warp: WarpKind,
@@ -279,7 +280,8 @@ impl Session {
         Ok(())
     }
 
-    /// Number of parts that can be rotated individually.
+    /// Number of parts of the current transition that can be rotated individually; 0 for warps
+    /// without parts.
     #[must_use]
     pub fn parts(&self) -> usize {
         let arap = self.transition().and_then(Transition::arap);
@@ -293,7 +295,7 @@ impl Session {
         designs.any(|design| matches!(design.form, DesignForm::Truss(_)))
     }
 
-    /// Whether any design has colours of its own.
+    /// Whether any design has its own colours.
     #[must_use]
     pub fn has_paints(&self) -> bool {
         let is_painted = |design: &Arc<Design>| match &design.form {
@@ -303,8 +305,8 @@ impl Session {
         self.all_designs().iter().any(is_painted)
     }
 
-    /// Whether both designs are outlines, so that the match editor applies. Not on a path over the
-    /// map, where all designs are matched together.
+    /// Whether the match editor applies: both designs are outlines, and the film is not a path on
+    /// the map, for which all designs are matched together.
     #[must_use]
     pub fn has_match_editor(&self) -> bool {
         let pair = self.designs();
@@ -324,7 +326,8 @@ impl Session {
         self.open.as_ref().is_some_and(OpenDocument::is_dirty)
     }
 
-    /// Whether several designs have just been opened together, without changes since.
+    /// Whether the project consists of different designs that were opened together and not changed
+    /// since.
     #[must_use]
     pub fn has_new_designs(&self) -> bool {
         let open = self.open.as_ref();
@@ -374,7 +377,8 @@ impl Session {
     }
 
     /// Edits the settings of the current segment. Settings of its two designs change for this
-    /// segment, all others for the whole project. Changes with the same `mark` are one undo step.
+    /// segment, all others for the whole project. Changes with the same gesture number `mark` form
+    /// one undo step.
     pub fn change(&mut self, mark: Option<u64>, edit: impl FnOnce(&mut Project)) {
         let Some(open) = &mut self.open else {
             return;
@@ -388,7 +392,8 @@ impl Session {
         }
     }
 
-    /// Edits the whole project.
+    /// Edits the settings of the whole project. Changes with the same gesture number `mark` form
+    /// one undo step.
     pub fn change_whole(&mut self, mark: Option<u64>, edit: impl FnOnce(&mut Project)) {
         let Some(open) = &mut self.open else {
             return;
@@ -433,7 +438,7 @@ impl Session {
     /// Undoes the last change; returns `false` if there is none.
     ///
     /// # Errors
-    /// A bundled design that it names cannot be written; the project stays as it was.
+    /// A bundled design of the restored project cannot be written; the project stays as it was.
     pub fn undo(&mut self) -> Result<bool, SaveError> {
         self.step_history(UndoHistory::undo)
     }
@@ -476,13 +481,15 @@ impl Session {
 
 /// Background work on the next transition.
 impl Session {
-    /// Current stage of the work and progress in it, 0 to 1.
+    /// Name of the current stage of the background work, and the progress of the whole work in [0,
+    /// 1]; `None` if no work is running.
     #[must_use]
     pub fn work(&self) -> Option<(&'static str, f64)> {
         self.work.as_ref().map(|work| work.job.progress())
     }
 
-    /// The same, once the work has taken long enough to be shown.
+    /// Text and progress, in [0, 1], of the background work to show to the user; `None` until the
+    /// work has taken long enough to be shown.
     #[must_use]
     pub fn visible_work(&self) -> Option<(&'static str, f64)> {
         let work = self.work.as_ref()?;
@@ -533,15 +540,15 @@ impl Session {
     }
 
     /// Adopts finished work and starts the next. A better film replaces a draft on the stage only
-    /// when `may_change`, so that the swap is not visible.
+    /// if `may_change`, which is true at times when the swap is not visible.
     pub fn poll(&mut self, may_change: bool) -> Option<WorkOutcome> {
         let must_wait = |work: &TransitionWork| work.has_draft && !may_change;
         let outcome = match &self.work {
             Some(work) if must_wait(work) => None,
             _ => self.adopt_result().or_else(|| self.adopt_interim()),
         };
-        // A build continues while a slider is dragged, so that intermediate results appear; but not
-        // for long.
+        // While a slider is dragged, a short build is completed, so that intermediate results
+        // appear; a long one is abandoned.
         let can_start = self
             .work
             .as_ref()
@@ -558,7 +565,7 @@ impl Session {
         outcome
     }
 
-    /// Adopts an interim result that is due.
+    /// Puts an interim result on the stage if one is due.
     fn adopt_interim(&mut self) -> Option<WorkOutcome> {
         let work = self.work.as_mut()?;
         let opened = work.document_constructor();
@@ -575,7 +582,7 @@ impl Session {
         }
     }
 
-    /// Adopts the result of finished work.
+    /// Puts the result of finished work on the stage.
     fn adopt_result(&mut self) -> Option<WorkOutcome> {
         let result = self.work.as_ref()?.job.poll()?;
         let work = self.work.take()?;

@@ -12,20 +12,21 @@ use crate::app::session::load::{BuiltProject, InterimResult, LoadError, LoadRequ
 use crate::app::session::origin::ProjectOrigin;
 use crate::project::Project;
 
-/// A rebuild older than this is abandoned when the settings change again. Shorter, and builds of a
-/// second would never appear while a slider moves; longer, and the slider seems stuck (heuristic).
+/// Time after which a running rebuild is abandoned when the settings change again. If it were
+/// shorter, builds of a second would never appear while a slider moves; if longer, the slider would
+/// seem stuck (heuristic).
 const ABANDON_AFTER: Duration = Duration::from_millis(1500);
 
-/// A project being opened is shown by the plainest method after this time. Sooner, and every
-/// project would appear twice; later, and the stage stays empty needlessly (heuristic).
+/// Time after which a project being opened is shown by the plainest method. If it were shorter,
+/// every project would appear twice; if longer, the stage would stay empty needlessly (heuristic).
 const PLAIN_AFTER: Duration = Duration::from_millis(1000);
 
-/// During a rebuild, a draft is shown after this time. Sooner, and every position of a dragged pin
-/// would appear twice. While opening, a draft is shown at once (heuristic).
+/// Time after which a draft is shown during a rebuild. If it were shorter, every position of a
+/// dragged pin would appear twice. While opening, a draft is shown at once (heuristic).
 const DRAFT_AFTER: Duration = Duration::from_millis(300);
 
 impl InterimResult {
-    /// Age of the work from which this result is shown.
+    /// Time since the start of the work after which this interim result may be shown.
     fn is_shown_after(&self, is_opening: bool) -> Duration {
         match self {
             Self::Plain(_) => PLAIN_AFTER,
@@ -35,16 +36,17 @@ impl InterimResult {
     }
 }
 
-/// Work in progress.
+/// Running job that opens or rebuilds a project.
 #[derive(Debug)]
 pub struct TransitionWork {
     /// Origin of the project being opened; `None` for a rebuild of the open one.
     pub origin: Option<ProjectOrigin>,
-    /// Settings being built, as far as they are known.
+    /// Settings being built; `None` until the project being opened has been read.
     pub settings: Option<Project>,
     /// The background job.
     pub job: BackgroundJob<BuiltProject, LoadError>,
-    /// Whether the project being opened has unsaved changes.
+    /// Whether the project being opened is recovered from an autosave, so that it counts as
+    /// unsaved.
     pub is_unsaved: bool,
     /// Whether a draft of the result is on the stage.
     pub has_draft: bool,
@@ -76,7 +78,7 @@ impl TransitionWork {
         }
     }
 
-    /// Constructor that turns the result into an open project.
+    /// Constructor that turns the result of opening into an open project.
     #[must_use]
     pub fn document_constructor(&self) -> fn(BuiltProject, ProjectOrigin) -> OpenDocument {
         if self.is_unsaved {
@@ -92,19 +94,20 @@ impl TransitionWork {
         self.origin.is_none() && self.job.elapsed() > ABANDON_AFTER
     }
 
-    /// Whether the work builds something else than these settings ask for.
+    /// Whether the work builds a transition for other settings than these.
     #[must_use]
     pub fn builds_other_than(&self, project: &Project) -> bool {
         let settings = self.settings.as_ref();
         settings.is_none_or(|settings| needs_build(settings, project))
     }
 
-    /// Interim result that is due to be shown. The first one of a project being opened comes with
-    /// its origin: from then on the project is open, and the work counts as its rebuild.
+    /// Takes the interim result that is due to be shown. The first one of a project being opened
+    /// comes with the project's origin: from then on the project is open, and the work counts as
+    /// its rebuild.
     pub fn take_interim(&mut self) -> Option<(BuiltProject, Option<ProjectOrigin>)> {
         let receiver = self.interim_results.get_mut();
         let receiver = receiver.unwrap_or_else(PoisonError::into_inner);
-        // Only the latest: a draft is better than the plainest method.
+        // Only the latest result matters: a draft is better than the plainest method.
         self.pending_interim = receiver.try_iter().last().or(self.pending_interim.take());
         let elapsed = self.job.elapsed();
         let is_opening = self.origin.is_some();

@@ -17,7 +17,8 @@ pub struct UnsavedProject {
     /// Title of the project.
     pub title: String,
     origin: UnsavedOrigin,
-    /// The project file as text, with absolute paths of designs; gallery names for bundled ones.
+    /// Text of the project file, with absolute paths to the designs; bundled designs keep their
+    /// gallery names.
     document: String,
 }
 
@@ -30,7 +31,7 @@ enum UnsavedOrigin {
 }
 
 impl UnsavedProject {
-    /// Captures a project in its current state.
+    /// Stores the current settings of a project as text.
     ///
     /// # Errors
     /// The project cannot be written as text; this does not happen for a valid project.
@@ -58,7 +59,7 @@ impl UnsavedProject {
         })
     }
 
-    /// Where the project came from; saving writes there.
+    /// Where the project came from; it stays the origin after recovery.
     #[must_use]
     pub fn origin(&self) -> ProjectOrigin {
         match &self.origin {
@@ -81,7 +82,7 @@ impl UnsavedProject {
         LoadedProject::load(Project::parse(&self.document)?, folder)
     }
 
-    /// Writes the data atomically.
+    /// Writes the data to `path` atomically.
     ///
     /// # Errors
     /// The disk is full, or the folder no longer exists.
@@ -91,7 +92,7 @@ impl UnsavedProject {
         file.commit()
     }
 
-    /// Reads the data.
+    /// Reads the data from `path`.
     ///
     /// # Errors
     /// The file does not exist or was not written by this program.

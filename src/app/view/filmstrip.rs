@@ -1,7 +1,7 @@
 //! Filmstrip of the timeline: thumbnails of the film at regular t, including every design.
 //!
-//! Drawn in the background whenever the film or its colours change, but only after it has been
-//! measured: users wait for the check of the film, not for thumbnails.
+//! The thumbnails are drawn in the background whenever the film or its colours change, but only
+//! after the film has been measured: users wait for its check, not for thumbnails.
 
 use std::sync::Arc;
 
@@ -21,7 +21,8 @@ use crate::transition::{Sequence, Transition, TransitionStyle};
 /// (heuristic).
 const THUMBNAILS_OF_PAIR: usize = 11;
 
-/// Number of thumbnails for a film of several segments: about as many, and one at each design.
+/// Number of thumbnails for a film with this many segments: about as many as for one segment, but
+/// at least one at each design.
 #[must_use]
 pub fn thumbnail_count(segments: usize) -> usize {
     segments * ((THUMBNAILS_OF_PAIR - 1) / segments.max(1)).max(1) + 1
@@ -52,7 +53,7 @@ impl Filmstrip {
         self.job.is_some()
     }
 
-    /// Whether the current thumbnails show different designs.
+    /// Whether the current thumbnails show other designs than those of the requested film.
     fn shows_other_designs(&self, requested: Option<&(Sequence, TransitionStyle)>) -> bool {
         let (Some((old, _)), Some((new, _)), Some(_)) = (&self.of, requested, &self.pictures)
         else {

@@ -1,5 +1,5 @@
-//! Measures the time from one frame to the next, shown next to the times of the stages within a
-//! frame.
+//! Measures the time from one frame of the window to the next, which the display of frame times
+//! shows.
 
 use bevy::prelude::{Real, Res, ResMut, Resource, Time};
 
@@ -9,7 +9,7 @@ use crate::stage::DurationHistory;
 #[derive(Resource, Clone, Debug, Default)]
 pub struct FrameIntervals(pub DurationHistory);
 
-/// Records the duration of the last frame.
+/// Records the time between the last two frames.
 pub fn record(time: Res<Time<Real>>, mut intervals: ResMut<FrameIntervals>) {
     intervals.0.record(time.delta());
 }

@@ -14,14 +14,14 @@ const SKINS_BETWEEN: usize = 4;
 /// Maximum number of skins (heuristic: more would cover each other).
 const MAX_SKINS: usize = 12;
 
-/// Outline of the film at one t.
+/// Outline of the film at one value of t.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnionSkin {
-    /// Its t.
+    /// Value of t at which the film has this outline.
     pub t: f64,
     /// Closed outlines.
     pub rings: Vec<Vec<DVec2>>,
-    /// Bars of a truss.
+    /// Bars of a truss, by their ends; empty for other content.
     pub bars: Vec<[DVec2; 2]>,
 }
 
@@ -40,7 +40,8 @@ impl OnionSkins {
     }
 }
 
-/// The t of all skins: the stops and both ends; without stops, regular t between the ends.
+/// Values of t of all skins: the stops and both ends of the film; without stops, evenly spaced
+/// values.
 fn times(session: &Session) -> Vec<f64> {
     let places = landmarks(session.timing(), session.stops());
     match places.as_slice() {
@@ -54,7 +55,7 @@ fn times(session: &Session) -> Vec<f64> {
     }
 }
 
-/// Redraws the skins when the film or the preference changes.
+/// Computes the skins again when the film, its stops or the preference changes.
 pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: ResMut<OnionSkins>) {
     if !session.is_changed() && !preferences.is_changed() {
         return;

@@ -1,5 +1,5 @@
-//! The stage in the window: fitting, panning and zooming the view, and placing the cameras of the
-//! stage and of the comparison.
+//! View of the stage in the window: fits, pans and zooms it, and places the cameras of the stage
+//! and of the comparison.
 
 use crate::app::capture::film_framing::FilmFraming;
 use crate::app::compare::comparison::Comparison;
@@ -16,8 +16,8 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 
-/// Margin around the fitted transition, as a fraction of its diameter: outlines and marks of
-/// findings extend beyond the shapes (heuristic).
+/// Margin around the fitted transition, as a fraction of its diameter: strokes and marks of defects
+/// extend beyond the shapes (heuristic).
 const MARGIN: f64 = 0.04;
 
 /// Applies the intents that concern the view.
@@ -45,13 +45,13 @@ pub fn apply(
 /// State that [`fit`] carries from frame to frame.
 #[derive(SystemParam)]
 pub struct FitState<'s> {
-    /// Bounds, area size and pane view of the last fit.
+    /// Bounds, size of the stage area and view of the pane at the last fit.
     last: Local<'s, Option<(Bounds, Vec2, PaneView)>>,
     /// View of the stage, while the match editor replaces it.
     stage_view: Local<'s, Option<StageView>>,
 }
 
-/// Fits the view again when the area, the transition or the export frame changes.
+/// Fits the view again when the stage area, the transition or the frame of the export changes.
 pub fn fit(
     session: Res<Session>,
     editor: Res<MatchEditor>,
@@ -61,7 +61,8 @@ pub fn fit(
     mut view: ResMut<StageView>,
     mut state: FitState,
 ) {
-    // The editor's film pane has a view of its own; leaving the editor restores the stage's view.
+    // The film pane of the match editor has its own view; leaving the editor restores the view of
+    // the stage.
     let pane = editor
         .shows_film()
         .then(|| editor.panes.view(EditorPane::Film));
@@ -115,7 +116,7 @@ pub fn place_camera(
     }
 }
 
-/// Camera of the comparison.
+/// Marks the camera of the comparison.
 #[derive(Component, Debug)]
 pub struct ComparisonCamera;
 
@@ -146,7 +147,7 @@ pub fn place_comparison_camera(
     if !is_active {
         return;
     }
-    // Exactly the stage's size in pixels, so that both show the same section.
+    // The same size in pixels as the stage, so that both show the same section of the plane.
     let viewport = viewport.map(|comparison_view| Viewport {
         physical_size: camera
             .viewport
@@ -161,8 +162,8 @@ pub fn place_comparison_camera(
     *comparison_projection = projection.clone();
 }
 
-/// Viewport of an area: at least one pixel, and within the window even while it is being resized;
-/// `None`, meaning the whole window, where that is impossible.
+/// Viewport of an area, clipped to the window, which may be smaller while it is being resized;
+/// `None`, which stands for the whole window, if nothing is left.
 fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
     let scale = window.scale_factor();
     let window_px = window.physical_size();

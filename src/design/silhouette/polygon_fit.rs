@@ -306,7 +306,8 @@ fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
             continue;
         }
         let [a, b] = [p + to_before * reach, p + to_after * reach];
-        // If the parabola is divided into n chords, they deviate from it by 1/n² of that distance.
+        // If the parabola is divided into n chords, they deviate from it by 1/n² of
+        // the distance between the corner and the parabola.
         let pieces = (0.25 * cut * reach / flatness.max(1e-9))
             .sqrt()
             .ceil()

@@ -76,8 +76,8 @@ pub(super) fn scan_transition(
     }
 }
 
-/// Counts the defects of another interpolation `arap` of the transition's mesh, with the part
-/// timing of the transition.
+/// Counts the defects when `arap` (the transition's own interpolation or a rebuilt one) moves the
+/// transition's mesh, with the part timing of the transition.
 pub(super) fn scan_rigid_parts(
     transition: &Transition,
     arap: &Arap,
@@ -132,8 +132,8 @@ pub(super) fn max_count(moments: &[MomentCounts], count: DefectCounts) -> usize 
     moments.iter().map(count).max().unwrap_or(0)
 }
 
-/// Returns when a count exceeds `allowed`: the t of its maximum (the middle one if several t share
-/// it), and the first and last t at which the count exceeds `allowed`. `None` if it never does.
+/// Returns the t at which a count is largest (the middle one if several t share the maximum), and
+/// the first and last t at which it exceeds `allowed`; `None` if it never exceeds it.
 pub(super) fn worst_moment(
     moments: &[MomentCounts],
     count: DefectCounts,

@@ -147,7 +147,8 @@ impl KernelWork for KernelColumn<'_> {
     }
 }
 
-/// Displacement fields into both designs: a sum of radial functions plus an affine function.
+/// For each design, the displacement from a point of the frame to the corresponding point of the
+/// design: a sum of radial functions plus an affine function.
 #[derive(Clone, Debug)]
 pub(super) struct RadialSum {
     pub(super) kernel: RadialKernel,

@@ -18,7 +18,7 @@ use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, RADIUS, SMAL
 use crate::settings::Choice;
 
 /// Width of the labels on the left of rows, in points.
-const LABEL_WIDTH: f32 = 88.0;
+const LABEL_WIDTH: f32 = 98.0;
 
 /// Draws a section of a panel: a heading, the content, and a separator line.
 pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> R {

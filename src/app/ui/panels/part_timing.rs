@@ -103,7 +103,8 @@ fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Opti
     (clock != before).then_some(clock)
 }
 
-/// Draws the name of a part, and its thumbnail in a design that contains the part.
+/// Draws the name of a part and, next to it, a thumbnail of a design that contains the part, with
+/// the part highlighted.
 fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
     let part = &sheet.pieces[piece];
     let (rect, response) =
