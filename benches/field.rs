@@ -82,8 +82,8 @@ fn signed_transform(criterion: &mut Criterion) -> Result<()> {
     Ok(())
 }
 
-/// A disc with a wavy outline: `edges` is the number of its edges, `waves` that of the waves around
-/// it.
+/// A disc with a wavy outline. `edges` is the number of edges of the outline, `waves` the number of
+/// waves around it.
 fn wavy(edges: u32, waves: f64) -> Result<Regions> {
     let angles = (0..edges).map(|i| f64::from(i) * TAU / f64::from(edges));
     let ring = angles.map(|a| DVec2::from_angle(a) * (8.0 + 2.0 * (waves * a).sin()));

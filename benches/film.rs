@@ -1,11 +1,11 @@
-//! Times the recording of warps of 100,000 and a million vertices, and frames solved by the warp or
-//! played from the recording.
+//! Times the recording of warps of 100,000 and a million vertices. Also times the frames of these
+//! warps, once solved by the warp and once played from its recording.
 //!
 //! `cargo bench --no-default-features --bench film`. If the environment variable `FILM_CHOLMOD` is
 //! set, the run also times CHOLMOD's back-substitution with the same matrix
 //! (`benches/film_cholmod.sh`).
 //!
-//! - `solved`: a frame computed by the warp: right-hand sides, solve, vertex positions
+//! - `solved`: a frame computed by the warp (right-hand sides, solve, vertex positions)
 //! - `played`: the same frame evaluated from the recording on all threads
 //! - `played, 1 thread`: the same on one thread
 
@@ -42,7 +42,8 @@ fn sheet(side: u32) -> Result<CompatibleMesh> {
     Ok(CompatibleMesh::new(faces, source, target, Vec::new())?)
 }
 
-/// Median time of `runs` back-substitutions by CHOLMOD with the matrix of `arap`, in milliseconds.
+/// Time, in milliseconds, of one back-substitution by CHOLMOD with the matrix of `arap`: the median
+/// of `runs` runs.
 fn cholmod_ms(arap: &Arap, runs: u32) -> Result<f64> {
     let matrix = arap.system();
     let path = std::env::temp_dir().join(format!("morphospace-film-{}.mtx", std::process::id()));
@@ -70,7 +71,7 @@ fn cholmod_ms(arap: &Arap, runs: u32) -> Result<f64> {
     Ok(String::from_utf8(out.stdout)?.trim().parse()?)
 }
 
-/// Times frames placed by `placer` on `threads`, with a different t for each frame.
+/// Times the frames that `placer` computes on `threads`, with a different t for each frame.
 fn play(criterion: &mut Criterion, id: BenchmarkId, mut placer: Placer, threads: &ThreadPool) {
     let mut group = criterion.benchmark_group("film");
     group.sample_size(20);

@@ -3,10 +3,10 @@
 //!
 //! `cargo bench --no-default-features --bench frame`
 //!
-//! - `build`: maps of the faces, assembly of the matrix, and factorisation
+//! - `build`: affine maps of the faces, assembly of the matrix, and factorisation
 //! - `bare`: solve by faer alone with reused memory, for two right-hand sides
 //! - `solve`: the same solve by this library
-//! - `frame`: a whole frame: right-hand sides, solve, vertex positions
+//! - `frame`: a whole frame (right-hand sides, solve, vertex positions)
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::dyn_stack::{MemBuffer, MemStack};

@@ -69,7 +69,7 @@ fn pair(i: u32) -> LinePair {
     }
 }
 
-/// An opaque picture of smooth waves, which `shift` moves.
+/// An opaque picture of triangle waves; `shift` moves the waves.
 fn design(shift: u32) -> Result<Arc<Design>> {
     let wave = |x: u32, k: u32| ((x * (k + 1) + shift * 57) % 511).abs_diff(255) as u8;
     let pixel = |x, y| Rgba([wave(x, 0), wave(y, 1), wave(x + y, 2), 255]);

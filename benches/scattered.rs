@@ -30,7 +30,7 @@ fn main() -> Result<()> {
 }
 
 /// Returns `count` points spread evenly over the unit square by the additive recurrence with the
-/// plastic number. `shift` moves all of them along the recurrence, in steps.
+/// plastic number. `shift` is the number of steps of the recurrence by which all points are moved.
 fn spread(count: u32, shift: f64) -> Vec<DVec2> {
     let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
     let point = |k| ((f64::from(k) + shift) * step).fract();
@@ -46,7 +46,7 @@ fn target_of(p: &DVec2) -> DVec2 {
 fn with_basis(basis: RadialBasis) -> ScatteredOptions {
     ScatteredOptions {
         basis,
-        width: 0.25 / std::f64::consts::SQRT_2, // a quarter of the side
+        width: 0.25 / std::f64::consts::SQRT_2, // in diagonals: a quarter of the side
         ..ScatteredOptions::default()
     }
 }

@@ -1,6 +1,6 @@
-//! Times the map of six outlines of 150 points each. For a new position of the marker: its weights,
-//! the blend of the designs as rigid parts, and the image of the blend as the window draws it. For
-//! the whole map: its measures on a grid of 64 × 64 positions.
+//! Times the map of six outlines of 150 points each. For a new position of the marker, it times the
+//! weights, the blend of the designs as rigid parts, and the image of the blend as the window draws
+//! it. For the whole map, it times the measures on a grid of 64 × 64 positions.
 //!
 //! `cargo bench --no-default-features --bench space`
 
@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// Number of points of each outline.
 const POINTS: u32 = 150;
 
-/// Size of the image of the blend in a window of 1280 × 720, in pixels.
+/// Width and height, in pixels, of the image of the blend in a window of 1280 × 720 pixels.
 const SIZE: [u32; 2] = [360, 472];
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,8 +1,8 @@
 //! Times the drawing of transitions of 25,000 to a million vertices by the GPU, without a window.
 //!
-//! The cases are the gallery's rotor with three levels of subdivision, and a sheet that bends into
-//! a half ring. `cargo bench --bench stage`; names after `--` select cases. Images have 1280 × 720
-//! pixels; they are rendered and read back from the GPU.
+//! The cases are the gallery's rotor at three different levels of subdivision, and a sheet that
+//! bends into a half ring. `cargo bench --bench stage`; names after `--` select cases. Images have
+//! 1280 × 720 pixels; they are rendered and read back from the GPU.
 //!
 //! - `first image`: time from the designs to the first rendered image
 //! - `recorded`: time to record the transition, so that the GPU can play it

@@ -91,7 +91,7 @@ fn pairs(count: usize) -> Vec<(&'static str, RingPair)> {
     ]
 }
 
-/// Times all pairs, or only the pair with the name `only`, for each of the numbers of points.
+/// Times all pairs, or only the pair with the name `only`, for each number of points in `counts`.
 fn bench(criterion: &mut Criterion, group: &str, counts: &[usize], only: Option<&str>) {
     let mut group = criterion.benchmark_group(group);
     group.sample_size(10);

@@ -4,10 +4,10 @@
 //! or a truss. The format of a file is recognised by its content, not by its name. An importer
 //! reads only the given bytes and, for text in a drawing, the installed fonts.
 //!
-//! Guarantees that for any bytes [`import`] returns either a drawable design or an [`ImportError`]
-//! whose message advises the user. It never panics, and it refuses files that would need excessive
-//! memory or time before it uses them. Does not check that two designs can be blended; that happens
-//! when they are paired.
+//! Guaranteed: for any bytes, [`import`] returns either a drawable design or an [`ImportError`]
+//! whose message advises the user. It never panics. A file that would need excessive memory or time
+//! is refused before they are spent. Not checked: whether two designs can be blended. That is
+//! checked when they are paired.
 
 mod dxf;
 mod error;

@@ -2,11 +2,11 @@
 //! GIF, animated PNG, MP4, and animated vector graphics (SVG, HTML, Lottie). Needs neither a GPU
 //! nor a display.
 //!
-//! All formats are written from one [`Drawing`], so they cannot disagree. Guarantees: files are
-//! written atomically, and films are read back and verified before they replace an earlier file;
-//! the same transition gives the same bytes on every run, except for MP4, which ffmpeg encodes;
-//! frames are drawn on all cores and written in order. This module does not depend on the window or
-//! the command line.
+//! All formats are written from the same [`Drawing`] of a frame, so a frame looks the same in each.
+//! Files are written atomically; films are read back and verified before they replace an earlier
+//! file. The same transition gives the same bytes on every run, except for MP4, which ffmpeg
+//! encodes. Frames are drawn on all cores and written in order. This module does not depend on the
+//! window or the command line.
 //!
 //! ```no_run
 //! use morphospace::export::{Camera, ExportTarget, FilmSpec, PixelSize, PlaneView};

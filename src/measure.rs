@@ -1,17 +1,17 @@
 //! Quality measures of meshes, films and design spaces, and the check that finds defects.
 //!
-//! - [`MeshReport`]: a compatible mesh: angles, Steiner points, boundary stretch, and distortion
+//! - [`MeshReport`], of a compatible mesh: angles, Steiner points, boundary stretch, and distortion
 //!   of the map between its two embeddings
-//! - [`FilmReport`]: a transition sampled over t: folds, self-crossings, distortion beyond that of
-//!   the target, area, perimeter, turning, pieces, holes, and the vertices' travel and acceleration
-//!   without the rigid motion; [`FilmReport::series`] gives each quantity against t
+//! - [`FilmReport`], of a transition sampled over t: folds, self-crossings, distortion beyond that
+//!   of the target, area, perimeter, turning, pieces, holes, and the vertices' travel and
+//!   acceleration without the rigid motion; [`FilmReport::series`] gives each quantity against t
 //! - [`Verdict`]: the defects of a film, each with its place, cause and remedy
-//! - [`SpaceReport`]: a design space: the blends of each two designs, the blend of all in equal
-//!   parts, and blends spread over all weights
+//! - [`SpaceReport`], of a design space: the blends of each pair of designs, the blend of all
+//!   designs with equal weights, and blends spread over all weights
 //! - [`BlendMeasures`]: one blend of several designs; [`MapLandscape`]: the blends of a whole map
 //! - [`FilmRating`]: one rating per film, to choose among methods ([`build_best_method`])
 //!
-//! All measures are taken at samples of t; a defect between two samples is missed.
+//! Films are measured at samples of t; a defect between two samples is missed.
 
 mod blend_report;
 mod distortion;

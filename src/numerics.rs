@@ -1,5 +1,5 @@
 //! Numerical methods: linear algebra, L-BFGS minimisation ([`lbfgs`]) and the assignment problem
-//! ([`assignment`]). The only module that uses `faer`.
+//! ([`assignment`]). No other module uses `faer`.
 //!
 //! [`Cholesky`] factors a sparse symmetric positive definite matrix once and then solves with it in
 //! every frame. [`PatternCholesky`] is for sparse matrices whose values change while the pattern of
@@ -180,7 +180,7 @@ impl Cholesky {
         run_cancellable(progress, move || Self::factor(&matrix))
     }
 
-    /// Factors the matrix with the given choice of algorithm.
+    /// Factors the matrix; `supernodal_from` selects a simplicial or a supernodal factorisation.
     fn factored(
         matrix: &SymmetricMatrix,
         supernodal_from: SupernodalThreshold,
@@ -214,7 +214,7 @@ impl Cholesky {
         Ok(factored)
     }
 
-    /// Computes the values of the factor from the matrix.
+    /// Computes the values of the Cholesky factor from the lower triangle of the matrix.
     fn factor_values(&mut self, lower: &SparseColMat<u32, f64>) -> Result<(), FactorError> {
         let request = self
             .symbolic

@@ -4,8 +4,9 @@
 //! Between the times at which a part starts, stops or changes pace, vertex positions are smooth
 //! functions of t. A few placements (evaluations of the warp at one t) therefore determine the
 //! whole motion. Every other placement is a short sum, however expensive it is to evaluate the
-//! warp. For each vertex, a time interval stores the exact positions at both ends, and a polynomial
-//! for the deviation from the straight line between them; it vanishes at both ends.
+//! warp. For each vertex, a time interval stores the exact positions at both ends of the interval,
+//! and a polynomial. The polynomial is the deviation from the straight line between the two
+//! positions, so it is zero at both ends.
 //!
 //! A [`Recording`] is itself a warp, so contents, stage, export and measures treat it like any
 //! other warp. Outside [0, 1] it evaluates the warp that was recorded.
@@ -79,7 +80,8 @@ struct RecordingData {
     channels: MovingChannels,
     /// Intervals in ascending order of t, covering [0, 1] without gaps.
     intervals: Vec<RecordingInterval>,
-    /// Largest measured distance from the warp, as a fraction of the diameter of all positions.
+    /// Largest measured distance between a vertex in the recording and the same vertex in the warp,
+    /// as a fraction of the diameter of all moving positions at both ends.
     error: f64,
     /// Number of times that the warp was evaluated.
     evaluation_count: usize,
@@ -107,8 +109,8 @@ impl Recording {
     }
 
     /// Returns the largest measured distance between a vertex in the recording and the same vertex
-    /// in the warp, including rounding, as a fraction of the diameter of all positions at both
-    /// ends.
+    /// in the warp, including rounding, as a fraction of the diameter of all moving positions at
+    /// both ends.
     #[must_use]
     pub fn error(&self) -> f64 {
         self.0.error
@@ -134,8 +136,8 @@ impl Recording {
 }
 
 impl Recording {
-    /// Sets the positions in a placement of the warp to those at `t` and returns true. Outside [0,
-    /// 1] leaves the placement unchanged and returns false.
+    /// Sets the positions in a placement of the warp to those at `t` and returns true. If `t` is
+    /// outside [0, 1], the placement stays unchanged and the result is false.
     pub(crate) fn place(&self, t: f64, placement: &mut Placement) -> bool {
         let is_within = (0.0..=1.0).contains(&t);
         if is_within {
@@ -146,13 +148,13 @@ impl Recording {
 }
 
 impl RecordingData {
-    /// Returns the index of the interval that contains `t`, for `t` in [0, 1].
+    /// Returns the index of the interval that contains `t`, where `t` is in [0, 1].
     fn interval_at(&self, t: f64) -> usize {
         let index = self.intervals.partition_point(|interval| interval.to < t);
         index.min(self.intervals.len() - 1)
     }
 
-    /// Writes the positions at `t` of every moving channel, for `t` in [0, 1].
+    /// Writes the positions at `t` of every moving channel to `placement`; `t` must be in [0, 1].
     fn place(&self, t: f64, placement: &mut Placement) {
         let interval = &self.intervals[self.interval_at(t)];
         let mut first_block = 0;

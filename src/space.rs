@@ -2,10 +2,11 @@
 //!
 //! A blend is given by weights, one per design, that sum to one. A transition between two designs
 //! is the blend with weights (1 − t, t). A [`Sequence`](crate::transition::Sequence) follows edges
-//! of the space, that is, blends of two designs; a path over a map crosses its interior.
+//! of the space, that is, blends of two designs; a path over a map crosses the interior of the
+//! space.
 //!
 //! - `build`: builds a [`DesignSpace`] as rigid parts of a common mesh if there is one, otherwise
-//!   as distance fields; `picture_space`: as pictures, warped by features common to all
+//!   as distance fields; `picture_space`: blends pictures, warped by features common to all of them
 //! - `blend`: the space and its frames; `weight_samples`: weights spread over the space
 //! - `design_distance`: how dissimilar each pair of designs is
 //! - `map`, `layout`: positions of the designs on a map, and the weights between them

@@ -134,8 +134,9 @@ pub enum MorphSystems {
     /// Starts builds for new meshes or options, adds a [`Morph`] for each finished build, and
     /// triggers [`BuildFailed`] for each failed one. Turns a [`StageTransition`] into a [`Morph`].
     Build,
-    /// Moves each [`Morph`] to its [`Blend`]. Systems that run later see the frame of this update.
-    /// If the graphics card plays the morph, the CPU computes its vertices only when they are read.
+    /// Moves each [`Morph`] to the t of its [`Blend`]. Systems that run later see the frame at this
+    /// t. If the graphics card plays the morph, the CPU computes its vertices only when they are
+    /// read.
     Solve,
     /// Updates render meshes, material uniforms and cameras.
     Draw,
@@ -196,12 +197,12 @@ fn add_drawing(app: &mut App) {
         Startup,
         (recording_upload::detect_gpu, warm_up::warm_up_pipelines).chain(),
     )
-    // As an observer it runs whenever a morph is removed, and despawns the render parts.
+    // The observer despawns the render parts of a morph whenever the morph is removed.
     .add_observer(part_assembly::despawn_parts)
     .add_systems(
         Update,
-        // A chain applies commands between its systems, so parts are drawn in the frame in which
-        // they are spawned.
+        // The systems are chained, so Bevy applies the commands of one before the next runs.
+        // Parts are therefore drawn in the frame in which they are spawned.
         (
             part_assembly::spawn_parts,
             (
@@ -216,7 +217,7 @@ fn add_drawing(app: &mut App) {
     );
 }
 
-/// Registers an asset type if Bevy's renderer, which normally does it, is missing.
+/// Registers an asset type, unless Bevy's renderer has already registered it.
 fn init_asset<A: Asset>(app: &mut App) {
     if !app.world().contains_resource::<Assets<A>>() {
         app.init_asset::<A>();

@@ -1,9 +1,9 @@
 //! Warps: mappings that say where each point of the designs lies at blend parameter t.
 //!
-//! There is one warp per method: rigid parts, boundary paths, line pairs, scattered points,
+//! There are six kinds ([`WarpKind`]): rigid parts, boundary paths, line pairs, scattered points,
 //! B-spline lattices, and no motion at all. A [`Warp`] is built once, which can fail. It creates
-//! [`Placer`]s, evaluators that own the memory for a frame, reuse it from frame to frame, and
-//! cannot fail. Warps are independent of the content they carry (solids, distance fields or
+//! [`Placer`]s, which evaluate it for one frame after another. A placer owns the memory for a frame
+//! and cannot fail. Warps are independent of the content they carry (solids, distance fields or
 //! pictures).
 //!
 //! In this module "the frame" is the visible rectangle of the plane, whereas "a frame" is one
@@ -58,9 +58,9 @@ pub struct Placement {
     pub faces: Arc<[[u32; 3]]>,
     /// Position of each vertex in the frame at t.
     pub in_frame: Vec<DVec2>,
-    /// For each vertex, the point of the source design that is shown there.
+    /// For each vertex, the point of the source design that is shown at the vertex.
     pub in_source: Vec<DVec2>,
-    /// For each vertex, the point of the target design that is shown there.
+    /// For each vertex, the point of the target design that is shown at the vertex.
     pub in_target: Vec<DVec2>,
 }
 
@@ -97,7 +97,7 @@ pub trait Warp: Debug + Send + Sync {
 
     /// Returns the times at which a part starts, stops or changes its speed abruptly.
     ///
-    /// Between two of these times every vertex moves smoothly. They are unsorted and may
+    /// Between two neighbouring times every vertex moves smoothly. The times are unsorted and may
     /// include 0 and 1.
     fn break_times(&self) -> Vec<f64> {
         Vec::new()
@@ -116,7 +116,7 @@ pub struct Placer {
     update: Box<PlacementUpdate>,
 }
 
-/// Function that moves a placement to a given t and owns the memory for it.
+/// Function that moves a placement to a given t. It owns the memory for this computation.
 type PlacementUpdate = dyn FnMut(f64, &mut Placement) + Send + Sync;
 
 impl Placer {

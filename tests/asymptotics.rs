@@ -73,8 +73,8 @@ const SIZES: [u32; 4] = [10, 20, 40, 80];
 /// Factor by which the growth of the time may exceed that of n² log n (tolerance: timing noise).
 const SLACK: f64 = 5.0;
 
-/// Reference time, in seconds, that replaces shorter measured times (tolerance: shorter times are
-/// mostly start-up of the program).
+/// Minimum time, in seconds, relative to which growth is measured. It replaces shorter measured
+/// times (tolerance: those are mostly start-up of the program).
 const MIN_SECONDS: f64 = 0.25;
 
 /// Asserts that time and memory for a transition from `design(n)` to a square grow slowly with n.

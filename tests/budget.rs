@@ -211,8 +211,8 @@ fn type_names_are_used_once() {
     );
 }
 
-/// Lists the uses between entries of the same folder that lie on a cycle. An entry is a file or a
-/// subfolder with all its files.
+/// For entries of the same folder that use each other in a cycle: lists the uses on that cycle. An
+/// entry is a file or a subfolder with all its files.
 fn folder_cycles(uses: &Uses<'_>) -> Vec<String> {
     let mut graphs: BTreeMap<PathBuf, NeighbourGraph> = BTreeMap::new();
     for (from, used) in uses {

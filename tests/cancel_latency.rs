@@ -132,8 +132,8 @@ fn cancel_everywhere(name: &str, work: impl Fn(&dyn Progress)) -> Vec<&'static s
     }
 }
 
-/// Returns work that builds a transition. It asserts that the build succeeds, or, if it was
-/// cancelled, that an error says so.
+/// Returns work that builds a transition. The work asserts that the build succeeds or, if it was
+/// cancelled, that the error says so.
 fn build(spec: &TransitionSpec) -> impl Fn(&dyn Progress) {
     |progress| {
         let built = Transition::build(spec, progress);

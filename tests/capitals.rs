@@ -1,5 +1,5 @@
-//! Transitions by rigid parts between the capital letters of the bundled font: their meshes are
-//! valid, they begin and end with the areas of the letters, and counters stay open.
+//! Transitions by rigid parts between the capital letters of the bundled font. Their meshes are
+//! valid, their areas at t = 0 and t = 1 are those of the letters, and counters stay open.
 //!
 //! `cargo test --release --no-default-features --test capitals -- --include-ignored` tests all 650
 //! ordered pairs.

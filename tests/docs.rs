@@ -325,8 +325,8 @@ fn the_options_of_the_command_line_are_listed() {
     }
 }
 
-/// Constants marked as heuristic in `src`, grouped by top-level module. Each is a pair of file with
-/// name, and of its documentation up to the mark.
+/// For each top-level module of `src`: its constants that are marked as heuristic. Each constant is
+/// described by two texts: its file and name, and its documentation up to the mark.
 fn heuristics() -> BTreeMap<String, Vec<[String; 2]>> {
     let mut by_folder: BTreeMap<String, Vec<[String; 2]>> = BTreeMap::new();
     for file in files::files_below(&files::folder()) {

@@ -381,7 +381,7 @@ proptest! {
             bytes.truncate(cut.index(bytes.len()));
         }
         if let Ok(design) = read(&bytes) {
-            // An accepted design gives an outline or an error, but must not panic.
+            // Computing the outline of an accepted design may fail, but must not panic.
             drop(design.outline(0.1));
         }
     }

@@ -1,4 +1,5 @@
-//! Analysis in the background: measures of the film, search for the best method, suggestions.
+//! Background analysis of the transition on the stage: its recording, measures and defects, the
+//! search for the best method, suggested changes, and a cache of these results.
 
 pub mod film_measures;
 pub mod method_search;

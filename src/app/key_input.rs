@@ -53,7 +53,7 @@ impl KeyContext<'_> {
     }
 }
 
-/// Turns key presses into intents; does nothing while a text field has the focus.
+/// Turns key presses into intents, but not while a text field or menu has the keyboard focus.
 ///
 /// The state of the modifiers follows the same messages in order: when frames are slow, Shift may
 /// be released before the frame that handles Shift+S.
@@ -70,8 +70,8 @@ pub fn read_keys(
         *held = KeyModifiers::default();
     }
     for input in inputs.read() {
-        // Modifiers are followed even while a text field has the focus: those held when it loses
-        // the focus still count.
+        // Modifiers are followed even while a text field has the focus, because those held when it
+        // loses the focus still count.
         held.update(input);
         let key_intent = map.intent(input, *held, context.editor.is_open);
         if let Some(intent) = key_intent.filter(|intent| context.allows(intent)) {

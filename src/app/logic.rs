@@ -133,8 +133,8 @@ fn init_resources(app: &mut App) {
         .insert_resource(CaptureFolder::choose(None));
 }
 
-/// Systems that act on intents, in the order in which their results depend on each other: a project
-/// is opened before it is played.
+/// Systems that act on intents, in such an order that each sees the results of those that it
+/// depends on: a project is opened before it is played.
 fn intent_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
         // Before all readers of intents, so that closing the window takes effect in the same frame,

@@ -92,7 +92,7 @@ pub struct RedrawPace {
 }
 
 impl RedrawPace {
-    /// Update mode until the next frame.
+    /// Update mode of the window until the next frame.
     #[must_use]
     pub fn update_mode(self) -> UpdateMode {
         match self {

@@ -42,7 +42,8 @@ pub struct AppOptions {
     /// One project, or designs to open together; empty shows the invitation and plays a gallery
     /// project.
     pub files: Vec<PathBuf>,
-    /// Folder for exported images and films; `None` is a folder in the user's pictures.
+    /// Folder for exported images and films; `None` is the folder `Morphospace` in the user's
+    /// pictures.
     pub captures: Option<PathBuf>,
     /// Maximum memory for the recording of a transition, in MiB; `None` is the default limit.
     pub film_memory: Option<usize>,

@@ -2,7 +2,7 @@
 //! blends of many designs.
 //!
 //! `--json` prints one object, or a list of objects for a sequence. The `laboratory` module
-//! documents their units.
+//! documents the units of the values in these objects.
 
 use clap::Args;
 

@@ -41,7 +41,7 @@ pub(super) struct OpenedProject {
     pub sequence: Sequence,
 }
 
-/// One segment of a film with its built transition, and the time it took.
+/// One segment of a film with its built transition, and the times that import and build took.
 #[derive(Debug)]
 pub(super) struct OpenedPair {
     /// The segment with the flags applied, and its designs.
@@ -132,7 +132,8 @@ impl InputArgs {
         progress: &dyn Progress,
     ) -> Result<LoadedProject, CliError> {
         checkpoint(progress, "reading", 0.0).map_err(CliError::failed)?;
-        // Reading a pipe may block forever, so it runs on another thread and can be cancelled.
+        // Reading a pipe may block forever, so the input is read on another thread, which allows
+        // cancellation.
         let inputs = self.clone();
         let document = run_cancellable(progress, move || inputs.document());
         let (mut project, folder) = document.map_err(CliError::failed)??;

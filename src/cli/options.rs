@@ -108,8 +108,8 @@ impl MethodArgs {
     /// Applies the given flags to a project.
     pub fn edit(&self, project: &mut Project) -> Result<(), CliError> {
         self.placing.edit(project);
-        // The order of these two does not matter: the parser rejects --method with --warp or
-        // --content.
+        // `placing` applies --method; `cell` applies --warp and --content. Their order does not
+        // matter, because the parser rejects the combination.
         self.cell.edit(project)?;
         self.arap.edit(&mut project.options.arap);
         self.paths.edit(&mut project.options.paths);
@@ -128,8 +128,8 @@ impl MethodArgs {
     }
 }
 
-/// Rates each segment separately and returns the method that is best for most of them. Of equally
-/// frequent methods, returns the one that occurs first.
+/// Rates all methods for each segment separately, and returns the method that is best for most
+/// segments. Of equally frequent methods, returns the one that occurs first.
 fn best_for_most(
     loaded: &LoadedProject,
     progress: &dyn Progress,

@@ -248,7 +248,7 @@ enum StillContent {
     Frame(f64),
     /// A contact sheet with this number of frames.
     Sheet(usize),
-    /// One row for each method, with this number of frames.
+    /// A comparison sheet: one row for each method, with this number of frames per row.
     Methods(usize),
     /// A map of all designs, with this number of columns and rows.
     Map([usize; 2]),

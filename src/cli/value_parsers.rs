@@ -41,7 +41,7 @@ pub(super) fn one_of<T: Choice + Send + Sync>() -> impl TypedValueParser<Value =
     PossibleValuesParser::new(values).try_map(|key| T::of_key(&key))
 }
 
-/// Assigns `value` to `place` if there is one.
+/// Assigns `value` to `place` if it is `Some`.
 pub(super) fn set_if_given<T>(place: &mut T, value: Option<T>) {
     if let Some(value) = value {
         *place = value;
@@ -50,7 +50,7 @@ pub(super) fn set_if_given<T>(place: &mut T, value: Option<T>) {
 
 /// Parses face weights: a name of the project file, or one number per face.
 pub(super) fn weights(text: &str) -> Result<FaceWeights, ValueError> {
-    // The names are those of the project file, parsed by the same serde implementation.
+    // serde parses the names, so they are the same as in a project file.
     let by_name = serde_json::from_value(text.into()).ok();
     let each = || numbers(text).map(FaceWeights::PerFace);
     by_name.or_else(each).ok_or(ValueError::Weights)

@@ -10,7 +10,7 @@ use glam::{DAffine2, DVec2};
 /// A linear or radial gradient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
-    /// Kind of the gradient, with its circles if it is radial.
+    /// Kind of the gradient, with its inner circle if it is radial.
     pub geometry: GradientGeometry,
     /// Map from the gradient's own space to the plane. In its own space, a linear gradient runs
     /// from x = 0 to x = 1, and a radial gradient from its inner circle to the unit circle.
@@ -101,8 +101,8 @@ impl Gradient {
     /// `t` = 1 returns `other` exactly.
     ///
     /// Gradients of the same kind and spread are interpolated offset by offset. Otherwise all
-    /// paints of `self` change to the mean paint of both gradients until t = 0.5, and from there to
-    /// the paints of `other`.
+    /// paints of `self` first change to the mean paint of both gradients, which is reached at t =
+    /// 0.5. From there, the mean paint changes to the paints of `other`.
     #[must_use]
     pub fn mixed(&self, other: &Self, t: f64) -> Self {
         let t = t.clamp(0.0, 1.0);

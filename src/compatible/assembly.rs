@@ -10,8 +10,9 @@ pub(super) struct MeshAssembly {
 }
 
 impl MeshAssembly {
-    /// Appends a mesh with vertex positions `points` and faces `faces`. Its first vertices are
-    /// already present, with the indices `shared`; its other vertices get new indices.
+    /// Appends a mesh with vertex positions `points` and faces `faces`. The first vertices of the
+    /// appended mesh are already present, at the indices `shared`; its other vertices get new
+    /// indices.
     ///
     /// # Panics
     /// If the mesh has fewer vertices than `shared`.

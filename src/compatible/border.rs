@@ -8,8 +8,8 @@ pub(super) fn border_points(frame: &Bounds, spacing: f64) -> Vec<DVec2> {
     let mut points = Vec::new();
     for (a, b) in ring_edges(&frame.corners()) {
         let pieces = (a.distance(b) / spacing).ceil().max(1.0) as u32;
-        // This form keeps points exactly on an axis-parallel side. A point off the side could leave
-        // a folded sliver.
+        // This formula keeps points exactly on an axis-parallel side. A point that lies off the
+        // side could cause a folded sliver.
         points.extend((0..pieces).map(|i| a + (b - a) * (f64::from(i) / f64::from(pieces))));
     }
     points

@@ -29,7 +29,7 @@ pub struct CompatibleFamily {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FamilyError {
-    /// There are fewer than two designs; the number given.
+    /// Fewer than two designs were given. The field is the number given.
     #[error("at least two designs are needed, not {0}")]
     TooFew(usize),
     /// A design is not compatible with the first one.
@@ -37,16 +37,16 @@ pub enum FamilyError {
     Incompatible {
         /// Index of the design that is not compatible.
         design: usize,
-        /// Reason; in it, the first design counts as the source.
+        /// Reason, in which "source" means the first design.
         error: CompatibleError,
     },
-    /// A design has parts or holes that another design lacks, or the other way round, so some
-    /// points have no counterpart.
+    /// One of two designs has parts or holes that the other lacks, so some points have no
+    /// counterpart.
     #[error("design {} does not have the same parts and holes as design {}", design + 1, of + 1)]
     PartsDiffer {
         /// Index of the design that differs.
         design: usize,
-        /// Index of the design that it is compared with.
+        /// Index of the design with which it is compared and which has other parts or holes.
         of: usize,
     },
     /// With the matched points of all designs added to it, a design's outline is not a valid
@@ -55,7 +55,7 @@ pub enum FamilyError {
     Outline {
         /// Index of the design with the invalid outline.
         design: usize,
-        /// Reason; in it, the design counts as the source.
+        /// Reason, in which "source" means the design with the invalid outline.
         error: PieceMeshError,
     },
     /// No triangulation was found that is free of folds in all designs.
@@ -63,8 +63,7 @@ pub enum FamilyError {
         "no triangulation without folds was found for all designs; make them more alike, or change the matches"
     )]
     NoCommonTriangulation,
-    /// For every pair of trusses, the common triangulation of their panels is invalid in another
-    /// truss.
+    /// No pair of trusses has a common triangulation of its panels that is valid in all trusses.
     #[error(
         "no triangulation of the panels is valid in all trusses; add bars, or make them more alike"
     )]

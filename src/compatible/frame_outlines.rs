@@ -3,7 +3,8 @@
 //! The regions inside and outside the outlines are triangulated separately and joined along the
 //! outlines. Such a mesh maps matched outlines onto each other exactly. It exists for some matches
 //! for which a mesh around pins (`CompatibleMesh::around_pins`) does not. Rings that close to a
-//! point or open from a point are left out; the area that they bound counts as inside.
+//! point or open from a point are left out; the area that they bound belongs to the region around
+//! them.
 
 use super::assembly::MeshAssembly;
 use super::border::border_points;
@@ -118,7 +119,7 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
         }
         parts.push(FrameCell(part));
     }
-    // If a part lies in different voids in the two designs, the cells do not correspond.
+    // Each part must lie in the same void in both designs. Otherwise the cells do not correspond.
     for outer in outers {
         let around = [0, 1].map(|side| surrounding(&parts, &voids, rings, outer, side));
         match around {

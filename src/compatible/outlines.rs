@@ -87,7 +87,7 @@ pub(crate) fn merged_meshes<'a>(
 ) -> CompatibleMesh {
     let mut whole = MeshAssembly::default();
     for mesh in meshes {
-        // Pieces share no vertices.
+        // No vertices are shared, so the list of shared vertices is empty.
         whole.append(
             &[],
             [&mesh.source, &mesh.target],

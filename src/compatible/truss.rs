@@ -9,9 +9,9 @@
 //!    until no two bars cross. If this leads to no valid triangulation, all bars that cross another
 //!    bar are removed instead.
 //! 2. The remaining plane graph is split into blocks at bridges (bars whose removal disconnects it)
-//!    and cut nodes (nodes whose removal does). A block of one bar, which is a bridge or a dangling
-//!    end, becomes a two-point element. In every other block each bounded face is a simple polygon,
-//!    called a panel.
+//!    and cut nodes (nodes whose removal disconnects it). A block of one bar, which is a bridge or
+//!    a dangling end, becomes a two-point element. In every other block each bounded face is a
+//!    simple polygon, called a panel.
 //! 3. Panels are triangulated by diagonals so that all triangles are positive in both designs, by
 //!    exact predicates. Among all such triangulations, the smallest angle over both designs is
 //!    maximal. This takes dynamic programming (Gilbert 1979, Klincsek 1980) in O(n³) for a panel of

@@ -5,12 +5,12 @@
 //! bilinearly between samples *before* they apply L.
 //!
 //! The paper uses L(x) = sgn(x) log(|x| + ε). For ε < 1 its sign is wrong near the boundary, and
-//! for every ε except 1 it jumps there. This implementation uses L(x) = sgn(x) log(1 + |x| / ε). It
-//! is the same for ε = 1, and it is continuous, odd and monotone for every ε > 0.
+//! for every ε except 1 it jumps there. This implementation uses L(x) = sgn(x) log(1 + |x| / ε).
+//! For ε = 1 this is the paper's function, and it is continuous, odd and monotone for every ε > 0.
 //!
 //! Guaranteed: at t = 0 and t = 1 the contour is that of the source's and of the target's field; a
-//! pair has two fields on the same grid and valid parameters. Not guaranteed: topology. For t
-//! between 0 and 1, parts may split or merge.
+//! [`FieldPair`] always has two fields on the same grid and valid parameters. Not guaranteed:
+//! topology. For t between 0 and 1, parts may split or merge.
 
 mod carried;
 mod many_designs;
@@ -144,7 +144,7 @@ impl FieldBlend {
     }
 
     /// Returns L(τ), the scale function at the threshold. The shape is filled where F is at least
-    /// this.
+    /// L(τ).
     #[must_use]
     pub fn level(&self) -> f64 {
         self.curve(self.threshold)

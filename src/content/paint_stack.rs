@@ -74,9 +74,10 @@ pub struct AnchoredGradient {
 }
 
 impl LayerShading {
-    /// Returns the gradients of source and target, each transformed by the affine map that best
-    /// fits the motion of the layer's vertices from its design to `places`. Only vertices for which
-    /// `is_counted` holds are used. `places` contains the current positions of all vertices.
+    /// Returns the gradients of source and target, moved along with the layer. `places` contains
+    /// the current positions of all vertices. The gradient of a design is transformed by the affine
+    /// map that best fits the layer's vertices in this design onto their current positions. Only
+    /// vertices for which `is_counted` holds are used.
     ///
     /// # Panics
     /// Panics if a vertex has no position.
@@ -104,8 +105,8 @@ impl LayerShading {
 
 impl PlacedPaintLayer {
     /// Fills in the paints, gradients and strokes of a group of rings in this layer. `gradients`
-    /// are those at the time of the group. If the group fades, `fading` is the only design that has
-    /// its parts; in the other design the group becomes transparent.
+    /// are the layer's gradients at the time of the group. If the group fades, `fading` is the only
+    /// design that has its parts; in the other design the group becomes transparent.
     pub(super) fn ink(
         &self,
         inked: InkedLayer,

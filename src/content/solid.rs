@@ -41,7 +41,7 @@ pub struct SolidContent {
 /// own t.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidClocks {
-    /// All clocks. The last one is for the transition as a whole.
+    /// All clocks. The last one belongs to the transition as a whole.
     pub clocks: Vec<PartClock>,
     /// For each boundary loop, the index of its clock.
     pub of_loops: Vec<usize>,
@@ -65,8 +65,9 @@ struct PaintedRing {
     points: Vec<DVec2>,
 }
 
-/// Key of a group: the rings of a paint layer with equal keys have equal paints. The key is the
-/// index of their clock and, for parts that fade, the only design that has them.
+/// Key of a group of rings: rings of a paint layer with equal keys have equal paints at every t.
+/// The key consists of the index of the rings' clock and, if their parts fade, the only design that
+/// has these parts.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct InkKey {
     clock: usize,
@@ -399,8 +400,8 @@ impl SolidContent {
         Some(holes.nth(ring)?.0.host_face(point).to_vec())
     }
 
-    /// Number of rings that are absent at `t`: boundary loops of parts that exist in only one
-    /// design, and holes.
+    /// Returns the number of rings that are absent at `t`: boundary loops of parts that exist in
+    /// only one design, and holes that exist in only one design.
     pub(crate) fn absent_ring_count(&self, t: f64) -> usize {
         let thickness = |swell: &SwellingShape| {
             swell.thickness_fraction(self.part_time(swell.loop_indices(), t))

@@ -29,9 +29,9 @@ struct HostFaces {
 }
 
 impl HostFaces {
-    /// Attaches the point `p` to the first face that contains it. If no face does, it is attached
-    /// to the face whose smallest barycentric coordinate of `p` is largest. `None` if no face has
-    /// area.
+    /// Attaches the point `p` to the first face that contains it. If no face contains it, it is
+    /// attached to the face for which the smallest barycentric coordinate of `p` is largest. `None`
+    /// if the chosen face has no area.
     fn of(p: DVec2, faces: &[[u32; 3]], places: &[DVec2]) -> Option<Self> {
         let mut best: Option<(f64, Self)> = None;
         for &face in faces {
@@ -72,8 +72,9 @@ impl TransientHole {
         &self.ring
     }
 
-    /// Creates a hole of the design `window.side`, drawn on `faces`. `ring` contains its points in
-    /// that design, `places` the vertex positions there. Returns `None` if no face has area.
+    /// Creates a hole of the design `window.side`, drawn on `faces`. `ring` contains the hole's
+    /// points in that design, `places` the vertex positions in that design. Returns `None` if no
+    /// face has area.
     ///
     /// # Panics
     /// Panics if a face has a vertex without a position.
@@ -98,8 +99,8 @@ impl TransientHole {
         self.window.side
     }
 
-    /// Area of the hole on its faces, before it shrinks, when the vertices are at `places`; as a
-    /// multiple of its area in its design.
+    /// Returns the area of the unshrunken hole on its faces when the vertices are at `places`, as a
+    /// multiple of the hole's area in its design.
     pub(crate) fn area_ratio(&self, places: &[DVec2]) -> f64 {
         let ring: Vec<DVec2> = self.hosts.iter().map(|host| host.at(places)).collect();
         signed_area(&ring) / signed_area(&self.ring)
@@ -110,8 +111,8 @@ impl TransientHole {
         signed_area(&self.ring).abs()
     }
 
-    /// Vertex indices of the face on which a point of the ring lies, given by its index in the
-    /// ring.
+    /// Returns the vertex indices of the face on which a point of the ring lies. `point` is the
+    /// index of the point in the ring.
     pub(crate) fn host_face(&self, point: usize) -> [u32; 3] {
         self.hosts[point].face
     }

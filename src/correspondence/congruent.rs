@@ -2,7 +2,7 @@
 //! a fraction of the sample spacing.
 //!
 //! A path through sample pairs is only as accurate as the sample spacing, and on smooth sections
-//! only the stretching cost determines it. For two versions of one design (traced again,
+//! only the stretching cost determines the path. For two versions of one design (traced again,
 //! simplified, or with other vertices) a better match exists: the similarity that best fits the
 //! given match maps one curve onto the other, and each point is matched with the point on which it
 //! lands. This is the iterated closest point method (Besl, McKay 1992), restricted to the
@@ -37,10 +37,10 @@ const SAME_DIRECTION: f64 = 0.5;
 /// its exact place, so that corners stay on corners (tolerance: above rounding).
 const MIN_SHIFT: f64 = 1e-9;
 
-/// Moves the target place of each knot to the place where its source point lands under the
-/// best-fitting similarity. `knots` ascend in the source; pins do not move. Returns `None` if no
-/// similarity maps the curves almost onto each other, or if half of the moved knots or more break
-/// the order.
+/// Moves the target place of each knot to the target point nearest to the knot's source point under
+/// the best-fitting similarity. A knot without such a point nearby keeps its place. `knots` ascend
+/// in the source; pins do not move. Returns `None` if no similarity maps the curves almost onto
+/// each other, or if half of the knots or more would break the order.
 pub(super) fn registered_knots(
     knots: &[[f64; 2]],
     pins: &[[f64; 2]],
@@ -56,7 +56,8 @@ pub(super) fn registered_knots(
             .map(|&nearest| target.point_at(nearest))
             .collect();
         let fit = SimilarityFit::of(&points, &landed)?;
-        // Check only the first residual: later rounds reduce it.
+        // Check only the residual of the first round, because later rounds reduce it for any two
+        // curves.
         if round == 0 && fit.residual(&points, &landed) > MAX_RESIDUAL * length {
             return None;
         }

@@ -106,8 +106,8 @@ impl BoundaryCurve {
         let e = self.edge_at(place);
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
         let along = (place - self.places[e]) / (self.places[e + 1] - self.places[e]);
-        // On an edge of zero length the ratio is NaN; both comparisons fail and its first point is
-        // returned.
+        // On an edge of zero length the ratio is NaN. Both comparisons then fail, and the first
+        // point of the edge is returned.
         if along >= 1.0 {
             return to;
         }

@@ -13,9 +13,9 @@ use super::path_grid::{GridPath, PathBuffers, PathGrid};
 use super::samples::CurveSamples;
 use crate::geometry::DVec2;
 
-/// Minimum number of samples for which a coarse search pre-selects the poses (heuristic). The
-/// coarse search has half as many samples, and no more than this number; it takes at most a quarter
-/// of the time.
+/// Minimum number of samples for which a coarse search pre-selects the poses (rotations of the
+/// source onto the target) that get a full search (heuristic). The coarse search has half as many
+/// samples, and no more than this number; it takes at most a quarter of the time.
 const COARSE_SEARCH_SAMPLES: u32 = 96;
 
 /// Two sampled curves with their features, pins and weights.
@@ -24,7 +24,8 @@ pub(super) struct CurveMatchProblem {
     pub(super) target: CurveSamples,
     pub(super) source_features: BoundaryFeatures,
     pub(super) target_features: BoundaryFeatures,
-    /// Pairs of places `[source, target]` that the user pinned, ascending in the source.
+    /// Pairs of places `[source, target]` (fractions of arc length) that the user pinned, ascending
+    /// in the source.
     pub(super) pins: Vec<[f64; 2]>,
     /// Weight of the stretching cost relative to the bending cost (see [`PathGrid`]).
     stretch: f64,
@@ -82,8 +83,9 @@ impl CurveMatchProblem {
         }
     }
 
-    /// Calls `visit` with the cost and the nodes of the cheapest path from each starting sample.
-    /// With pins there is only one path: the cheapest one through all pinned nodes.
+    /// Calls `visit` for the cheapest closed path from each starting sample, with its cost and a
+    /// function that returns its nodes. With pins there is only one such path: the cheapest one
+    /// through all pinned nodes.
     pub(super) fn visit_paths(
         &self,
         dissimilarities: &[f64],
@@ -133,8 +135,8 @@ impl CurveMatchProblem {
         nodes
     }
 
-    /// Returns the part of the grid between two nodes, both included. `dissimilarities` has one row
-    /// for each target sample.
+    /// Returns the part of the grid of sample pairs between the nodes `from` and `to`, both
+    /// included. `dissimilarities` has one row for each target sample.
     pub(super) fn grid(
         &self,
         dissimilarities: &[f64],
@@ -175,7 +177,8 @@ impl CurveMatchProblem {
                 direction += length * DVec2::new(p.dot(q), p.perp_dot(q));
             }
         }
-        // The rotation is undefined, for example if all matched points coincide: do not rotate.
+        // If the rotation is undefined, for example because all matched points coincide, do not
+        // rotate.
         if direction.length() < 1e-9 {
             0.0
         } else {

@@ -1,10 +1,10 @@
 //! Finds the cheapest closed path on the torus of sample pairs for every starting sample.
 //!
 //! Follows Maes 1990, "On a cyclic string-to-string correction problem". Columns are the n source
-//! samples, rows the m target samples. The source is unrolled twice, so a closed path that starts
-//! at source sample k runs from column k of the first row to column k + n of the last row. The
-//! cheapest paths of different k can be chosen so that they do not cross: the path of k lies
-//! between those of a smaller and a larger k. Bisecting the range of k therefore solves all n
+//! samples, rows the m target samples. The columns run twice around the source, so a closed path
+//! that starts at source sample k runs from column k of the first row to column k + n of the last
+//! row. The cheapest paths of different k can be chosen so that they do not cross: the path of k
+//! lies between those of a smaller and a larger k. Bisecting the range of k therefore solves all n
 //! starts in O(n m log n). Every closed path of unit steps visits the first row, so none is missed.
 //!
 //! Guarantees: the path of each k has minimum cost among all closed paths that start there. Ties
@@ -12,8 +12,8 @@
 
 use super::path_grid::{GridPath, PathBuffers, StepCosts};
 
-/// Maximum number of starting columns in each half of a range for which one thread solves both
-/// halves (heuristic).
+/// Maximum size of half a range of starting columns at which one thread solves both halves; larger
+/// halves are solved in parallel (heuristic).
 const MAX_SEQUENTIAL_STARTS: usize = 16;
 
 /// Returns the cheapest path of each starting column 0 ≤ k < n. The grid has at least 2n columns.

@@ -32,7 +32,7 @@ pub(super) struct PoseWeights {
 }
 
 impl PoseWeights {
-    /// Weights for an estimated pose (heuristic).
+    /// Weights for a pose that the search estimates (heuristic).
     pub const FREE: Self = Self {
         tangent: 0.25,
         position: 0.125,

@@ -1,10 +1,10 @@
 //! Descriptors of boundary samples by their inner distances to other samples.
 //!
 //! An inner distance is the length of a shortest path inside the shape. A sample's descriptor is a
-//! row of logarithms of inner distances. Bending a limb preserves these distances, and by them the
-//! two sides of a stroke are close to each other (Ling, Jacobs 2007).
+//! row of logarithms of inner distances. Bending a limb preserves these distances. They are small
+//! between the two sides of a stroke, which are far apart along the boundary (Ling, Jacobs 2007).
 //!
-//! Guaranteed: invariant under translation, rotation and scaling; finite.
+//! Guaranteed: descriptors are finite, and invariant under translation, rotation and scaling.
 
 use super::curve::BoundaryCurve;
 use super::inner_distance::InnerDistances;
@@ -18,8 +18,8 @@ const HALF_RATIO: f64 = 0.25;
 /// because the boundary features suffice to compare close neighbours (heuristic).
 const MIN_DISTANCE: f64 = 0.03;
 
-/// Length of a sample's initial descriptor: number of evenly spaced places along the boundary to
-/// which it holds distances (heuristic).
+/// Number of entries in a sample's initial descriptor: the inner distances to this number of evenly
+/// spaced places along the boundary (heuristic).
 pub(super) const AHEAD: u32 = 48;
 
 /// Inner distances between all samples of a curve.
@@ -81,8 +81,8 @@ impl InnerDescriptors {
     }
 }
 
-/// Returns the dissimilarity, in [0, 1], of each source row and each target row; one row of results
-/// for each target row. `weights` holds the weight of each column.
+/// Returns the dissimilarity, in [0, 1], of each pair of a source row and a target row. The result
+/// has one row for each target row. `weights` holds the weight of each column.
 pub(super) fn inner_dissimilarities(source: &[f64], target: &[f64], weights: &[f64]) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
     let mut pairs = Vec::with_capacity(source.len() / weights.len() * target.len() / weights.len());

@@ -1,15 +1,16 @@
 //! Inner distances: lengths of the shortest paths *inside* a shape between places of its boundary.
 //!
 //! Bending a limb preserves inner distances (Ling, Jacobs 2007, "Shape classification using the
-//! inner-distance"). By inner distance the two sides of a stroke are close to each other; along the
-//! boundary they are not. In a triangulated simple polygon, a shortest path follows the dual tree
-//! of the triangulation. One traversal of the tree finds all paths from one place: it carries the
-//! funnel of shortest paths to the edge just crossed and splits it at the opposite corner (Lee,
+//! inner-distance"). The two sides of a stroke have a small inner distance, although they are far
+//! apart along the boundary. In a triangulated simple polygon, a shortest path follows the dual
+//! tree of the triangulation. One traversal of the tree finds all paths from one place: it carries
+//! the funnel of shortest paths to the edge just crossed and splits it at the opposite corner (Lee,
 //! Preparata 1984; Guibas, Hershberger, Leven, Sharir, Tarjan 1987).
 //!
-//! Guaranteed: lengths are deterministic, finite, and shortest up to rounding. All paths from one
-//! place take O(n) times the number of bends of a path. Holes are ignored. Where a hole was cut
-//! open, the boundary runs along both sides of the slit, and no path passes the slit.
+//! Guaranteed: lengths are deterministic, finite, and shortest up to rounding. The computation of
+//! all paths from one place takes O(n) times the number of bends of a path. Holes are ignored.
+//! Where a hole was cut open, the boundary runs along both sides of the slit, and no path passes
+//! the slit.
 
 use super::curve::BoundaryCurve;
 use crate::geometry::{DVec2, twice_signed_area};

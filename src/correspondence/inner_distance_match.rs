@@ -14,8 +14,9 @@ use super::curve_problem::CurveMatchProblem;
 use super::inner_descriptors::{AHEAD, inner_dissimilarities};
 use super::poses::PathSolution;
 
-/// Minimum distance along a path between two reference pairs, as the sum of the fractions of both
-/// curves' lengths: about 160 pairs in all (heuristic).
+/// Minimum distance along a path between two reference pairs (pairs of corresponding samples to
+/// which inner distances are measured), as the sum of the fractions of both curves' lengths: about
+/// 160 pairs in all (heuristic).
 const MIN_PAIR_DISTANCE: f64 = 0.012;
 
 /// Maximum number of rounds of the alternation between paths and reference pairs (resource limit).
@@ -98,7 +99,7 @@ impl CurveMatchProblem {
     }
 
     /// Converts a path to the samples of `to`, another problem with the same curves: each node
-    /// becomes the nearest samples there.
+    /// becomes the pair of the nearest samples of `to`.
     fn transfer_path(&self, nodes: &[[usize; 2]], to: &Self) -> Vec<[usize; 2]> {
         let resampled = |&[i, j]: &[usize; 2]| {
             [

@@ -8,9 +8,9 @@
 
 use super::path_grid::PathGrid;
 
-/// Allowed steps `[source samples, target samples]` that are longer in the target, up to 1 : 8 and
-/// in lowest terms; the same steps with source and target exchanged are allowed too. Longer steps
-/// cost time and are rarely cheapest (heuristic).
+/// Allowed steps `[source samples, target samples]` that advance farther in the target than in the
+/// source, in lowest terms. The same steps with source and target exchanged are allowed too.
+/// Further steps would cost time and are rarely cheapest (heuristic).
 const LONGER: [[usize; 2]; 10] = [
     [1, 2],
     [1, 3],
@@ -145,7 +145,8 @@ impl MonotoneStep {
         let between = (1..count).map(|k| {
             let [i, j] = [source * k / count, target * k / count];
             let [di, dj] = [source * k % count, target * k % count];
-            // One remainder is 0: the longer side goes sample by sample.
+            // One of the two remainders is 0, because the step advances sample by sample along its
+            // longer side.
             let next_node = j * width + i + usize::from(di > 0) + width * usize::from(dj > 0);
             (j * width + i, next_node, di.max(dj) as f64 / count as f64)
         });

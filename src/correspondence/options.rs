@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MatchOptions {
     /// Number of samples along each curve, in 8..=1000; corners and pins are added to these. The
-    /// cost grows as n² log n.
+    /// time to match n samples grows as n² log n.
     pub samples: u32,
     /// Whether "up" stays up: directions are compared as drawn instead of up to a rotation.
     pub keep_up: bool,

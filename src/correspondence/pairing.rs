@@ -50,8 +50,8 @@ const SIZE: f64 = 0.15;
 /// of holes (heuristic).
 const SHAPE: f64 = 0.25;
 
-/// Cost of leaving all parts of a design unmatched; a single part costs its fraction of the area
-/// (heuristic).
+/// Cost of leaving all parts of a design unmatched. A single part costs a share of this in
+/// proportion to its area (heuristic).
 const UNMATCHED: f64 = 0.3;
 
 /// Returns the centre of each region's outer boundary relative to the design's bounding box, in
@@ -128,7 +128,8 @@ pub(super) fn pair_holes(
 struct PartFeatures {
     /// Centre of the part relative to the design's centre, in units of the design's size.
     position: DVec2,
-    /// Logarithm of the square root of the part's area relative to the design's size.
+    /// Logarithm of the ratio of the part's size (the square root of its area) to the design's
+    /// size.
     log_size: f64,
     /// 4π · area / perimeter²: 1 for a circle, smaller for other shapes.
     roundness: f64,

@@ -147,14 +147,15 @@ impl StepCosts {
             steps,
             ..
         } = scratch;
-        // The node to the left of the window is unreachable. Nodes to the right of it still hold
-        // infinity from the reset.
+        // The node to the left of the window is unreachable. Nodes to the right of the window still
+        // hold infinity from the reset.
         current[low] = f64::INFINITY;
         let current = &mut current[1 + low..][..count];
         let row_start = steps.len();
         steps.resize(row_start + count, ALONG_BOTH);
         let steps = &mut steps[row_start..];
-        // Steps from the previous row: the nodes of this row do not depend on each other.
+        // First, the steps from the previous row. In this loop, the nodes of the row do not depend
+        // on each other.
         let (left, straight) = (&previous[low..][..count], &previous[1 + low..][..count]);
         let (both, target) = (&self.both[first..][..count], &self.target[first..][..count]);
         for i in 0..count {
@@ -167,7 +168,7 @@ impl StepCosts {
             current[i] = if is_target { along_target } else { along_both };
             steps[i] = if is_target { ALONG_TARGET } else { ALONG_BOTH };
         }
-        // Steps along the row: each node depends on the node to its left.
+        // Then the steps along the row. In this loop, each node depends on the node to its left.
         let source = &self.source[first..][..count];
         let mut left_cost = f64::INFINITY;
         for i in 0..count {

@@ -71,7 +71,8 @@ impl CurveMatchProblem {
             if (best.rotation - best.pose).cos() > SAME_POSE.cos() {
                 break;
             }
-            // The rotation of the match is a better estimate than the pose it was found with.
+            // The rotation of the match found is a better estimate than the pose that the search
+            // assumed.
             let next = self.path_for_pose(&invariant, best.rotation, PoseWeights::FREE);
             if next.score >= best.score {
                 break;

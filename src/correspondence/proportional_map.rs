@@ -1,5 +1,5 @@
-//! Maps between the places of two matched curves so that straight sides stay straight, and holds
-//! the vertices that both polygons will share.
+//! Maps between the places of two matched curves so that straight sides stay straight. Also defines
+//! the vertices that the two polygons made from the curves will share.
 
 use super::boundary_match::interpolate_knots;
 use super::curve::BoundaryCurve;
@@ -40,7 +40,7 @@ pub(super) struct ProportionalMap {
 }
 
 impl ProportionalMap {
-    /// Creates the map through the fixed ones of `vertices`. `places` returns the places of a
+    /// Creates the map through those of `vertices` that are fixed. `places` returns the places of a
     /// vertex, `[source, target]`.
     pub fn between(vertices: &[SharedVertex], places: impl Fn(&SharedVertex) -> [f64; 2]) -> Self {
         let mut bends: Vec<ParameterKnot> = Vec::with_capacity(vertices.len() + 1);

@@ -13,7 +13,7 @@
 //! matched with a tiny ring that represents a point. The diameter of the tiny ring is at most
 //! [`POINT_SIZE`] times that of the part in which it lies or to which it grows.
 //!
-//! Not guaranteed: that a split or a cut is the best possible, only the best of those tried.
+//! Not guaranteed: that a split or a cut is the best possible. It is only the best of those tried.
 
 mod automatic_pins;
 mod closing;

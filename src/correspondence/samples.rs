@@ -2,8 +2,8 @@
 //! places between them.
 //!
 //! A corner is a point where the direction jumps: its turning hardly decreases when the window
-//! does. On a smooth bend the turning is proportional to the window, no matter how many vertices
-//! the bend has. Corner detection therefore does not depend on the outline's resolution.
+//! becomes shorter. On a smooth bend the turning is proportional to the window, no matter how many
+//! vertices the bend has. Corner detection therefore does not depend on the outline's resolution.
 
 use super::curve::BoundaryCurve;
 
@@ -45,7 +45,7 @@ impl CurveSamples {
         Self { places }
     }
 
-    /// Returns the index of a place if it is exactly one of the samples.
+    /// Returns the index of the sample that lies exactly at a place; `None` if there is none.
     pub fn index_of(&self, place: f64) -> Option<usize> {
         self.places.binary_search_by(|p| p.total_cmp(&place)).ok()
     }

@@ -19,8 +19,9 @@ use crate::geometry::DVec2;
 /// other at which the two are merged, as a fraction of the curves' mean length (heuristic).
 const SNAP_CORNERS: f64 = 0.008;
 
-/// Maximum difference between the common parameters of two other vertices, one of each curve, at
-/// which they are merged, as a fraction of the curves' mean length (heuristic).
+/// Maximum difference between the common parameters of any two vertices, one of each curve, at
+/// which they are merged, as a fraction of the curves' mean length (heuristic). Corners have the
+/// larger limit [`SNAP_CORNERS`].
 const SNAP: f64 = 0.0025;
 
 /// Two polygons with corresponding vertices: vertex k of the source corresponds to vertex k of the
@@ -39,8 +40,9 @@ pub struct SharedPolygons {
 /// (tolerance: above rounding, far below any edge).
 const SAME_PARAMETER: f64 = 1e-12;
 
-/// Direction along which candidate seams are ordered; the first one becomes the seam (heuristic: an
-/// irrational slope, so that points of a drawing rarely tie).
+/// Direction along which the candidates for the seam (the start of the common parameter) are
+/// ordered. The first one becomes the seam (heuristic: an irrational slope, so that points of a
+/// drawing rarely tie).
 const SEAM_DIRECTION: DVec2 = DVec2::new(0.754_877_666, 0.569_840_291);
 
 /// Maximum number of vertices added to a polygon to satisfy `spacing` (resource limit).
@@ -91,8 +93,8 @@ impl BoundaryMatch {
         }
         let mut vertices = merge_equal(vertices);
         if !vertices.iter().any(SharedVertex::is_fixed) {
-            // On an outline with very many points, it may be that none bends by more than the
-            // tolerance. Then treat all as bends.
+            // On an outline with very many points, it may be that the outline bends at none of them
+            // by more than the tolerance. Then treat all vertices as bends.
             vertices.iter_mut().for_each(|vertex| vertex.is_bend = true);
         }
         let straight = ProportionalMap::between(&vertices, |vertex| {

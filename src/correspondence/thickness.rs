@@ -16,9 +16,9 @@ use std::f64::consts::FRAC_PI_6;
 /// hit the sides of the tip, so the median is the thickness of the tip (heuristic).
 const RAYS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
-/// Distance within which a ray's hit is ignored, because it is on the edge where the ray starts, as
-/// a fraction of the shape's size; also the minimum thickness (tolerance: far above the rounding of
-/// a point on an edge, far below any thickness).
+/// Distance from the start of a ray within which its hits are ignored, because they lie on the edge
+/// where the ray starts. It is a fraction of the shape's size, and is also the minimum thickness
+/// (tolerance: far above the rounding of a point on an edge, far below any thickness).
 const OWN_EDGE: f64 = 1e-7;
 
 /// Returns the logarithm of the thickness at each place, minus its mean along the curve. `places`

@@ -4,7 +4,8 @@
 //! Curves are joined end to end into rings; end points closer than [`JOIN_TOLERANCE`] count as one.
 //! The even-odd rule decides what is inside. If layers or entities have colours, each combination
 //! of DXF layer and colour becomes one or more paint layers. One drawing unit is one design unit;
-//! the declared units, hidden layers and paper space are ignored.
+//! the unit that the file declares is ignored. Entities on hidden layers and in paper space are
+//! left out.
 //!
 //! Does not use the `dxf` crate, which stores every entity with all attributes (hundreds of
 //! bytes per byte of a hostile file) and does not report the line of an error.
@@ -85,9 +86,9 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, Dxf
     })
 }
 
-/// Returns one or more paint layers for each style, a combination of DXF layer and colour; none if
-/// the drawing has no colours. `tolerance` and `side`, the longer side of the drawing, are in
-/// drawing units.
+/// Returns the paint layers of all styles, at least one for each style that encloses an area; none
+/// if the drawing has no colours. A style is a combination of DXF layer and colour. `tolerance` and
+/// `side`, the longer side of the drawing, are in drawing units.
 ///
 /// A ring of curves with different styles gets the style whose curves have the largest total
 /// length.

@@ -156,7 +156,7 @@ impl TextLine {
         if letters.any(|letter| letter.len() > 1 + MAX_MARKS) {
             return Err(TextError::TooManyMarks);
         }
-        // Height of the page's lower edge relative to the baseline, in font units. Limited to 0,
+        // Height of the page's lower edge relative to the baseline, in font units. At most 0,
         // because some fonts claim a descent above the baseline.
         let below = f64::from(metrics.descent).min(0.0);
         let mut pen = DVec2::new(0.0, -below);
@@ -217,7 +217,7 @@ fn glyph_path(glyphs: &OutlineGlyphCollection, glyph: GlyphId) -> Result<PathBui
         glyph: glyph.to_u32(),
     };
     let mut pen = GlyphPen(PathBuilder::new());
-    // Without hinting, which adjusts outlines to a pixel grid; there is none here.
+    // Hinting would adjust the outlines to a pixel grid, but there is no such grid here.
     let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
     let outline = glyphs.get(glyph).ok_or_else(missing)?;
     outline.draw(settings, &mut pen).map_err(|_| missing())?;

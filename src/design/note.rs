@@ -77,7 +77,7 @@ pub enum ImportNote {
         /// Free end of one of the curves.
         at: DVec2,
     },
-    /// Objects of a type that is not imported.
+    /// Objects of a type that is not imported were ignored.
     SkippedObjects {
         /// Type name as written in the file.
         kind: String,

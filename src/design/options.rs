@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ImportOptions {
-    /// Grey level, from 1 to 255, that separates figure and background; if the picture has
-    /// transparent pixels, opacity from 1 to 255. If `None`, the threshold is 128 for opacity and
-    /// chosen by Otsu's method for grey levels.
+    /// Grey level that separates figure and background, from 1 to 255. If the picture has
+    /// transparent pixels, the opacity that separates them instead, from 1 to 255. If `None`, the
+    /// threshold is 128 for opacity and chosen by Otsu's method for grey levels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threshold: Option<u8>,
     /// Whether figure and background of a picture are swapped.

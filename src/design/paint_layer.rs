@@ -57,8 +57,9 @@ pub(super) struct PaintGroup {
 /// Stacks regions without an order into paint layers, so that no region hides a region inside it.
 ///
 /// A piece is one region of a group. Its height in the stack is its nesting depth: 0 if no piece of
-/// another group contains it, otherwise one more than the highest piece that does. At equal height,
-/// the layer with the smaller area is on top. Returns no layers if no group has a colour.
+/// another group contains it, otherwise one more than the height of the highest such piece. At
+/// equal height, the layer with the smaller area is on top. Returns no layers if no group has a
+/// colour.
 pub(super) fn stack_by_containment(groups: &[PaintGroup]) -> Vec<PaintLayer> {
     if groups.iter().all(|group| group.paint.is_none()) {
         return Vec::new();

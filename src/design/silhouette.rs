@@ -7,9 +7,9 @@
 //! centres, crosses the threshold, so anti-aliased edges give sub-pixel accuracy.
 //!
 //! A pixel is one unit, the origin is the picture's lower left corner and y points up. A figure
-//! that reaches the border is closed along it. One threshold applies to the whole picture, and
-//! colours of equal luminance are not distinguished; the submodule `flat_colours` can separate
-//! them.
+//! that reaches the border of the picture is closed along this border. One threshold applies to the
+//! whole picture, and colours of equal luminance are not distinguished; the submodule
+//! `flat_colours` can separate them.
 
 pub(super) mod flat_colours;
 mod polygon_fit;
@@ -82,8 +82,9 @@ const MAX_PIXELS: u64 = 8192 * 6144;
 /// photograph of gravel has about this many).
 const MAX_POINTS: usize = 2_000_000;
 
-/// Fraction of the extreme sample value of its side from which a pixel counts as saturated, that
-/// is, as entirely figure or entirely background (tolerance: JPEG noise).
+/// A pixel counts as saturated, that is, as entirely figure or entirely background, if its sample
+/// exceeds this fraction of the most extreme sample on the same side of the threshold (tolerance:
+/// JPEG noise).
 const SATURATED: f32 = 0.9;
 
 /// Uncertainty of a boundary point between two saturated pixels, in pixels (derived: the true
@@ -277,7 +278,8 @@ impl FigureSamples {
         // The number of points is checked before tracing, which allocates the rings.
         self.check_raggedness()?;
         let samples = SampledField::new(self.width, self.height, &self.samples)?;
-        // The contour has the centre of the first pixel as its origin, the outline its corner.
+        // The origin of the contour is the centre of the first pixel. The origin of the outline is
+        // the corner of this pixel.
         let corner_from_centre = DVec2::splat(0.5);
         let uncertainty = BoundarySlack::of(self);
         let outline = |ring: &Vec<DVec2>| {
@@ -293,15 +295,16 @@ impl FigureSamples {
         if rings.is_empty() {
             return Err(SilhouetteError::Empty { threshold });
         }
-        // Rings do not cross, and outer rings and holes alternate with depth.
+        // The even-odd rule fits, because rings do not cross, and outer rings and holes alternate
+        // with depth.
         Regions::from_rings(&rings, FillRule::EvenOdd).map_err(|error| match error {
             RegionsError::Empty => SilhouetteError::Empty { threshold },
             error => error.into(),
         })
     }
 
-    /// Returns an error if the boundary has too many points. Their number equals the number of sign
-    /// changes along rows and columns.
+    /// Returns an error if the boundary has too many points. The number of points equals the number
+    /// of sign changes along rows and columns.
     fn check_raggedness(&self) -> Result<(), SilhouetteError> {
         let width = self.width as usize;
         let changes = |pair: (&f32, &f32)| (pair.0 * pair.1) < 0.0;
@@ -397,7 +400,7 @@ fn otsu(tones: &[u8]) -> Option<u8> {
         };
         if variance > best.0 {
             best = (variance, threshold, threshold);
-        // Only the threshold that directly follows the run extends it.
+        // The run is extended only by the threshold that directly follows it.
         } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {
             best.2 = threshold;
         }
@@ -406,7 +409,8 @@ fn otsu(tones: &[u8]) -> Option<u8> {
 }
 
 /// Returns whether at least half of the border pixels are at or above the threshold, so that the
-/// lighter class is the background. It wins a tie, because paper is lighter than ink.
+/// lighter class is the background. The lighter class wins a tie, because paper is lighter than
+/// ink.
 fn border_is_above(tones: &[u8], width: usize, threshold: u8) -> bool {
     let border = (tones.iter().enumerate()).filter(|(i, _)| is_on_border(*i, width, tones.len()));
     let (mut above, mut all) = (0usize, 0usize);

@@ -52,21 +52,22 @@ const GLYPH: &str = "glyph:";
 const FONTS: [&str; 6] = ["ttf", "otf", "ttc", "otc", "woff", "woff2"];
 
 impl DesignSource {
-    /// Parses a path in this notation. Looks up whether a file exists to distinguish a file name
-    /// with `#` from an element id; reads no file.
+    /// Parses the notation of a source, such as `leaf.svg#stalk` or `glyph:D`. To distinguish a
+    /// file name with `#` from an element id, looks up whether a file exists; reads no file.
     #[must_use]
     pub fn from_path(path: &Path) -> Self {
         Self::parse(path, Path::is_file)
     }
 
-    /// Parses a path in this notation whose file is relative to `folder`; file paths in the result
-    /// include the folder.
+    /// Parses the notation of a source whose file path is relative to `folder`; file paths in the
+    /// result include the folder.
     #[must_use]
     pub fn in_folder(folder: &Path, path: &Path) -> Self {
         Self::parse(path, |file| folder.join(file).is_file()).map_file(|file| folder.join(file))
     }
 
-    /// Parses a path in this notation. `is_file` says whether a path is an existing file.
+    /// Parses the notation of a source, such as `leaf.svg#stalk` or `glyph:D`. `is_file` says
+    /// whether a path is an existing file.
     #[must_use]
     pub fn parse(path: &Path, is_file: impl Fn(&Path) -> bool) -> Self {
         let Some(notation) = path.to_str() else {

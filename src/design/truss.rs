@@ -106,8 +106,8 @@ impl Truss {
             .unwrap_or_else(|| unreachable!("a truss has a bar and so nodes"))
     }
 
-    /// Returns the truss transformed by a similarity. Forces are rotated but keep their magnitude;
-    /// supports still refer to the x and y axes of the plane.
+    /// Returns the truss transformed by a similarity. Forces are rotated and mirrored but keep
+    /// their magnitude; supports still refer to the x and y axes of the plane.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
         // Forces are vectors that keep their magnitude: they are neither translated nor scaled.

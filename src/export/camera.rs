@@ -25,8 +25,8 @@ use super::view::PlaneView;
 /// holds 32 frames of 1920 × 1080).
 pub const BATCH_BYTES: u64 = 256 << 20;
 
-/// Maximum number of frames from which [`framing`] determines the visible part of the plane
-/// (heuristic: both ends and five bisections between them).
+/// Maximum number of evenly spaced frames from which [`framing`] determines the part of the plane
+/// to show, in addition to the last frame (heuristic).
 const FRAMING_SAMPLES: usize = 33;
 
 /// Name of the progress stage in which frames are drawn.
@@ -115,7 +115,7 @@ impl Camera {
                 frame.seek(run.t);
                 make(self.draw_frame(frame))
             };
-            // A frame owns its working memory, so each thread gets one.
+            // A frame owns its working memory, so each thread gets a frame of its own.
             let frame_of_thread = || self.sequence.frame(batch[0].t);
             let results: Vec<T> = batch
                 .par_iter()
@@ -134,9 +134,9 @@ impl Camera {
 /// Margin around the shapes, as a fraction of their longer side (heuristic).
 const MARGIN: f64 = 0.04;
 
-/// Returns the part of the plane that contains the bounds of the sequence and of frames sampled
-/// evenly over `times`, plus a small margin. Sampling keeps shapes that swing far out between the
-/// designs from being cropped.
+/// Returns the part of the plane that contains the bounds of all designs and of frames sampled
+/// evenly over `times`, plus a small margin. The frames are included because shapes may swing far
+/// out between the designs.
 pub fn framing(shown: impl Into<Sequence>, times: &[f64]) -> Bounds {
     let sequence = shown.into();
     let step = times.len().div_ceil(FRAMING_SAMPLES).max(1);
@@ -162,9 +162,10 @@ pub fn framing(shown: impl Into<Sequence>, times: &[f64]) -> Bounds {
     framed.padded(MARGIN * framed.size().max_element())
 }
 
-/// Returns the number of frames to draw in parallel before delivering them.
+/// Returns the number of frames that are drawn in parallel before the first of them is delivered.
 fn batch_len(size: PixelSize) -> usize {
     let in_memory = (BATCH_BYTES / (size.pixels() * 4)).max(1);
-    // A few frames per thread balance out slow ones. More would delay cancellation and progress.
+    // Four frames per thread keep all threads busy although some frames are slow. More frames would
+    // delay cancellation and progress reports.
     (in_memory as usize).min(4 * rayon::current_num_threads())
 }

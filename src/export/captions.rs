@@ -5,12 +5,12 @@ use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
 use crate::transition::TransitionStop;
 
-/// Distance from a name's t up to which its caption is fully opaque, as a fraction of the distance
-/// to the midpoint between this name and the next (heuristic).
+/// Distance from a name's t up to which the caption of that name is fully opaque, as a fraction of
+/// the distance to the midpoint between the name and its neighbour on that side (heuristic).
 const OPAQUE_UNTIL: f64 = 0.5;
 
-/// Distance from a name's t beyond which its caption is hidden, as a fraction of the distance to
-/// the midpoint between this name and the next (heuristic).
+/// Distance from a name's t from which on the caption of that name is hidden, as a fraction of the
+/// distance to the midpoint between the name and its neighbour on that side (heuristic).
 const HIDDEN_FROM: f64 = 0.9;
 
 /// Captions with the times at which they appear, and their colour.
@@ -74,7 +74,8 @@ impl Captions {
         let beyond = |name: &&(f64, String)| (name.0 - nearest.0) * (t - nearest.0) > 0.0;
         let next = self.names.iter().filter(beyond);
         let gap = next.map(|name| (name.0 - nearest.0).abs()).reduce(f64::min);
-        // Before the first and after the last caption, nothing fades: there is no neighbour.
+        // The first caption does not fade before its t, nor the last one after its t, because there
+        // is no neighbour on that side.
         let to_midpoint = gap.map_or(0.0, |gap| 2.0 * (t - nearest.0).abs() / gap);
         let opacity =
             1.0 - ((to_midpoint - OPAQUE_UNTIL) / (HIDDEN_FROM - OPAQUE_UNTIL)).clamp(0.0, 1.0);

@@ -184,7 +184,7 @@ impl Catalogue {
         style: &TransitionStyle,
         ground: Option<Rgb>,
     ) -> Drawing {
-        // Automatic names are long, so the cells of slender designs are widened to square.
+        // Automatic names are long, so cells that are higher than wide are widened to squares.
         let bounds = space.bounds();
         let padding = 0.5 * (bounds.size().y - bounds.size().x).max(0.0) * DVec2::X;
         let bounds = Bounds {
@@ -208,7 +208,7 @@ impl Catalogue {
         drawing
     }
 
-    /// Draws the blend with index `k` into a drawing.
+    /// Returns the drawing of the selected blend with index `k`.
     fn draw(
         &self,
         space: &DesignSpace,

@@ -20,16 +20,16 @@ const CELL_PX: u32 = 240;
 const MAX_COLUMNS: usize = 6;
 
 /// Height of a label line, as a fraction of the longer side of a cell (heuristic: 17 pixels at
-/// 240). Relative to the longer side, labels of flat designs are as legible as those of square
-/// ones.
+/// 240). The longer side counts, so that labels of flat designs are as large as those of square
+/// designs.
 const LABEL_SHARE: f64 = 0.07;
 
 /// Maximum label height as a fraction of its cell's height, and maximum gap as a fraction of the
 /// cell's shorter side (heuristic).
 const MAX_LABEL_SHARE: f64 = 0.3;
 
-/// Height of a label line per row of a grid, as a fraction of the longer side of a cell: labels of
-/// grids with many rows are larger (heuristic).
+/// In a grid, the height of a label line is the number of rows times this fraction of the longer
+/// side of a cell, so that labels of large grids are larger (heuristic).
 const GRID_LABEL_SHARE: f64 = 0.013;
 
 /// Gap between cells, as a fraction of the longer side of a cell (heuristic).
@@ -51,9 +51,11 @@ pub struct SheetLayout {
 }
 
 impl SheetLayout {
-    /// Arranges `count` cells (at least 1) that show `bounds`. In a given size, the number of
-    /// columns with the largest cells is chosen. Otherwise rows have equal length and at most six
-    /// cells, and the sheet is as large as they need.
+    /// Arranges `count` cells (at least 1) that show `bounds`.
+    ///
+    /// If `size` is given, chooses the number of columns with which the images are largest.
+    /// Otherwise, fills rows of at most six cells evenly and makes the sheet as large as the cells
+    /// need.
     pub fn new(count: usize, bounds: Bounds, size: Option<PixelSize>) -> Self {
         let count = count.max(1);
         let cell = PixelSize::of_shape(bounds, CELL_PX).as_dvec2();
@@ -83,8 +85,8 @@ impl SheetLayout {
         0.8 * self.label_px
     }
 
-    /// Fills a sheet of the given size with `columns` × `rows` cells; `label` is the label height
-    /// as a fraction of the longer side of a cell.
+    /// Returns the layout in which `columns` × `rows` cells fill a sheet of the given size. `label`
+    /// is the label height as a fraction of the longer side of a cell.
     fn filling(size: PixelSize, [columns, rows]: [usize; 2], label: f64) -> Self {
         let whole = size.as_dvec2() / DVec2::new(columns as f64, rows as f64);
         let unit = whole.max_element();
@@ -117,15 +119,15 @@ impl SheetLayout {
     }
 }
 
-/// Returns an arrangement with rows of balanced length and cells of their natural size, on a sheet
-/// within the size limit.
+/// Returns the layout of `count` cells in as few rows as possible, filled as evenly as possible.
+/// Cells have their natural size, or are scaled down if the sheet would exceed its size limit.
 fn balanced_layout(count: usize, cell: DVec2) -> SheetLayout {
     let rows = count.div_ceil(MAX_COLUMNS);
     natural_layout([count.div_ceil(rows), rows], cell, LABEL_SHARE)
 }
 
-/// Returns an arrangement of `columns` × `rows` cells of their natural size, on a sheet within the
-/// size limit.
+/// Returns the layout of `columns` × `rows` cells. Cells have their natural size (`cell`, in
+/// pixels), or are scaled down if the sheet would exceed its size limit.
 fn natural_layout([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout {
     let unit = f64::from(CELL_PX);
     let (label_px, gap_px) = (label * unit, GAP_SHARE * unit);
@@ -145,7 +147,8 @@ fn natural_layout([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> Sheet
     }
 }
 
-/// Returns the arrangement with the number of columns that gives the largest images.
+/// Returns the layout on a sheet of the given size with the number of columns that makes the images
+/// largest.
 fn filling_layout(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
     let layout = |columns: usize| {
         SheetLayout::filling(size, [columns, count.div_ceil(columns)], LABEL_SHARE)
@@ -154,7 +157,7 @@ fn filling_layout(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
         let (_, inner, _) = layout.cell(0);
         (inner / cell).min_element()
     };
-    // Of several arrangements with equally large images, the one with the fewest columns is used.
+    // Of several layouts with equally large images, the one with the fewest columns is used.
     let better = |a: SheetLayout, b: SheetLayout| if scale(&b) > scale(&a) { b } else { a };
     (2..=count).map(layout).fold(layout(1), better)
 }

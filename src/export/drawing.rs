@@ -1,4 +1,5 @@
-//! Display list from which the SVG, DXF and raster writers all work, so that they cannot disagree.
+//! Display list of an image. The SVG, DXF and raster writers all draw this list, so that their
+//! output shows the same image.
 //!
 //! A [`Drawing`] is a short list of shapes in pixels, y **down**: filled outlines, strokes,
 //! round-ended bars, discs, glyph outlines and raster images. The flip from the core's upward y
@@ -42,7 +43,7 @@ pub enum DrawingItem {
     Fill {
         /// Contours, filled by the nonzero rule.
         outline: OutlinePath,
-        /// Colour and opacity; the mean of the gradient if there is one.
+        /// Colour and opacity. If there is a gradient, they are its mean.
         paint: Paint,
         /// Gradient to fill with instead of the plain paint, in pixels, y down.
         gradient: Option<Gradient>,
@@ -152,8 +153,8 @@ impl Drawing {
         }
     }
 
-    /// Adds a raster image that covers the bounding box of `places` (in the plane), clipped to the
-    /// drawing. `picture` renders it, or returns `None` if nothing is visible.
+    /// Adds a raster image that covers the bounding box of `places` (points of the plane), clipped
+    /// to the drawing. `picture` renders the image, or returns `None` if nothing is visible.
     fn push_pixels(
         &mut self,
         places: &[DVec2],
@@ -163,7 +164,7 @@ impl Drawing {
         let Some(covered) = Bounds::of(places.iter().map(|&p| view.to_px(p))) else {
             return;
         };
-        // Snapping to whole pixels avoids a second resampling of the image.
+        // The rectangle is snapped to whole pixels, so that the image needs no second resampling.
         let (low, high) = (covered.min.floor(), covered.max.ceil());
         let low = low.clamp(DVec2::ZERO, self.size.as_dvec2());
         let high = high.clamp(low, self.size.as_dvec2());
@@ -182,8 +183,8 @@ impl Drawing {
         }
     }
 
-    /// Adds a figure as it looks at `t`: one paint layer after the other, or all in the colour of
-    /// the style. Bar joints are discs with a lighter core.
+    /// Adds a figure as it looks at `t`. Its paint layers are added in order; a figure without
+    /// paint layers has the colour of the style. Bar joints are discs with a lighter core.
     pub fn push_figure(
         &mut self,
         figure: &VectorFigure,
@@ -203,8 +204,8 @@ impl Drawing {
             let bars = inked.bars.iter().map(|&bar| figure.bars[bar]);
             let segments: Vec<[DVec2; 2]> = bars
                 .map(|bar| bar.map(|p| view.to_px(p)))
-                // Like rings, bars far outside the image are omitted: 32-bit rasterisers lose all
-                // precision there.
+                // Bars far outside the image are omitted, as rings are, because 32-bit rasterisers
+                // lose all precision there.
                 .filter(|bar| bar.iter().copied().all(is_drawable))
                 .collect();
             (segments, style.paint_at(inked.paints, t).colour)
@@ -403,7 +404,7 @@ mod tests {
         };
         let fills: Vec<_> = drawing.items.iter().map(filled).collect();
         assert_eq!(fills, [(8, red), (4, BLUE.into())]);
-        // A stroke lies over its own layer and under the next.
+        // The stroke of a layer lies over the fill of this layer and under the next layer.
         let line = StrokeStyle {
             paint: red,
             width: 0.02,

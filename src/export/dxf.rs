@@ -3,9 +3,9 @@
 //!
 //! Guarantees: outlines become closed polylines, bars become lines, discs become circles; y points
 //! up; coordinates are in the units of the designs if the drawing is a single frame, otherwise in
-//! pixels; each colour has its own layer, named after it (`PAINT_2F6FB3`), because the release
-//! knows only 255 colours. Curves of letters become polylines. Fills, opacity and gradients are
-//! lost, since the format does not have them.
+//! pixels; each colour has its own layer, named after the colour (`PAINT_2F6FB3`), because
+//! release 12 has only 255 colours. Curves of letters become polylines. Fills, opacity and
+//! gradients are lost, because the format does not have them.
 
 use std::collections::BTreeSet;
 
@@ -76,7 +76,7 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
 
 /// Conversion from pixels (y down) to the coordinates of the document (y up).
 struct DxfCoordinates {
-    /// Map to the plane; without one, coordinates stay in pixels.
+    /// Map between the plane and pixels; if `None`, coordinates stay in pixels.
     view: Option<PlaneView>,
     height_px: f64,
 }

@@ -38,8 +38,8 @@ pub enum ExportError {
         /// Defect found when the file was read back.
         reason: String,
     },
-    /// The frame rate is above what GIF players support: delays are in hundredths of a second, and
-    /// players slow delays below two hundredths down to ten hundredths.
+    /// The frame rate is higher than GIF players support. GIF delays are in hundredths of a second,
+    /// and players replace delays below two hundredths by ten hundredths.
     #[error(
         "a GIF cannot play {0} frames per second: choose 50 or fewer, or write an .apng or .mp4"
     )]

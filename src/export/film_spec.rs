@@ -1,8 +1,8 @@
 //! Schedule of a film: the value of t for each frame, the frame rate, and whether it loops.
 //!
-//! Guarantees: the first frame shows exactly the first t, and the last frame of a pass (once from
-//! start to end) exactly the last. A range of frames has the same times, numbers and delays as in
-//! the whole film. Nothing is rendered here.
+//! Guarantees: in a pass (once from start to end), the first frame shows exactly the first t, and
+//! the last frame exactly the last t. The frames of a selected range keep the times, numbers and
+//! delays that they have in the whole film. Nothing is rendered here.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ pub const MAX_FPS: f64 = 1_000.0;
 /// Reason why a film is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FilmSpecError {
-    /// The frame rate is not positive, or above [`MAX_FPS`].
+    /// The frame rate is NaN, at most 0, or above [`MAX_FPS`].
     #[error("a film cannot play {0} frames per second: choose more than 0 and at most {MAX_FPS}")]
     Rate(f64),
     /// There are no frames, or more than [`MAX_FRAMES`].
@@ -91,11 +91,12 @@ impl FilmSpec {
         check(fps, timing.from, timing.to)?;
         let pass_secs = timing.film_secs(stops);
         let steps = (pass_secs * fps).round().max(1.0) as usize;
-        // `as` saturates, so even an absurdly long pass is refused here.
+        // The conversion with `as` saturates, so even an absurdly long pass is refused here.
         if steps >= MAX_FRAMES {
             return Err(FilmSpecError::Count(steps.saturating_add(1)));
         }
-        // Easing can miss the ends by a rounding error; the first and the last frame must not.
+        // Easing can miss the ends by a rounding error, so the first and the last frame get the
+        // exact t.
         let t_of = |i: usize| match i {
             0 => timing.from,
             i if i == steps => timing.to,
@@ -255,7 +256,7 @@ pub fn even_times(from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1).max(1);
     let t_of = |i: usize| {
         let s = i as f64 / last as f64;
-        // Exact at both ends, unlike from + s (to − from).
+        // This form is exact at both ends, unlike from + s (to − from).
         (1.0 - s) * from + s * to
     };
     (0..count).map(t_of).collect()
@@ -263,7 +264,7 @@ pub fn even_times(from: f64, to: f64, count: usize) -> Vec<f64> {
 
 /// Checks the frame rate, and that the first and the last t are finite.
 fn check(fps: f64, from: f64, to: f64) -> Result<(), FilmSpecError> {
-    // Written this way round, the comparison also refuses NaN.
+    // The negated condition is true for NaN, so NaN is refused too.
     if !(fps > 0.0 && fps <= MAX_FPS) {
         return Err(FilmSpecError::Rate(fps));
     }

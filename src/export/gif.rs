@@ -1,9 +1,9 @@
 //! Writes a film as a compact animated GIF.
 //!
-//! Guarantees: all frames share one palette; over a background each frame stores only what differs
-//! from the previous one; delays are in hundredths of a second, and their sum is the duration of
-//! the film to the nearest hundredth; a pause is one long frame. Transparency in GIF is all or
-//! nothing, so edges are cut at half coverage.
+//! Guarantees: all frames share one palette; on a coloured background, each frame stores only the
+//! rectangle that differs from the previous frame; delays are in hundredths of a second, and their
+//! sum is the duration of the film to the nearest hundredth; a pause is one long frame. A GIF pixel
+//! is either opaque or transparent, so pixels that are covered less than half are transparent.
 
 mod changes;
 
@@ -98,7 +98,7 @@ fn encoder<W: Write>(
     palette: &GifPalette,
 ) -> Result<Encoder<W>, gif::EncodingError> {
     let mut table = palette.colours().as_flattened().to_vec();
-    // The palette must cover all indices up to that of the transparent colour.
+    // The palette must have entries for all indices up to that of transparent pixels.
     table.resize(3 * 256, 0);
     let size = camera.view.size();
     // Sides fit in 16 bits: `MAX_SIDE_PX` is 16,384.
@@ -117,7 +117,7 @@ fn film_palette(
 ) -> Result<GifPalette, ExportError> {
     let step = runs.len().div_ceil(PALETTE_SAMPLES).max(1);
     let mut sampled: Vec<FrameRun> = runs.iter().step_by(step).copied().collect();
-    // The stride may skip the last frame, whose colours are often seen longest.
+    // The stride may skip the last frame, which is often shown longest.
     sampled.extend(runs.last());
     let mut counts = ColourHistogram::new();
     camera.draw_runs(
@@ -164,9 +164,9 @@ fn index_image(image: RgbaImage, palette: &GifPalette) -> IndexedFrame {
     IndexedFrame { image, indices }
 }
 
-/// Encodes the next frame. Over a background, only the changes are stored. On a transparent
-/// background, the opaque part of each frame is stored, and erased before the next one, which it
-/// would otherwise show through.
+/// Encodes the next frame. With a `canvas` (on a coloured background), only the changes are stored.
+/// Without one (on a transparent background), the opaque part of the frame is stored, and players
+/// erase it before the next frame, because it would show through there.
 fn encode_next_frame(
     drawn: &IndexedFrame,
     canvas: Option<&mut GifCanvas>,

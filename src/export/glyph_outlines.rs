@@ -3,8 +3,9 @@
 //! Outlines instead of text elements make labels look the same in every image on every machine,
 //! whatever fonts are installed.
 //!
-//! Guarantees: never fails; a character missing from the font is drawn as its replacement box.
-//! There is no shaping (no ligatures, kerning or right-to-left text): labels are short and plain.
+//! Guarantees: never fails; a character missing from the font is drawn as the font's replacement
+//! box. Text is not shaped (no ligatures, kerning or right-to-left text), because labels are short
+//! and plain.
 
 use glam::DVec2;
 use skrifa::instance::{LocationRef, Size};
@@ -14,8 +15,8 @@ use skrifa::{FontRef, MetadataProvider};
 
 use super::outline::{OutlinePath, PathCommand};
 
-/// Returns the outlines of `words` centred on `base_px` (on the baseline, y down), with a font size
-/// of `height_px`.
+/// Returns the outlines of `words`, in pixels, y down. `base_px` is the point in the middle of the
+/// baseline, and `height_px` is the font size.
 pub fn centred_text(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath {
     let mut origin = base_px - DVec2::new(0.5 * width(words, height_px), 0.0);
     let font = font();
@@ -26,7 +27,7 @@ pub fn centred_text(words: &str, base_px: DVec2, height_px: f64) -> OutlinePath 
         let settings = DrawSettings::unhinted(size, LocationRef::default());
         let mut path = Vec::new();
         let glyph = glyphs.get(glyph_id);
-        // A partly drawn glyph would be worse than a missing one.
+        // A glyph whose outline cannot be drawn completely is left out.
         if glyph.is_some_and(|glyph| glyph.draw(settings, &mut path).is_ok()) {
             let steps = path.into_iter().map(|element| step(element, origin));
             outline.commands.extend(steps);

@@ -32,13 +32,13 @@ pub(super) struct LabelStyle {
 }
 
 impl LabelStyle {
-    /// Draws text from the upper left corner of `area` on, wrapped to its width and limited to its
-    /// number of lines. Returns the number of lines drawn.
+    /// Draws text that starts in the upper left corner of `area`, is wrapped to its width, and has
+    /// at most `area.max_lines` lines. Returns the number of lines drawn.
     pub fn push(self, drawing: &mut Drawing, words: &str, area: LabelBox, colour: Rgb) -> usize {
         let lines = self.wrap(words, area.width_px, area.max_lines);
         for (i, line) in lines.iter().enumerate() {
             let middle = 0.5 * glyph_outlines::width(line, self.font_px);
-            // The last fifth of the line is for descenders.
+            // The baseline is at 80 % of the line's height; descenders need the rest.
             let base = area.corner + DVec2::new(middle, (i as f64 + 0.8) * self.line_px);
             drawing.push_label(line, base, self.font_px, colour);
         }
@@ -60,8 +60,8 @@ impl LabelStyle {
             }
             for c in word.chars() {
                 line.push(c);
-                // Checked after each character: a file path without spaces may be longer than a
-                // line.
+                // The width is checked after each character, because a word such as a file path may
+                // be longer than a line.
                 if !fits(&line) {
                     line.pop();
                     lines.push(std::mem::replace(&mut line, c.to_string()));

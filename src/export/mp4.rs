@@ -1,10 +1,10 @@
 //! Writes a film as an MP4 by feeding raw frames to the ffmpeg on the PATH.
 //!
-//! Guarantees: 4:2:0 chroma at even sizes in BT.709 colours, which players assume; every frame of
-//! the film at its frame rate. The file replaces an earlier one only if ffmpeg succeeded, the file
-//! contains all frames, and ffmpeg can decode it; the exit status alone is not sufficient, since
-//! ffmpeg 5.1 reports success even on a full disk. The choice of encoder and the file size are up
-//! to ffmpeg.
+//! Guarantees: 4:2:0 chroma, which requires an even width and height, and BT.709 colours, which
+//! players assume; all frames of the film at its frame rate. The file replaces an earlier one only
+//! if ffmpeg succeeded, the file contains all frames, and ffmpeg can decode it. The exit status
+//! alone is not sufficient, because ffmpeg 5.1 reports success even on a full disk. ffmpeg chooses
+//! the encoder and determines the file size.
 
 mod boxes;
 mod ffmpeg;
@@ -63,7 +63,8 @@ pub fn write_mp4(
             &ProgressSpan::new(progress, 0.0, DRAWN_FRACTION),
             |drawing| Ok(planes(&rasterise(&drawing))),
             |run, bytes| {
-                // ffmpeg expects a constant frame rate, so a run is fed frame by frame.
+                // ffmpeg expects a constant frame rate, so each frame of a run is written, although
+                // all are equal.
                 let feed = |_| stdin.write_all(&bytes);
                 (0..run.count)
                     .try_for_each(feed)

@@ -1,9 +1,9 @@
 //! Contact sheet of many pairs: one strip of frames per pair, next to its name and a remark.
 //!
-//! Guarantees: names, remarks and frames do not overlap, whatever their length; text that does not
-//! fit ends in an ellipsis; the sheet stays within [`MAX_SHEET_SIDE_PX`], first by smaller frames,
-//! then by omitting the last strips; the number of strips drawn is returned. Strips are stacked in
-//! blocks, which stand next to each other so that the sheet is a little wider than high.
+//! Guarantees: names, remarks and frames do not overlap, and text that does not fit ends in an
+//! ellipsis. The sides of the sheet are at most [`MAX_SHEET_SIDE_PX`]: if there are many strips,
+//! frames become smaller, and finally the last strips are omitted. Strips are stacked in blocks,
+//! which stand next to each other so that the sheet is a little wider than high.
 
 use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
@@ -34,8 +34,8 @@ const LABEL_STYLE: LabelStyle = LabelStyle {
 /// Line height of names and remarks, in pixels.
 const LINE_PX: f64 = LABEL_STYLE.line_px;
 
-/// Minimum number of frames for which a strip has room. Error messages of failed pairs need that
-/// much (heuristic).
+/// Minimum number of frames for which each strip has room. The error message of a failed pair needs
+/// the width of that many frames (heuristic).
 const MIN_COLUMNS: usize = 5;
 
 /// Preferred ratio of width to height of a sheet (heuristic).
@@ -118,7 +118,7 @@ impl PairSheetLayout {
     /// returns the layout with the smallest frames and as many strips as fit.
     fn new(strips: usize, columns: usize) -> Self {
         let layouts = CELLS_PX.map(|cell_px| Self::balanced(strips.max(1), columns, cell_px));
-        // Sorted by size, so the first fit is the largest.
+        // `CELLS_PX` is in descending order, so the first layout that fits has the largest frames.
         let fits = |layout: &&Self| layout.size().max_element() <= MAX_SHEET_SIDE_PX;
         let fitting = layouts.iter().find(fits).copied();
         fitting.unwrap_or_else(|| Self::fullest(columns))
@@ -135,7 +135,7 @@ impl PairSheetLayout {
         };
         let ratio_error = |layout: &Self| {
             let size = layout.size();
-            // With the logarithm, twice too wide is as bad as twice too high.
+            // The logarithm makes a sheet twice too wide as bad as one twice too high.
             (size.x / size.y / TARGET_RATIO).ln().abs()
         };
         let better = |a: Self, b: Self| {
@@ -145,7 +145,7 @@ impl PairSheetLayout {
                 a
             }
         };
-        // More blocks would exceed the maximum sheet width.
+        // A sheet of more than 32 blocks would exceed the maximum width.
         let max_blocks = strips.min(32);
         (2..=max_blocks).map(layout).fold(layout(1), better)
     }
@@ -167,13 +167,14 @@ impl PairSheetLayout {
         }
     }
 
-    /// Returns the width and height of a strip including its gap, in pixels.
+    /// Returns the width and height of a strip, including the gap to the next strip, in pixels.
     fn strip(&self) -> DVec2 {
         let frames = self.columns as f64 * (self.cell_px + GAP_PX);
         let lines = 4.0 * LINE_PX;
         DVec2::new(
             WORDS_PX + frames + 6.0 * GAP_PX,
-            // Four lines fit next to a frame of any size: two for the name and two for the remark.
+            // Even next to the smallest frame there is room for four lines: two for the name and
+            // two for the remark.
             self.cell_px.max(lines) + 1.5 * GAP_PX,
         )
     }

@@ -1,9 +1,9 @@
 //! Writes a film as numbered images, one file per frame.
 //!
-//! Guarantees: a file's number is the number of the frame within the whole film, so ranges rendered
-//! on different machines fit together; each file is written atomically; files are written in order,
-//! so an interrupted run leaves a gapless range that `--frames-range` can continue; a missing
-//! folder is created. Files of an earlier, longer film are not deleted.
+//! A file's number is the number of the frame within the whole film, so ranges rendered on
+//! different machines fit together. Each file is written atomically. Files are written in order, so
+//! an interrupted run leaves a range without gaps, which `--frames-range` can continue. A missing
+//! folder is created; files of an earlier, longer film are not deleted.
 
 use std::fs;
 use std::path::PathBuf;
@@ -31,8 +31,8 @@ pub fn write_numbered(
     fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
     atomic_file::remove_leftovers(&names.folder);
     let mut written = Vec::with_capacity(film.times().len());
-    // This path is only used in error messages: if one frame cannot be encoded, no frame of this
-    // size can.
+    // This path appears in encoding errors. They depend only on the image size, so the first frame
+    // stands for all.
     let first = names.path(film.first_number());
     camera.draw_runs(
         &film.runs(),

@@ -109,7 +109,7 @@ fn stroke(segments: &[[DVec2; 2]], width_px: f64, colour: Rgb, canvas: &mut Pixm
         line_cap: LineCap::Round,
         ..Stroke::default()
     };
-    // tiny-skia draws a hairline for width 0, SVG draws nothing.
+    // tiny-skia draws a hairline for width 0, but SVG draws nothing.
     if let Some(path) = builder.finish().filter(|_| width_px > 0.0) {
         canvas.stroke_path(
             &path,
@@ -238,13 +238,14 @@ fn color(Rgb([r, g, b]): Rgb) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
-/// Returns the pixel values row by row. Without alpha if `is_opaque`, which says that all pixels
-/// are opaque.
+/// Returns the channels of all pixels, row by row: red, green, blue and alpha, or without alpha if
+/// `is_opaque`. The caller sets `is_opaque` only if all pixels are opaque.
 pub(super) fn samples(image: &RgbaImage, is_opaque: bool) -> Vec<u8> {
     if !is_opaque {
         return image.as_raw().clone();
     }
-    // Pixels are copied in chunks of three bytes: byte by byte was as slow as rasterising.
+    // Each pixel is copied as a chunk of three bytes. Copying byte by byte took as long as
+    // rasterising.
     let mut samples = Vec::with_capacity(image.as_raw().len() / 4 * 3);
     for pixel in image.pixels() {
         samples.extend_from_slice(&pixel.0[..3]);

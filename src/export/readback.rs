@@ -29,7 +29,7 @@ pub(super) fn check_gif(
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
     let mut options = gif::DecodeOptions::new();
-    // The frame size was chosen by the user and needs no further limit.
+    // The file was just written by this program, so its frame size needs no limit.
     options.set_memory_limit(gif::MemoryLimit::Unlimited);
     let mut decoder = (options.read_info(BufReader::new(written)))
         .map_err(|error| ExportError::corrupt(path, error))?;
@@ -125,7 +125,7 @@ mod tests {
             assert!(message.contains("was not written completely"), "{message}");
         }
         let mut zeroed = whole.clone();
-        // The zeros lie within the frame data. A decoder cannot know whether a colour is right.
+        // The zeros are in the compressed frame data, where they break the decoding.
         zeroed[whole.len() * 2 / 3..whole.len() * 3 / 4].fill(0);
         assert!(check(&zeroed, 5).is_err(), "zeros in the middle");
     }

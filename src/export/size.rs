@@ -102,7 +102,7 @@ impl PixelSize {
     /// # Errors
     /// [`PixelSizeError`] if a side is 0 or the image is too large.
     pub(super) fn rounded_up(sides_px: DVec2) -> Result<Self, PixelSizeError> {
-        // `as` saturates, so absurdly large sides are refused as too large.
+        // The conversion with `as` saturates, so absurdly large sides are refused as too large.
         let [width, height] = sides_px.to_array().map(|side| side.ceil() as u32);
         Self::new(width, height)
     }
@@ -136,7 +136,8 @@ impl PixelSize {
     }
 }
 
-/// Rounds up to an even number of at least 2. [`MAX_SIDE_PX`] is even, so legal sides stay legal.
+/// Rounds up to an even number of at least 2. A legal side stays legal, because [`MAX_SIDE_PX`] is
+/// even.
 fn round_up_to_even(side_px: u32) -> u32 {
     side_px.next_multiple_of(2).max(2)
 }

@@ -33,7 +33,8 @@ pub fn to_svg(drawing: &Drawing) -> String {
     svg + "</svg>\n"
 }
 
-/// Returns the element of the `k`-th shape. If the shape has a gradient, its id is `g{k}`.
+/// Returns the SVG element of the shape with index `k`. If the shape has a gradient, the definition
+/// of the gradient comes first, with the id `g{k}`.
 fn element(k: usize, item: &DrawingItem) -> String {
     match item {
         DrawingItem::Fill {
@@ -352,8 +353,8 @@ mod tests {
         drawing
     }
 
-    /// Premultiplies a pixel, because the colour of barely covered pixels is arbitrary and must not
-    /// be compared.
+    /// Premultiplies a pixel. Tests compare premultiplied colours, because the straight colour of a
+    /// barely covered pixel is arbitrary.
     fn seen(pixel: &image::Rgba<u8>) -> [u8; 4] {
         let [r, g, b, a] = pixel.0;
         let times_alpha = |c: u8| (u16::from(c) * u16::from(a) / 255) as u8;

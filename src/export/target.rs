@@ -51,7 +51,7 @@ named! { FilmKind {
     Lottie: "json", "Lottie", "Vector outlines with keyframes, for apps, websites and motion design";
 } }
 
-/// Lists the file extensions of all kinds for a sentence: `.png or .svg`.
+/// Returns the file extensions of all kinds as part of a sentence, such as `.png or .svg`.
 #[must_use]
 pub fn extension_list<K: Choice>() -> String {
     or_list(choice_keys::<K>().map(|key| format!(".{key}")))
@@ -110,9 +110,12 @@ pub enum ExportTargetError {
 }
 
 impl ExportTarget {
-    /// Determines the kind of output from the path: the extension of a [`StillKind`] or of a
-    /// [`FilmKind`]; `name-####.png` (or `.svg`) for numbered images; a folder (one that exists, a
-    /// name that ends in `/`, or a name without extension) for numbered PNGs in it.
+    /// Determines the kind of output from the path:
+    ///
+    /// - the extension of a [`StillKind`] or of a [`FilmKind`]: one image or one film file
+    /// - a file name with `#`, such as `name-####.png`: numbered images
+    /// - a folder (one that exists, a path that ends in `/`, or a name without extension): numbered
+    ///   PNGs in this folder
     ///
     /// # Errors
     /// [`ExportTargetError`] if the name does not determine a supported kind.
@@ -130,8 +133,7 @@ impl ExportTarget {
             let folder = path.parent().unwrap_or(Path::new(""));
             return Ok(Self::Numbered(by_pattern(folder, name, kind)));
         }
-        // Number patterns with the extension of a film were refused above, since a film is one
-        // file.
+        // Names with `#` were handled above, so a film never has a number in its name.
         let film = FilmKind::of_key(&extension).ok();
         let still = still.map(|kind| Self::Still(kind, path.to_owned()));
         let film = film.map(|kind| Self::Film(kind, path.to_owned()));
@@ -141,7 +143,8 @@ impl ExportTarget {
 }
 
 impl ExportTarget {
-    /// Resolves extensions that stand for both an image and a film (`.svg`) to the film.
+    /// Replaces the target of a single SVG image by an animated SVG, because the extension `.svg`
+    /// stands for both. Other targets stay as they are.
     #[must_use]
     pub fn preferring_film(self) -> Self {
         match self {
@@ -151,7 +154,8 @@ impl ExportTarget {
     }
 }
 
-/// Returns whether a path denotes a folder.
+/// Returns whether a path denotes a folder: it exists as one, ends in a separator, or has no
+/// extension.
 fn is_folder(path: &Path) -> bool {
     let text = path.to_string_lossy();
     let name = path.file_name().map(|name| name.to_string_lossy());
@@ -162,7 +166,7 @@ fn is_folder(path: &Path) -> bool {
 
 /// Splits a file name at its last run of `#`, which stands for the number.
 fn by_pattern(folder: &Path, name: &str, kind: StillKind) -> NumberedFiles {
-    // Callers pass names with a `#`, so 0 is never used.
+    // Callers pass only names with a `#`, so the default 0 is never used.
     let end = name.rfind('#').map_or(0, |last| last + 1);
     let before = &name[..end];
     let prefix = before.trim_end_matches('#');

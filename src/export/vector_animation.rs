@@ -2,10 +2,10 @@
 //! and Lottie.
 //!
 //! A [`VectorAnimation`] records the drawings of a camera as polynomials in t, just as a
-//! [`Recording`](crate::recording::Recording) does for a warp. It consists of pieces: within a
-//! piece the set of shapes is constant and each point follows a Chebyshev series; from one piece to
-//! the next shapes may appear or disappear. All three formats are written from it, so they cannot
-//! disagree: the HTML page evaluates the series themselves, the others use keyframes.
+//! [`Recording`](crate::recording::Recording) does for a warp. It consists of pieces (intervals of
+//! t). Within a piece the set of shapes is constant, and each point follows a Chebyshev series.
+//! From one piece to the next, shapes may appear or disappear. All three formats are written from
+//! the same pieces: the HTML page evaluates the series, and the others use keyframes.
 //!
 //! Guarantees: at every tested moment each point is within [`VectorAnimation::TOLERANCE_PX`] of
 //! where the camera draws it, in the recording and in the files written from it. Limits: contours

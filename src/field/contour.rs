@@ -6,8 +6,8 @@
 //! function's value at the centre of the square.
 //!
 //! Guaranteed: polygons are closed, outer ones counter-clockwise and holes clockwise (with y up); a
-//! shape that reaches the border of the picture is closed along it; the result does not depend on
-//! the number of threads.
+//! shape that reaches the border of the picture is closed along this border; the result does not
+//! depend on the number of threads.
 //!
 //! Not guaranteed: features thinner than a cell may be missed, and within a cell the contour is a
 //! straight line. Polygons may touch in a sample at which the function equals the level;
@@ -61,7 +61,7 @@ where
 }
 
 /// Same as [`trace`], except that `known(column, row)` may return whether a sample is inside, so
-/// that `value` need not be evaluated to find out. It must agree with `value`.
+/// that `value` need not be evaluated to find out. The answer of `known` must agree with `value`.
 pub(crate) fn trace_with_known<F>(
     width: u32,
     height: u32,
@@ -104,9 +104,9 @@ type LatticeEdge = usize;
 /// and the edge where it leaves. The inside is on the left of the segment.
 type ContourSegment = (LatticeEdge, LatticeEdge);
 
-/// Function to trace on the lattice of samples, which is extended by two nodes on each side: one on
-/// the border of the picture, and one at the same position that always counts as outside, so that
-/// every contour closes.
+/// Function to trace on the lattice of samples. The lattice is extended by two nodes on each side,
+/// both on the border of the picture. The outer one always counts as outside, so that every contour
+/// closes.
 struct MarchingSquares<K, F> {
     columns: usize,
     rows: usize,
@@ -255,7 +255,7 @@ fn root(f: impl Fn(f64) -> f64) -> f64 {
         };
         *replaced_end = (s, value);
         // Illinois step: if the same end has been replaced twice in a row, the value at the other
-        // end is halved; otherwise the chord would approach the root from one side only.
+        // end is halved. Without this, the chord would approach the root from one side only.
         if last_was_low == Some(is_low) {
             other_end.1 *= 0.5;
         }

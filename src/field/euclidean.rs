@@ -5,9 +5,10 @@
 //! of parabolas along each row.
 //!
 //! The same two passes compute the distances of inside and of outside cells, because a cell only
-//! needs the nearest cell of the other side. A row is divided into runs, maximal sequences of cells
-//! on one side. The two cells that adjoin a run at its ends are on the other side, and no cell in a
-//! column beyond them can be nearer to a cell of the run. Each run therefore has its own envelope.
+//! needs the nearest cell of the other side. A row is divided into runs: maximal sequences of cells
+//! that are all inside or all outside. The two cells that adjoin a run at its ends are on the other
+//! side, and no cell in a column beyond them can be nearer to a cell of the run. Each run therefore
+//! has its own envelope.
 //!
 //! Guaranteed: all squared distances are exact integers; only the final square root is rounded.
 
@@ -26,7 +27,7 @@ const STRIP: usize = 64;
 /// checked once per band (resource limit).
 const BAND_ROWS: usize = 16;
 
-/// Column distance of a cell in whose column no cell is on the other side. Its square exceeds every
+/// Column distance of a cell whose column has no cell on the other side. Its square exceeds every
 /// valid squared distance, and the sum of both fits in an `i32`.
 const NONE: i16 = i16::MAX;
 
@@ -58,8 +59,8 @@ pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>
 }
 
 /// First pass: returns the distance of each cell to the nearest cell of the other side in its
-/// column, strip by strip; [`NONE`] if there is no such cell. A ring of outside cells around the
-/// mask counts.
+/// column, strip by strip; [`NONE`] if there is no such cell. The outside cells in a ring around
+/// the mask count, too.
 fn columns(mask: &Mask) -> Vec<i16> {
     let (width, height) = (mask.width() as usize, mask.height() as usize);
     let strip_len = STRIP * height;
@@ -147,8 +148,9 @@ impl RowPass {
         let mut from = 0;
         for run in row.chunk_by(|a, b| a == b) {
             let to = from + run.len();
-            // The ring around the mask is outside: at the border it adjoins runs of inside cells as
-            // the other side, but not runs of outside cells.
+            // The ring around the mask is outside. At the border of the mask, it is therefore on
+            // the other side of a run of inside cells, but on the same side as a run of outside
+            // cells.
             let ends_left = from > 0 || run[0];
             let ends_right = to < row.len() || run[0];
             self.run(from, to, ends_left, ends_right);

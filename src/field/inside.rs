@@ -1,8 +1,8 @@
 //! Determines which grid samples are inside a set of polygons, by scanline winding numbers.
 //!
 //! Guaranteed: a row of samples crosses an edge by the same half-open rule as in `Ring::winding`,
-//! so where two edges meet on a row, only one of them is counted. A sample that is closer to an
-//! edge than rounding errors may be classified either way.
+//! so a boundary that crosses a row exactly at a corner is counted once. A sample that is closer to
+//! an edge than rounding errors may be classified either way.
 
 use rayon::prelude::*;
 
@@ -53,7 +53,7 @@ pub(super) fn inside_samples(edges: &[ScanlineEdge], grid: &Grid) -> Vec<bool> {
 /// In each row that the upward edge from `low` to `high` crosses, adds `step` to the entry of the
 /// first sample on or to the right of the edge.
 fn add_crossings(low: DVec2, high: DVec2, step: i32, grid: &Grid, steps: &mut [i32]) {
-    // `as` turns negative numbers into 0, as edges outside the grid require.
+    // `as` turns negative numbers into 0, so an edge that begins below the grid starts at row 0.
     let row = |y: f64| (y.ceil() as usize).min(grid.height as usize);
     // A horizontal edge has an infinite slope, but crosses no row.
     let slope = (high.x - low.x) / (high.y - low.y);

@@ -64,8 +64,8 @@ impl Mask {
         })
     }
 
-    /// Rasterises `regions`: a cell is inside if its centre is inside `regions`. For each edge,
-    /// takes one step per row that the edge crosses; in addition, one step per cell.
+    /// Rasterises `regions`: a cell is inside if its centre is inside `regions`. The cost is one
+    /// step per cell, and for each edge one step per row that the edge crosses.
     ///
     /// # Errors
     /// Returns an error if the grid is invalid, or no cell centre is inside.

@@ -114,8 +114,8 @@ struct PruningBound {
     distance: f64,
     /// Distance from the centre to the outermost samples of the block.
     radius: f64,
-    /// Maximum increase of the difference between two edges' unit vectors from the centre to
-    /// another point of the block: 2 r / (d₀ − r) in the module documentation.
+    /// Maximum increase of the difference between the two edges' unit vectors when a point moves
+    /// from the centre to another place in the block: 2 r / (d₀ − r) in the module documentation.
     max_divergence: f64,
     /// Squared distance from the centre beyond which an edge cannot be nearest to any sample,
     /// whatever its direction.
@@ -126,7 +126,8 @@ impl PruningBound {
     fn new(away: DVec2, radius: f64) -> Self {
         let distance = away.length();
         let clearance = distance - radius;
-        // If the nearest edge may reach into the block, directions are arbitrary.
+        // If the nearest edge may reach into the block, the unit vectors may point anywhere, and
+        // their difference is at most 2.
         let max_divergence = if clearance > 0.0 {
             2.0 * radius / clearance
         } else {
@@ -224,7 +225,8 @@ impl<'a> SegmentSearch<'a> {
         if columns * rows <= LEAF_SAMPLES {
             return self.measure(block, bottom, band);
         }
-        // Each half prunes the candidates of the whole block, and the stack is restored after it.
+        // For each half, the candidates of the whole block are pruned again. Afterwards the stack
+        // is restored for the other half.
         for half in block.halves() {
             let top = self.stack.len();
             let (centre, radius) = half.disc(band.first_row);

@@ -1,9 +1,10 @@
 //! Finds the proper crossings of closed polygons with themselves and with each other.
 //!
-//! Sweeps the plane over the edges, sorted along the axis on which they overlap less (Shamos, Hoey
-//! 1976, without their status structure). This takes O(n log n + k) for k pairs of edges that
-//! overlap along that axis. Guaranteed: every proper crossing is found, by exact predicates. Not
-//! counted: touching edges, coincident edges, and edges that run exactly through a vertex.
+//! The method is a sweep over the edges along x or y, whichever axis has fewer overlapping edges
+//! (Shamos, Hoey 1976, without their status structure). It takes O(n log n + k) time for n edges of
+//! which k pairs overlap along that axis. Guaranteed: every proper crossing is found, by exact
+//! predicates. Not counted: touching edges, coincident edges, and edges that run exactly through a
+//! vertex.
 
 use super::{DVec2, orient2d, segments_cross};
 use serde::Serialize;
@@ -11,7 +12,7 @@ use serde::Serialize;
 /// Edge of a closed polygon, from a point to the next one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RingEdge {
-    /// Index of the ring.
+    /// Index of the ring in the list of rings.
     pub ring: usize,
     /// Index in the ring of the point at which the edge starts.
     pub point: usize,
@@ -41,7 +42,8 @@ pub fn count_crossings(rings: &[Vec<DVec2>]) -> usize {
     count
 }
 
-/// Returns the proper crossings among the edges of all rings, ordered by their edges.
+/// Returns the proper crossings among the edges of all rings, within a ring and between rings. They
+/// are sorted by their first edge, then by their second.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, crossings};
@@ -86,7 +88,7 @@ fn sweep(rings: &[Vec<DVec2>], mut report: impl FnMut(RingEdge, RingEdge)) {
     }
 }
 
-/// Returns the edges of all rings. The sweep runs along the axis on which they overlap less.
+/// Returns the edges of all rings. Their `along` is the axis on which fewer edges overlap.
 fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
     let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
     let mut spans: Vec<SweepEdge> = ring_edges(rings)
@@ -106,7 +108,8 @@ fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
         }
         sum / (high - low)
     };
-    // The time of the sweep grows with the overlap along its axis.
+    // The time of the sweep grows with the overlap along its axis, so sweep along the axis with
+    // less overlap.
     if overlap(|s| s.along) > overlap(|s| s.across) {
         for span in &mut spans {
             std::mem::swap(&mut span.along, &mut span.across);

@@ -20,9 +20,9 @@ const PADDING: f64 = 1e-9;
 #[derive(Debug)]
 pub(crate) struct EdgeBvh {
     edges: Vec<(DVec2, DVec2)>,
-    /// Binary tree of boxes in depth-first order. A node with more than [`LEAF_EDGES`] edges is
-    /// halved: the box of its first half follows directly, and the number is the index of the box
-    /// of its second half.
+    /// Binary tree of boxes in depth-first order. A node with more than [`LEAF_EDGES`] edges has
+    /// two children, one for each half of its edges. The box of the first child follows the node
+    /// directly; the number is the index of the box of the second child.
     boxes: Vec<(Bounds, usize)>,
 }
 
@@ -38,7 +38,8 @@ impl EdgeBvh {
         boxes
     }
 
-    /// Appends the box of the edges `from..to`, then the boxes of the two halves of this range.
+    /// Appends the box of the edges `from..to`. If there are too many edges for a leaf, then
+    /// appends the subtrees of the two halves of this range.
     fn enclose(&mut self, from: usize, to: usize, padding: f64) {
         let ends = self.edges[from..to].iter().flat_map(|&(a, b)| [a, b]);
         let Some(bounds) = Bounds::of(ends) else {
@@ -56,8 +57,8 @@ impl EdgeBvh {
     }
 
     /// Returns the distance from `from` at which a ray first hits an edge, ignoring hits up to
-    /// `min_distance`; infinity if there is none. Distances are multiples of the length of
-    /// `direction`.
+    /// `min_distance`; infinity if there is none. All distances, `min_distance` included, are
+    /// multiples of the length of `direction`.
     pub(crate) fn first_hit_beyond(&self, from: DVec2, direction: DVec2, min_distance: f64) -> f64 {
         let ray = Ray {
             from,
@@ -78,7 +79,8 @@ impl EdgeBvh {
         !self.boxes.is_empty() && self.any_within(place, is, 0, 0, self.edges.len())
     }
 
-    /// As [`Self::any_edge_near`], in the subtree of `node`, which holds the edges `from..to`.
+    /// As [`Self::any_edge_near`], but only in the subtree of `node`, which holds the edges
+    /// `from..to`.
     fn any_within(
         &self,
         place: &Bounds,
@@ -127,7 +129,7 @@ struct Ray {
     direction: DVec2,
     /// Reciprocals of the components of `direction`.
     inverse: DVec2,
-    /// Distance up to which hits are ignored.
+    /// Distance up to which hits are ignored, as a multiple of the length of `direction`.
     min_distance: f64,
 }
 

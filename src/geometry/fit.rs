@@ -48,12 +48,12 @@ impl SimilarityFit {
     }
 }
 
-/// Maximum determinant of the scatter matrix of points that count as collinear, as a fraction of
-/// its squared trace (tolerance: above rounding).
+/// Points count as collinear if the determinant of their scatter matrix is at most this fraction of
+/// the matrix's squared trace (tolerance: above rounding).
 const COLLINEAR_RATIO: f64 = 1e-12;
 
 /// Returns the least-squares affine map from points to places, two lists of the same length.
-/// Collinear points give a similarity, and a single point gives a translation.
+/// Collinear points give the least-squares similarity, and a single point gives a translation.
 pub(crate) fn fit_affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
     let count = points.len().max(1) as f64;
     let [from, to] = [points, places].map(|all| all.iter().sum::<DVec2>() / count);
@@ -63,7 +63,7 @@ pub(crate) fn fit_affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
         scatter += DMat2::from_cols(p * p.x, p * p.y);
         cross_scatter += DMat2::from_cols(q * p.x, q * p.y);
     }
-    // The trace scales with the squared size of the points.
+    // The trace grows with the squared size of the point set, so the test does not depend on scale.
     let size = scatter.x_axis.x + scatter.y_axis.y;
     let linear = if scatter.determinant() > COLLINEAR_RATIO * size * size {
         cross_scatter * scatter.inverse()

@@ -4,8 +4,8 @@ use super::{DVec2, signed_area};
 use i_overlay::mesh::float::outline::offset::OutlineOffset;
 use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 
-/// Minimum angle of a corner whose tip is kept, in radians. Sharper corners occur only where a
-/// region is about to vanish (heuristic).
+/// Minimum angle, in radians, of a corner whose tip stays pointed. The tip of a sharper corner is
+/// cut off; such corners occur only where a region is about to vanish (heuristic).
 const MIN_TIP_ANGLE: f64 = 0.2;
 
 /// Number of bisections in the search for the inradius (derived: they narrow the range of the

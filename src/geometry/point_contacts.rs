@@ -76,8 +76,8 @@ impl RegionCorners {
         points
     }
 
-    /// Returns the indices of the corners that lie on edges of other corners. Of the corners that
-    /// meet in one point, the bluntest is left out.
+    /// Returns the indices of the corners that lie within `near` of an edge that does not end in
+    /// them. If several corners meet in one point, the bluntest of them is left out.
     fn touching(&self, near: f64) -> Vec<usize> {
         let mut by_x: Vec<usize> = (0..self.points.len()).collect();
         by_x.sort_by(|&a, &b| self.points[a].x.total_cmp(&self.points[b].x));
@@ -115,7 +115,8 @@ impl RegionCorners {
         touching
     }
 
-    /// Returns the width of a corner: 1 − cos of the angle between its edges.
+    /// Returns how blunt a corner is: 1 − cos of the angle between its edges, 0 for a spike and 2
+    /// for a straight line.
     fn width(&self, corner: usize) -> f64 {
         let here = self.points[corner];
         let [a, b] = self.neighbours[corner].map(|k| (self.points[k] - here).normalize_or_zero());

@@ -4,7 +4,7 @@
 use super::{DMat2, DVec2};
 
 /// Polar decomposition M = R(θ) S of a 2×2 matrix into a rotation R and a symmetric stretch S.
-/// Whole turns may be added to the angle θ, for a shape that turns further.
+/// Callers may add whole turns to the angle θ, for a shape that turns by more than π.
 ///
 /// For det M > 0 the stretch is positive definite and the decomposition is unique. For det M ≤ 0
 /// the factors still multiply to M, but the stretch is not positive definite; callers reject such
@@ -63,8 +63,8 @@ impl SymmetricEigen {
         let half = 0.5 * (a - d);
         let radius = half.hypot(b);
         let mean = 0.5 * (a + d);
-        // The smaller eigenvalue is a difference that may cancel; if the mean is positive, dividing
-        // the determinant by the larger one avoids that.
+        // The difference `mean - radius` may lose digits to cancellation. If the mean is positive,
+        // dividing the determinant by the larger eigenvalue avoids that.
         let large = mean + radius;
         let small = if mean > 0.0 {
             (a * d - b * b) / large

@@ -2,9 +2,9 @@
 //! same for all formats and are checked where regions, meshes and trusses are created.
 //!
 //! Within these limits, areas, squares of lengths, products of four lengths and their sums neither
-//! overflow nor underflow in `f64`, and squares of lengths do not in the `f32` of a graphics card.
-//! The limits of the libraries are wider: `i_overlay` allows coordinates up to 2⁵⁰⁰, and `spade`
-//! from 2⁻¹⁴² to 2²⁰¹.
+//! overflow nor underflow in `f64`. In the `f32` of a graphics card, this holds for squares of
+//! lengths. The limits of the libraries are wider: `i_overlay` allows coordinates up to 2⁵⁰⁰, and
+//! `spade` from 2⁻¹⁴² to 2²⁰¹.
 
 use super::{Bounds, DVec2};
 use std::fmt;
@@ -17,8 +17,8 @@ pub const MAX_COORDINATE: f64 = 1e18;
 /// precision in `f32` begins at 10⁻³⁸).
 pub const MIN_SIZE: f64 = 1e-18;
 
-/// Message about a point that is not [`is_in_range`]; the caller puts the subject of the sentence
-/// in front.
+/// End of the error message about a point for which [`is_in_range`] is false. The caller puts the
+/// name of the point in front, as the subject of the sentence.
 pub(crate) const RANGE_MESSAGE: &str =
     "has a coordinate that is not a number between -1e18 and 1e18; correct it, or scale the design";
 

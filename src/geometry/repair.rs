@@ -32,15 +32,15 @@ pub struct Repairs {
     /// Number of outlines that enclose nothing, because they have fewer than three different points
     /// or all points lie on one line.
     pub flat: usize,
-    /// Number of regions and holes that were removed because they are too small or too thin, left
-    /// over where edges touch or almost touch.
+    /// Number of regions and holes that were removed because they are too small or too thin.
+    /// Cleaning leaves such slivers where edges touch or almost touch.
     pub slivers: usize,
     /// Number of points that repeat the previous point, or lie straight between their neighbours.
     pub idle_points: usize,
 }
 
-/// Maximum number of comparisons that the sweep makes, per edge (resource limit: two million edges
-/// take seconds, and up to 1,000 edges are always compared in full).
+/// Maximum number of comparisons in the sweep, divided by the number of edges (resource limit: two
+/// million edges take seconds, and up to 1,000 edges are always compared in full).
 const TESTS_PER_EDGE: usize = 500;
 
 impl Repairs {
@@ -83,7 +83,7 @@ impl Repairs {
         (used_rings, repairs)
     }
 
-    /// Counts only crossings and touches, between the rings as given: no ring is left out first.
+    /// Counts only crossings and touches. Flat and duplicate rings take part in the count.
     #[must_use]
     pub fn count_contacts(rings: &[Vec<DVec2>]) -> Self {
         let mut repairs = Self::default();
@@ -117,7 +117,7 @@ impl Repairs {
         }
     }
 
-    /// Counts a crossing of two edges and their touches.
+    /// Adds the crossing and the touches of two edges, if there are any, to the counts.
     fn compare(&mut self, e: &BoxedEdge, f: &BoxedEdge) {
         // The sweep compares x only. Edges that are apart in y need no exact predicates.
         if e.bounds.min.y > f.bounds.max.y || f.bounds.min.y > e.bounds.max.y {
@@ -160,8 +160,9 @@ impl BoxedEdge {
     }
 }
 
-/// Returns the points at which a ring turns, and the number of idle points. A repeated first point
-/// at the end does not count, because some formats close rings that way.
+/// Returns the points at which a ring turns, and the number of idle points; no points if the ring
+/// encloses nothing. A repetition of the first point at the end is not counted as idle, because
+/// some formats close rings that way.
 fn corners(ring: &[DVec2]) -> (Vec<DVec2>, usize) {
     let mut points = ring.to_vec();
     if points.len() > 1 && points.first() == points.last() {
@@ -204,7 +205,8 @@ fn is_flat(points: &[DVec2]) -> bool {
 }
 
 /// Returns a list that is the same for two rings through the same points, whichever point they
-/// start at and whichever way they run.
+/// start at and whichever way they run. Rings that pass their smallest point more than eight times
+/// may get different lists.
 fn fingerprint(ring: &[DVec2]) -> Vec<[u64; 2]> {
     let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // -0 + 0 is 0
     let forward: Vec<[u64; 2]> = ring.iter().map(bits).collect();
@@ -212,8 +214,8 @@ fn fingerprint(ring: &[DVec2]) -> Vec<[u64; 2]> {
     smallest_rotation(forward).min(smallest_rotation(backward))
 }
 
-/// Rotates a list to the smallest of its rotations that start at a smallest element. Compares only
-/// the first eight of these.
+/// Rotates a list so that it starts at its smallest element. If that element occurs several times,
+/// takes the lexicographically smallest of the first eight possible rotations.
 fn smallest_rotation(mut list: Vec<[u64; 2]>) -> Vec<[u64; 2]> {
     let least = list.iter().min().copied();
     let starts = (0..list.len()).filter(|&i| Some(list[i]) == least);

@@ -22,8 +22,8 @@ pub enum RingError {
 }
 
 impl Ring {
-    /// Creates a ring from points in order. Consecutive repetitions are left out, and so is the
-    /// first point if it is repeated at the end.
+    /// Creates a ring from points in order. Consecutive repetitions of a point are left out, and so
+    /// are repetitions of the first point at the end.
     ///
     /// # Errors
     /// [`RingError`] for fewer than three different points, or for a coordinate that is not finite.

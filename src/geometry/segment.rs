@@ -36,7 +36,8 @@ pub fn distance_squared_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance_squared(a + nearest_segment_parameter(p, a, b) * (b - a))
 }
 
-/// Returns whether two segments, with their ends, have a point in common (by exact predicates).
+/// Returns whether two segments, including their end points, have a point in common (by exact
+/// predicates).
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, segments_touch};

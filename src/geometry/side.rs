@@ -87,7 +87,7 @@ impl<T> SourceTarget<T> {
         }
     }
 
-    /// Creates a pair with one value on the given side and another on the other side.
+    /// Creates a pair with the value `here` for the given side and `across` for the other side.
     pub fn with_side(side: Side, here: T, across: T) -> Self {
         let (source, target) = match side {
             Side::Source => (here, across),

@@ -92,8 +92,9 @@ impl Similarity {
         DAffine2::from_mat2_translation(self.linear(), self.offset)
     }
 
-    /// Returns −1 if the transform mirrors, and 1 otherwise: the factor of x, and of a rotation
-    /// that is exchanged with the mirror.
+    /// Returns −1 if the transform mirrors, and 1 otherwise. The mirror multiplies x by this
+    /// factor, and the angle of a rotation is multiplied by it when rotation and mirror swap their
+    /// order.
     fn flip(&self) -> f64 {
         if self.mirror { -1.0 } else { 1.0 }
     }
@@ -119,7 +120,8 @@ impl Similarity {
         Self {
             offset: self.apply(first.offset),
             scale: self.scale * first.scale,
-            // A rotation that is exchanged with the mirror changes its sign.
+            // The mirror comes after the first rotation; swapping their order changes the angle's
+            // sign.
             rotation: self.rotation + self.flip() * first.rotation,
             mirror: self.mirror != first.mirror,
         }

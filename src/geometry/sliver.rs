@@ -13,9 +13,9 @@ const MAX_AREA_SHARE: f64 = 0.01;
 
 /// Recognises slivers among cleaned contours by comparing them with the outlines as drawn.
 pub(super) struct SliverTest {
-    /// Bounds and area of each drawn outline that is not negligible.
+    /// Bounds and area of each drawn outline whose area exceeds the limit given to [`Self::of`].
     outlines: Vec<(Bounds, f64)>,
-    /// Maximum mean thickness of a sliver.
+    /// Maximum mean thickness of a sliver, in the units of the outlines.
     max_thickness: f64,
 }
 

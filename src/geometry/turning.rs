@@ -1,5 +1,5 @@
-//! Measures the total turning of outlines. It distinguishes a jagged shape from a smooth one of the
-//! same area and length, which no measure of the distortion of mesh faces does.
+//! Measures the total turning of outlines. This measure distinguishes a jagged shape from a smooth
+//! one of the same area and length. Measures of the distortion of mesh faces do not.
 //!
 //! The turning of a ring is the sum of the absolute values of its exterior angles, which is 2π for
 //! a convex ring. Rings are first sampled evenly, so that corners count but noise finer than the
@@ -26,7 +26,7 @@ pub(crate) fn total_turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
                 .atan2(incoming.dot(outgoing))
                 .abs()
         };
-        // Every closed ring turns at least once; a degenerate ring counts as one turn.
+        // A closed ring turns by at least one whole turn, 2π. A degenerate ring counts as one turn.
         (0..n).map(angle).sum::<f64>().max(TAU)
     };
     rings.iter().map(ring_turning).sum()

@@ -13,8 +13,9 @@ pub struct BlendReport {
     pub folds: usize,
     /// Number of pairs of outline edges that properly cross, within one outline or between two.
     pub crossings: usize,
-    /// Conformal distortion σ₁/σ₂ that 95 % of the area does not exceed, measured relative to the
-    /// design for which this value is smallest; `None` without a mesh.
+    /// 95th percentile of the conformal distortion σ₁/σ₂ of the faces, weighted by area. It is
+    /// computed relative to each design, and the smallest of these values is taken. `None` without
+    /// a mesh.
     pub conformal_p95: Option<f64>,
     /// Absolute difference between the area of the blend and the weighted mean of the designs'
     /// areas, as a fraction of that mean.
@@ -27,12 +28,13 @@ pub struct BlendMeasures {
     /// Defects and distortion of the blend.
     #[serde(flatten)]
     pub quality: BlendReport,
-    /// Filled area of the blend in squared design units; for bars, length times width.
+    /// Filled area of the blend in squared design units. A bar counts as its length times its
+    /// width.
     pub area: f64,
-    /// Length of the blend's outlines in design units; for bars, of both sides.
+    /// Length of the blend's outlines in design units. A bar counts as twice its length.
     pub perimeter: f64,
-    /// Mean distance of the mesh vertices from their positions in the nearest design, in design
-    /// diameters; `None` without a mesh.
+    /// Mean distance of the mesh vertices from their positions in a design, in design diameters.
+    /// The design with the smallest mean distance counts. `None` without a mesh.
     pub travel: Option<f64>,
 }
 
@@ -127,8 +129,8 @@ impl BlendSampler {
         meshes.filter_map(|mesh| distortion(mesh, places)).collect()
     }
 
-    /// Returns the mean distance of the vertices from their positions in the nearest design, in
-    /// design diameters.
+    /// Returns the mean distance of the vertices from their positions in a design, in design
+    /// diameters, for the design with the smallest mean distance.
     fn travel(&self, places: &[DVec2]) -> Option<f64> {
         let mean_distance = |mesh: &CompatibleMesh| {
             let gaps = mesh.source().iter().zip(places);

@@ -1,5 +1,5 @@
-//! Distortion of each face, from the singular values σ₁ ≥ σ₂ of the Jacobian of the face's linear
-//! map from the source.
+//! Distortion of each face, computed from the singular values σ₁ ≥ σ₂ of a Jacobian: that of the
+//! linear map that takes the face from the source to its current position.
 //!
 //! Exact predicates decide whether a face is folded. The distortion of nearly flat faces is
 //! affected by rounding.
@@ -20,13 +20,14 @@ pub struct Distribution {
     pub worst: f64,
 }
 
-/// Distortion of the faces when the vertices move from the source to other positions. A ratio of 1
-/// means undistorted.
+/// Distortion of the faces when the vertices move from the source to other positions. For an
+/// undistorted mesh, all values except `folds` are 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distortion {
     /// Number of faces that are folded or flat (det ≤ 0).
     pub folds: usize,
-    /// Smallest determinant of any face: its signed area divided by its area in the source.
+    /// Smallest determinant of any face. The determinant of a face is its signed area divided by
+    /// its area in the source.
     pub min_det: f64,
     /// Largest determinant of any face.
     pub max_det: f64,
@@ -110,7 +111,8 @@ pub(super) struct FaceStrain {
 }
 
 impl FaceStrain {
-    /// Decomposes a Jacobian. Here rounding decides whether a nearly flat face counts as folded.
+    /// Decomposes a Jacobian. Unlike in [`is_folded`], rounding decides whether a nearly flat face
+    /// counts as folded.
     pub(super) fn of(m: DMat2) -> Self {
         let (large, small) = singular_values(m);
         let det = m.determinant();
@@ -122,7 +124,8 @@ impl FaceStrain {
         }
     }
 
-    /// Returns `value`, or infinity for folded faces and for 0/0 of collapsed ones.
+    /// Returns `value`; but infinity if the face is folded, or if `value` is NaN, as 0/0 for a
+    /// collapsed face.
     fn or_infinite(&self, value: f64) -> f64 {
         if self.folded || value.is_nan() {
             f64::INFINITY
@@ -193,7 +196,7 @@ mod tests {
 
     #[test]
     fn a_shear_matches_the_closed_form() {
-        // [1 s; 0 1] has σ₁ − 1/σ₁ = s and det 1.
+        // The shear matrix [1 s; 0 1] has σ₁ − 1/σ₁ = s and determinant 1.
         let s = 1.5;
         let strain = FaceStrain::of(DMat2::from_cols(DVec2::X, DVec2::new(s, 1.0)));
         let large = 0.5 * (s + f64::hypot(s, 2.0));

@@ -29,7 +29,7 @@ pub struct FilmSample {
     pub t: f64,
     /// Filled area, in squared design units.
     pub area: f64,
-    /// Length of all boundaries, in design units; for bars, of both sides.
+    /// Length of all boundaries, in design units. A bar counts as twice its length.
     pub perimeter: f64,
     /// Total absolute turning of all boundaries, in radians; 2π for each convex ring. A ring that
     /// is absent at this t counts as 2π.
@@ -37,9 +37,9 @@ pub struct FilmSample {
     /// Total absolute turning of the boundaries of parts that exist in both designs, in radians.
     /// For a contour, the same as `turning`.
     pub turning_of_both: f64,
-    /// Number of separate pieces: for a solid, of outer boundary loops. `None` for bars.
+    /// Number of separate pieces; for a solid, the number of outer boundary loops. `None` for bars.
     pub pieces: Option<usize>,
-    /// Number of holes: for a solid, of inner boundary loops. `None` for bars.
+    /// Number of holes; for a solid, the number of inner boundary loops. `None` for bars.
     pub holes: Option<usize>,
     /// Number of crossings of the boundary, within rings and between rings; only for filled solids.
     pub crossings: Option<usize>,
@@ -69,8 +69,8 @@ pub struct FilmReport {
     pub worst_folds: Option<usize>,
     /// First sampled t with a folded face; `None` if there is none.
     pub first_fold_t: Option<f64>,
-    /// Smallest determinant of any face at any sample, relative to the source: at 0 or below, the
-    /// face is folded.
+    /// Smallest signed area of any face at any sample, divided by the area of the face in the
+    /// source. A face whose value is 0 or less is folded.
     pub min_det: Option<f64>,
     /// Largest number of boundary crossings at any sample.
     pub worst_crossings: Option<usize>,
@@ -89,14 +89,14 @@ pub struct FilmReport {
     /// As `conformal_excess`, for the area distortion.
     pub area_distortion_excess: Option<f64>,
     /// Asymmetry under exchange of the designs A and B: the largest distance ‖X_AB(t) − X_BA(1−t)‖
-    /// between the positions X of a vertex in both films, in design diameters. `None` without rigid
-    /// parts.
+    /// of any vertex at any sample, in design diameters. X_AB is the position of the vertex in the
+    /// film from A to B, X_BA that in the film from B to A. `None` without rigid parts.
     pub asymmetry: Option<f64>,
-    /// Total variation of the area over t, minus the difference of its two end values, as a
-    /// fraction of the larger end value.
+    /// Total variation of the area over t, minus the absolute difference between the areas at t = 0
+    /// and t = 1, as a fraction of the larger of these two areas.
     pub area_variation_excess: f64,
-    /// Total variation of the perimeter over t, minus the difference of its two end values, as a
-    /// fraction of the larger end value.
+    /// Total variation of the perimeter over t, minus the absolute difference between the
+    /// perimeters at t = 0 and t = 1, as a fraction of the larger of these two perimeters.
     pub perimeter_variation_excess: f64,
     /// Largest relative excess of `turning` over its value interpolated linearly between the two
     /// ends. Large if the shape is jagged or wavy in between but at neither end.
@@ -104,11 +104,11 @@ pub struct FilmReport {
     /// As `turning_excess`, for `turning_of_both`. It ignores parts that exist in one design only,
     /// whose turning would change abruptly when they appear.
     pub turning_of_both_excess: f64,
-    /// Largest number of pieces at any sample, minus the number at the end that has more; at least
-    /// 0.
+    /// Largest number of pieces at any sample, minus the number at t = 0 or t = 1, whichever is
+    /// larger; at least 0.
     pub pieces_excess: Option<usize>,
-    /// Largest number of holes at any sample, minus the number at the end that has more; at least
-    /// 0.
+    /// Largest number of holes at any sample, minus the number at t = 0 or t = 1, whichever is
+    /// larger; at least 0.
     pub holes_excess: Option<usize>,
     /// Travel and acceleration of the vertices, after removing the rigid motion of the whole shape.
     pub motion: Option<MotionReport>,
@@ -217,8 +217,8 @@ impl<'a> FilmSampler<'a> {
 
 /// Returns the number of crossings of a solid's rings at `t`.
 ///
-/// Returns 0 at t = 0 and t = 1, where the film shows the designs themselves. There, parts cut from
-/// one design share seams, whose rounded coordinates may cross.
+/// Returns 0 at t = 0 and t = 1, where the film shows the designs themselves. Parts that were cut
+/// from one design share a seam there, and rounding may make the two sides of the seam cross.
 pub(super) fn crossings_at(t: f64, solid: &SolidContent, places: &[DVec2]) -> usize {
     if t == 0.0 || t == 1.0 {
         return 0;
@@ -236,8 +236,8 @@ fn larger_diameter(transition: &Transition) -> f64 {
 
 /// Returns the numbers of pieces and holes, from the orientation of each boundary loop.
 ///
-/// The orientation is taken at the end where the loop is larger: at the other end, a loop of a part
-/// that exists in one design only shrinks to a point.
+/// The orientation of a loop is taken in the design where the loop is larger. In the other design,
+/// the loop of an unmatched part is only a point.
 fn topology(solid: &SolidContent, frame: &Frame) -> [usize; 2] {
     let placement = frame.placement();
     let rings_at = |places: &Vec<DVec2>| {
@@ -250,7 +250,7 @@ fn topology(solid: &SolidContent, frame: &Frame) -> [usize; 2] {
         areas[usize::from(areas[1].abs() > areas[0].abs())] < 0.0
     };
     let holes = ends[0].iter().zip(&ends[1]).filter(is_hole).count();
-    // Holes that exist in one design only are not among the loops, but count like the others.
+    // Holes that exist in only one design are not among the loops, but count like other holes.
     [ends[0].len() - holes, holes + solid.holes.len()]
 }
 
@@ -319,8 +319,9 @@ fn rings_perimeter(rings: &[Vec<DVec2>]) -> f64 {
     rings.iter().map(|ring| perimeter(ring)).sum()
 }
 
-/// Compares the film with the film of the exchanged designs played backwards. Returns the largest
-/// distance between the two positions of a vertex, in design diameters.
+/// Compares the film with the film of the exchanged designs, played backwards. Returns the largest
+/// distance between the positions of a vertex in the two films, over all vertices and samples, in
+/// design diameters. Returns `None` without rigid parts.
 fn asymmetry(
     transition: &Transition,
     paths: &[Vec<DVec2>],
@@ -329,8 +330,8 @@ fn asymmetry(
     let (Some(arap), Some(mesh)) = (transition.arap(), transition.compatible()) else {
         return Ok(None);
     };
-    // The reversed film uses the same rotation angles, whole turns included: this measures the
-    // symmetry of the energy, not of the choice of angles.
+    // The reversed film uses the same rotation angles, including whole turns. So the result
+    // measures the asymmetry of the energy, not of the choice of angles.
     let reversed = match arap.swapped(progress) {
         Ok(reversed) => reversed,
         Err(ArapError::Cancelled(cancelled)) => return Err(cancelled),

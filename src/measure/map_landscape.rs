@@ -19,7 +19,7 @@ pub enum MapMeasure {
     Area,
     /// Length of the outlines, [`BlendMeasures::perimeter`].
     Perimeter,
-    /// Distance from the nearest design, [`BlendMeasures::travel`].
+    /// Mean distance of the vertices from the nearest design, [`BlendMeasures::travel`].
     Travel,
 }
 
@@ -53,14 +53,14 @@ pub struct MapLandscape {
     /// Half the side length of the square that the grid covers, in map units. The square is centred
     /// at the origin of the map.
     reach: f64,
-    /// Measures of the blend at each grid point. `None` more than 1.5 grid steps outside the convex
-    /// hull of the sites, which are the positions of the designs on the map.
+    /// Measures of the blend at each grid point. `None` if the point lies more than 1.5 grid steps
+    /// outside the convex hull of the sites, which are the positions of the designs on the map.
     blends: Vec<Option<BlendMeasures>>,
 }
 
 impl MapLandscape {
     /// Measures the blend at the centre of each of `side` × `side` equal cells of the square from
-    /// (−`reach`, −`reach`) to (`reach`, `reach`) on the map.
+    /// (−`reach`, −`reach`) to (`reach`, `reach`) on the map. These centres are the grid points.
     ///
     /// # Errors
     /// [`Cancelled`] if the work was cancelled.
@@ -104,15 +104,16 @@ impl MapLandscape {
     }
 
     /// Returns a measure at a place on the map, interpolated bilinearly between the grid points;
-    /// `None` where too few grid points around the place were measured, as outside the hull of the
-    /// sites.
+    /// `None` where too few grid points around the place were measured, for example far outside the
+    /// convex hull of the sites.
     #[must_use]
     pub fn value(&self, measure: MapMeasure, place: DVec2) -> Option<f64> {
         self.interpolated(place, |blend| measure.of(blend))
     }
 
-    /// Returns the fraction of the grid points around a place whose blends have folded faces or
-    /// crossing outlines, from 0 to 1, weighted bilinearly.
+    /// Returns how many of the grid points around a place have blends with folded faces or crossing
+    /// outlines: a fraction from 0 to 1, weighted bilinearly. Returns 0 where too few grid points
+    /// were measured.
     #[must_use]
     pub fn defect_fraction(&self, place: DVec2) -> f64 {
         let has_defect = |blend: &BlendMeasures| blend.quality.folds + blend.quality.crossings > 0;

@@ -20,7 +20,8 @@ pub struct MeshReport {
     pub faces: usize,
     /// Number of vertices on the boundary.
     pub boundary_vertices: usize,
-    /// Number of inner vertices: the Steiner points of a triangulated outline.
+    /// Number of vertices inside the boundary. In a triangulated outline, these are the Steiner
+    /// points.
     pub inner_vertices: usize,
     /// Number of inner vertices per boundary vertex.
     pub steiner_per_boundary_point: f64,

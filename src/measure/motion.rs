@@ -3,8 +3,8 @@
 use crate::geometry::{DMat2, DVec2};
 use serde::Serialize;
 
-/// Travel and acceleration of the vertices, after removing the rigid motion of the whole shape. In
-/// design diameters.
+/// Travel and acceleration of the vertices, after removing the rigid motion of the whole shape.
+/// Lengths are in design diameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct MotionReport {

@@ -21,11 +21,12 @@ pub(super) fn count_over_ends(counts: impl Iterator<Item = Option<usize>>) -> Op
     Some(counts.iter().max()?.saturating_sub(ends))
 }
 
-/// Returns the largest amount by which the conformal, isometric and area distortion of a face in
-/// `paths` exceeds that of the same face in the target.
+/// Returns the largest amounts by which the conformal, isometric and area distortion of any face at
+/// any sample exceed those of the same face in the target. `paths` holds the vertex positions at
+/// each sample.
 ///
-/// Distortion is measured relative to the source, where it is 1. So of the two ends, the target is
-/// the worse one.
+/// Distortion is measured relative to the source, where it has its minimum, 1. So no face is less
+/// distorted in the target than in the source.
 pub(super) fn distortion_over_ends(mesh: &CompatibleMesh, paths: &[Vec<DVec2>]) -> [f64; 3] {
     let mut worst = [0.0; 3];
     for face in mesh.faces().iter() {

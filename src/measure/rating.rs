@@ -15,11 +15,13 @@ const SAMPLES: usize = 17;
 /// Progress reported for a method once its transition is built, in [0, 1] (heuristic).
 const BUILT_FRACTION: f64 = 0.9;
 
-/// Largest number of each kind of defect at any t of a film, comparable between methods.
+/// Rating of a film by the largest number of each kind of defect at any sampled t. Ratings of
+/// different methods can be compared.
 ///
 /// A film that disappears completely at some t is worse than one that does not. Otherwise, the film
-/// with fewer defects is better. With equal counts it is the one with less overshoot: turning of
-/// the outlines and change of area beyond what the two ends require.
+/// with fewer defects is better. With equal numbers of defects, the film with less overshoot is
+/// better. Overshoot is the turning of the outlines and the change of area beyond what the two ends
+/// require.
 ///
 /// ```
 /// use morphospace::measure::FilmRating;
@@ -34,9 +36,9 @@ const BUILT_FRACTION: f64 = 0.9;
 pub struct FilmRating {
     folds: usize,
     crossings: usize,
-    /// Largest number of pieces at any t, minus the number at the end that has more.
+    /// Largest number of pieces at any t, minus the number at t = 0 or t = 1, whichever is larger.
     extra_pieces: usize,
-    /// Largest number of holes at any t, minus the number at the end that has more.
+    /// Largest number of holes at any t, minus the number at t = 0 or t = 1, whichever is larger.
     extra_holes: usize,
     /// Whether the shape disappears completely at some t.
     disappears: bool,
@@ -156,7 +158,7 @@ impl fmt::Display for FilmRating {
 /// method and are not rated.
 ///
 /// # Errors
-/// [`BuildError`] of the first method if none can be built, or if the work was cancelled.
+/// [`BuildError`] if the work was cancelled; if no method can be built, the error of the first one.
 pub fn build_best_method(
     spec: &TransitionSpec,
     progress: &dyn Progress,

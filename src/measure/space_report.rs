@@ -55,7 +55,8 @@ pub struct BlendStatistics {
 /// Measures blends of each pair of designs, the blend of all with equal weights, and `blends`
 /// blends spread over the whole space.
 ///
-/// The weights of the latter are deterministic: they depend only on the number of designs.
+/// The weights of the blends spread over the space are deterministic: they depend only on the
+/// number of designs.
 ///
 /// # Errors
 /// [`Cancelled`] if the work was cancelled.

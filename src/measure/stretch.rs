@@ -21,8 +21,8 @@ pub(super) struct EdgeStretch {
     /// Fraction of the loop that the window around the vertex covers in the target, divided by the
     /// fraction in the source; 1 is even.
     pub ratio: f64,
-    /// Length of source boundary that the vertex represents, half of each adjacent edge, in design
-    /// units.
+    /// Length of the source boundary that the vertex represents, in design units: half of each of
+    /// its two boundary edges.
     pub weight: f64,
 }
 
@@ -69,8 +69,8 @@ fn loop_stretch(vertices: &[u32], source: &[f64], target: &[f64]) -> Vec<EdgeStr
             let (after, before) = ((i + k) % n, (i + 2 * n - 1 - k) % n);
             in_source += (source[after] + source[before]) / source_length;
             in_target += (target[after] + target[before]) / target_length;
-            // Length in either design is enough: otherwise a squeezed section would be averaged
-            // with its neighbours.
+            // A window that is long in only one design is accepted. Otherwise, a squeezed section
+            // would be averaged with its neighbours.
             if in_source + in_target >= MIN_WINDOW_LENGTH {
                 break;
             }

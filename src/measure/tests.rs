@@ -51,7 +51,7 @@ pub(super) fn sheet(n: u32, m: u32) -> (Vec<[u32; 3]>, Vec<DVec2>) {
     )
 }
 
-/// Returns the measures of the film from a rectangle to its image under `map`.
+/// Returns the measures of the film from a rectangle of 4 by 2 to its image under `map`.
 fn film_of(map: impl Fn(DVec2) -> DVec2, homotopy: Homotopy) -> FilmReport {
     let (faces, source) = sheet(4, 2);
     let target: Vec<_> = source.iter().map(|&p| map(p)).collect();

@@ -22,8 +22,8 @@ pub enum Quantity {
     WorstConformal,
     /// Isometric distortion max(σ₁, 1/σ₂) of the worst face, at least 1.
     WorstIsometric,
-    /// Smallest determinant of any face relative to the source: 1 at t = 0, and 0 or less for a
-    /// fold.
+    /// Smallest signed area of any face, divided by the area of the face in the source. It is 1 at
+    /// t = 0, and 0 or less if a face is folded.
     MinDet,
     /// Number of faces that are folded or flat.
     Folds,
@@ -80,8 +80,8 @@ impl Quantity {
 impl FilmReport {
     /// Returns a measure as pairs `[t, value]` with t increasing from 0 to 1.
     ///
-    /// Empty if this kind of transition does not have it. The distortion of a folded face is
-    /// infinite, which a graph shows as a gap.
+    /// Empty if this kind of transition does not have the measure. The distortion of a folded face
+    /// is infinite, which a graph shows as a gap.
     #[must_use]
     pub fn series(&self, quantity: Quantity) -> Vec<[f64; 2]> {
         let samples = self.samples.iter();

@@ -117,7 +117,8 @@ impl Verdict {
             ),
             Content::Colours(_) => ("no folds", Vec::new()),
         };
-        // For pictures no moments were sampled, and a fold of the plane may be short.
+        // For pictures, `moments` is empty. At least [`PLANE_STEPS`] t are checked, because a fold
+        // of the plane may last only a short time.
         let steps = moments.len().max(PLANE_STEPS);
         let plane_progress = ProgressSpan::new(progress, 0.8, 1.0);
         findings.extend(plane::plane_findings(transition, steps, &plane_progress)?);

@@ -149,12 +149,14 @@ fn sorted_edges(faces: &[[u32; 3]]) -> Vec<SortedHalfEdge> {
     edges
 }
 
-/// Sorts half-edges: by their smaller vertex in one counting pass, then the few half-edges of each
-/// vertex among themselves. For six million edges this takes a fraction of the time of a full sort.
+/// Sorts half-edges by their smaller vertex in one counting pass, and then sorts the few half-edges
+/// of each vertex among themselves. For six million edges this takes a fraction of the time of a
+/// full sort.
 fn sort(edges: &mut Vec<SortedHalfEdge>) {
     let vertices = edges.iter().map(|([a, _], ..)| *a as usize + 1).max();
     let Some(vertices) = vertices.filter(|count| *count <= edges.len()) else {
-        // Vertex indices far above the number of edges: a counting sort would waste memory.
+        // The largest vertex index is not below the number of half-edges, so a counting sort would
+        // waste memory.
         return edges.sort_unstable();
     };
     let mut from = vec![0; vertices + 1];

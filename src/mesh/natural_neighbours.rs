@@ -1,8 +1,9 @@
 //! Natural-neighbour coordinates: the weights that scattered points (sites) have at a point, for
 //! interpolation between the sites.
 //!
-//! Sibson, "A vector identity for the Dirichlet tessellation" (1980): a site's weight is the
-//! fraction of the point's own Voronoi cell that it would take from the site's cell.
+//! Sibson, "A vector identity for the Dirichlet tessellation" (1980): insert the point as a further
+//! site. The weight of an old site is the fraction of the new Voronoi cell that was taken from that
+//! site's cell.
 //!
 //! Guaranteed: weights are at least 0, sum to one, and vary continuously with the point. At a site,
 //! the weight of this site is 1. Outside the convex hull of the sites, the weights are those of the
@@ -18,7 +19,8 @@ pub struct NaturalNeighbours {
     sites: Vec<DVec2>,
     /// `None` if all sites lie on one line, or if `spade` rejects one of their coordinates.
     triangulation: Option<DelaunayTriangulation<Point2<f64>>>,
-    /// Index pairs of neighbouring sites along the convex hull, or along the line.
+    /// Index pairs of neighbouring sites along the convex hull; without a triangulation, along the
+    /// line through the sites.
     hull: Vec<[usize; 2]>,
 }
 
@@ -48,7 +50,7 @@ impl NaturalNeighbours {
     /// let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(DVec2::from);
     /// let neighbours = NaturalNeighbours::new(&corners)?;
     /// let mut shares = [0.0; 4];
-    /// neighbours.shares(DVec2::ONE, &mut shares);
+    /// neighbours.weights(DVec2::ONE, &mut shares);
     /// assert!(shares.iter().all(|share| (share - 0.25).abs() < 1e-12));
     /// # Ok::<(), morphospace::mesh::SitesError>(())
     /// ```

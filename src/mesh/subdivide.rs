@@ -6,7 +6,8 @@
 use super::edges::{sides, undirected};
 use std::collections::HashMap;
 
-/// Maximum number of vertices after subdivision (resource limit: about 4 GB for a factored system).
+/// Maximum number of vertices after subdivision (resource limit: the factored system of a mesh of
+/// this size takes about 4 GB).
 pub const MAX_VERTICES: usize = 4_000_000;
 
 /// Maximum number of rounds of subdivision (derived: a single triangle has 2 million vertices after
@@ -59,8 +60,8 @@ impl Subdivision {
         };
         for _ in 0..rounds {
             let so_far = vertices + fine.midpoints.len();
-            // Check before allocating: each face adds three midpoints, which at most two faces
-            // share.
+            // Check before allocating: each face adds three midpoints, and at most two faces share
+            // a midpoint.
             if so_far + fine.faces.len() * 3 / 2 > MAX_VERTICES {
                 return Err(TooManyVertices { rounds });
             }

@@ -1,5 +1,6 @@
 //! Triangulates a connected region (piece) that is bounded by closed loops, by constrained Delaunay
-//! triangulation (Chew 1989), optionally refined.
+//! triangulation (Chew 1989), optionally refined. [`delaunay`] triangulates a set of points
+//! instead.
 //!
 //! A loop may run along a slit, there and back over the same points. Each of its corners then
 //! becomes a vertex of its own, so that the mesh opens along the slit.

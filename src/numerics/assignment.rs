@@ -1,4 +1,4 @@
-//! The assignment problem, solved by shortest augmenting paths with potentials (Kuhn 1955; Jonker
+//! Solves the assignment problem by shortest augmenting paths with potentials (Kuhn 1955; Jonker
 //! and Volgenant 1987) in O(rows² · columns).
 
 /// Assigns each row a different column so that the sum of the costs `cost(row, column)` is minimal,

@@ -11,11 +11,12 @@ use crate::work::progress::Progress;
 /// Maximum number of remembered steps with their gradient changes (cited: the literature uses 3 to
 /// 20; each remembered step adds two passes over all unknowns).
 const MEMORY: usize = 12;
-/// Minimum decrease of a step, as a fraction of the decrease that the slope at its start predicts
-/// (Armijo condition; cited: Nocedal, Wright, "Numerical Optimization").
+/// Minimum decrease of the function along a step, as a fraction of the decrease that the slope at
+/// the start of the step predicts (Armijo condition; cited: Nocedal, Wright, "Numerical
+/// Optimization").
 const DECREASE: f64 = 1e-4;
-/// Maximum steepness at the end of a step, as a fraction of the steepness at its start (curvature
-/// condition; cited: the same book).
+/// Maximum steepness of the function at the end of a step, as a fraction of the steepness at the
+/// start of the step (curvature condition; cited: Nocedal, Wright, "Numerical Optimization").
 const CURVATURE: f64 = 0.9;
 /// Maximum number of trials in one line search (resource limit: after 25 halvings, the length of a
 /// step is 3e-8 of its first length).
@@ -25,8 +26,8 @@ const MAX_TRIALS: usize = 25;
 /// `x`.
 ///
 /// `function` returns the value at a point and writes the gradient to its second argument;
-/// `precondition` applies an approximate inverse of the second derivative in place. Stops early if
-/// a step lowers the value by at most the fraction `min_decrease` of it, or on a cancel.
+/// `precondition` applies an approximate inverse of the second derivative in place. Stops early on
+/// a cancel, or after a step that lowers the value by at most `min_decrease` times its magnitude.
 pub(crate) fn minimise(
     x: &mut [f64],
     max_steps: usize,
@@ -35,8 +36,8 @@ pub(crate) fn minimise(
     mut function: impl FnMut(&[f64], &mut [f64]) -> f64,
     progress: &dyn Progress,
 ) -> f64 {
-    // After a cancel every evaluation is infinite, so the line search ends as it does beyond a
-    // barrier.
+    // After a cancel every evaluation returns infinity, so the line search rejects all further
+    // steps and ends.
     let mut function = |x: &[f64], gradient: &mut [f64]| {
         if progress.is_cancelled() {
             return f64::INFINITY;
@@ -117,8 +118,9 @@ fn direction(
     d
 }
 
-/// Searches along a direction for a step that meets the weak Wolfe conditions. Returns `None` if no
-/// step descends far enough.
+/// Searches along a direction for a step that meets the weak Wolfe conditions. If none is found,
+/// returns the last step tried that descends far enough but ends on a steep slope; `None` if there
+/// is none either.
 fn search(
     x: &[f64],
     value: f64,
@@ -163,7 +165,8 @@ fn search(
     best
 }
 
-/// Adds a step to the memory and drops the oldest one if it is full.
+/// Adds a step to the memory; if the memory is full, drops the oldest step first. Ignores a step
+/// along which the slope does not rise.
 fn remember(
     memory: &mut Vec<CurvaturePair>,
     x: &[f64],
@@ -174,8 +177,9 @@ fn remember(
     let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
     let (step, change) = (minus(&accepted.x, x), minus(&accepted.gradient, gradient));
     let product = dot(&step, &change);
-    // The recursion divides by the product. It is sure to give a descent direction only if the
-    // product is positive: the slope has risen along the step, by more than rounding.
+    // The two-loop recursion divides by the product, and is sure to give a descent direction only
+    // if the product is positive. The threshold is above 0 to exclude products that are mere
+    // rounding.
     if product > 1e-14 * dot(&change, &change) {
         if memory.len() == MEMORY {
             memory.remove(0);

@@ -1,6 +1,6 @@
 //! Sparse Cholesky factorisation of matrices whose values change while the pattern of their nonzero
-//! entries stays the same. The elimination order is computed once; then matrices are factored and
-//! solved as often as needed.
+//! entries stays the same. The elimination order is computed once. Then any number of matrices with
+//! this pattern can be factored and their systems solved.
 //!
 //! Guaranteed: a solve allocates nothing, and its solution depends only on the entries and the
 //! right-hand side, not on earlier solves.
@@ -59,8 +59,8 @@ impl PatternWorkspace {
 
 impl PatternCholesky {
     /// Computes the elimination order for a symmetric matrix of `n` unknowns with nonzero entries
-    /// at `places`, pairs of row and column in either order. Also returns, for each place, its
-    /// index in [`PatternWorkspace::entries`].
+    /// at `places`. A place is a pair of row and column, in either order, and may occur several
+    /// times. Also returns, for each place, its index in [`PatternWorkspace::entries`].
     ///
     /// # Errors
     /// [`FactorError::OutOfMemory`] if the factorisation does not fit into memory.
@@ -70,7 +70,7 @@ impl PatternCholesky {
         let mut all: Vec<[u32; 2]> = places.iter().map(stored).collect();
         all.sort_unstable();
         all.dedup();
-        // For compressed columns: the number of entries before each column.
+        // Compressed column storage needs the number of entries before each column.
         let before = |column: u32| all.partition_point(|&[c, _]| c < column) as u32;
         let columns: Vec<u32> = (0..=n as u32).map(before).collect();
         let rows: Vec<u32> = all.iter().map(|&[_, row]| row).collect();

@@ -60,14 +60,16 @@ pub struct Project {
     pub fit: DesignFit,
     /// Designs, at least two, in the order in which the film shows them.
     pub designs: Vec<DesignEntry>,
-    /// Whether the film continues from the last design back to the first. From format version 2 on.
+    /// Whether the film continues from the last design back to the first. Stored from format
+    /// version 2 on.
     #[serde(default, skip_serializing_if = "is_default")]
     pub closed: bool,
-    /// Settings of each segment between two consecutive designs, if there are more than two
-    /// designs. Entries missing at the end are defaults. From format version 2 on.
+    /// Settings of each segment between two consecutive designs; empty for two designs. If the list
+    /// is shorter than the number of segments, the last segments have default settings. Stored from
+    /// format version 2 on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub legs: Vec<SegmentRecord>,
-    /// Map of all designs. From format version 2 on.
+    /// Map of all designs. Stored from format version 2 on.
     #[serde(default, skip_serializing_if = "is_default")]
     pub map: MapSettings,
     /// Options of all methods; their keys are at the top level of the file.
@@ -122,7 +124,7 @@ impl DesignEntry {
         }
     }
 
-    /// Returns the name of the design, or the file name without its extension.
+    /// Returns the name of the design; if it is empty, the file name without its extension.
     #[must_use]
     pub fn display_name(&self) -> String {
         match self.name.as_str() {

@@ -23,7 +23,7 @@ pub enum ProjectError {
     InFile {
         /// The project file.
         file: PathBuf,
-        /// The error in it.
+        /// The error in that file.
         error: Box<ProjectError>,
     },
     /// The file could not be read.
@@ -117,7 +117,7 @@ pub enum ProjectError {
     /// A value cannot be represented in TOML.
     #[error("the project cannot be written ({0}); correct that value")]
     NotSerializable(String),
-    /// There is no bundled project with that name.
+    /// There is no bundled project with the requested name.
     #[error(
         "the gallery has no project \"{}\"; it has {known}",
         SanitizedLine(name)
@@ -131,7 +131,7 @@ pub enum ProjectError {
 }
 
 impl ProjectError {
-    /// Adds the file to an error.
+    /// Wraps the error together with the file in which it occurred.
     pub(super) fn in_file(self, file: &Path) -> Self {
         Self::InFile {
             file: file.to_owned(),
@@ -148,7 +148,7 @@ impl ProjectError {
         }
     }
 
-    /// Creates the error for an unknown top-level key; `known` lists all valid keys.
+    /// Creates the error for an unknown top-level key. `valid` lists all valid keys, in two groups.
     pub(super) fn unknown_key(
         text: &str,
         key: &toml::Spanned<Cow<'_, str>>,

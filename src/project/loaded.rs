@@ -25,13 +25,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Files of the gallery, embedded in the binary.
 pub(super) static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/gallery");
 
-/// Returns the content of a gallery file by its path, as bundled projects state it.
+/// Returns the content of the gallery file with the given path, relative to the gallery as in
+/// bundled projects; `None` if there is no such file.
 #[must_use]
 pub fn bytes(path: &Path) -> Option<&'static [u8]> {
     FILES.get_file(path).map(File::contents)
 }
 
-/// Message for methods that can blend only two designs.
+/// Error message if more than two designs are to be blended with a method for two designs.
 const UNSUPPORTED_FOR_SPACE: &str = "three or more designs can be blended as rigid parts, as \
      distance fields without a warp, or as pictures (without a warp, or by lines, points or a \
      lattice); choose one of these";
@@ -60,7 +61,7 @@ pub struct LoadedProject {
 /// as rigid parts and as distance fields).
 const MAX_CACHED_SPACES: usize = 4;
 
-/// Message for operations that need exactly two designs, if the film follows a path.
+/// Error message if an operation needs a transition of two designs, but the film follows a path.
 const PAIR_REQUIRED: &str = "this applies to two designs, but the film follows a path between \
      all of them; remove the path first";
 
@@ -211,8 +212,8 @@ impl LoadedProject {
         Ok(Self { patient, ..loaded })
     }
 
-    /// Reads the designs that have no equal in `before`: a design with the same path, name and
-    /// import options. The others are reused.
+    /// Reads each design for which `before` has no design with the same path, name and import
+    /// options. The other designs are reused.
     ///
     /// `before` must be the project to which the currently loaded designs belong.
     ///
@@ -269,8 +270,8 @@ impl LoadedProject {
                     (method.content() == ContentKind::Colours) == are_pictures
                 };
                 let methods = TransitionMethod::all().filter(|method| method.warp() == warp);
-                // The first method with this warp whose content suits the designs, or the first
-                // one.
+                // The first method with this warp whose content suits the designs; if none does,
+                // the first method with this warp.
                 let chosen = methods.min_by_key(|method| !suits(method));
                 Ok(chosen.unwrap_or(default))
             }
@@ -355,7 +356,8 @@ impl LoadedProject {
         let mut method = self.method().map_err(BuildError::from)?;
         let is_requested = project.warp.is_some() || project.content.is_some();
         if !is_requested && self.designs.iter().any(|design| design.picture.is_none()) {
-            // The default looks only at the first two designs, but not all are pictures.
+            // The default method depends only on the first two designs, but at least one design is
+            // not a picture.
             method = TransitionMethod::RIGID_PARTS;
         }
         if !supports_spaces(method) {
@@ -403,7 +405,7 @@ impl LoadedProject {
 
     /// Builds the space of all designs, or returns a cached one.
     ///
-    /// `quality` overrides the quality of the project.
+    /// If `quality` is given, it overrides the quality of the project.
     ///
     /// # Errors
     /// As [`Self::space_spec`] and [`DesignSpace::build`].
@@ -416,8 +418,8 @@ impl LoadedProject {
         if let Some(quality) = quality {
             spec.options.quality = quality;
         }
-        // The list stays locked while building, so that a second request for the same space waits
-        // for it.
+        // The list stays locked while a space is built, so that a second request for the same space
+        // waits for the first.
         let mut cached = self.spaces.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, space)) = cached.iter().find(|(cached_spec, _)| *cached_spec == spec) {
             return Ok(space.clone());
@@ -536,7 +538,7 @@ fn read_named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>,
 fn read(entry: &DesignEntry, folder: Option<&Path>) -> Result<Design, ProjectError> {
     let source = match folder {
         Some(folder) => DesignSource::in_folder(folder, &entry.path),
-        // A bundled project in which the user has replaced a design by a file.
+        // The user has replaced a design of a bundled project by a file.
         None if entry.path.is_absolute() => DesignSource::from_path(&entry.path),
         // Other paths of a bundled project refer to embedded files, never to the disk.
         None => {

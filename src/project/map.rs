@@ -5,7 +5,8 @@ use crate::mesh::{NaturalNeighbours, SitesError};
 use crate::space::{DesignDistances, MapLayout, MapPath};
 use serde::{Deserialize, Serialize};
 
-/// Map of all designs: their layout, the path over it, and saved blends. From version 2 on.
+/// Map of all designs: their layout, the path over the map, and saved blends. Stored from format
+/// version 2 on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct MapSettings {
@@ -92,7 +93,8 @@ pub enum MapError {
     /// The place of the path with this index lies outside the map.
     #[error("place {} of the path lies outside the map; use coordinates from -{MAX_COORDINATE} to {MAX_COORDINATE}", .0 + 1)]
     PathPlace(usize),
-    /// There are too many places of the path or saved blends.
+    /// The path has more than [`MAX_PLACES`] places, or there are more than [`MAX_PLACES`] saved
+    /// blends.
     #[error(
         "a map can have at most {MAX_PLACES} saved blends and {MAX_PLACES} places on its path; remove some"
     )]
@@ -142,7 +144,7 @@ impl MapSettings {
         }
     }
 
-    /// Returns whether the film is the same with both settings.
+    /// Returns whether the film is the same with these settings as with `other`.
     ///
     /// Without a path, the film does not depend on the map at all. With a path, names and saved
     /// blends do not affect it.

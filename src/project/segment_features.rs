@@ -10,7 +10,7 @@ use crate::warp::ManyFeatures;
 const MAX_GAP: f64 = 0.01;
 
 /// Returns the features (pins and lines) that exist in all designs, with their positions in each
-/// design, and the number of features that do not.
+/// design, and the number of features that exist in only some designs.
 ///
 /// `segments` are the match settings of each segment; `diameters` are those of all designs.
 pub(super) fn features_in_all_designs(
@@ -39,8 +39,9 @@ pub(super) fn features_in_all_designs(
 
 /// Joins the features of consecutive segments.
 ///
-/// `segments` holds, for each segment, the places of each feature in source and target. Returns the
-/// places of the features that continue through all segments, and the number of those that do not.
+/// `segments` holds, for each segment, the places of each feature in source and target. For each
+/// feature that continues through all segments, returns its place in each design. Also returns the
+/// number of features that do not continue.
 fn join<const N: usize>(
     segments: Vec<Vec<[[DVec2; N]; 2]>>,
     diameters: &[f64],
@@ -99,8 +100,8 @@ mod tests {
         };
         let segments = [
             segment(vec![pin(1.0, 2.0), pin(50.0, 60.0)], vec![line(5.0, 6.0)]),
-            // The pin that continues is listed first instead of second, and starts 0.4 away from
-            // its end.
+            // The first pin continues the second pin of the previous segment: it starts 0.4 away
+            // from the end of that pin.
             segment(vec![pin(60.4, 70.0), pin(90.0, 91.0)], vec![line(6.0, 7.0)]),
         ];
         let (features, unmatched) = features_in_all_designs(&segments, &[100.0; 3]);

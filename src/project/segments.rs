@@ -3,8 +3,8 @@
 //! Match settings, part timing and cached matches belong to the segment between two consecutive
 //! designs; everything else belongs to the whole project. A project of two designs has one segment,
 //! whose settings are stored at the top level. If the film follows a path over the map, its
-//! segments lie between the stops of the path and share all settings. The settings of pairs of
-//! designs are still stored then, for when the path is removed.
+//! segments lie between the stops of the path and share all settings. The settings of the pairs of
+//! designs stay in the project and apply again once the path is removed.
 //!
 //! Taking out a segment and putting it back unchanged changes nothing. When designs are reordered,
 //! settings stay with pairs that remain neighbours.
@@ -31,8 +31,9 @@ impl Project {
         }
     }
 
-    /// Returns the number of pairs of consecutive designs: one less than the number of designs, or
-    /// equal to it if the film is closed (continues from the last design to the first).
+    /// Returns the number of pairs of consecutive designs. It is one less than the number of
+    /// designs. In a closed film, which continues from the last design to the first, the two
+    /// numbers are equal.
     #[must_use]
     pub fn pair_count(&self) -> usize {
         let closing_pair = usize::from(self.closed);
@@ -63,8 +64,8 @@ impl Project {
 
     /// Returns the indices of the two designs of a segment.
     ///
-    /// Each segment of a path blends all designs; for it, the first and the last design are
-    /// returned.
+    /// A segment of a path blends all designs. For such a segment, the first and the last design
+    /// are returned.
     #[must_use]
     pub fn segment_designs(&self, segment: usize) -> [usize; 2] {
         match self.follows_path() {
@@ -141,7 +142,8 @@ impl Project {
         self.set_segment_records(records);
     }
 
-    /// Returns the indices of the two designs of a pair if there are `designs` designs.
+    /// Returns the indices of the two designs of a pair of consecutive designs, in a project of
+    /// `designs` designs. The first design follows the last one.
     fn cyclic_pair(&self, pair: usize, designs: usize) -> impl Iterator<Item = usize> + use<> {
         [pair, pair + 1]
             .into_iter()
@@ -151,7 +153,7 @@ impl Project {
     /// Replaces or reorders the designs. Does nothing if fewer than two are given.
     ///
     /// Pairs that remain neighbours keep their settings, and stops move with their designs. A film
-    /// through all designs still goes through all of them.
+    /// that showed all designs still shows all of them.
     pub fn set_designs(&mut self, designs: Vec<MovedDesigns>) {
         self.rearrange(designs, self.closed);
     }
@@ -268,7 +270,8 @@ impl Project {
             (record.matching, record.parts, record.found);
     }
 
-    /// Stores the settings of all pairs; those of a single pair at the top level.
+    /// Stores the settings of all pairs of consecutive designs: at the top level if there is only
+    /// one pair, otherwise in `legs`.
     pub(super) fn set_segment_records(&mut self, mut records: Vec<SegmentRecord>) {
         if !self.is_sequence() {
             let record = records.into_iter().next();
@@ -299,8 +302,8 @@ impl Project {
     /// Makes the film follow a path over the map, or go from design to design if the path is too
     /// short.
     ///
-    /// If this changes the number of segments, the film then covers all of them at its previous
-    /// pace and pauses at each stop.
+    /// If this changes the number of segments, the film then covers all segments at its previous
+    /// pace and pauses at each stop of the path or at each design.
     pub fn set_path(&mut self, path: MapPath) {
         let count_before = self.segment_count() as f64;
         let had_path = self.follows_path();
@@ -319,8 +322,9 @@ impl Project {
         *self = self.clone().with_pauses_at_designs();
     }
 
-    /// Adds a pause at each whole t between the ends (a design, or a stop of a path) that has no
-    /// stop yet.
+    /// Adds a [`TransitionStop`] with a pause at each whole t between both ends of the film that
+    /// has no such stop yet. At a whole t, the film shows a design or the blend at a stop of its
+    /// path.
     pub(super) fn with_pauses_at_designs(mut self) -> Self {
         for k in 1..self.segment_count() {
             let t = k as f64;
@@ -351,9 +355,9 @@ fn moved_sites(sites: &[DVec2], origins: &[Option<usize>]) -> Vec<DVec2> {
 
 /// Returns the stops after a change of the designs.
 ///
-/// `origins` holds the previous index of each design, `old_pairs` that of each pair. A stop at a
-/// design moves with the design, a stop between two designs with the pair. New inner designs get a
-/// pause.
+/// `origins` holds the previous index of each design, `old_pairs` that of each pair of consecutive
+/// designs; `None` for new ones. A stop at a design moves with the design, a stop between two
+/// designs with the pair. New inner designs get a pause.
 fn moved_stops(
     old: &Project,
     origins: &[Option<usize>],

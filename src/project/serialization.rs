@@ -97,7 +97,7 @@ impl Project {
     ///
     /// # Errors
     /// [`ProjectError::NotSerializable`] if TOML cannot represent a number, such as a count beyond
-    /// its range.
+    /// the range of its integers.
     pub fn to_toml(&self) -> Result<String, ProjectError> {
         let project = Self {
             version: self.needed_version(),
@@ -135,7 +135,8 @@ fn read(text: &str) -> Result<Project, ProjectError> {
         return Err(ProjectError::newer(text, version.span().start, number));
     }
     let span = document.span();
-    // Serde reports the keys of both structs, so that a new option needs no second list.
+    // The valid keys of both structs come from serde, so that no separate list has to be updated
+    // when an option is added.
     let (project_keys, option_keys) = (keys_of::<Project>(), keys_of::<TransitionOptions>());
     let (mut project, mut options) = (DeTable::new(), DeTable::new());
     for (key, value) in document.into_inner() {

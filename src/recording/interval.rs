@@ -19,8 +19,8 @@ pub(super) type BlockRow = [f64; 2 * BLOCK];
 /// Row of a block in single precision.
 type NarrowBlockRow = [f32; 2 * BLOCK];
 
-/// Number of blocks that one thread evaluates at a time (heuristic: fewer cost more to distribute
-/// than to evaluate).
+/// Number of blocks that one thread evaluates at a time (heuristic: with fewer blocks, distributing
+/// the work would take longer than the work).
 const BLOCKS_PER_TASK: usize = 1 << 11;
 
 /// Returns the number of blocks that `vertices` vertices need; the last one may be partly filled.
@@ -36,7 +36,8 @@ pub(super) struct RecordingInterval {
     /// The t at which the interval ends.
     pub to: f64,
     arch: Arch,
-    /// Numbers of coefficients of each vertex that are stored in double and in single precision.
+    /// Number of coefficients of a vertex in double precision, and number of its coefficients in
+    /// single precision; the same for all vertices.
     counts: [usize; 2],
     /// For each block: the rows of positions at both ends, then the rows of double-precision
     /// coefficients.
@@ -82,14 +83,15 @@ impl RecordingInterval {
         self.counts[0] + self.counts[1]
     }
 
-    /// Returns the positions at both ends of the interval of the vertex with the index `vertex`,
-    /// counted through the blocks.
+    /// Returns the positions of one vertex at both ends of the interval. `vertex` counts the
+    /// vertices of all blocks, starting with the first block.
     pub(super) fn ends(&self, vertex: usize) -> [DVec2; 2] {
         let first = vertex / BLOCK * (2 + self.counts[0]);
         [0, 1].map(|end| point(&self.full[first + end], vertex))
     }
 
-    /// Returns coefficient `k` of the vertex with the index `vertex`, counted through the blocks.
+    /// Returns coefficient `k` of one vertex. `vertex` counts the vertices of all blocks, starting
+    /// with the first block.
     pub(super) fn coefficient(&self, vertex: usize, k: usize) -> DVec2 {
         let ([full, narrow], block) = (self.counts, vertex / BLOCK);
         if k < full {
@@ -121,7 +123,8 @@ impl RecordingInterval {
         size_of_val(&self.full[..]) + size_of_val(&self.narrow[..])
     }
 
-    /// Writes the positions at `t` of the vertices in the blocks from `first` on to `places`.
+    /// Fills `places` with the positions at `t` of as many vertices, beginning with the first
+    /// vertex of the block with the index `first`.
     pub(super) fn place(&self, t: f64, first: usize, places: &mut [DVec2]) {
         let s = self.fraction(t);
         let evaluate_task = |k: usize, places: &mut [DVec2]| {
@@ -140,7 +143,8 @@ impl RecordingInterval {
     }
 }
 
-/// Evaluation of the vertices in some blocks at one s, compiled for several SIMD widths.
+/// Evaluation of the vertices in a run of blocks at one s. The code is compiled for several SIMD
+/// widths.
 struct IntervalSum<'a> {
     interval: &'a RecordingInterval,
     first: usize,
@@ -184,8 +188,8 @@ impl WithSimd for IntervalSum<'_> {
     }
 }
 
-/// Returns the point that a row contains for the vertex with the index `vertex`, counted through
-/// the blocks.
+/// Returns the point that the row of a block contains for one of its vertices. `vertex` counts the
+/// vertices of all blocks, so its remainder modulo [`BLOCK`] is the place in the row.
 fn point(row: &BlockRow, vertex: usize) -> DVec2 {
     let first_number = 2 * (vertex % BLOCK);
     DVec2::new(row[first_number], row[first_number + 1])

@@ -3,9 +3,11 @@
 //!
 //! Within an interval, s runs from 0 to 1. The recorded functions are zero at s = 0 and s = 1, so
 //! both ends serve as nodes without an evaluation. The other nodes are Leja points: the next one
-//! maximises the product of its distances to both ends and to all earlier nodes. Its mirror image 1
-//! − s follows, so that the reversed motion is evaluated at the same times. The values at a new
-//! pair first test the polynomial through the earlier nodes; then the pair joins these nodes.
+//! maximises the product of its distances to both ends and to all earlier nodes. After each node s,
+//! its mirror image 1 − s is the next node, so that the reversed motion is evaluated at the same
+//! times. The values at a new pair of nodes first serve as a test of the polynomial through the
+//! values at the earlier nodes. If the test fails, a polynomial through all values, old and new, is
+//! formed and tested at the next pair.
 //!
 //! A function is written as b(s) Σ c_k T_k(2s − 1), with b(s) = 4s(1 − s) and the Chebyshev
 //! polynomials T_k. The smoother the function, the faster the coefficients c_k decrease. An omitted
@@ -15,8 +17,8 @@ use crate::numerics::DenseLu;
 use std::sync::LazyLock;
 
 /// Maximum number of nodes within an interval, not counting its ends (resource limit: an interval
-/// that needs more is halved). The number is odd, because the first
-/// node is the middle and the others come in pairs s and 1 − s.
+/// that needs more is halved). The number is odd, because the first node is the middle and the
+/// others come in pairs s and 1 − s.
 pub(crate) const MAX_NODES: usize = 23;
 
 /// Number of candidate positions for the next node in the first half of an interval (resource
@@ -52,8 +54,9 @@ fn bubble(s: f64) -> f64 {
     4.0 * s * (1.0 - s)
 }
 
-/// Returns the weights of the values at the first `n` nodes, such that the weighted sum is the
-/// value at `s` of the polynomial through them.
+/// Returns a weight for each of the first `n` nodes, followed by zeros. Consider the polynomial
+/// that is zero at both ends of the interval and has given values at these nodes. Its value at `s`
+/// is the sum of the given values, multiplied by the weights.
 pub(super) fn weights(n: usize, s: f64) -> [f64; MAX_NODES] {
     let nodes = nodes();
     let mut weights = [0.0; MAX_NODES];
@@ -65,8 +68,8 @@ pub(super) fn weights(n: usize, s: f64) -> [f64; MAX_NODES] {
     weights
 }
 
-/// Returns the values at `s` of the basis functions b(s) T_k(2s − 1) for k below `n`. They are
-/// exactly 0 at both ends.
+/// Returns the values at `s` of the basis functions b(s) T_k(2s − 1) for k below `n`. All of them
+/// are exactly 0 at s = 0 and s = 1.
 pub(super) fn basis(n: usize, s: f64) -> [f64; MAX_NODES] {
     let x = 2.0 * s - 1.0;
     let mut values = [0.0; MAX_NODES];
@@ -78,8 +81,8 @@ pub(super) fn basis(n: usize, s: f64) -> [f64; MAX_NODES] {
     values
 }
 
-/// Returns the matrix that converts values at the first `n` nodes to coefficients of the basis
-/// functions, row by row.
+/// Returns the rows of the matrix that converts the values of a function at the first `n` nodes to
+/// its coefficients c_k.
 pub(super) fn coefficients_from_values(n: usize) -> Vec<Vec<f64>> {
     // Column k contains the values of basis function k at all nodes.
     let at_nodes: Vec<[f64; MAX_NODES]> = nodes()[..n].iter().map(|&s| basis(n, s)).collect();

@@ -11,11 +11,11 @@
 //! close the recording is to the warp is a separate number ([`Recording::error`]).
 //!
 //! Guaranteed: everything that is reported as proved is true. Not guaranteed: that everything true
-//! can be proved; an undecided case is reported as a failure, at the first t where the decision
-//! failed. There is one exception: a vertex that touches an edge at t = 0 or t = 1, as on the two
-//! sides of a cut, is not tested against that edge within 1/1024 of that end; such pairs are
-//! counted. At t = 0 and t = 1 the positions are those of the designs, so orientations are exact
-//! even for faces smaller than rounding.
+//! can be proved; an undecided case is reported as a failure, with the smallest t at which it could
+//! not be decided. There is one exception: a vertex that touches an edge at t = 0 or t = 1, as on
+//! the two sides of a cut, is not tested against that edge as long as t is within 1/1024 of that
+//! end. The number of such pairs is reported. At t = 0 and t = 1 the positions are those of the
+//! designs, so orientations are exact even for faces smaller than rounding.
 //!
 //! - `bernstein`: polynomials with error bounds; `vertex_curve`: the curves of vertices
 //! - `folds`: the first face in an interval that may fold; `meetings`: the earliest time in an
@@ -43,13 +43,14 @@ use vertex_curve::IntervalCurves;
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct RecordingProof {
-    /// The first t at which a face is not proved to be positively oriented; `None` if all faces are
-    /// proved.
+    /// First face that is not proved to be positively oriented, with the t at which the proof
+    /// fails; `None` if all faces are proved at every t.
     pub fold: Option<FaceFold>,
-    /// The first t at which outlines are not proved to be apart; `None` if all are proved.
+    /// First vertex and edge that are not proved to be apart, with the t at which the proof fails;
+    /// `None` if all outlines are proved to be apart at every t.
     pub meeting: Option<OutlineMeeting>,
-    /// Number of vertex–edge pairs that touch at t = 0 or t = 1 and were therefore not tested
-    /// within 1/1024 of that end.
+    /// Number of vertex–edge pairs that touch at t = 0 or t = 1 and were therefore not tested while
+    /// t is within 1/1024 of that end.
     pub touching: usize,
 }
 
@@ -84,8 +85,8 @@ pub struct OutlineMeeting {
 }
 
 impl Recording {
-    /// Examines all faces and the given boundary loops of the recording at every t in [0, 1]. Takes
-    /// about 20 µs for each face, plus a search for nearby edges.
+    /// Examines the recording at every t in [0, 1]: whether a face folds, and whether the given
+    /// boundary loops meet. Takes about 20 µs for each face, plus a search for nearby edges.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled.

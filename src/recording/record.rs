@@ -18,17 +18,18 @@ use rayon::prelude::*;
 /// too many nodes is halved early (heuristic).
 const FORECAST_NODES: usize = 9;
 
-/// Length in t up to which an interval is not halved; the warp is then reported as not smooth
-/// (tolerance: a thousandth of the transition).
+/// An interval of at most this length in t is not halved. If it needs too many nodes, the warp is
+/// reported as not smooth (tolerance: a thousandth of the transition).
 const SHORTEST_INTERVAL: f64 = 1.0 / 1024.0;
 
 /// Break times that differ by less than this are merged (tolerance: the rounding of times that
 /// should be equal).
 const SAME_TIME: f64 = 1e-12;
 
-/// Time between two break times at which the warp is compared with its start to detect moving
-/// channels, as a fraction of the interval (heuristic: at the golden section, a motion that returns
-/// to its start is unlikely to be there).
+/// To detect the moving channels, the warp is compared with its start once between every two break
+/// times. This number is the time of the comparison, as a fraction of the time between them
+/// (heuristic: at the golden section, even a motion that returns to its start is hardly ever
+/// exactly there).
 const PROBE_FRACTION: f64 = 0.381_966;
 
 /// Fraction of the tolerance that may be used up by the rounding of small coefficients to single
@@ -64,8 +65,8 @@ pub enum RecordingError {
 pub(super) struct RecordedIntervals {
     pub channels: MovingChannels,
     pub intervals: Vec<RecordingInterval>,
-    /// Largest measured distance from the warp, as a fraction of the diameter of all moving
-    /// positions.
+    /// Largest measured distance between a vertex in the recording and the same vertex in the warp,
+    /// as a fraction of the diameter of all moving positions at both ends.
     pub error: f64,
     /// Number of times that the warp was evaluated.
     pub evaluation_count: usize,
@@ -115,7 +116,8 @@ struct WarpRecorder<'a> {
     /// fraction of it.
     diameter: f64,
     intervals: Vec<RecordingInterval>,
-    /// Largest measured distance from the warp so far, in units of the plane.
+    /// Largest distance so far between a vertex in the recording and the same vertex in the warp,
+    /// in units of the plane.
     error: f64,
     evaluation_count: usize,
 }
@@ -180,8 +182,8 @@ impl<'a> WarpRecorder<'a> {
         [a, b]
     }
 
-    /// Records the interval between two times, given with their positions. Halves the interval
-    /// where it needs too many nodes.
+    /// Records the interval between two times. Each time is given with the positions of all
+    /// vertices at that time. An interval that would need too many nodes is halved.
     ///
     /// # Errors
     /// [`RecordingError`] if the warp is not smooth, if the recording exceeds the memory limit, or
@@ -250,8 +252,9 @@ impl<'a> WarpRecorder<'a> {
     }
 
     /// Stores the polynomials through the samples as an interval. Trailing coefficients that are
-    /// small enough are omitted. Small ones before them are stored in single precision, the others
-    /// in double precision. `off` is the measured error of the polynomials.
+    /// small enough are omitted. Of the coefficients that remain, the small ones at the end are
+    /// stored in single precision, the others in double precision. `off` is the measured error of
+    /// the polynomials.
     ///
     /// # Errors
     /// [`RecordingError`] if the interval exceeds the memory limit or the work is cancelled.

@@ -2,8 +2,8 @@
 //!
 //! The position of a vertex is `near end + share · (other end − near end) + Σ weight ·
 //! coefficient`, relative to a common origin. The near end is the end of the interval to which t is
-//! closer, and `share` is the fraction of the interval between the two. Both ends are therefore
-//! exact, and vertices that do not move do not jitter.
+//! closer, and `share` is the fraction of the interval between the near end and t. Both ends are
+//! therefore exact, and vertices that do not move do not jitter.
 //!
 //! Guaranteed: at both ends of an interval, positions are exact to single precision. Not
 //! guaranteed: any better precision in between; coefficients that have no effect in single

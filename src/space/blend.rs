@@ -120,8 +120,8 @@ impl DesignSpace {
     /// Returns the position of a blend's colour between the first (0) and the second (1) colour of
     /// the style.
     ///
-    /// The first design has the first colour, the last design the second; those between are evenly
-    /// spaced.
+    /// The first design has the first colour and the last design the second. The colours of the
+    /// designs between them are evenly spaced.
     #[must_use]
     pub fn colour_fraction(&self, weights: &[f64]) -> f64 {
         let layout = SequenceLayout {
@@ -203,7 +203,7 @@ impl SpaceFrame {
         self.weights.iter().any(|w| !(0.0..=1.0).contains(w))
     }
 
-    /// Returns the vertex positions of the common mesh; `None` without one.
+    /// Returns the vertex positions of the common mesh; `None` if there is no common mesh.
     #[must_use]
     pub fn places(&self) -> Option<&[DVec2]> {
         self.placer.as_ref().map(BlendPlacer::places)

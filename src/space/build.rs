@@ -26,9 +26,9 @@ use std::sync::Arc;
 /// Maximum number of designs that are tried as the hub of a common mesh with draft matches
 /// (heuristic).
 ///
-/// The hub is the design with which all others are matched. Matches in full quality are tried
-/// first, but only with the best hub. Their points may be so close together that no common mesh
-/// without folds exists, while draft matches still allow one.
+/// The hub is the design with which all others are matched. Matches in the requested quality are
+/// tried first, but only with the best hub. The points of such matches may be so close together
+/// that no common mesh without folds exists, while draft matches still allow one.
 const MAX_HUBS: usize = 3;
 
 /// Specification of a design space: designs placed in one frame, and options.
@@ -40,8 +40,8 @@ pub struct SpaceSpec {
     /// Kind of content: solid for rigid parts, distance fields, or pictures. `None` means rigid
     /// parts if the designs have a common mesh, otherwise distance fields.
     pub content: Option<ContentKind>,
-    /// Warp that aligns pictures: lines, scattered points or a lattice; with any other, pictures
-    /// stay in place.
+    /// Warp that aligns pictures: lines, scattered points or a lattice. With any other warp,
+    /// pictures stay in place.
     pub warp: WarpKind,
     /// Pins and lines that exist in all pictures, with their position in each, in the common frame.
     pub features: ManyFeatures,
@@ -177,7 +177,7 @@ impl DesignSpace {
     }
 }
 
-/// How the common mesh of the designs is obtained, and how dissimilar they are.
+/// How the common mesh of the designs is obtained, and how dissimilar the designs are.
 struct BuiltContent {
     form: CommonForms,
     distances: DesignDistances,
@@ -263,7 +263,8 @@ impl BuiltContent {
                 (self.outlines(spec, &matching)?, Vec::new())
             }
         };
-        // The error of the mesh may stand for a cancellation, which must be returned as such.
+        // A cancellation also appears as an error of the mesh, but must be returned as a
+        // cancellation.
         check_cancelled(progress)?;
         let family = match family {
             Ok(family) => family,
@@ -374,7 +375,7 @@ fn mesh(design: &Arc<Design>) -> Option<&TriangleMesh> {
 }
 
 /// Computes the distance fields of all designs on one grid. The grid covers the same part of the
-/// plane as that of the transition `frame`.
+/// plane as the grid of the transition that `frame` specifies.
 fn fields(
     spec: &SpaceSpec,
     frame: &TransitionSpec,
@@ -406,8 +407,9 @@ fn fields(
     ))
 }
 
-/// Returns a box around the designs (`ends`), the blends halfway between each two, and the blend of
-/// all with equal weights. The blends are widened by half of `bar_width`.
+/// Returns a box around `ends` (the box of all designs), the blends halfway between each pair of
+/// designs, and the blend of all designs with equal weights. The blends are widened by half of
+/// `bar_width`.
 fn swept_bounds(ends: Bounds, blend: &ArapBlend, bar_width: f64) -> Bounds {
     let count = blend.family().count();
     let mut placer = blend.placer();

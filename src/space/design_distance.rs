@@ -94,7 +94,8 @@ impl DesignDistances {
 
 /// Returns the mean cost of the pieces (matched or unmatched parts) of a match, weighted by area.
 ///
-/// An unmatched piece has cost 1. An unmatched hole adds cost 1 for its own area.
+/// An unmatched piece has cost 1. An unmatched hole of any piece adds cost 1, weighted by its own
+/// area.
 fn mean_cost(pieces: &[PieceMatch]) -> f64 {
     let area = |ring: &RingMatch| {
         signed_area(&ring.source)

@@ -37,7 +37,7 @@ pub enum SpaceNote {
     /// The designs have no common mesh, for the given reason, and are blended as distance fields.
     #[error("blended as distance fields: {}", SanitizedLine(.0))]
     AsFields(String),
-    /// Number of pins and lines that do not continue through all designs.
+    /// Some pins and lines do not exist in all designs and are ignored. Holds their number.
     #[error("{0} pins and lines do not exist in all pictures and are ignored on the map")]
     UnmatchedFeatures(usize),
     /// The designs' own colours are ignored.

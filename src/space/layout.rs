@@ -31,8 +31,8 @@ named! { MapLayout {
 const MIN_SITE_DISTANCE: f64 = 0.42;
 
 /// For many designs, the minimum distance between two sites is this number divided by the square
-/// root of the number of designs, in radii of the map: [`MIN_SITE_DISTANCE`] would not fit into the
-/// circle (heuristic).
+/// root of the number of designs, in radii of the map. At the distance [`MIN_SITE_DISTANCE`], they
+/// would not all fit into the circle (heuristic).
 const CROWDED_DISTANCE: f64 = 1.3;
 
 impl MapLayout {
@@ -84,8 +84,8 @@ fn multidimensional_scaling(distances: &DesignDistances) -> Vec<DVec2> {
     let Some(axes) = symmetric_eigen(count, &centred) else {
         return polygon(count);
     };
-    // Axis 0 has the largest eigenvalue. Each axis is oriented so that its largest entry is
-    // positive; otherwise rounding could flip the map.
+    // Axis 0 has the largest eigenvalue. Each axis is oriented so that its entry of largest
+    // absolute value is positive; otherwise rounding could flip the map.
     let axis = |k: usize| -> Vec<f64> {
         let (value, vector) = &axes[axes.len() - 1 - k];
         let largest = vector
@@ -110,8 +110,8 @@ fn multidimensional_scaling(distances: &DesignDistances) -> Vec<DVec2> {
 /// Moves and scales the sites so that their enclosing circle becomes the unit circle; returns the
 /// radius that the circle had.
 ///
-/// The centre is that of the enclosing circle, not the mean, which a single outlier would move so
-/// far that the other sites end up in a corner.
+/// The sites are centred about the centre of the circle, not about their mean. With the mean, a
+/// single outlier would push the other sites into a corner.
 fn fit_to_unit_circle(sites: &mut [DVec2]) -> f64 {
     /// Number of iterations (tolerance: the centre is then within a hundredth of the radius).
     const ROUNDS: usize = 100;

@@ -45,7 +45,8 @@ impl WeightMap {
 
     /// Writes the natural-neighbour weights of the designs at a place.
     ///
-    /// Outside the convex hull of the sites, the weights are those of the nearest point on it.
+    /// Outside the convex hull of the sites, the weights are those of the nearest point of the
+    /// hull.
     ///
     /// # Panics
     /// If the number of weights differs from that of the sites.
@@ -79,8 +80,8 @@ impl WeightMap {
             let fraction = DVec2::new(fraction(column, columns), 1.0 - fraction(row, rows));
             self.bounds.min + fraction * size
         };
-        // Places up to a third of a step outside the hull count, so that cells at its boundary are
-        // not empty.
+        // Places up to a third of a step outside the hull are included, so that cells at its
+        // boundary are not empty.
         let reach = step.max_element() / 3.0;
         let mut places: Vec<Option<DVec2>> = (0..columns * rows)
             .map(place)

@@ -10,7 +10,7 @@ pub struct Waypoint {
     /// Position on the map.
     pub at: DVec2,
     /// Whether the path passes through this place without a stop. The first and the last place are
-    /// always stops, whatever this says.
+    /// always stops, regardless of this flag.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub passed: bool,
     /// Name of the blend at this place; may be empty.
@@ -90,8 +90,8 @@ struct CurveSpan {
     lengths: [f64; STEPS + 1],
 }
 
-/// Number of chords that approximate the length of a span (tolerance: with more of them, no
-/// position changes by a pixel).
+/// Number of chords that approximate the length of a span (tolerance: with more chords, no position
+/// would change by a pixel).
 const STEPS: usize = 32;
 
 impl CurveSpan {
@@ -193,7 +193,7 @@ impl MapCurve {
         last.end
     }
 
-    /// Returns the position at `t`: the stop with index k is at t = k.
+    /// Returns the position at `t`. Stops are counted from 0: the stop with number k is at t = k.
     #[must_use]
     pub fn at(&self, t: f64) -> DVec2 {
         let (segment, fraction) = crate::transition::segment_at(self.segments.len(), t);
@@ -250,8 +250,8 @@ fn cubic(places: &[DVec2], k: usize) -> [DVec2; 4] {
         (gap(before, from), gap(from, to), gap(to, after));
     let chord = to - from;
     let tangent = |other: DVec2, gap: f64| match interval > 0.0 && gap > 0.0 {
-        // Mean of the slopes of both intervals, weighted towards the shorter one and scaled to this
-        // span.
+        // Mean of the slopes of both intervals, weighted towards the shorter interval and scaled to
+        // the parameter of this span.
         true => (chord * gap / interval + other * interval / gap) * (interval / (interval + gap)),
         false => chord,
     };

@@ -1,8 +1,9 @@
 //! Films along a path over a map: one transition per segment between two stops.
 //!
 //! Each stop shows exactly the blend of its place, so a stop at a design's site shows that design.
-//! Between stops, the weights of rigid parts are smooth approximations of the map's. Those of
-//! distance fields are piecewise linear, and those of pictures linear from stop to stop.
+//! Between stops, the weights depend on the content. For rigid parts, they are smooth
+//! approximations of the weights of the map. For distance fields, they are piecewise linear in t.
+//! For pictures, they are linear from stop to stop.
 
 use super::blend::{BlendContent, DesignSpace};
 use super::error::SpaceError;
@@ -21,7 +22,7 @@ use std::sync::Arc;
 
 /// Number of pieces into which a segment of distance fields is divided; within a piece the weights
 /// are linear (resource limit: each piece stores a field; on random curves over a map of six
-/// designs the weights deviate by at most 0.05).
+/// designs, these weights differ from the smooth ones by at most 0.05).
 pub(super) const FIELD_PIECES: usize = 32;
 
 /// Number of steps in which a segment is sampled to find its bounding box (heuristic).
@@ -206,8 +207,8 @@ fn swept_bounds(warp: &AlongBlend, bar_width: f64) -> Bounds {
     all.padded(0.5 * bar_width)
 }
 
-/// Blends the distance fields at evenly spaced t of a segment, and returns each two consecutive
-/// ones as a pair.
+/// Blends the distance fields at evenly spaced t of a segment, and returns the pairs of consecutive
+/// fields.
 fn fields_along(set: &FieldSet, weights_at: impl Fn(f64) -> Vec<f64>) -> FieldContent {
     let field = |k: usize| Arc::new(set.blended(&weights_at(k as f64 / FIELD_PIECES as f64)));
     let fields: Vec<_> = (0..=FIELD_PIECES).map(field).collect();

@@ -20,7 +20,8 @@ use std::sync::Arc;
 /// warps all designs).
 const GRID: u32 = 80;
 
-/// Side length of the reduced pictures that are compared, in pixels (heuristic).
+/// Side length, in pixels, of the reduced pictures that are compared to find how dissimilar the
+/// designs are (heuristic).
 const COMPARED_PX: u32 = 32;
 
 /// Maximum number of pixels of a blend that becomes a design of its own (resource limit: as many as
@@ -153,8 +154,8 @@ impl PictureSpace {
         Picture::new(self.render(weights, &raster)).transformed(&place)
     }
 
-    /// Builds the transition between two blends with the given weights; `ends` are the blends as
-    /// pictures.
+    /// Builds the transition between two blends with the given weights. `ends` holds the same two
+    /// blends as designs with pictures.
     pub fn transition_between(
         &self,
         ends: [Arc<Design>; 2],

@@ -8,9 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Transition of rigid parts that shows the blend with the weights set last.
 ///
-/// Cloning is cheap, and clones share their weights. After the weights are set, a frame shows
-/// exactly that blend once it is sought. Its t only determines the colour, between those of the
-/// first and the last design.
+/// Cloning is cheap, and clones share their weights. A frame shows newly set weights once it is
+/// moved to a t. The t determines only the colour, between those of the first and the last design.
 ///
 /// ```
 /// use morphospace::Design;
@@ -25,7 +24,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent)?;
 /// let steered = SteeredTransition::new(&space).expect("rigid parts");
 /// let mut frame = steered.transition().frame(0.0);
-/// let t = steered.set(&[0.0, 0.0, 1.0]).expect("a weight for each");
+/// let t = steered.set_weights(&[0.0, 0.0, 1.0]).expect("a weight for each");
 /// frame.seek(t);
 /// let top = frame.figure().rings.concat().iter().map(|p| p.y).fold(0.0, f64::max);
 /// assert_eq!(top, 4.0);
@@ -82,8 +81,8 @@ impl SteeredTransition {
         &self.transition
     }
 
-    /// Sets the weights, which must sum to one. Returns the t to which frames must be sought to
-    /// show them in the colour of the blend.
+    /// Sets the weights, which must sum to one. Returns the t to which frames must be moved to show
+    /// the weights in the colour of the blend.
     ///
     /// Returns `None`, and keeps the previous weights, if their number differs from that of the
     /// designs or one of them is not finite.

@@ -249,7 +249,7 @@ fn path_through(places: &[DVec2]) -> MapPath {
 
 #[test]
 fn a_path_shows_the_blends_along_it() {
-    // Designs whose blends do not fold, because the correction of folds is not smooth in t.
+    // The blends of these designs do not fold. A correction of folds would not be smooth in t.
     let space = space(vec![
         star("a", 5, 1.5),
         star("b", 6, 0.8),
@@ -270,14 +270,14 @@ fn a_path_shows_the_blends_along_it() {
         let [on_path, on_map] = [frame.frame().figure(), blend.figure()].map(|f| f.rings.concat());
         let gaps = on_path.iter().zip(&on_map).map(|(p, q)| p.distance(*q));
         let max_gap = gaps.fold(0.0, f64::max);
-        // Exact at stops, approximate in between.
+        // The film is exact at stops and approximate in between.
         let tolerance = if t.fract() == 0.0 { 0.0 } else { 0.02 };
         assert!(max_gap <= tolerance, "{t}: {max_gap}");
     }
     let [first, last] = [&film.segments()[0], &film.segments()[1]];
     assert_eq!(first.designs()[0].name, "a");
     assert_eq!(last.designs()[1].name, "c");
-    // The stop in between is named after its largest weights.
+    // The stop between the two ends is named after the designs with the largest weights.
     assert!(
         first.designs()[1].name.contains('%'),
         "{}",

@@ -2,8 +2,9 @@
 
 /// Returns the k-th sample of the weights of `count` designs, evenly spread over all weights.
 ///
-/// The samples are a low-discrepancy sequence: an additive recurrence with powers of the root of
-/// xᵈ⁺¹ = x + 1 (Roberts 2018), mapped to the simplex by normalised exponential variates.
+/// The samples are a low-discrepancy sequence: an additive recurrence whose steps are powers of
+/// 1/x, where x solves xᵈ⁺¹ = x + 1 for d = `count` (Roberts 2018). They are mapped to the simplex
+/// by normalised exponential variates.
 ///
 /// ```
 /// let weights = morphospace::space::weight_sample(7, 3);

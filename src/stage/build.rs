@@ -57,7 +57,7 @@ pub(super) enum BuildOutcome {
 
 impl Drop for TransitionBuild {
     fn drop(&mut self) {
-        // Relaxed suffices, because no other memory depends on the flag.
+        // Relaxed ordering suffices, because no other memory depends on the flag.
         self.request.0.store(false, Ordering::Relaxed);
     }
 }
@@ -86,7 +86,7 @@ type MeshesChanged = (
     Without<StageTransition>,
 );
 
-/// Starts a build for each entity with new meshes or options; it replaces a running build.
+/// Starts a build for each entity with new meshes or options. The new build replaces a running one.
 pub(super) fn start_builds(
     mut commands: Commands,
     changed: Query<(Entity, &SourceMesh, &TargetMesh, &MorphOptions), MeshesChanged>,
@@ -170,7 +170,7 @@ pub(super) fn adopt_transitions(
         let morph = Morph(transition.frame(blend.t));
         let mut entity = commands.entity(entity);
         entity
-            // Otherwise a running build would later replace this transition.
+            // A running build is removed, because its result would later replace this transition.
             .try_remove::<TransitionBuild>()
             .try_insert((morph, WithoutParts));
         match transition.compatible().and_then(|_| meshes(transition)) {
@@ -182,8 +182,8 @@ pub(super) fn adopt_transitions(
 }
 
 /// Returns the source and target meshes of a transition with faces: the designs themselves if they
-/// are meshes, otherwise the faces of the compatible mesh. Returns `None` if these are no valid
-/// mesh: three panels between the bars of a truss may meet at an edge.
+/// are meshes, otherwise the compatible mesh in the source and in the target. Returns `None` if the
+/// faces are not a valid mesh, as when three panels between the bars of a truss meet at an edge.
 fn meshes(transition: &Transition) -> Option<(SourceMesh, TargetMesh)> {
     let [source, target] = transition.designs();
     if let (DesignForm::Mesh(source), DesignForm::Mesh(target)) = (&source.form, &target.form) {

@@ -3,8 +3,8 @@
 //!
 //! Guaranteed: each [`CaptureStage`] is answered by exactly one [`StageCaptured`], with the picture
 //! or an error message for the user; colours are blended as in exported files; panels and other
-//! windows are not captured. Not guaranteed: that the picture shows the frame of the request. The
-//! graphics card may have to compile shaders first; the answer contains the t of the picture.
+//! windows are not captured. The picture may show another t than the stage did at the request,
+//! because the graphics card may have to compile shaders first. The answer contains this t.
 
 use bevy::camera::{CompositingSpace, RenderTarget};
 use bevy::ecs::system::SystemParam;
@@ -129,7 +129,7 @@ pub(super) fn begin_captures(
     }
 }
 
-/// Answer with the reason why a capture failed.
+/// Returns the answer to the request `id` with the reason why the capture failed.
 fn failed_capture(id: u64, reason: &str) -> StageCaptured {
     StageCaptured {
         id,
@@ -138,7 +138,7 @@ fn failed_capture(id: u64, reason: &str) -> StageCaptured {
     }
 }
 
-/// Off-screen camera that renders the requested part of the plane into `image`.
+/// Returns an off-screen camera that renders the requested part of the plane into `image`.
 fn camera(request: &CaptureStage, image: &Handle<Image>, anchor: glam::DVec2) -> impl Bundle {
     let at = (request.view.centre() - anchor).as_vec2();
     let ground = request
@@ -184,7 +184,7 @@ pub(super) fn advance_captures(
         if capture.frames <= MAX_WAIT_FRAMES {
             return true;
         }
-        // If the camera stayed, it would draw in every later frame.
+        // The camera is despawned, because it would otherwise draw in every later frame.
         commands.entity(capture.camera).try_despawn();
         if let Some(shot) = capture.shot {
             commands.entity(shot).try_despawn();

@@ -47,7 +47,7 @@ pub(super) fn draw_morphs(
         let mut parts = parts.iter_many_mut(children);
         while let Some((mut part, mut visibility, mesh)) = parts.fetch_next() {
             let (has_moved, is_restyled) = (morph.is_changed(), style.is_changed());
-            // A hidden part stays marked as stale until it is shown.
+            // A hidden part that is stale stays so until it is shown.
             part.is_stale |= part.kind.is_outdated(has_moved, is_restyled, frame);
             let is_shown = part.kind.is_shown(&style);
             visibility.set_if_neq(if is_shown {
@@ -59,7 +59,8 @@ pub(super) fn draw_morphs(
                 continue;
             }
             if let Some(DeferredMesh(make)) = part.deferred_mesh.take() {
-                // This cannot fail: the handle was reserved for this part and lives as long as it.
+                // This cannot fail: the handle was reserved for this part and lives as long as the
+                // part.
                 paints.meshes.insert(mesh, make(frame)).ok();
             }
             // The mesh of a part that the graphics card plays is not written and stays stale.

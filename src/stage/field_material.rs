@@ -29,8 +29,8 @@ const INSIDE: Srgba = Srgba::rgb(0.878, 0.51, 0.078);
 /// Colour of negative blended distances: violet.
 const OUTSIDE: Srgba = Srgba::rgb(0.502, 0.451, 0.675);
 
-/// Length of the grid's longer side, as a multiple of the distance between two neighbouring values
-/// at which lines of equal distance are drawn (heuristic).
+/// Number by which the length of the grid's longer side is divided to get the interval between the
+/// distances at which lines of equal distance are drawn (heuristic).
 const ISO_LINES: f32 = 40.0;
 
 /// Material with two distance fields, and with the way in which they are blended and drawn.
@@ -53,8 +53,8 @@ pub(super) struct FieldMaterial {
 /// Properties of a field and its style, each of which selects a shader variant.
 ///
 /// The shader does not branch on uniforms instead, because some drivers compile a new shader
-/// whenever a uniform changes, hence for each t (Mesa's lavapipe 22.3 also kept all of them in
-/// memory, 26 MB per second of playback).
+/// whenever a uniform changes, and t changes in each frame. Mesa's lavapipe 22.3 also kept all
+/// these shaders in memory, 26 MB per second of playback.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct FieldKind {
     is_log: bool,
@@ -75,7 +75,7 @@ impl FieldKind {
         }
     }
 
-    /// Shader definitions that select the variant.
+    /// Returns the shader definitions that select the variant.
     fn definitions(self) -> impl Iterator<Item = ShaderDefVal> {
         let all = [
             (self.is_log, "LOG_SPACE"),
@@ -176,8 +176,9 @@ impl FieldMaterial {
 }
 
 impl FieldUniform {
-    /// Returns the uniform of a pair of fields at the blend parameter `within` between these two
-    /// fields. The colours are those of the whole transition at `t`.
+    /// Returns the uniform of a pair of fields. `within` is the blend parameter between these two
+    /// fields, in [0, 1] without extrapolation; the colours are those of the whole transition at
+    /// `t`.
     pub(super) fn new(pair: &FieldPair, within: f64, t: f64, style: &StageStyle) -> Self {
         let blend = pair.blend();
         let grid = pair.grid();
@@ -190,7 +191,7 @@ impl FieldUniform {
             t: within as f32,
             epsilon: blend.epsilon as f32,
             level: blend.level() as f32,
-            // The spacing is in cells, like the distances, whatever the units of the design.
+            // The spacing of the lines is in cells, because the distances of a field are in cells.
             spacing: grid.width.max(grid.height) as f32 / ISO_LINES,
         }
     }

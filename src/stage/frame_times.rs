@@ -1,7 +1,7 @@
 //! Measured durations of the work in recent frames: solving and drawing.
 //!
-//! Guaranteed: recording a duration neither allocates nor blocks. Not guaranteed: the time of the
-//! GPU. Only the time that the CPU takes is measured.
+//! Guaranteed: recording a duration neither allocates nor blocks. Only CPU time is measured, not
+//! the time of the GPU.
 
 use std::time::Duration;
 
@@ -46,8 +46,8 @@ impl DurationHistory {
         self.recorded += 1;
     }
 
-    /// Returns the median of the recorded durations (of an even number, the lower one of the two
-    /// in the middle); `None` if no duration is recorded.
+    /// Returns the median of the recorded durations: the lower of the two middle durations if their
+    /// number is even, and `None` if none is recorded.
     pub fn median(&self) -> Option<Duration> {
         // A copy of 2 kB on the stack avoids an allocation.
         let mut sorted = self.ring;

@@ -75,8 +75,8 @@ impl GradientTable {
         })
     }
 
-    /// Returns the index in the table of a gradient's vectors, which are added if they are new.
-    /// Gradients that differ only in their position share their vectors.
+    /// Returns the index in the table of a gradient's first vector, and adds the vectors if they
+    /// are new. Gradients that differ only in their position share their vectors.
     fn put_numbers(&mut self, numbers: &[Vec4]) -> Option<usize> {
         let is_there = |&first: &usize| self.gradients.numbers[first..].starts_with(numbers);
         if let Some(&first) = self.firsts.iter().find(|first| is_there(first)) {
@@ -95,7 +95,7 @@ impl GradientTable {
 }
 
 impl GradientSlot {
-    /// Vertex colour that encodes the gradient's index in the table. Its negative opacity
+    /// Returns a vertex colour that encodes the gradient's index in the table. Its negative opacity
     /// distinguishes it from a real colour.
     pub(super) fn vertex_colour(&self) -> [f32; 4] {
         [self.first as f32, 0.0, 0.0, -1.0]

@@ -26,7 +26,8 @@ pub(super) enum InkKind {
     Faces,
     /// Triangles in paint layers: each vertex has its own colour or gradient.
     PaintLayers,
-    /// Bars and discs: a fragment lies inside if the length of its texture coordinates is below 1.
+    /// Bars and discs. A fragment lies inside the shape if its texture coordinates, read as a
+    /// vector, are shorter than 1.
     Round,
     /// Edges of triangles; the triangles share no vertices.
     Wire,

@@ -7,8 +7,8 @@ use glam::DVec2;
 
 use crate::colour::{StrokeJoin, StrokeStyle};
 
-/// Number of straight segments of a full circle, of which a round join uses a part (tolerance: the
-/// segments deviate from the circle by 0.2 % of the radius).
+/// Number of straight segments that approximate a full circle; a round join is an arc of this
+/// circle (tolerance: the segments deviate from the circle by 0.2 % of the radius).
 const CIRCLE_SEGMENTS: f64 = 48.0;
 
 /// Appends the triangles of a stroke along closed rings to a mesh. Positions are relative to
@@ -62,8 +62,8 @@ fn push_ring(ring: &[DVec2], line: &StrokeStyle, fan: &mut impl FnMut(&[DVec2]))
     }
 }
 
-/// Covers the outer side of the corner `at` between two edges by a polygon. `left` are the offsets
-/// from the two edges to the left borders of their quads.
+/// Covers the outer side of a corner by a polygon. `at` is the corner; `left` are the offsets from
+/// its two edges to the left borders of their quads.
 fn corner(
     at: DVec2,
     left: [DVec2; 2],
@@ -79,7 +79,7 @@ fn corner(
         return;
     }
     let sum = a + b;
-    // Distance of the mitre point from the corner.
+    // `reach` is the distance of the mitre point from the corner.
     let reach = 2.0 * half * half / sum.length();
     match join {
         StrokeJoin::Mitre(limit) if reach <= limit * half => {

@@ -17,9 +17,9 @@ use super::vertices::write_points;
 /// State of the render mesh of a solid or of distance fields with paint layers.
 #[derive(Clone, Debug)]
 pub(super) struct LayerMesh {
-    /// Faces of the placement by layer, which do not change from frame to frame; `None` if the
-    /// rings of the layers are triangulated anew in each frame, because faces cannot represent
-    /// transient parts and holes.
+    /// Faces of the placement, by layer. They do not change from frame to frame. `None` if the
+    /// faces cannot represent the layers (for example with transient parts or holes), so that the
+    /// rings of the layers are triangulated anew in each frame.
     faces: Option<LayerFaces>,
     /// Gradients of the frame that was written last.
     gradients: Box<GradientUniform>,
@@ -74,17 +74,17 @@ impl LayerMesh {
         }
     }
 
-    /// Whether the layers are contours of distance fields.
+    /// Returns whether the layers are contours of distance fields.
     pub(super) fn is_of_fields(&self) -> bool {
         self.is_of_fields
     }
 
-    /// Whether the layers consist of the faces of the placement.
+    /// Returns whether the layers consist of the faces of the placement.
     pub(super) fn has_faces(&self) -> bool {
         self.faces.is_some()
     }
 
-    /// Gradients of the frame that was written last.
+    /// Returns the gradients of the frame that was written last.
     pub(super) fn gradients(&self) -> &GradientUniform {
         &self.gradients
     }
@@ -138,9 +138,9 @@ impl LayerMesh {
 }
 
 impl LayerFaces {
-    /// Assigns the faces and vertices of the placement to layers. `components` contains the index
-    /// of each vertex's connected component; a component belongs to the layer of its boundary
-    /// loops.
+    /// Assigns the faces and vertices of the placement to layers. `components` contains, for each
+    /// vertex, the index of the connected component of the mesh to which the vertex belongs. All of
+    /// a component belongs to the layer of its boundary loops.
     fn new(
         frame: &Frame,
         solid: &SolidContent,

@@ -32,42 +32,42 @@ use super::warp_grid::GridMaterial;
 #[derive(Component)]
 pub(super) struct WithoutParts;
 
-/// A triangle mesh with the given vertex positions.
+/// Returns a triangle mesh with the given vertex positions.
 fn mesh(positions: Vec<[f32; 3]>) -> Mesh {
     // The default usage keeps a copy of the mesh in main memory, which later frames rewrite.
     Mesh::new(PrimitiveTopology::TriangleList, default())
         .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
 }
 
-/// A mesh with constant texture coordinates, whose positions are written later.
+/// Returns a mesh with the given texture coordinates, whose positions are written later.
 fn unwritten_mesh(coordinates: Vec<[f32; 2]>) -> Mesh {
     mesh(vec![[0.0; 3]; coordinates.len()])
         .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, coordinates)
 }
 
-/// A mesh of quads of four vertices each, with constant texture coordinates, whose positions are
-/// written later.
+/// Returns a mesh of quads of four vertices each, with the given texture coordinates, whose
+/// positions are written later.
 fn quads(coordinates: Vec<[f32; 2]>) -> Mesh {
     let indices = quad_indices(coordinates.len() / 4);
     unwritten_mesh(coordinates).with_inserted_indices(Indices::U32(indices))
 }
 
-/// A mesh that shows nothing, as a placeholder for rings: their number of vertices is known only
-/// after they are triangulated.
+/// Returns a mesh that shows nothing. It is a placeholder for rings, because their number of
+/// vertices is known only after they are triangulated.
 fn nothing() -> Mesh {
     let (positions, indices) = ring_fill::degenerate_triangle();
     mesh(positions).with_inserted_indices(Indices::U32(indices))
 }
 
-/// Mesh with the faces and vertices of the placement; faces share vertices.
+/// Returns a mesh with the faces and vertices of the placement; faces share vertices.
 fn faces(frame: &Frame) -> Mesh {
     let placement = frame.placement();
     let indices = placement.faces.as_flattened().to_vec();
     mesh(vec![[0.0; 3]; placement.in_frame.len()]).with_inserted_indices(Indices::U32(indices))
 }
 
-/// Mesh with the faces of the placement and with attributes for the lookup positions in source and
-/// target.
+/// Returns a mesh with the faces of the placement and with attributes for the positions at which
+/// the shader looks up source and target.
 fn carried(frame: &Frame) -> Mesh {
     let count = frame.placement().in_frame.len();
     faces(frame)
@@ -75,12 +75,12 @@ fn carried(frame: &Frame) -> Mesh {
         .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0; 4]; count])
 }
 
-/// Mesh with the faces of the placement for wireframes; faces do not share vertices.
+/// Returns a mesh for wireframes with the faces of the placement; faces do not share vertices.
 fn corners(frame: &Frame) -> Mesh {
     unwritten_mesh(corner_coordinates(frame.placement().faces.len()))
 }
 
-/// Mesh of the outlines of a figure, as lines.
+/// Returns a mesh of the outlines of a figure, as lines of constant width on the screen.
 fn lines(figure: &VectorFigure, origin: DVec2) -> Mesh {
     let mut segments = OutlineSegments::of(figure, origin);
     if segments.quads() == 0 {
@@ -93,13 +93,13 @@ fn lines(figure: &VectorFigure, origin: DVec2) -> Mesh {
         .with_inserted_indices(indices)
 }
 
-/// Mesh like [`faces`], with the index in the placement as an attribute of each vertex.
+/// Returns a mesh like [`faces`], in which each vertex also stores its index in the placement.
 fn numbered_faces(frame: &Frame) -> Mesh {
     let numbers: Vec<u32> = (0..frame.placement().in_frame.len() as u32).collect();
     faces(frame).with_inserted_attribute(VERTEX_INDEX, numbers)
 }
 
-/// Mesh like [`corners`], with the index in the placement as an attribute of each vertex.
+/// Returns a mesh like [`corners`], in which each vertex also stores its index in the placement.
 fn numbered_corners(frame: &Frame) -> Mesh {
     let numbers = frame.placement().faces.as_flattened().to_vec();
     corners(frame).with_inserted_attribute(VERTEX_INDEX, numbers)
@@ -202,8 +202,9 @@ impl PartFactory<'_, '_, '_> {
         self.assets.commands.spawn((part, drawn, hidden, parent));
     }
 
-    /// Adds a part with faces or a wireframe, which the graphics card can play if it supports
-    /// recordings. `mesh` are the constructors of its mesh without and with vertex indices.
+    /// Adds a part with faces or a wireframe. `mesh` holds two constructors of its mesh: one
+    /// without vertex indices, and one with the vertex indices with which the graphics card plays
+    /// recordings.
     fn add_triangles(&mut self, kind: PartKind, mesh: [fn(&Frame) -> Mesh; 2]) {
         let [plain, numbered] = mesh;
         let Some(gpu) = &self.assets.gpu else {
@@ -280,7 +281,7 @@ pub(super) fn spawn_parts(
     mut assets: PartAssets,
 ) {
     for (entity, morph, children) in &new_morphs {
-        // These are the parts of the transition that the new one replaces, if any.
+        // The children may contain render parts of the previous transition.
         assets.remove_parts(children);
         let mut commands = assets.commands.entity(entity);
         commands.remove::<(WithoutParts, UploadState)>();

@@ -78,8 +78,8 @@ pub(super) enum PartKind {
 }
 
 impl PartKind {
-    /// Height of the part in the drawing order; parts with larger values cover those with smaller
-    /// values.
+    /// Returns the height of the part in the drawing order. Parts with larger values cover those
+    /// with smaller values.
     pub(super) fn z(&self) -> f32 {
         match self {
             Self::Faces | Self::Rings | Self::PaintLayers(_) | Self::Picture => 0.0,
@@ -94,7 +94,7 @@ impl PartKind {
         }
     }
 
-    /// Kind of shape that the part's material draws; it selects the shader variant.
+    /// Returns the kind of shape that the part's material draws. It selects the shader variant.
     pub(super) fn ink_kind(&self) -> InkKind {
         match self {
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
@@ -105,7 +105,7 @@ impl PartKind {
         }
     }
 
-    /// Whether a style shows the part.
+    /// Returns whether the part is visible in a style.
     pub(super) fn is_shown(
         &self,
         StageStyle {
@@ -128,7 +128,7 @@ impl PartKind {
         }
     }
 
-    /// Colour of the part at `t` in a style, for parts in one colour.
+    /// Returns the colour of the part at `t` in a style. Applies to parts in one colour.
     pub(super) fn colour(
         &self,
         t: f64,
@@ -148,8 +148,8 @@ impl PartKind {
         }
     }
 
-    /// Whether the part's vertices must be rewritten because the frame has moved (`has_moved`) or
-    /// the style has changed (`is_restyled`).
+    /// Returns whether the part's vertices must be rewritten because the frame has moved
+    /// (`has_moved`) or the style has changed (`is_restyled`).
     pub(super) fn is_outdated(&self, has_moved: bool, is_restyled: bool, frame: &Frame) -> bool {
         match self {
             Self::SourceGhost | Self::TargetGhost => false,
@@ -167,13 +167,13 @@ impl PartKind {
 }
 
 impl StagePart {
-    /// Whether the graphics card evaluates the part's vertices at `t` from a recording.
+    /// Returns whether the graphics card evaluates the part's vertices at `t` from a recording.
     pub(super) fn is_gpu_played(&self, upload: Option<&UploadState>, t: f64) -> bool {
         let is_uploaded = upload.is_some_and(|upload| upload.covers(t));
         is_uploaded && matches!(self.paint, StagePaint::Recorded(_))
     }
 
-    /// Whether the part is shown and the CPU must compute vertex positions for it at `t`.
+    /// Returns whether the part is shown and the CPU must compute vertex positions for it at `t`.
     pub(super) fn needs_positions(
         &self,
         frame: &Frame,

@@ -70,8 +70,8 @@ impl PictureUniform {
     }
 }
 
-/// Texture of a picture with all mipmap levels, with premultiplied alpha and encoded as sRGB. The
-/// graphics card decodes the texture before it interpolates.
+/// Returns a texture of a picture with all mipmap levels, with premultiplied alpha and encoded as
+/// sRGB. The graphics card decodes sRGB before it interpolates.
 fn texture(layer: &PictureLayer) -> Image {
     let (width, height) = layer.picture().pixels().dimensions();
     let (bytes, levels) = layer.texture();

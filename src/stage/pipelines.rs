@@ -1,5 +1,5 @@
 //! Tracks whether all render pipelines that the picture needs are compiled. Until then, shapes are
-//! missing from it.
+//! missing from the picture.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -27,7 +27,7 @@ impl PipelinesReady {
         self.0.store(0, Ordering::Relaxed);
     }
 
-    /// Whether all pipelines are compiled, so that pictures are complete.
+    /// Returns whether all pipelines are compiled, so that pictures are complete.
     #[must_use]
     pub fn is_ready(&self) -> bool {
         self.0.load(Ordering::Relaxed) >= READY_FRAMES

@@ -51,12 +51,12 @@ pub(super) struct RecordedMaterial {
 pub(super) struct RecordedSum {
     /// Weights of the coefficient rows, four per vector.
     weights: [Vec4; WEIGHT_VECTORS],
-    /// Distances of t from the two ends of the interval, as fractions of the interval; they sum
-    /// to 1.
+    /// Distance of t from the beginning of the interval and from its end, as fractions of the
+    /// interval's length. They sum to 1.
     shares: Vec2,
     /// Number of coefficient rows.
     coefficients: u32,
-    /// Number of vertices per row; 0 if the shader shall use the positions of the mesh.
+    /// Number of vertices per row; 0 makes the shader use the positions of the mesh instead.
     vertices: u32,
 }
 

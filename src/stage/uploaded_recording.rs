@@ -58,7 +58,7 @@ impl UploadState {
         Some((&interval.rows, sum))
     }
 
-    /// Whether the recording is uploaded and `t` is in [0, 1].
+    /// Returns whether the recording is uploaded and `t` is in [0, 1].
     pub(super) fn covers(&self, t: f64) -> bool {
         matches!(self, Self::Ready(_)) && (0.0..=1.0).contains(&t)
     }

@@ -25,7 +25,7 @@ const MITRE_LIMIT: f64 = 4.0;
 /// Vertex positions of a render mesh, which are rewritten in each frame.
 pub(super) type VertexPositions = [[f32; 3]];
 
-/// Position of the point `p` relative to `origin`, as a render mesh stores it.
+/// Returns the position of the point `p` relative to `origin`, as a render mesh stores it.
 fn vertex(p: DVec2, origin: DVec2) -> [f32; 3] {
     let p = (p - origin).as_vec2();
     [p.x, p.y, 0.0]
@@ -110,9 +110,9 @@ impl BarShapes {
         }
     }
 
-    /// For each vertex that [`Self::write`] writes: its position relative to the axis of the bar or
-    /// the centre of the disc, in units of the radius. A fragment is inside the shape if this
-    /// vector is shorter than 1.
+    /// Returns, for each vertex that [`Self::write`] writes, its position relative to the axis of
+    /// the bar or the centre of the disc, in units of the radius. A fragment is inside the shape if
+    /// the interpolated vector is shorter than 1.
     pub(super) fn coordinates(&self) -> Vec<[f32; 2]> {
         let across = [-MARGIN, MARGIN, -MARGIN, MARGIN].map(|v| [0.0, v]);
         let mut out = across.repeat(self.bars.len());
@@ -120,7 +120,8 @@ impl BarShapes {
         out
     }
 
-    /// The same as [`Self::coordinates`], for the vertices that [`Self::write_cores`] writes.
+    /// Returns the same as [`Self::coordinates`], for the vertices that [`Self::write_cores`]
+    /// writes.
     pub(super) fn core_coordinates(&self) -> Vec<[f32; 2]> {
         disc_coordinates(self.nodes.len())
     }
@@ -174,8 +175,8 @@ const CORNERS: [DVec2; 4] = [
     DVec2::new(1.0, 1.0),
 ];
 
-/// Positions of the quad corners of `discs` discs relative to their centres, in units of the
-/// radius.
+/// Returns the positions of the quad corners of `discs` discs relative to the centres of the discs,
+/// in units of the radius.
 fn disc_coordinates(discs: usize) -> Vec<[f32; 2]> {
     CORNERS
         .map(|c| (c.as_vec2() * MARGIN).to_array())
@@ -191,8 +192,8 @@ fn disc_coordinates(discs: usize) -> Vec<[f32; 2]> {
 pub(super) struct OutlineSegments {
     /// For each corner of a quad: the end of the segment to which it belongs.
     pub(super) positions: Vec<[f32; 3]>,
-    /// For each corner of a quad: its offset from that end in half line widths (x, y), and its side
-    /// of the segment, −1 or 1.
+    /// For each corner of a quad: its offset from its end of the segment in half line widths
+    /// (x, y), and the side of the segment on which it lies, −1 or 1.
     pub(super) offsets: Vec<[f32; 3]>,
 }
 
@@ -215,7 +216,7 @@ impl OutlineSegments {
         self.push([DVec2::ZERO; 2], [DVec2::ZERO; 2], DVec2::ZERO);
     }
 
-    /// Number of quads, one per segment.
+    /// Returns the number of quads, one per segment.
     pub(super) fn quads(&self) -> usize {
         self.positions.len() / 4
     }
@@ -231,8 +232,8 @@ impl OutlineSegments {
         }
     }
 
-    /// Adds a segment. `offsets` are the offsets of the left corners from its two ends, in half
-    /// line widths.
+    /// Adds the quad of a segment. `offsets` are the offsets of the quad's left corners from the
+    /// two ends of the segment, in half line widths.
     fn push(&mut self, ends: [DVec2; 2], offsets: [DVec2; 2], origin: DVec2) {
         for (p, offset) in ends.into_iter().zip(offsets) {
             // Both corners at an end have the same position; the vertex shader separates them.
@@ -245,8 +246,8 @@ impl OutlineSegments {
     }
 }
 
-/// Returns the offset from a corner of an outline to its mitre point, which is one unit away from
-/// both edges. `a` and `b` are the unit normals of the edges. Offsets longer than [`MITRE_LIMIT`]
+/// Returns the offset from a corner of an outline to its mitre point, whose distance from both
+/// edges is 1. `a` and `b` are the unit normals of the edges. Offsets longer than [`MITRE_LIMIT`]
 /// are shortened.
 fn mitre(a: DVec2, b: DVec2) -> DVec2 {
     let sum = a + b;
@@ -271,8 +272,8 @@ mod tests {
         (points, all.into_iter().next().expect("bars"))
     }
 
-    /// Length of a quad's shape coordinates, interpolated at the point `p` of the plane; 1 on the
-    /// edge of the shape.
+    /// Returns the length of a quad's shape coordinates, interpolated at the point `p` of the
+    /// plane. The length is 1 on the edge of the shape.
     fn reach(quad: &[[f32; 3]], coordinates: &[[f32; 2]], p: [f32; 2]) -> f32 {
         // Quads are parallelograms; edges lead from corner 0 to corners 1 and 2.
         let at = |k: usize| glam::Vec2::new(quad[k][0], quad[k][1]);

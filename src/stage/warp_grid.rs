@@ -1,8 +1,8 @@
 //! Material of the grid that shows a warp: a square grid in the source, deformed by the warp. At
 //! t = 0 the grid is straight, at t = 1 it shows the whole warp.
 //!
-//! Guaranteed: lines keep their width on the screen. Not guaranteed: that dense lines are visible;
-//! lines fade where the warp moves them to within a few pixels of each other.
+//! Guaranteed: lines keep their width on the screen. Lines fade where the warp moves them to within
+//! a few pixels of each other.
 
 use bevy::prelude::*;
 use bevy::render::render_resource::{AsBindGroup, ShaderType};
@@ -60,7 +60,8 @@ impl GridUniform {
                 (LinearRgba::WHITE, LinearRgba::BLACK.with_alpha(0.4), window)
             }
             Content::Solid(_) | Content::Field(_) => {
-                // Parts may leave the bounds while they move.
+                // Parts may leave the bounds of the designs while they move, so the grid is
+                // larger than these bounds.
                 let all = bounds.padded(bounds.diameter());
                 (ink, LinearRgba::NONE, all)
             }

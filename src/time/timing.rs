@@ -48,8 +48,8 @@ pub struct TransitionStop {
     /// fraction of the pass that corresponds to the length in t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub duration_secs: Option<f64>,
-    /// Pause at this stop in seconds, not negative. At an end of a pass, the longer of this pause
-    /// and the pause of the [`Timing`] applies.
+    /// Pause at this stop in seconds, not negative. If the stop is at an end of a pass, the longer
+    /// of this pause and the pause of the [`Timing`] applies.
     #[serde(default, skip_serializing_if = "is_none")]
     pub hold_secs: f64,
 }
@@ -188,7 +188,7 @@ impl Timing {
     /// use morphospace::transition::Timing;
     /// let timing = Timing::default();
     /// assert_eq!(timing.t_at(0.0, &[]), 0.0);
-    /// assert_eq!(timing.t_at(timing.pass_secs(&[]), &[]), 1.0);
+    /// assert_eq!(timing.t_at(timing.film_secs(&[]), &[]), 1.0);
     /// ```
     #[must_use]
     pub fn t_at(&self, secs: f64, stops: &[TransitionStop]) -> f64 {
@@ -210,8 +210,8 @@ impl Timing {
     }
 
     /// Returns the time in seconds at which a pass reaches `t`: the inverse of [`Self::t_at`]. If
-    /// the pass pauses at `t`, this is the time of arrival; at the beginning of the pass, the time
-    /// of departure.
+    /// the pass pauses at `t`, the result is the time at which the pause begins. At the beginning
+    /// of the pass, it is the time at which the pause ends.
     #[must_use]
     pub fn secs_at(&self, t: f64, stops: &[TransitionStop]) -> f64 {
         let sign = (self.to - self.from).signum();
@@ -223,7 +223,8 @@ impl Timing {
             }
             secs += segment.secs + segment.pause_secs;
         }
-        // For t beyond the end: the time of arrival at the end.
+        // For t beyond the end of the pass, the result is the time at which the pass reaches its
+        // end.
         secs - self.pause_at(self.to, stops)
     }
 
@@ -257,7 +258,7 @@ impl Timing {
         })
     }
 
-    /// Returns the segment between two neighbouring stops or ends of the pass.
+    /// Returns the segment between two neighbouring stops, or ends of the pass, given by their t.
     fn segment_between(&self, from: f64, to: f64, stops: &[TransitionStop]) -> TimedSegment {
         // The stop at the lower end of a segment configures it, whichever way the pass runs.
         let low = from.min(to);
@@ -284,8 +285,8 @@ impl Timing {
         own.max(if is_end { self.hold_secs } else { 0.0 })
     }
 
-    /// Returns the two neighbouring stops or ends between which `t` lies, in the direction of the
-    /// pass. They are never equal.
+    /// Returns the t of the two neighbouring stops, or ends of the pass, between which `t` lies.
+    /// They are in the direction of the pass and never equal.
     fn segment(&self, t: f64, stops: &[TransitionStop]) -> (f64, f64) {
         // If the pass runs downwards, all t are negated, so that t always increases.
         let sign = (self.to - self.from).signum();

@@ -55,7 +55,7 @@ impl AnyWarp {
     }
 
     /// Returns the interpolation of rigid parts, without part timings; `None` for other warps. If
-    /// there is a common rigid motion, the interpolation is relative to it.
+    /// there is a common rigid motion, the interpolation is relative to that motion.
     pub fn arap(&self) -> Option<&Arap> {
         match self {
             Self::Rigid(arap) => Some(arap),

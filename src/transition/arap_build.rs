@@ -7,7 +7,8 @@ use crate::warp::{Arap, ArapOptions, ArapPath, TimeWindow};
 use crate::work::budget::WorkloadKind;
 use crate::work::progress::Progress;
 
-/// Builds the interpolation of a mesh of outlines; `time_windows` as for [`Arap::of_outlines`].
+/// Builds the interpolation of a mesh of outlines. `time_windows` has the same meaning as for
+/// [`Arap::of_outlines`].
 ///
 /// # Errors
 /// If the mesh is too large, the equations cannot be solved, or the work is cancelled.
@@ -36,10 +37,10 @@ pub(super) fn check_size(
 
 /// Returns the options with which matches are searched and solved.
 ///
-/// They request no subdivision, since a finer mesh moves almost identically but takes several times
-/// as long. They have the default path of the whole design, since a requested anchor may be a
-/// vertex of the subdivided mesh, and the position of the whole does not affect the motion within
-/// it.
+/// Subdivision is turned off: a finer mesh moves almost identically but takes several times as
+/// long. The path of the whole design is the default one, because a requested anchor may be a
+/// vertex that only the subdivided mesh has. This path does not affect the motion within the
+/// design.
 pub(super) fn without_subdivision(requested: &ArapOptions) -> ArapOptions {
     ArapOptions {
         subdivisions: 0,

@@ -1,8 +1,9 @@
-//! Transitions of boundaries without an interior: matched, but not triangulated.
+//! Transitions that move only boundaries: outlines are matched, but their interior is not
+//! triangulated.
 //!
 //! Two meshes whose boundary loops consist of the same vertex indices are matched by these indices;
-//! all other designs are matched as outlines. The first match is used without searching for a
-//! better one: it cannot fold the interior, since there is none.
+//! all other designs are matched as outlines. The first match is used without a search for better
+//! ones, because there is no interior that a bad match could fold.
 
 use super::any_warp::{AnyWarp, BuiltWarp};
 use super::drawing_pair::DrawingPair;
@@ -64,7 +65,7 @@ pub(super) fn build_boundary_paths(
     Ok((built, solid))
 }
 
-/// For each part, its pairs of rings; and, if outlines were matched, the drawings and their match.
+/// The pairs of rings of each part. If outlines were matched, also the drawings and their match.
 type MatchedBoundaries = (Vec<Vec<RingPair>>, Option<(DrawingPair, RegionMatch)>);
 
 /// Matches the outlines of two designs.
@@ -81,8 +82,8 @@ fn match_outlines(
     Ok((parts, Some((drawings, matched))))
 }
 
-/// Returns the pairs of rings of a piece. The small seed shapes that stand for unmatched rings in
-/// the other design become points; only a triangulation needs their extent.
+/// Returns the pairs of rings of a piece. In the design in which an unmatched ring is missing, the
+/// match has a small seed shape, which becomes a point here: only a triangulation needs its extent.
 fn rings(piece: &PieceMatch) -> Vec<RingPair> {
     let Some(outer_ring) = piece.rings.first() else {
         return Vec::new();
@@ -94,7 +95,7 @@ fn rings(piece: &PieceMatch) -> Vec<RingPair> {
             RingKind::Closes => target.fill(centroid_of_points(&ring.target)),
             RingKind::Matched => {}
         }
-        // An unmatched part is a single point in the other design, holes included.
+        // In the design in which a part is missing, the part and its holes become a single point.
         if piece.source_part.is_none() {
             source.fill(centroid_of_points(&outer_ring.source));
         }
@@ -111,8 +112,8 @@ fn centroid_of_points(ring: &[DVec2]) -> DVec2 {
     ring.iter().sum::<DVec2>() / ring.len().max(1) as f64
 }
 
-/// Returns the boundary loops of two meshes as parts, if the loops are identical and have the same
-/// orientation.
+/// Returns the boundary loops of two meshes, grouped into parts; `None` unless the loops of both
+/// meshes consist of the same vertices and have the same orientation.
 fn shared_loops(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<RingPair>>> {
     // Identical indices mean that the meshes were made to correspond vertex by vertex.
     let loops = source.boundary_loops();
@@ -137,7 +138,8 @@ fn shared_loops(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<
         .iter()
         .map(|ring| [signed_area(&ring.source), signed_area(&ring.target)])
         .collect();
-    // A loop that is mirrored in one mesh would pass through itself.
+    // A loop with opposite orientations in the two meshes would pass through itself during the
+    // motion.
     let has_same_orientation = areas.iter().all(|[a, b]| a * b > 0.0);
     has_same_orientation.then(|| parts(rings, &areas))
 }

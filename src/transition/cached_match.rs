@@ -29,7 +29,7 @@ pub struct CachedMatch {
     pub(in crate::transition) film: SharedText,
 }
 
-/// Shared text, cheap to clone, since each step of the undo history has a document.
+/// Shared text. It must be cheap to clone, because each step of the undo history holds a document.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
 pub(in crate::transition) struct SharedText(pub(in crate::transition) Arc<str>);
@@ -100,8 +100,8 @@ pub(in crate::transition) fn cache_key(
             hasher.write_i64(from_corner.y.floor() as i64);
         }
     }
-    // Nothing is added for drawings in one colour, so that results cached before colours existed
-    // stay valid.
+    // Drawings in one colour add nothing to the key, so that results cached by versions without
+    // colours stay valid.
     for look in drawings.appearances.0.iter().flatten() {
         hasher.write_usize(look.paint_layer);
         let paint = look

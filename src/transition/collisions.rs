@@ -71,8 +71,9 @@ fn conflicts(
 }
 
 /// Returns the weight of each piece: the area that its outer ring encloses, as a fraction of the
-/// sum over all pieces, averaged over both designs. Area inside holes counts, because other pieces
-/// can appear within a ring, but a ring cannot appear around other pieces.
+/// sum over all pieces, averaged over both designs. The area inside holes is included, so that
+/// large rings stay matched: a piece can appear inside a ring, but a ring cannot appear around
+/// other pieces.
 pub(super) fn piece_weights(matched: &RegionMatch) -> Vec<f64> {
     let shares_in = |side: Side| -> Vec<f64> {
         let enclosed_area = |piece: &PieceMatch| {
@@ -87,7 +88,8 @@ pub(super) fn piece_weights(matched: &RegionMatch) -> Vec<f64> {
     a.iter().zip(&b).map(|(a, b)| 0.5 * (a + b)).collect()
 }
 
-/// Returns the indices of pieces whose removal leaves no conflict, in ascending order.
+/// Returns the indices, in ascending order, of pieces whose removal resolves all `conflicts`, the
+/// pairs of colliding pieces.
 fn cover(mut conflicts: BTreeSet<[usize; 2]>, weights: &[f64]) -> Vec<usize> {
     let mut removed = Vec::new();
     while !conflicts.is_empty() {

@@ -107,8 +107,8 @@ pub(super) fn painted_fields(
     Ok((Some(painted), None))
 }
 
-/// Returns the outlines of those parts of one design that occur in `pieces`, pairs of parts; `None`
-/// if there are none.
+/// Returns the outlines of the parts of one design that occur in `pieces`; `None` if there are
+/// none. Each piece is a pair of part indices, one in the source and one in the target.
 fn parts_of(drawings: &DrawingPair, pieces: &[[Option<usize>; 2]], side: Side) -> Option<Regions> {
     let mut parts: Vec<usize> = pieces.iter().filter_map(|piece| piece[side]).collect();
     parts.sort_unstable();
@@ -153,7 +153,8 @@ pub(crate) fn distance_field(
     }
 }
 
-/// Adds to an error in which design it occurred; a cancellation stays as it is.
+/// Converts an error of a distance field to a build error that names the design. A cancellation
+/// stays a cancellation.
 fn error_of_design(side: Side, error: FieldError) -> BuildError {
     match error {
         FieldError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),

@@ -22,7 +22,7 @@ pub enum BuildError {
     /// The warp and the content cannot be combined.
     #[error(transparent)]
     NoSuchCell(#[from] UnsupportedMethod),
-    /// Another error, preceded by the names of the designs.
+    /// An error together with the names of both designs.
     #[error("{}", SanitizedLine(format_args!("{source_name} to {target_name}: {error}")))]
     Between {
         /// Name of the source design.

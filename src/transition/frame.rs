@@ -46,7 +46,7 @@ pub struct FigureLayer {
     ///
     /// [`TransitionStyle::paint_at`]: super::TransitionStyle::paint_at
     pub paints: [Option<Paint>; 2],
-    /// Gradients in source and target, if any; the paints are their mean colours. See
+    /// Gradients in source and target, if any; `paints` then holds their mean colours. See
     /// [`TransitionStyle::gradient_at`].
     ///
     /// [`TransitionStyle::gradient_at`]: super::TransitionStyle::gradient_at
@@ -59,8 +59,8 @@ pub struct FigureLayer {
 }
 
 impl Transition {
-    /// Creates a frame at `t`, with its own memory. Outside [0, 1] it extrapolates; a `t` that is
-    /// not finite counts as 0.
+    /// Creates a frame at `t`, with its own memory. Outside [0, 1] the frame extrapolates; a `t`
+    /// that is not finite counts as 0.
     #[must_use]
     pub fn frame(&self, t: f64) -> Frame {
         let mut frame = Frame {
@@ -81,7 +81,7 @@ impl Transition {
         self.warp().placer().with_override(play)
     }
 
-    /// Returns source and target as given, to be drawn behind the frames.
+    /// Returns the unchanged source and target as polygons and bars, to be drawn behind the frames.
     #[must_use]
     pub fn outlines(&self) -> [VectorFigure; 2] {
         let designs = self.designs().each_ref();

@@ -52,8 +52,8 @@ impl TransitionMethod {
         }
     }
 
-    /// Returns all methods by content; within each content, those with the fewest requirements on
-    /// the designs come last.
+    /// Returns all methods, grouped by content. Within each group, those with the fewest
+    /// requirements on the designs come last.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
         let cells = |content| {
             WarpKind::BY_DEMAND

@@ -30,7 +30,7 @@ pub enum TransitionNote {
     Mirrored {
         /// Mean distortion of the best match as drawn; see [`CompatibleMesh::distortion`].
         as_drawn: f64,
-        /// Mean distortion of a first match with one design mirrored.
+        /// Mean distortion of the first match with one design mirrored.
         mirrored: f64,
     },
     /// An exact boundary was requested, but the metric is not Euclidean: the boundary lies between
@@ -43,10 +43,11 @@ pub enum TransitionNote {
     PartTimesIgnored,
     /// The equations of rigid parts could only be solved after adding a little to their diagonal.
     DiagonalAdded {
-        /// The amount added, as a fraction of the diagonal.
+        /// Amount added to the diagonal, as a fraction of the diagonal.
         share: f64,
     },
-    /// Some parts could not satisfy bounded distortion; each of their faces moves on its own path.
+    /// Some parts could not be moved with bounded distortion. Each face of such a part is
+    /// interpolated on its own instead.
     Unflattened {
         /// Number of such parts.
         parts: usize,

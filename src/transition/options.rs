@@ -140,10 +140,10 @@ named! { CollisionAvoidance {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PaintRule {
-    /// In their own colours, if they have any.
+    /// The drawings' own colours, if they have any.
     #[default]
     Own,
-    /// In the colours of the style, as one figure.
+    /// The colours of the style; each drawing is one figure.
     One,
 }
 
@@ -176,7 +176,7 @@ named! { FieldBoundary {
 pub struct FieldOptions {
     /// The metric; all metrics except the Euclidean one need [`FieldBoundary::Binary`].
     pub metric: Metric,
-    /// Where the zero boundary lies.
+    /// Where the zero boundary of a field lies.
     pub boundary: FieldBoundary,
     /// How the two fields are mixed.
     pub blend: FieldBlend,

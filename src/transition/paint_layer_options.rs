@@ -29,10 +29,10 @@ impl Default for PaintLayerOptions {
 }
 
 impl PaintLayerOptions {
-    /// Checks that the order changes within [0, 1].
+    /// Checks that the t at which layers change their order is within [0, 1].
     ///
     /// # Errors
-    /// [`PaintLayerOptionsError`] if it does not.
+    /// [`PaintLayerOptionsError`] if it is not.
     pub fn check(&self) -> Result<(), PaintLayerOptionsError> {
         let is_within = (0.0..=1.0).contains(&self.reorder_at);
         is_within

@@ -29,7 +29,7 @@ impl TransitionData {
         let Content::Solid(solid) = &mut self.content else {
             return self;
         };
-        // An existing recording stays valid only if there are no timings before and after the
+        // An existing recording stays valid only if there are timings neither before nor after the
         // change.
         if !times.is_empty() || matches!(self.built_warp.warp, AnyWarp::Staggered(_)) {
             self.recording = RecordingSlot::default();
@@ -48,7 +48,9 @@ impl TransitionData {
     }
 }
 
-/// Returns the distinct clocks in use, and for each part the index of its clock among them.
+/// Returns the distinct clocks in use and, for each part, the index of its clock among these;
+/// `None` for a part without a clock. `of_parts` holds the indices of the parts' clocks in
+/// `clocks`.
 fn used_clocks(
     clocks: &[PartClock],
     of_parts: &[Option<usize>],
@@ -69,8 +71,8 @@ fn used_clocks(
     (distinct, of_parts)
 }
 
-/// Returns, for each connected part of the mesh, the index of its timing. If several timings apply
-/// to a part, the last one wins.
+/// Returns, for each connected part of the mesh, the index of its timing in `times`; `None` if it
+/// has none. If several timings apply to a part, the last one wins.
 fn clock_of_parts(
     arap: &Arap,
     matched: Option<&RegionMatch>,
@@ -101,9 +103,9 @@ fn clock_of_parts(
     of_parts
 }
 
-/// Returns the connected part that contains the point of a timing, or else the part nearest to it.
-/// If several parts contain the point, returns the uppermost one, which has the highest index
-/// because parts are painted in ascending order.
+/// Returns the connected part that contains the point of a timing, or else the part nearest to the
+/// point. If several parts contain the point, returns the uppermost one. Parts of the design are
+/// painted in ascending order, so this is the one for which `part` returns the highest index.
 fn part_at(
     arap: &Arap,
     of_vertices: &[u32],
@@ -135,7 +137,7 @@ impl SolidContent {
     /// Removes all clocks.
     fn take_clocks(&mut self) {
         self.part_clocks = None;
-        // Layers without paint were added only for the clocks.
+        // Layers without paint were only added together with the clocks, so they are removed too.
         self.paint_layers = self
             .paint_layers
             .take()

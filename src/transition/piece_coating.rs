@@ -22,7 +22,7 @@ impl TransitionData {
     }
 }
 
-/// The boundary loops of a transition, with the piece of each.
+/// The boundary loops of a transition, each with the piece to which it belongs.
 pub(super) struct PieceBoundaryLoops<'a> {
     /// Vertex indices of each loop.
     pub loops: Vec<Vec<u32>>,
@@ -151,8 +151,8 @@ fn shading(
     }
 }
 
-/// Returns the height of each layer in the stack of one design, 0 for the lowest. A layer that is
-/// missing in this design lies directly above the layer that is next below it in the other design.
+/// Returns the height of each layer in the stack of one design, 0 for the lowest. A layer that
+/// exists only in the other design lies directly above the layer that is next below it there.
 fn z_indices(layers: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
     let other = side.other();
     let mut order: Vec<usize> = (0..layers.len())
@@ -171,7 +171,7 @@ fn z_indices(layers: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
             .iter()
             .rposition(is_below)
             .map_or(0, |below| below + 1);
-        // Appearing layers lie above disappearing ones at the same height, in both designs.
+        // In both designs, appearing layers lie above disappearing layers of the same height.
         let is_disappearing =
             |&&placed: &&usize| side == Side::Source && layers[placed][other].is_none();
         let disappearing_count = order[index..].iter().take_while(is_disappearing).count();

@@ -27,8 +27,8 @@ const MAX_GRID_CELLS: u32 = 160;
 /// 60 frames per second).
 const MAX_FRAME_WORK: f64 = 3e6;
 
-/// Work of one grid point of the lattice warp, as a number of features. Unlike that of the other
-/// warps, it does not depend on the actual number of features (heuristic).
+/// Work of the lattice warp at one grid point, expressed as a number of features of another warp.
+/// It does not depend on the actual number of features (heuristic).
 const LATTICE_WORK: usize = 16;
 
 /// Distance by which the mesh of rigid parts extends beyond the frame, as a fraction of the frame's
@@ -56,8 +56,8 @@ pub(super) fn build_plane_warp(
         return rigid(spec, frame, features, progress);
     }
     checkpoint(progress, "warping", 0.0)?;
-    // Solving for all features is one long call, so it runs in the background while a cancellation
-    // is awaited.
+    // Solving for all features is one long call. It runs in the background, so that a cancellation
+    // can end the wait for it.
     let (spec, frame, features) = (spec.clone(), *frame, Arc::new(features));
     let features_for_warp = Arc::clone(&features);
     let warp = run_cancellable(progress, move || {
@@ -117,7 +117,8 @@ fn on_grid<W: PlaneWarp>(
     Ok(match rigid {
         Some(rigid) => {
             let warp = RigidElasticPlaneWarp::new(rigid, frame, points, lines, new)?;
-            // Rotating fields leave the frame on their way; pictures are cropped to it.
+            // Distance fields may leave the frame while they rotate. Pictures are cropped to the
+            // frame.
             let visible_area = match spec.method.content() {
                 ContentKind::Field => rigid.swept_bounds(frame),
                 ContentKind::Colours | ContentKind::Solid => *frame,
@@ -203,7 +204,8 @@ fn about_pins(
                 if are_automatic && !pins.is_empty() =>
             {
                 *pins = pins.iter().copied().step_by(2).collect();
-                // Removing every other pin never removes the last one, so it is removed here.
+                // Removing every other pin always leaves the first pin, so a single remaining pin
+                // is removed here.
                 if pins.len() == 1 {
                     pins.clear();
                 }
@@ -236,7 +238,7 @@ fn about_outlines(
         Some(rigid) => (&rigid.match_to_rest(matched), rigid.frame_to_rest(frame)),
         None => (matched, *frame),
     };
-    // An outline must lie within the frame to become an edge of its mesh.
+    // Outlines must lie within the frame to become edges of its mesh.
     let frame = padded_frame(matched, &frame);
     let attempt =
         CompatibleMesh::around_outlines(&frame, matched, &options.triangulation, progress);

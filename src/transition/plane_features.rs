@@ -58,8 +58,8 @@ impl PlaneFeatures {
         if spec.method.content() != ContentKind::Field {
             return Ok(requested);
         }
-        // A warp of the plane cannot cut a ring open or split a part, so the match must not require
-        // that.
+        // A warp of the plane cannot cut a ring open or split a part, so the match must require
+        // neither.
         let matching = MatchSettings {
             holes: HoleRule::Close,
             parts: PartRule::Transient,
@@ -69,8 +69,8 @@ impl PlaneFeatures {
         if requested.points.is_empty() && requested.lines.is_empty() {
             return Self::automatic_features(spec.method.warp(), &outlines, &matching, progress);
         }
-        // If all pins of the user lie on the outlines, the outlines can be matched through these
-        // pins.
+        // If all pins of the user lie on the outlines, these pins can guide a match of the
+        // outlines.
         if spec.method.warp() == WarpKind::Arap && requested.are_on(&outlines) {
             return requested.with_match(&outlines, &matching, progress);
         }
@@ -128,7 +128,7 @@ impl PlaneFeatures {
         Ok(self)
     }
 
-    /// Returns the points, and three points on each line: its ends and its middle.
+    /// Returns the point features and, for each line feature, its two ends and its middle.
     pub fn as_points(&self) -> Vec<PointPair> {
         let points_on = |line: &LinePair| [0.0, 0.5, 1.0].map(|along| point_on_line(line, along));
         let line_points = self.lines.iter().flat_map(points_on);

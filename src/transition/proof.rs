@@ -27,8 +27,8 @@ pub struct TransitionProof {
     /// Largest distance between a vertex in the recording and in the solved motion, as a fraction
     /// of the diameter of the designs; see [`Recording::error`].
     pub film_error: f64,
-    /// Number of unmatched holes plus the number of swelling parts, which grow in thickness within
-    /// their outline. The check does not cover these.
+    /// Number of unmatched holes plus number of swelling parts, which grow in thickness within
+    /// their outline. The check covers neither these holes nor these parts.
     pub left_out: usize,
     /// Largest distance by which a point is moved aside to avoid collisions, in diameters of the
     /// designs; `None` if nothing is moved. See [`CollisionAvoidance`].
@@ -37,8 +37,8 @@ pub struct TransitionProof {
 
 impl Transition {
     /// Records the transition if necessary, and checks at every t in [0, 1] whether a face folds or
-    /// an outline crosses itself or another. Returns `None` for content without faces: distance
-    /// fields and pictures.
+    /// an outline crosses itself or another. Returns `None` for distance fields and pictures, and
+    /// for trusses, whose bars may cross.
     ///
     /// # Errors
     /// [`RecordingError`] if the transition cannot be recorded or the work is cancelled.
@@ -50,7 +50,7 @@ impl Transition {
         let Content::Solid(solid) = self.content() else {
             return Ok(None);
         };
-        // Bars may cross, and the panels of a truss are invisible.
+        // The bars of a truss may cross, and the panels between them are invisible.
         if solid.loops.is_empty() {
             return Ok(None);
         }
@@ -117,7 +117,7 @@ impl TransitionProof {
         self.left_out == 0 && self.proof.touching == 0
     }
 
-    /// Returns the first t at which the check fails, or `None` if it holds.
+    /// Returns the first t at which a face folds or outlines meet; `None` if there is no such t.
     #[must_use]
     pub fn first_failure_time(&self) -> Option<f64> {
         let fold = self.proof.fold.map(|fold| fold.t);

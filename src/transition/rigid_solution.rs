@@ -61,7 +61,8 @@ pub(super) fn solve_best(
     let matched = separation.matched;
     let layers = PieceLayers::of(&matched, &drawings.appearances);
     let arap = stiffen_folds(separation.arap, progress)?;
-    // Stiffening has changed the motion slightly, so the schedule is based on the stiffened motion.
+    // The schedule of the holes is based on the stiffened motion, which differs slightly from the
+    // motion before stiffening.
     let schedule_for = |holes: &[PieceHole]| {
         placement::timetable(&matched, &arap, (holes, &layers), spec.options.quality)
     };
@@ -78,8 +79,8 @@ pub(super) fn solve_best(
 
 /// Places unmatched parts so that nothing collides at any t, as far as possible.
 ///
-/// If the check at every t finds a collision of an unmatched part between the sampled times, a time
-/// is added there and all unmatched parts are placed again.
+/// If the check at every t finds that an unmatched part collides between two sample times, the t of
+/// the collision becomes another sample time and all unmatched parts are placed again.
 ///
 /// # Errors
 /// If the motion cannot be solved or the work is cancelled.
@@ -177,7 +178,7 @@ fn place_unmatched_parts(
                 arap: Arap::with_outline_parameters(&placed.mesh, options, parameters, progress)?,
                 matched: placed.matched,
                 swelling: placed.swelling,
-                // Holes lie in matched pieces, which were not moved.
+                // The holes stay valid, because they lie in matched pieces, which were not moved.
                 ..solution
             }
         }

@@ -3,8 +3,8 @@
 //!
 //! Each piece is matched on its own. If matched pieces then collide, some of them are unpaired: the
 //! source part disappears and the target part appears. Pieces that cannot be triangulated are
-//! unpaired too. Collisions are first resolved with the requested matches, which are cheap, and
-//! then again with the best match of each piece. In between, large unmatched parts are assigned to
+//! unpaired too. Collisions are first resolved with draft matches, which are cheap, and then again
+//! with the best match of each piece. In between, large unmatched parts are assigned to
 //! neighbouring groups of parts, if this causes less misfit than letting them appear or disappear.
 
 use super::arap_build::{check_size, without_subdivision};
@@ -29,17 +29,16 @@ use std::collections::BTreeMap;
 /// can cause new collisions).
 const MAX_ROUNDS: u32 = 3;
 
-/// Progress reported once the collisions of the requested matches are resolved, in [0, 1]
-/// (heuristic).
+/// Progress reported once the collisions of the draft matches are resolved, in [0, 1] (heuristic).
 const DRAFT_PROGRESS: f64 = 0.1;
 /// Progress reported once unmatched parts are assigned to neighbouring groups, in [0, 1]
 /// (heuristic).
 const JOIN_PROGRESS: f64 = 0.2;
 
-/// Progress within a round, reported once its pieces are matched, in [0, 1] (heuristic).
+/// Progress of one round, in [0, 1], reported once its pieces are matched (heuristic).
 const MATCH_PROGRESS: f64 = 0.9;
 
-/// Misfit that an unmatched piece counts as in the mean misfit of all pieces (heuristic).
+/// Misfit assumed for an unmatched piece in the mean misfit of all pieces (heuristic).
 const UNMATCHED_DISTORTION: f64 = 30.0;
 
 /// Assigning unmatched parts to other groups is accepted only if it reduces the unmatched share of
@@ -64,8 +63,8 @@ impl Separation {
         unmatched.map(|(_, weight)| weight).sum()
     }
 
-    /// Returns the mean of the logarithms of the pieces' misfits, weighted by their share of the
-    /// designs; unmatched pieces count as [`UNMATCHED_DISTORTION`].
+    /// Returns the mean of the logarithms of the pieces' misfits, weighted by the pieces' share of
+    /// the area of the designs. An unmatched piece has the misfit [`UNMATCHED_DISTORTION`].
     fn mean_misfit(&self) -> f64 {
         let misfit = |piece: &MatchCandidate| match piece.matched.is_matched() {
             true => piece.misfit(),
@@ -90,7 +89,8 @@ pub(super) fn separate(
     if spec.options.quality == BuildQuality::Draft {
         return unpair_until_separate(prepared, spec, &requested_matches, progress);
     }
-    // Unpairing pieces with cheap matches first avoids half of the search for the best matches.
+    // Pieces are first unpaired with cheap draft matches, which saves half of the search for the
+    // best matches.
     let [drafting, joining, searching] = [
         (0.0, DRAFT_PROGRESS),
         (DRAFT_PROGRESS, JOIN_PROGRESS),
@@ -121,7 +121,7 @@ pub(super) fn separate(
 type PieceChooser<'a> =
     dyn Fn(&GroupSearch, &dyn Progress) -> Result<Vec<PieceResult>, BuildError> + Sync + 'a;
 
-/// Chooses the requested match of each piece.
+/// Chooses the draft of each piece; see [`drafts_of_group`].
 fn requested_matches(
     group: &GroupSearch,
     progress: &dyn Progress,
@@ -129,8 +129,8 @@ fn requested_matches(
     drafts_of_group(group, progress)
 }
 
-/// Matches the pieces with `choice`, and unpairs pieces until none collide or the rounds are used
-/// up.
+/// Matches the pieces with `choice`, and unpairs pieces until none collide or [`MAX_ROUNDS`] is
+/// reached.
 ///
 /// # Errors
 /// As [`separate`].
@@ -180,7 +180,7 @@ fn unpair_until_separate(
     }
 }
 
-/// For each group of parts that has been matched: its pieces.
+/// The pieces of each group of parts that has been matched.
 type ChosenGroups = BTreeMap<PartGroup, Vec<PieceResult>>;
 
 /// Chooses the pieces of each group that is not in `chosen_groups`.

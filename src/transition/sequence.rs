@@ -240,7 +240,7 @@ impl SequenceFrame {
     /// Returns the frame of the segment that is shown.
     ///
     /// # Panics
-    /// Never: that segment has a frame.
+    /// Never, because the segment that is shown always has a frame.
     #[must_use]
     pub fn frame(&self) -> &Frame {
         self.frames[self.segment]

@@ -50,7 +50,8 @@ impl KeyedSolution {
     }
 }
 
-/// Restores the cached motion if it was computed for this key and is valid.
+/// Restores the cached motion if it was computed for this key and is valid; otherwise returns
+/// `None`.
 ///
 /// # Errors
 /// If the mesh is too large or the work is cancelled.

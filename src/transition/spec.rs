@@ -84,7 +84,8 @@ impl TransitionSpec {
         [&self.source, &self.target].into_iter().chain(&self.others)
     }
 
-    /// Returns whether the cached match was computed for these outlines and options.
+    /// Returns whether the cached match was computed for the outlines and options of this
+    /// specification.
     fn has_cached_match(&self, progress: &dyn Progress) -> bool {
         // The key is computed from the outlines, which takes time and is useless if nothing is
         // cached.
@@ -183,7 +184,7 @@ impl TransitionSpec {
 /// design's diameter.
 ///
 /// # Errors
-/// [`BuildError::BarWidth`] unless the requested fraction is above 0 and at most 1.
+/// [`BuildError::BarWidth`] if the requested fraction is outside 0 < fraction ≤ 1.
 pub(crate) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
     let fraction = spec.options.bar_width;
     if !(fraction > 0.0 && fraction <= 1.0) {
@@ -193,8 +194,8 @@ pub(crate) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
     Ok(fraction * diameters.fold(0.0, f64::max))
 }
 
-/// Returns the outline of a design. Uniting bars or faces is a long library call, so it runs in the
-/// background while a cancellation is awaited.
+/// Returns the outline of a design. Uniting bars or faces is one long library call. It runs in the
+/// background, so that a cancellation can end the wait for it.
 ///
 /// # Errors
 /// If there are too many bars, the outline is empty, or the work is cancelled.

@@ -1,9 +1,10 @@
 //! Removes folds from a rigid interpolation by stiffening the folded faces, as far as possible.
 //!
-//! A face that follows its local map exactly never folds; it folds because its neighbours pull it
-//! away from that map. Folded faces are therefore stiffened repeatedly, until no face folds or the
-//! maximum number of rounds is reached. Both ends of the motion stay exact, since there every face
-//! follows its local map.
+//! This applies only to homotopies that keep orientation; motions with other homotopies are left
+//! unchanged. With such a homotopy, a face that follows its local map exactly never folds. It folds
+//! because its neighbours pull it away from that map. Folded faces are therefore stiffened
+//! repeatedly, until no face folds or the maximum number of rounds is reached. Both ends of the
+//! motion stay exact, since there every face follows its local map.
 //!
 //! The motion is sampled in [`STEPS`] steps; folds between two samples are missed. Not guaranteed:
 //! that all folds are removed. Where large areas fold, stiffness only moves the fold elsewhere.
@@ -64,7 +65,8 @@ pub(super) fn stiffen_folds(motion: Arap, progress: &dyn Progress) -> Result<Ara
     Ok(best)
 }
 
-/// Returns the faces that are not positively oriented, once for each step at which they are not.
+/// Returns the indices of the faces that are not positively oriented at some step. A face occurs
+/// once for each such step.
 fn folds(motion: &Arap) -> Vec<usize> {
     let folded_at = |step: u32| {
         let mut placer = motion.placer();

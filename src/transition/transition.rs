@@ -159,8 +159,8 @@ impl Transition {
         &self.0.recording
     }
 
-    /// Returns the rigidity-preserving interpolation, if the warp is one: of solids, or of the
-    /// frame that carries fields or pictures. If the frame also has a common rigid motion, this is
+    /// Returns the rigidity-preserving interpolation of solids, or of the frame that carries fields
+    /// or pictures; `None` for other warps. If the frame also has a common rigid motion, this is
     /// the interpolation relative to that motion.
     #[must_use]
     pub fn arap(&self) -> Option<&Arap> {
@@ -176,8 +176,8 @@ impl Transition {
         }
     }
 
-    /// Returns a placer as [`Self::placer_for`] does, for the interpolation of the exchanged
-    /// designs.
+    /// Returns a placer as [`Self::placer_for`] does, but `arap` interpolates the exchanged
+    /// designs, and the part timings run backwards.
     pub(crate) fn reversed_placer_for(&self, arap: &Arap) -> Placer {
         match &self.0.built_warp.warp {
             AnyWarp::Staggered(warp) => warp.backwards(arap.clone()).placer(),
@@ -185,7 +185,8 @@ impl Transition {
         }
     }
 
-    /// Returns the t that the part of a vertex has reached at `t`, according to its timing.
+    /// Returns the t that the part of a vertex has reached when the transition is at `t`. The two
+    /// differ only if the part has a timing of its own.
     pub(crate) fn part_time_at(&self, vertex: u32, t: f64) -> f64 {
         match &self.0.built_warp.warp {
             AnyWarp::Staggered(warp) => warp.clock(vertex).part_time(t),

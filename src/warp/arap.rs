@@ -7,8 +7,8 @@
 //!
 //! E_t(V) = Σ_T tr((J_T(V) − M_T(t)) W_T (J_T(V) − M_T(t))ᵀ).
 //!
-//! It is minimal where K U = Σ (M(t) − M_linear(t)) W g. Here U is the deviation of the vertices
-//! from the straight paths (1−t) P + t Q between their positions P and Q in the designs,
+//! The energy is minimal where K U = Σ (M(t) − M_linear(t)) W g. Here U is the deviation of the
+//! vertices from the straight paths (1−t) P + t Q between their positions P and Q in the designs,
 //! M_linear(t) = (1−t) M(0) + t M(1), g are the gradients of the hat functions, and K is the
 //! stiffness matrix of the energy. K does not depend on t and is factored once; a frame takes one
 //! pass over the faces and one back-substitution with two right-hand sides. The symmetric energy
@@ -116,8 +116,8 @@ impl Arap {
     /// Decomposes the local maps, assembles the matrix and factors it.
     ///
     /// # Errors
-    /// [`ArapError`] if the options do not fit the mesh, the angles wind around a hole, the matrix
-    /// cannot be factored, or the job is cancelled.
+    /// [`ArapError`] if the options do not fit the mesh, the rotation angles of the faces wind
+    /// around a hole, the matrix cannot be factored, or the job is cancelled.
     pub fn build(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
@@ -130,12 +130,15 @@ impl Arap {
     /// Builds the interpolation of a triangulation of outlines.
     ///
     /// In contrast to [`Self::build`], boundary edges are elements of the energy, and sides that
-    /// are straight and equally divided in both designs stay straight. `time_windows` holds the
-    /// time window of each connected part that is a point in one of the designs (a transient part);
-    /// the part changes its size within that window. Other parts, and parts beyond the end of the
-    /// list, have none. Only the other parts determine the position and rotation of the whole
-    /// design. Before and after its window, a transient part moves with the whole design; with the
-    /// linear homotopy, it rests at its position in the nearer design instead.
+    /// are straight and equally divided in both designs stay straight. A transient part is a
+    /// connected part that is a point in one of the designs. `time_windows` holds, for each
+    /// transient part, the time window within which the part changes its size. The entry is `None`
+    /// for other parts; parts beyond the end of the list have no window. Unless all parts are
+    /// transient, transient parts do not affect the position and rotation of the whole design.
+    ///
+    /// Before and after its window, a transient part moves with the whole design. With the linear
+    /// homotopy, it stays at its source position before the window and at its target position after
+    /// the window.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -152,7 +155,8 @@ impl Arap {
         Self::with_outline_parameters(mesh, options, parameters, progress)
     }
 
-    /// Builds the interpolation like [`Self::of_outlines`], with time windows and stiffness.
+    /// Builds the interpolation like [`Self::of_outlines`], with the time windows and the stiffness
+    /// factors of `parameters`.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -167,8 +171,8 @@ impl Arap {
 
     /// Builds the interpolation of the same mesh with other options.
     ///
-    /// If they request a subdivision, the mesh is subdivided further, and each child face inherits
-    /// the stiffness of its parent.
+    /// If `options` requests a subdivision, the mesh is subdivided further, and each child face
+    /// inherits the stiffness of its parent.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -278,7 +282,7 @@ impl Arap {
         &self.0.options
     }
 
-    /// Assembles the matrix of the energy, for measurements.
+    /// Assembles the matrix of the energy again, for tests and measurements.
     #[must_use]
     pub fn system(&self) -> SymmetricMatrix {
         let constraints = self
@@ -303,9 +307,10 @@ impl Arap {
         &self.0.maps.masses
     }
 
-    /// Returns the ridge that had to be added to the matrix in order to factor it.
+    /// Returns the ridge (a small increase of the diagonal) with which the matrix was factored, or
+    /// `None` if none was needed.
     ///
-    /// Only very uneven meshes need one. The interpolation is then slightly stiffer than
+    /// Only very uneven meshes need a ridge. It makes the interpolation slightly stiffer than
     /// [`Self::system`].
     #[must_use]
     pub fn ridge(&self) -> Option<Ridge> {
@@ -313,7 +318,8 @@ impl Arap {
     }
 
     /// Returns the number of edge-connected components that could not be flattened with bounded
-    /// distortion. Their faces follow their own metrics independently.
+    /// distortion. Each face of such a component follows the bounded homotopy on its own, without
+    /// regard to its neighbours.
     #[must_use]
     pub fn unflattened_count(&self) -> usize {
         self.0.forces.bounded().map_or(0, Bounded::unflattened)
@@ -333,8 +339,8 @@ impl Arap {
 
     /// Returns the rotation of the whole design from source to target, in radians.
     ///
-    /// Among all angles that differ by whole turns, this is the one nearest to the mean rotation of
-    /// the first part.
+    /// This is the best-fit rotation of the vertices, plus the whole turns that bring it nearest to
+    /// the mean rotation of the first part.
     pub(crate) fn rotation(&self) -> f64 {
         self.0.maps.whole_angle
     }
@@ -347,7 +353,8 @@ impl Arap {
 
     /// Returns the interpolation from target to source.
     ///
-    /// Rotations are the reversed ones, including their whole turns; they are not chosen anew.
+    /// Each rotation angle is minus that of this interpolation, including its whole turns; angles
+    /// are not chosen anew.
     ///
     /// # Errors
     /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
@@ -378,7 +385,8 @@ impl Arap {
         Ok(swapped.with_guard(self.guard().map(Guard::backwards)))
     }
 
-    /// Returns the same interpolation with the displacements of a guard, or without any guard.
+    /// Returns the same interpolation with `guard` in place of its current guard; `None` removes
+    /// the guard.
     pub(crate) fn with_guard(&self, guard: Option<Guard>) -> Self {
         let inner = &*self.0;
         Self(Arc::new(FactoredArap {
@@ -423,21 +431,24 @@ impl Arap {
         Some(guard.farthest() / self.mesh().diameter())
     }
 
-    /// Returns the times at which the guard's displacements are given; between them they are
-    /// smooth. Empty without a guard.
+    /// Returns the times at which the guard's displacements are given. Between these times the
+    /// displacements change smoothly. Empty without a guard.
     pub(super) fn guard_times(&self) -> &[f64] {
         self.guard().map(Guard::times).unwrap_or_default()
     }
 
-    /// Returns the displacements that avoid collisions, if there are any.
+    /// Returns the guard: the displacements that avoid collisions of the outlines. `None` if there
+    /// are none.
     pub(crate) fn guard(&self) -> Option<&Guard> {
         self.0.guard.as_deref()
     }
 
-    /// Returns the same interpolation with the weight of each face multiplied by `by`.
+    /// Returns the same interpolation without a guard and with the stiffness factors `by`, which
+    /// replace the current ones.
     ///
-    /// The factors are positive; faces beyond the end of the list have the factor 1. A face with a
-    /// large factor follows its local map more closely than its neighbours do.
+    /// The weight of each face is multiplied by its factor. The factors are positive; faces beyond
+    /// the end of `by` have the factor 1. A face with a large factor follows its local map more
+    /// closely than its neighbours do.
     ///
     /// # Errors
     /// [`ArapError`] if the job is cancelled or the new matrix cannot be factored.
@@ -496,7 +507,8 @@ impl Arap {
 impl Arap {
     /// Returns a placer that evaluates each connected part at its own time.
     ///
-    /// `clock(part, t)` returns that time. An anchor is fixed at the time of its own part.
+    /// `clock(part, t)` returns the time at which `part` is evaluated in the frame at `t`. An
+    /// anchor vertex is on its straight path, at the time of its own part.
     pub(in crate::warp) fn placer_by(
         &self,
         clock: impl Fn(usize, f64) -> f64 + Send + Sync + 'static,

@@ -2,7 +2,7 @@
 //!
 //! Every feature moves on the straight line from its source to its target position. Line pairs are
 //! replaced by sample points, so that lines drawn for the line warp also control these warps. The
-//! line warp shares the check for finite coordinates.
+//! line warp uses only the check for finite coordinates ([`check`]).
 
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
@@ -88,7 +88,8 @@ impl WarpFeatures {
         })
     }
 
-    /// Returns each feature's position at t with its displacements to the source and the target.
+    /// For each feature, returns its position in the frame at t, and the displacements from there
+    /// to its positions in the source and in the target.
     ///
     /// The source displacement is exactly zero at t = 0, the target displacement at t = 1.
     pub(super) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone {

@@ -1,9 +1,10 @@
 //! Homotopies: paths of 2×2 matrices from the identity to a local map M = R(θ) S.
 //!
 //! "The paper" below is "Design-Space Representation through Blended Transitions"; these are its
-//! eqs. 3 to 5 and two more. All paths start at I and end at M. Reversed, each is the path of the
-//! inverse map, M_BA(1−t) · M = M_AB(t), except for [`Homotopy::LinearAfterPolar`]. The angle θ is
-//! an input and is not computed from M, so that it may exceed π for a shape that turns further.
+//! eqs. 3 to 5 and two more. All paths start at I and end at M. Except for
+//! [`Homotopy::LinearAfterPolar`], exchanging source A and target B reverses the motion: the path
+//! M_BA of the inverse map fulfils M_BA(1−t) · M = M_AB(t). The angle θ is an input and is not
+//! computed from M, so that it may exceed π for a shape that turns further.
 //!
 //! [`Homotopy::at`] is the reference form for one matrix; the solver evaluates the same formulas
 //! for several faces at once.
@@ -11,11 +12,12 @@
 use crate::geometry::{DMat2, PolarDecomposition, SymmetricEigen};
 use crate::settings::named;
 
-/// Path of a face's local map from the identity to its end.
+/// Path of a face's local map, from the identity at t = 0 to its final value at t = 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Homotopy {
-    /// (1−t) I + t M (paper, eq. 3): vertices move on straight lines; collapses on half turns.
+    /// (1−t) I + t M (paper, eq. 3): vertices move on straight lines. A face that rotates by a half
+    /// turn collapses to a point halfway.
     Linear,
     /// R(tθ) ((1−t) I + t S) (paper, eq. 4; Alexa, Cohen-Or, Levin 2000): constant speed of
     /// rotation, no reflection on [0, 1].
@@ -29,7 +31,8 @@ pub enum Homotopy {
     LinearAfterPolar,
     /// R(tθ) √((1−t) I + t S²) on [0, 1], and the exponential path outside. Squared lengths change
     /// linearly, so no angle is distorted more than at the worse end. The ARAP warp flattens these
-    /// metrics over whole sheets of faces (Chen, Weber, Keren, Ben-Chen 2013).
+    /// metrics together for all faces that are connected by edges (Chen, Weber, Keren, Ben-Chen
+    /// 2013).
     Bounded,
 }
 

@@ -41,7 +41,7 @@ named! { WarpKind {
 } }
 
 impl WarpKind {
-    /// All warps, from the highest to the lowest requirements on the designs.
+    /// All warps, in descending order of what they require of the designs.
     pub const BY_DEMAND: [Self; Self::ALL.len()] = [
         Self::Arap,
         Self::Paths,

@@ -1,10 +1,10 @@
 //! Paths of the centroids of a design's parts.
 //!
-//! The design's centroid moves on a straight line C(t), and the design rotates by tΘ about it.
-//! The centroid of part k follows
-//! c_k(t) = C(t) + R(tΘ) ((1−t) d_k + t R(−Θ) e_k), with d_k and e_k its offsets from the design's
-//! centroid in source and target. If each part moved on its own straight line instead, two parts
-//! of a design rotated by π would collide halfway.
+//! The design's centroid moves on a straight line C(t), and the design rotates by tΘ about it. The
+//! centroid of part k follows c_k(t) = C(t) + R(tΘ) ((1−t) d_k + t R(−Θ) e_k), where R(α) is the
+//! rotation by α, and d_k and e_k are the offsets of the part's centroid from the design's centroid
+//! in source and target. If each part moved on its own straight line instead, two parts of a design
+//! rotated by π would collide halfway.
 
 use crate::geometry::{DMat2, DVec2};
 

@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// At t the features lie between their source and target positions. The warp reuses its
 /// memory from call to call, so each evaluator works on its own clone.
 pub trait PlaneWarp: Clone + Debug + Send + Sync + 'static {
-    /// Computes the source and target point shown at each point of `frame` at t.
+    /// Computes, for time t, the source point and the target point that are shown at each point of
+    /// `frame`.
     ///
     /// All slices have the same length. The results are finite for all features, even for
     /// features that meet.

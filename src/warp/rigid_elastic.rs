@@ -1,9 +1,10 @@
 //! Warps composed of a common rigid motion and an elastic remainder.
 //!
-//! After Cohen-Or, Levin, Solomovici, "Three-dimensional distance field metamorphosis" (1998),
-//! §4: the best rotation of the source features onto the target features is applied as a
-//! rotation, and only the remaining displacement is warped. A rotating shape therefore keeps
-//! its size, whereas features on straight lines would shrink it.
+//! After Cohen-Or, Levin, Solomovici, "Three-dimensional distance field metamorphosis" (1998), §4:
+//! the best rotation of the source features onto the target features is applied as a rotation, and
+//! only the remaining displacement is warped. A rotating shape therefore keeps its size, whereas
+//! features on straight lines would shrink it. The elastic warp works in rest coordinates, in which
+//! both designs are centred and rotated to the halfway angle.
 //!
 //! Guaranteed for plane warps: at t = 0 the map to the source is exactly the identity; at t = 1 the
 //! map to the target is. Exchanging the designs reverses the motion up to rounding, except that a
@@ -101,7 +102,8 @@ impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
 
 /// A mesh warp built in rest coordinates and composed with a rigid motion.
 ///
-/// For warps whose vertices show fixed points of the designs, such as [`super::Arap`].
+/// It is suitable for warps in which each vertex shows the same point of a design at every t, such
+/// as [`super::Arap`].
 #[derive(Clone, Debug)]
 pub struct RigidElasticWarp<W> {
     rigid: CommonRigidMotion,

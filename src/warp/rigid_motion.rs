@@ -1,9 +1,10 @@
 //! The rigid motion common to all features, split off before a plane warp is built.
 //!
 //! The motion moves the centroid of the source features to that of the target features and rotates
-//! about it, such that the source features fit the target features best in the least-squares sense
-//! (two-dimensional Procrustes problem). The remaining, elastic displacement is expressed "at
-//! rest": in coordinates in which both designs are centred and rotated to the halfway angle.
+//! them about that centroid, such that the moved source features fit the target features best in
+//! the least-squares sense (two-dimensional Procrustes problem). The remaining, elastic
+//! displacement is expressed "at rest": in coordinates in which both designs are centred and
+//! rotated to the halfway angle.
 //!
 //! Guaranteed: exchanging the designs inverts the motion up to rounding, except that a rotation
 //! by π is counter-clockwise in both directions.
@@ -135,8 +136,9 @@ impl CommonRigidMotion {
         matched
     }
 
-    /// Returns a frame of the same size in rest coordinates, around the mean of the frame's centre
-    /// in source and target.
+    /// Returns a frame of the same size in rest coordinates. The centre of `frame` has two images
+    /// there, one as a point of the source and one as a point of the target; the new frame is
+    /// centred at their mean.
     ///
     /// The size is unchanged because options are relative to the frame's size.
     #[must_use]

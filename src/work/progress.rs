@@ -112,7 +112,7 @@ pub fn run_cancellable<T: Send + 'static>(
         match receiver.recv_timeout(CANCEL_POLL_INTERVAL) {
             Ok(result) => return Ok(result),
             Err(RecvTimeoutError::Timeout) => check_cancelled(progress)?,
-            // The sender is dropped without sending only if the call panics.
+            // The sender is dropped without a result only if the call panics.
             Err(RecvTimeoutError::Disconnected) => match thread.join() {
                 Err(panic) => std::panic::resume_unwind(panic),
                 Ok(_) => return Err(Cancelled),
@@ -160,7 +160,8 @@ pub struct OverallProgress<'a> {
 }
 
 impl<'a> OverallProgress<'a> {
-    /// Passes reports on to `inner`, from fraction 0. Long jobs may start if `inner` permits them.
+    /// Creates a progress at fraction 0 that passes reports on to `inner`. Jobs that exceed the
+    /// limits may start if `inner` permits them.
     pub fn new(inner: &'a dyn Progress) -> Self {
         Self {
             inner,
@@ -169,7 +170,7 @@ impl<'a> OverallProgress<'a> {
         }
     }
 
-    /// Sets whether long jobs may start; see [`Progress::is_patient`].
+    /// Sets whether jobs that exceed the limits may start; see [`Progress::is_patient`].
     #[must_use]
     pub fn patient(mut self, patient: bool) -> Self {
         self.patient = patient;
@@ -193,8 +194,8 @@ impl Progress for OverallProgress<'_> {
     }
 }
 
-/// Progress of one step of a computation. The step's fractions from 0 to 1 become fractions of the
-/// whole, between two given values.
+/// Progress of one step of a computation. The fractions of the step, from 0 to 1, are mapped to a
+/// given range of fractions of the whole computation.
 #[derive(Clone, Copy)]
 pub struct ProgressSpan<'a> {
     inner: &'a dyn Progress,

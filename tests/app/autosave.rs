@@ -10,8 +10,8 @@ use crate::headless_window::{HeadlessWindow, gallery_names};
 /// Maximum time that [`wait_until`] waits.
 const TIMEOUT: Duration = Duration::from_secs(20);
 
-/// Updates the window until a condition holds; panics with the name `state` if it takes longer than
-/// [`TIMEOUT`].
+/// Updates the window until a condition holds. If that takes longer than [`TIMEOUT`], panics with
+/// `state`, the name of the condition.
 fn wait_until(
     window: &mut HeadlessWindow,
     state: &str,

@@ -105,7 +105,7 @@ fn notices_wait_until_the_panels_are_shown_again() {
     let mut window = with_overlay_record();
     window.type_char(KeyCode::KeyH, "h");
     show_all_messages(&mut window);
-    // 20 s, longer than a confirmation is shown.
+    // These frames take 20 s, longer than a confirmation is shown.
     for _ in 0..1000 {
         window.update();
     }

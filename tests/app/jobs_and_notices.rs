@@ -1,6 +1,6 @@
 //! Problems are shown until their cause is removed; methods that fail are replaced. Long builds
-//! show a draft or a field blend and can be cancelled, refused ones start on request. Exports and
-//! measuring run in the background.
+//! show a draft or a field blend and can be cancelled. Builds that were refused start if the user
+//! asks for them. Exports and measuring run in the background.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -56,8 +56,8 @@ fn edit(window: &mut HeadlessWindow, change: impl FnOnce(&mut Project)) {
     window.wait();
 }
 
-/// Adds pins for three corners of the square, two of which cross: their order along the outlines
-/// differs between source and target.
+/// Adds a pin at each of three corners of the square. Two of the pins cross: their order along the
+/// outline differs between source and target.
 fn cross_pins(project: &mut Project) {
     let pin = |[a, b]: [[f64; 2]; 2]| PointPair {
         source: DVec2::from(a),
@@ -248,7 +248,7 @@ fn a_slow_build_shows_a_field_blend_meanwhile() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_pair(folder.path(), &star(11, 10.0), &star(4, 30.0));
     let mut project = window.session().project().cloned().expect("a project");
-    // Almost 400,000 triangles, slightly below the limit.
+    // The mesh gets almost 400,000 triangles, slightly below the limit.
     project.options.arap.subdivisions = 5;
     window.send(Intent::ReplaceSettings(Box::new(project.clone())));
     let path = folder.path().join("fine.morph");

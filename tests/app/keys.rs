@@ -54,16 +54,16 @@ fn home_and_end_jump_to_the_start_and_end() {
 #[test]
 fn digits_act_by_position_and_signs_by_the_printed_character() {
     let mut window = HeadlessWindow::with_gallery();
-    // A French keyboard prints & on the key of the 1.
+    // On a French keyboard, the key of the digit 1 types “&”.
     window.type_char(KeyCode::Digit1, "&");
     assert!(is_close(window.t(), 0.1));
-    // A German keyboard prints [ with AltGr on the key of the 8.
+    // On a German keyboard, AltGr with the key of the digit 8 types “[”.
     window.type_char(KeyCode::Digit8, "[");
     assert!(is_close(window.t(), 0.1));
     assert!(window.playback().speed() < 1.0);
     window.type_char(KeyCode::BracketRight, "]");
     assert_eq!(window.playback().speed(), 1.0);
-    // A Dvorak keyboard prints s where a US keyboard has the semicolon.
+    // On a Dvorak keyboard, the key of the US semicolon types “s”.
     window.type_char(KeyCode::Semicolon, "s");
     assert!(
         window

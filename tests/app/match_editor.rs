@@ -326,7 +326,8 @@ fn two_clicks_pair_parts_and_remove_unpairs_them() {
         source.y,
     )));
     assert!(window.matching().links.is_empty());
-    // A click on a part and then on empty space of the other design makes the part disappear.
+    // A click on a part and then on empty space of the other design leaves the part without a
+    // partner, so that it disappears during the film.
     window.wait();
     window.act(EditorAction::Click(pointer_at(
         Side::Source,
@@ -520,8 +521,8 @@ fn the_editor_zooms_at_the_pointer_and_fits_the_view() {
     let at = Vec2::new(40.0, -30.0);
     let (pane, factor) = (EditorPane::Design(Side::Source), 2.0);
     window.act(EditorAction::Zoom { pane, at, factor });
-    // Zooming keeps the point under the pointer in place: with the old pan 0 and the old zoom 1,
-    // pan + zoom · at = at.
+    // Zooming keeps the point under the pointer in place. Before, with pan 0 and zoom 1, that point
+    // was at `at`; now it is at pan + zoom · at, which must be the same.
     let view = window.editor().panes.view(pane);
     assert_eq!(view.zoom, 2.0);
     assert!((view.pan + 2.0 * at - at).length() < 1e-4);

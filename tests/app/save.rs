@@ -30,7 +30,8 @@ fn confirmations(window: &HeadlessWindow) -> Vec<String> {
     done.map(|notice| notice.text.clone()).collect()
 }
 
-/// Answers the file dialog with paths, none if it is cancelled; returns whether the window closes.
+/// Answers the file dialog with `paths`, or cancels it if there are none; returns whether the
+/// window then closes.
 fn choose(window: &mut HeadlessWindow, paths: &[&Path]) -> bool {
     let paths = paths.iter().map(|path| path.to_path_buf()).collect();
     window.send(Intent::AnswerDialog(paths));

@@ -68,7 +68,7 @@ fn assert_one_line_error(output: &Output, text: &str, name: &str) {
 fn a_file_size_limit_leaves_the_earlier_file() {
     for line in COMMANDS {
         let name = output_name(line);
-        // Files may not grow at all, or up to one block.
+        // The maximum file size is 0 in the first run and one block in the second.
         for blocks in [0, 1] {
             let cli = with_earlier_file(name);
             let limit = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
@@ -135,8 +135,8 @@ fn a_full_disk_is_reported_and_leaves_the_earlier_file() {
     for line in COMMANDS.into_iter().chain(ffmpeg.map(|_| film)) {
         let name = output_name(line);
         let cli = with_earlier_file(name);
-        // The inputs and the earlier file take 24 kB: a page of 4 kB each. The disk has room for
-        // no, one or two more pages.
+        // The inputs and the earlier file take 24 kB, since each occupies a page of 4 kB. So the
+        // free space is none, one page or two pages.
         for kilobytes in [24, 28, 32] {
             let Some(output) = on_disk(&cli, kilobytes, "rw", line) else {
                 return;
@@ -144,7 +144,8 @@ fn a_full_disk_is_reported_and_leaves_the_earlier_file() {
             if output.status.success() {
                 continue;
             }
-            // The message may name another file: a partial report or a sheet may not fit either.
+            // No file name is expected, because the file that did not fit may also be a partial
+            // report or a sheet.
             assert_one_line_error(&output, "the disk is full; free some space", "");
             let disk = String::from_utf8_lossy(&output.stdout);
             assert!(disk.starts_with(EARLIER), "{line}: {disk}");

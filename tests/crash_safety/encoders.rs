@@ -1,6 +1,6 @@
 //! Failures of the video encoder, simulated by a fake ffmpeg. An encoder that fails, falsely
 //! reports success or writes an invalid film leaves the earlier film unchanged, and the error
-//! quotes its message. A complete film replaces the earlier one.
+//! quotes the encoder's message. A complete film replaces the earlier one.
 //!
 //! Encoders that hang are tested in `signals`.
 
@@ -118,7 +118,7 @@ fn a_complete_film_replaces_the_earlier_one() {
     let cli = CliFixture::new();
     fs::write(cli.path("film.mp4"), EARLIER).expect("written");
     fs::write(cli.path("whole"), mp4(4)).expect("written");
-    // The encoder succeeds although it writes to stderr.
+    // This encoder exits with success although it writes to stderr.
     let script = "case \"$*\" in *null*) exit 0;; esac\n\
         cat > /dev/null; cat whole > \"$out\"; echo 'deprecated' >&2";
     fake_ffmpeg(&cli, script);

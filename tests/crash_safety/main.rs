@@ -59,7 +59,8 @@ fn command_with_fake(cli: &CliFixture, line: &str) -> Command {
     command
 }
 
-/// Waits until `has_happened` returns true; panics with the name `event` after a minute.
+/// Waits until `has_happened` returns true. After a minute, panics with `event`, the name of the
+/// event.
 fn wait_until(event: &str, mut has_happened: impl FnMut() -> bool) {
     let start = Instant::now();
     while !has_happened() {

@@ -1,5 +1,6 @@
-//! Interrupting or killing the program at any time: earlier files stay, and no partial files do.
-//! Temporary files of killed processes are removed by the next run.
+//! Interrupting or killing the program at any time leaves earlier output files unchanged. An
+//! interrupted program removes its temporary files itself; those of a killed one are removed by the
+//! next run.
 
 use std::fs;
 use std::time::Duration;
@@ -96,8 +97,8 @@ fn an_interrupted_command_leaves_the_earlier_or_the_complete_file() {
         cli.write(name, EARLIER);
         for attempt in 0..24 {
             let child = start(cli.command(line));
-            // The attempts send signals from before the program handles them until after it has
-            // ended.
+            // Each attempt waits longer. The first signals arrive before the program handles
+            // signals, the last ones after it has ended.
             std::thread::sleep(Duration::from_millis(3 * attempt));
             send(END_SIGNALS[attempt as usize % 3], child.id());
             let output = child.wait_with_output().expect("it ends");

@@ -77,7 +77,8 @@ pub fn gpu_playback_matches_solved_frames(renderer: &mut OffscreenRenderer) {
     }
 }
 
-/// The GPU plays without new meshes while t is in [0, 1]; for other t, frames are solved.
+/// While t is in [0, 1], the GPU plays the recording and no mesh is written. For other t, frames
+/// are solved on the CPU.
 pub fn gpu_playback_writes_no_meshes(renderer: &mut OffscreenRenderer) {
     let mut scene = RenderedScene::new("unwritten", recorded(spiral(15.0)));
     scene.visibility.wireframe = true;

@@ -26,7 +26,8 @@ use morphospace::stage::{
 };
 use morphospace::transition::{Transition, TransitionStyle};
 
-/// A transition with its style, and the size of an image and the region of the plane that it shows.
+/// A transition with its style, the size of the image to render, and the region of the plane that
+/// the image shows.
 pub struct RenderedScene {
     pub name: &'static str,
     pub transition: Transition,
@@ -329,7 +330,7 @@ impl OffscreenRenderer {
     }
 }
 
-/// Builds the Bevy app; if `is_synchronous`, shaders are compiled before they are first drawn with.
+/// Builds the Bevy app. If `is_synchronous`, drawing waits until the shaders are compiled.
 fn build_app(renderer: RenderResources, is_synchronous: bool) -> App {
     let mut app = App::new();
     let plugins = DefaultPlugins

@@ -7,8 +7,9 @@ use std::process::ExitCode;
 use crate::GpuTest;
 use crate::offscreen::OffscreenRenderer;
 
-/// Runs the tests whose names contain the first command-line argument that is not a flag (all tests
-/// without one), and prints the results like Rust's own runner. `--list` only lists the tests.
+/// Runs the tests whose names contain the first command-line argument that is not a flag, or all
+/// tests if there is no such argument. Prints the results like Rust's own runner. `--list` only
+/// lists the tests.
 #[expect(clippy::print_stdout, reason = "a test runner reports on stdout")]
 pub fn run(tests: &[GpuTest]) -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

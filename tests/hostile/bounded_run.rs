@@ -124,7 +124,8 @@ impl ProgramOutput {
     }
 }
 
-/// First character of a line that would control a terminal or change the direction of its text.
+/// First character of `line` that would control a terminal or change the direction of the text;
+/// `None` if there is none.
 pub fn terminal_control(line: &str) -> Option<char> {
     let is_direction = |c| ('\u{202a}'..='\u{202e}').contains(&c);
     line.chars().find(|&c| c.is_control() || is_direction(c))

@@ -193,7 +193,7 @@ fn script_string(text: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-/// HTML of a row with the animated SVG, paused at each of the frames.
+/// HTML of a row of copies of the animated SVG; each copy is paused at one of the frames.
 fn svg_frames(text: &str, frames: &[(f64, f64)], fps: f64) -> String {
     let secs: Vec<f64> = frames.iter().map(|frame| frame.0 / fps).collect();
     format!(
@@ -211,7 +211,7 @@ fn svg_frames(text: &str, frames: &[(f64, f64)], fps: f64) -> String {
     )
 }
 
-/// HTML of a row with the exported page `film.html` at the t of each frame.
+/// HTML of a row of copies of the exported page `film.html`; each copy shows the t of one frame.
 fn page_frames(frames: &[(f64, f64)]) -> String {
     let frame = |(_, t): &(f64, f64)| format!("<iframe src=\"film.html#t={t}&bare\"></iframe>");
     frames.iter().map(frame).collect()

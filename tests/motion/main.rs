@@ -67,8 +67,8 @@ fn overlap(a: &RgbaImage, b: &RgbaImage) -> f64 {
     if either > 0.0 { both / either } else { 1.0 }
 }
 
-/// Largest difference of a colour channel (0 to 255) in a pixel, averaged over the pixels that are
-/// opaque in both images.
+/// Mean, over the pixels that are opaque in both images, of the largest difference of a colour
+/// channel (0 to 255).
 fn colour_difference(a: &RgbaImage, b: &RgbaImage) -> f64 {
     let both = a.pixels().zip(b.pixels());
     let both: Vec<_> = both
@@ -91,8 +91,8 @@ struct ComparedFilm {
 }
 
 impl ComparedFilm {
-    /// Records the film of a project, with frames whose longer side is `side_px`; `None` for blends
-    /// of bitmap images, which have no outlines.
+    /// Records the film of a project; `side_px` returns the length of the longer side of its
+    /// frames. `None` for blends of bitmap images, which have no outlines.
     fn new(loaded: &LoadedProject, side_px: impl Fn(&Transition) -> u32) -> Option<Self> {
         let transition = loaded.segments()[0].build(&Silent);
         let transition = transition.expect("a transition");
@@ -139,7 +139,8 @@ impl ComparedFilm {
     /// Compares the frames that `play` returns with the program's own. Returns the minimum overlap,
     /// the t of that minimum, and the maximum colour difference.
     ///
-    /// `None` if `play` has no player. Saves both images of each frame to `save_folder`, if given.
+    /// `None` if `play` returns none, because the player is missing or fails. Saves both images of
+    /// each frame to `save_folder`, if given.
     fn compare(
         &self,
         play: impl Fn(&[(f64, f64)]) -> Option<Vec<RgbaImage>>,
@@ -170,7 +171,7 @@ impl ComparedFilm {
     }
 }
 
-/// Prints a line to stderr, past the test runner's capture of output.
+/// Prints a line to stderr directly, so that the test runner does not capture it.
 fn print_uncaptured(line: &str) {
     writeln!(std::io::stderr(), "{line}").expect("standard error");
 }

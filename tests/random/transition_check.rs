@@ -26,7 +26,8 @@ const END_TOLERANCE: f64 = 1e-4;
 /// Builds the transition by rigid parts from `source` to `target` and checks it; returns its
 /// defects.
 ///
-/// If the rings have no area and are no valid design, the result is free of defects.
+/// If one of the designs is invalid, for example because its rings have no area, nothing is checked
+/// and the result has no defects.
 ///
 /// # Errors
 /// A description, if the transition between two valid designs cannot be built, a face is not

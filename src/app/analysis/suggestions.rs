@@ -62,7 +62,7 @@ pub enum SuggestedChange {
 /// A change and the rating of the film it gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
-    /// The change.
+    /// The change of the settings.
     pub change: SuggestedChange,
     /// Rating of the resulting film.
     pub rating: FilmRating,

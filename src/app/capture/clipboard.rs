@@ -9,8 +9,8 @@ use crate::app::input::intent::Intent;
 use crate::app::notices::{NoticeTopic, Notices};
 use crate::export::{Camera, PixelSize, PlaneView};
 
-/// The system's clipboard, opened at the first copy. It must stay open: on some systems the content
-/// is lost with the program that copied it.
+/// The system's clipboard, opened at the first copy. It then stays open, because on some systems
+/// the copied content would be lost if it were closed.
 #[derive(Default)]
 pub struct SystemClipboard(Option<Clipboard>);
 

@@ -52,7 +52,7 @@ pub fn follow(
 ) {
     let is_open = preferences.film_options && preferences.panels;
     let key = is_open.then_some((preferences.film, preferences.record_format));
-    // Runs each frame; only a result counts as a change.
+    // This system runs each frame; only a new result marks the estimate as changed.
     let now = estimate.bypass_change_detection();
     if now.key != key || session.is_changed() {
         (now.job, now.cost) = (None, None);

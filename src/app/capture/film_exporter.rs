@@ -1,4 +1,4 @@
-//! Exports films in the background, with the same code as the command line.
+//! Exports films and comparison sheets in the background, with the same code as the command line.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -49,7 +49,7 @@ impl FilmExporter {
 }
 
 impl Drop for FilmExporter {
-    /// Waits until the partial file is deleted before the program ends.
+    /// Cancels the export and waits, for at most `EXIT_WAIT`, until its partial file is deleted.
     fn drop(&mut self) {
         self.cancel();
         let started = Instant::now();

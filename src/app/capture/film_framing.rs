@@ -9,7 +9,7 @@ use crate::export::{FilmSpec, FilmSpecError, PixelSizeError, PlaneView, framing}
 use crate::geometry::Bounds;
 use crate::transition::{Sequence, Timing, TimingError, TransitionStop};
 
-/// Frame of the film; `None` while the export settings are hidden.
+/// Frame of the film; `None` while the export settings are hidden or give no film.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FilmFraming(pub Option<FilmFrameInfo>);
 
@@ -40,19 +40,19 @@ impl FilmFrameInfo {
 /// Reason why the export settings give no film.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmFramingError {
-    /// The film would have no duration.
+    /// The timing is invalid, for example because the film has no duration.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// No sequence of frames follows from the timing.
+    /// The frame rate, the length or an end of the film is out of range.
     #[error(transparent)]
     Film(#[from] FilmSpecError),
-    /// The film would have no size.
+    /// The film's width or height in pixels is out of range.
     #[error(transparent)]
     Size(#[from] PixelSizeError),
 }
 
-/// Frame times of the film that the settings give, and its view of the plane. Both the export and
-/// the preview of its frame use this function.
+/// Returns the film that the settings give, and the view of the plane that the film shows. The
+/// export and the outline of the film's frame on the stage both use this function.
 ///
 /// # Errors
 /// [`FilmFramingError`] if the timing or the size gives no film.

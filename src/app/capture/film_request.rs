@@ -42,7 +42,7 @@ pub enum FilmExportError {
     /// The file type cannot hold a film.
     #[error(transparent)]
     Target(#[from] ExportTargetError),
-    /// The sheet would have no size.
+    /// The sheet's width or height in pixels is out of range.
     #[error(transparent)]
     Size(#[from] PixelSizeError),
     /// The settings do not fit the designs.
@@ -80,7 +80,7 @@ const TRIAL_FRAMES: usize = 12;
 /// Longer side of the image that shows the current frame during an export, in pixels (heuristic).
 const PREVIEW_PX: f64 = 240.0;
 
-/// Minimum time between two such images of the current frame (heuristic).
+/// Minimum time between two images of the current frame during an export (heuristic).
 const PREVIEW_EVERY: Duration = Duration::from_millis(400);
 
 /// Image of the frame being exported, shared with the export's thread.
@@ -151,7 +151,7 @@ impl FilmRequest {
     /// Exports the film under a free name; returns its path.
     ///
     /// # Errors
-    /// There is no film, or it cannot be written; nothing is left of it.
+    /// The settings give no film, or the film cannot be written; then no part of it is left.
     pub fn export(
         self,
         preview: &FilmPreview,
@@ -210,8 +210,8 @@ impl FilmRequest {
             })
         };
         let (one, some) = (cost(&part(1)?, "one")?, cost(&part(TRIAL_FRAMES)?, "some")?);
-        // Linear extrapolation from one frame to all distinct frames: the first frame carries the
-        // fixed costs.
+        // The cost is extrapolated linearly in the number of distinct frames. The cost of a single
+        // frame includes the fixed costs.
         let ratio =
             (film.runs().len() - 1) as f64 / (part(TRIAL_FRAMES)?.runs().len().max(2) - 1) as f64;
         let extrapolate = |one: f64, some: f64| one + (some - one).max(0.0) * ratio;
@@ -252,8 +252,8 @@ impl FilmRequest {
     ) -> Result<PathBuf, FilmExportError> {
         check_writable(&self.folder)?;
         let rows = MethodRow::all(&staged.spec()?, progress)?;
-        // The columns of a segment span all of it; those of a whole project span its film's range
-        // of t.
+        // The frames on the sheet span t from 0 to 1 for a single segment, and the film's range of
+        // t for a whole project.
         let timing = &staged.project.timing;
         let times = if staged.is_segment() {
             even_times(0.0, 1.0, SHEET_COLUMNS)
@@ -269,8 +269,11 @@ impl FilmRequest {
     }
 }
 
-/// Index of the frame at which the trial section starts. Every frame of the section moves, at close
-/// to the average speed: sections at rest or faster ones would be unrepresentative.
+/// Returns the index of the first of the [`TRIAL_FRAMES`] trial frames; 0 if there are none.
+///
+/// Trial frames are consecutive frames with a change of t from each to the next. Of all such
+/// sections of the film, they are the one whose mean speed is closest to that of the film without
+/// its pauses. Pauses and fast sections would be unrepresentative.
 fn typical_start(times: &[f64]) -> usize {
     let moves: Vec<f64> = times
         .windows(2)
@@ -303,7 +306,7 @@ struct PreviewingProgress<'a> {
     camera: Camera,
     times: &'a [f64],
     preview: &'a FilmPreview,
-    /// Time of the last drawn image.
+    /// Time at which the last image was drawn; `None` before the first.
     last_drawn: Mutex<Option<Instant>>,
     progress: &'a dyn Progress,
 }
@@ -338,7 +341,7 @@ impl<'a> PreviewingProgress<'a> {
 impl Progress for PreviewingProgress<'_> {
     fn report(&self, stage: &'static str, fraction: f64) {
         self.progress.report(stage, fraction);
-        // If another thread is drawing already, skip.
+        // If another thread is drawing an image already, this one draws none.
         let Ok(mut last_drawn) = self.last_drawn.try_lock() else {
             return;
         };

@@ -1,4 +1,5 @@
-//! Saves images of the stage and of the whole window.
+//! Saves images of the stage and of the whole window to files, and copies those of the stage to the
+//! clipboard.
 //!
 //! The graphics card renders an image; a background job encodes and writes it, and a notice reports
 //! the result. Existing files are never overwritten.
@@ -52,7 +53,7 @@ pub enum SaveImageError {
     Write {
         /// Path of the file.
         path: PathBuf,
-        /// The error.
+        /// Reason why the image could not be encoded or written.
         error: ImageError,
     },
 }

@@ -46,13 +46,13 @@ pub fn stable_letters(
         .collect()
 }
 
-/// Label of a point: a to z, then a2, b2 …
+/// Label of the point with the letter index `number`: a to z, then a2, b2 …
 #[must_use]
 pub fn point_label(number: usize) -> String {
     letter(number, b'a')
 }
 
-/// Label of a part: A to Z, then A2, B2 …
+/// Label of the piece with the index `number`: A to Z, then A2, B2 …
 #[must_use]
 pub fn part_label(number: usize) -> String {
     letter(number, b'A')

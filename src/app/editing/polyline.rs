@@ -12,19 +12,19 @@ const MIN_CORNER_TURN: f64 = 0.44;
 /// The nearest point on a set of rings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestRingPoint {
-    /// Index of the ring.
+    /// Index of the ring that contains the point.
     pub ring: usize,
-    /// Index of the edge that contains the point: that of the vertex where it starts.
+    /// Index of the edge that contains the point: the index of the vertex at which the edge starts.
     pub edge: usize,
-    /// Position along the edge, 0 to 1.
+    /// Position of the point along the edge, from 0 to 1.
     pub along: f64,
     /// The nearest point itself.
     pub point: DVec2,
-    /// Distance from the query point.
+    /// Distance of the point from the query point.
     pub distance: f64,
 }
 
-/// Returns the nearest point on any of the rings.
+/// Returns the point on any of the rings nearest to `p`; `None` if there are no edges.
 pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option<NearestRingPoint> {
     let mut best: Option<NearestRingPoint> = None;
     for (ring, points) in rings.enumerate() {
@@ -60,7 +60,7 @@ pub fn inside_intervals<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) ->
     xs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
-/// The x at which edges of the rings cross the horizontal line at `y`.
+/// Values of x at which edges of the rings cross the horizontal line at `y`.
 fn crossings<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> impl Iterator<Item = f64> {
     let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
     edges

@@ -46,7 +46,7 @@ pub struct MatchSheet {
     pub content: Option<ContentKind>,
     /// Pairs of parts set by the user, each given by a point in the source and one in the target.
     pub links: Vec<PointPair>,
-    /// Cuts that open rings around holes, automatic or set by the user.
+    /// Cuts from holes to the boundaries around them, automatic or set by the user.
     pub cuts: Vec<SheetCut>,
     /// Transformations from each design's own coordinates to the frame.
     pub frame_from_design: [Similarity; 2],
@@ -71,7 +71,7 @@ pub struct SheetSide {
 pub struct SheetPiece {
     /// Label of the piece, the same in both designs.
     pub name: String,
-    /// Whether it exists in both designs.
+    /// Whether the piece exists in both designs, or appears or disappears.
     pub fate: PieceFate,
     /// Position of the label in the source and in the target.
     pub label_at: [DVec2; 2],
@@ -84,15 +84,15 @@ pub struct SheetPiece {
 /// Whether a piece exists in both designs or in only one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PieceFate {
-    /// It exists in both designs.
+    /// The piece exists in both designs.
     Paired,
-    /// It exists only in the target and appears, growing from a point.
+    /// The piece exists only in the target and appears, growing from a point.
     Appears,
-    /// It exists only in the source and disappears, shrinking to a point.
+    /// The piece exists only in the source and disappears, shrinking to a point.
     Disappears,
 }
 
-/// A cut that opens a ring around a hole.
+/// A cut from a hole to the boundary around it, which opens the ring between the two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheetCut {
     /// The cut that the match uses, or the request if the match has none for it.

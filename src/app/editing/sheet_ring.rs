@@ -7,7 +7,7 @@ use crate::geometry::DVec2;
 /// A ring in both designs; vertex k of the source is matched with vertex k of the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetRing {
-    /// Index of the piece that it belongs to.
+    /// Index of the piece that the ring belongs to.
     pub piece: usize,
     /// Whether the ring is matched, closes to a point, or opens from one.
     pub kind: RingKind,

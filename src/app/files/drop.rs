@@ -10,8 +10,8 @@ use crate::app::persistence::autosave::Autosave;
 use crate::app::presentation::presenter::Presentation;
 use crate::app::unsaved_question::UnsavedQuestion;
 
-/// A single dropped or opened design, while the user is asked whether it replaces the source or the
-/// target or is added.
+/// A single dropped or opened design, while the user is asked whether it replaces a design of the
+/// open project or is added to it.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct DroppedDesign {
     undecided: Option<PathBuf>,
@@ -36,7 +36,7 @@ impl DroppedDesign {
     }
 }
 
-/// Sort key in which numbers compare by value: 2 before 10.
+/// Sort key of a file name, in which numbers compare by value: 2 comes before 10.
 fn natural_sort_key(name: &str) -> Vec<(String, u64)> {
     let digits = |c: &char| c.is_ascii_digit();
     let mut chars = name.chars().peekable();

@@ -74,7 +74,8 @@ impl FileDialogRequest {
         self.purpose.as_ref()
     }
 
-    /// Folder that the dialog shows when it opens: that of the last choice, else the project's.
+    /// Folder that the dialog shows when it opens: that of the last choice, else the project's,
+    /// else that of the user's documents.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()

@@ -24,7 +24,7 @@ const MAX_DESIGNS: usize = 4;
 /// Margin around each design, as a fraction of its diameter (heuristic).
 const MARGIN: f64 = 0.05;
 
-/// The file being previewed.
+/// The file being previewed, and its preview once it is ready.
 #[derive(Resource, Debug, Default)]
 pub struct FilePreview {
     path: Option<PathBuf>,
@@ -106,7 +106,7 @@ fn draw_preview(path: &Path) -> Result<RgbaImage, FilePreviewError> {
     side_by_side(&designs).map_err(|error| preview_error(&error))
 }
 
-/// Scales an image down to fit the preview; never up.
+/// Scales an image down to fit into the preview; smaller images keep their size.
 fn scale_to_preview(pixels: &RgbaImage) -> RgbaImage {
     let (width, height) = pixels.dimensions();
     let ratio = |px: u32, max_px: u32| f64::from(max_px) / f64::from(px.max(1));
@@ -117,7 +117,7 @@ fn scale_to_preview(pixels: &RgbaImage) -> RgbaImage {
     image::imageops::thumbnail(pixels, side(width), side(height))
 }
 
-/// Draws designs next to each other.
+/// Draws designs next to each other, in an image of the size of the preview.
 fn side_by_side(designs: &[Arc<Design>]) -> Result<RgbaImage, crate::export::PixelSizeError> {
     let size = PixelSize::new(PREVIEW_PX.0, PREVIEW_PX.1)?;
     let cell = DVec2::new(

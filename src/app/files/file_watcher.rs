@@ -19,7 +19,7 @@ const POLL_INTERVAL: Duration = Duration::from_millis(700);
 /// Modification time and size of a file; `None` if it does not exist.
 type FileStamp = Option<(SystemTime, u64)>;
 
-/// Reads the current state of a file.
+/// Reads the modification time and size of a file.
 fn stamp(path: &Path) -> FileStamp {
     let data = std::fs::metadata(path).ok()?;
     Some((data.modified().ok()?, data.len()))

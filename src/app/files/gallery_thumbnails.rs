@@ -64,7 +64,7 @@ impl FromWorld for GalleryThumbnails {
 }
 
 impl GalleryThumbnails {
-    /// Whether strips are being drawn or waiting.
+    /// Whether strips are being drawn or wait to be drawn.
     pub fn is_busy(&self) -> bool {
         self.running.is_some() || !self.waiting.is_empty()
     }
@@ -140,7 +140,7 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let sequence = Sequence::new(built).ok_or("a project has at least one segment")?;
     let sequence = sequence.closed(loaded.project.ends_where_it_starts());
     let timing = loaded.project.timing;
-    // With several segments, as many frames as designs, up to `MAX_FRAMES`.
+    // With several segments, the strip has as many frames as designs, up to `MAX_FRAMES`.
     let frames = if segments.len() > 1 {
         segments.len() + 1
     } else {

@@ -40,7 +40,7 @@ pub enum EditorAction {
     Pan(EditorPane, Vec2),
     /// Zoom a pane about a point.
     Zoom {
-        /// The pane.
+        /// The pane to zoom.
         pane: EditorPane,
         /// The point that stays fixed, in logical pixels from the centre of the pane, y down.
         at: Vec2,
@@ -79,6 +79,6 @@ pub enum EditorTool {
 pub enum EditorPane {
     /// One of the designs.
     Design(Side),
-    /// The film between them.
+    /// The film between the two designs.
     Film,
 }

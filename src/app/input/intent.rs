@@ -26,7 +26,7 @@ pub enum Intent {
     Reverse,
     /// Move t by this many hundredths, backwards if negative.
     Step(i32),
-    /// Set t to any finite number; outside 0..1 the blend extrapolates.
+    /// Set t to any finite number; beyond the first and the last design the blend extrapolates.
     Seek(f64),
     /// Jump to the start of the film.
     SeekStart,
@@ -171,7 +171,7 @@ pub enum Intent {
     RemoveLastPathStop,
     /// Start or end recording the marker's movement as a path.
     TogglePathRecording,
-    /// Save the blend under the marker.
+    /// Add the blend under the marker to the project's saved blends.
     SaveBlend,
     /// Export the saved blends to files.
     ExportSavedBlends,

@@ -26,8 +26,8 @@ pub fn return_free_memory() {
     reason = "a function of the C library; it takes two numbers"
 )]
 pub fn limit_arenas() {
-    // SAFETY: it changes a limit that applies to arenas created from now on
-    // (`mallopt(3)`) and touches no memory in use.
+    // SAFETY: the call changes a limit that applies to arenas created from now on (`mallopt(3)`)
+    // and touches no memory in use.
     let is_set = unsafe { libc::mallopt(libc::M_ARENA_MAX, 2) } == 1;
     debug_assert!(is_set, "glibc knows the limit");
 }

@@ -23,7 +23,8 @@ const SIDE_PX: u32 = 704;
 /// Number of contours between the smallest and the largest value (heuristic).
 const CONTOURS: f64 = 9.0;
 
-/// Distance between hatching lines and their width, in pixels (heuristic).
+/// Horizontal distance from one hatching line to the next, and width of a line, both in pixels
+/// (heuristic).
 const HATCH_PX: (u32, u32) = (9, 2);
 
 /// Colour of the hatching, visible on light and dark backgrounds.

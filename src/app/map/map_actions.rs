@@ -1,4 +1,5 @@
-//! Actions on the map: moving the marker and the designs, drawing the path, saving blends.
+//! Applies the user's actions on the map: moving the marker and the designs, drawing and recording
+//! the path, saving blends.
 
 use bevy::prelude::{MessageReader, Res, ResMut};
 

@@ -106,8 +106,8 @@ impl MapView {
     }
 
     /// Intent that replaces that of a key while the map is shown; `None` if the key keeps its
-    /// meaning. Arrow keys move the marker, and the keys for stops, the match editor and the grid
-    /// edit or record the path.
+    /// meaning. Arrow keys move the marker; the keys for a new stop, the match editor, the grid and
+    /// the normal speed edit or record the path.
     #[must_use]
     pub fn map_intent(&self, intent: &Intent) -> Option<Intent> {
         let direction = match intent {
@@ -143,7 +143,7 @@ impl MapView {
         let mut sites = self.pictures.as_ref()?.map().sites().to_vec();
         let site = sites.get_mut(design).filter(|_| to.is_finite())?;
         *site = to.clamp(DVec2::splat(-1.0), DVec2::ONE);
-        // Two designs in one place are refused.
+        // A map with two designs in one place is refused.
         WeightMap::new(&sites).ok().map(|_| sites)
     }
 
@@ -260,7 +260,7 @@ impl MapView {
         }));
     }
 
-    /// Replaces the map by the reason why there is none.
+    /// Removes the map and stores the problem that prevents it from being built.
     fn fail(&mut self, problem: JobError<MapBuildError>) {
         (self.problem, self.pictures, self.is_draft) = (Some(problem), None, false);
     }

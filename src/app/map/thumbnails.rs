@@ -1,4 +1,5 @@
-//! Thumbnails on the map: blends at regular points, and the designs themselves.
+//! Draws the thumbnails on the map: of blends at the points of a regular grid, and of the designs
+//! themselves.
 
 use std::sync::Arc;
 

@@ -37,7 +37,7 @@ pub struct Autosave {
     /// Slot that this window started with; kept locked once the slot of a recovered project has
     /// replaced it.
     initial_slot: Option<AutosaveSlot>,
-    /// Slot of the project being recovered; it becomes this window's once the project is open.
+    /// Slot of the project being recovered; it becomes the current slot once the project is open.
     opening_slot: Option<AutosaveSlot>,
     /// Autosaves left behind by windows that ended without saving.
     abandoned: Vec<AbandonedProject>,
@@ -47,10 +47,11 @@ pub struct Autosave {
     is_behind: bool,
     /// Whether the slot contains changes of the open project.
     slot_is_ours: bool,
-    /// Whether the changes in the slot have been saved or discarded, so that it can be cleared.
+    /// Whether the changes in the slot have been saved or discarded, so that the slot can be
+    /// cleared.
     is_resolved: bool,
     job: Option<BackgroundJob<(), io::Error>>,
-    /// Whether a failed autosave has been reported; only the first one is.
+    /// Whether a failed autosave has been reported; later failures are not reported.
     is_reported: bool,
 }
 
@@ -90,8 +91,8 @@ impl Autosave {
 }
 
 impl Drop for Autosave {
-    /// Waits for the last write, which may belong to changes saved or discarded since, and then
-    /// clears the slot.
+    /// Waits until the last autosave is written, then clears the slot if its changes have been
+    /// saved or discarded.
     fn drop(&mut self) {
         let started = Instant::now();
         while self.job.is_some()
@@ -208,7 +209,8 @@ impl Autosave {
         }
     }
 
-    /// Starts writing an autosave if changes are pending and the last one is old enough.
+    /// Starts writing an autosave if there are changes to write and the last autosave is older than
+    /// `MIN_INTERVAL`.
     fn write_if_due(&mut self, session: &Session) {
         let last = self.written.as_ref().map(|(_, when)| when.elapsed());
         let is_due = last.is_none_or(|last| last >= MIN_INTERVAL) && self.job.is_none();

@@ -34,7 +34,7 @@ pub struct AbandonedProject {
 }
 
 impl AutosaveSlot {
-    /// Locks slot `number`; `None` if another window holds it.
+    /// Locks slot `number`; `None` if another window has locked it.
     fn try_lock(folder: &Path, number: u32) -> io::Result<Option<Self>> {
         let file = File::create(folder.join(format!("{number}.lock")))?;
         match file.try_lock() {

@@ -65,7 +65,8 @@ impl Default for Playback {
 }
 
 impl Playback {
-    /// The blend parameter; outside 0..1 it extrapolates.
+    /// The blend parameter: 0 at the first design, 1 at the second and so on; beyond both ends the
+    /// blend extrapolates.
     #[must_use]
     pub fn t(&self) -> f64 {
         self.t
@@ -121,7 +122,8 @@ impl Playback {
         };
     }
 
-    /// Moves t by a number of hundredths and stops. A t on a whole hundredth stays on one.
+    /// Stops playback and moves t by a number of hundredths. From a whole hundredth, t moves to a
+    /// whole hundredth without rounding errors that add up.
     pub fn step(&mut self, hundredths: i32) {
         self.motion = PlaybackMotion::Still;
         let t = self.t + f64::from(hundredths) / 100.0;
@@ -137,7 +139,7 @@ impl Playback {
         }
         let film_secs = timing.film_secs(stops);
         let secs = timing.secs_at(self.t, stops);
-        // Where the film starts, in seconds, and where it ends, in t, in the current direction.
+        // In the current direction: the start of the film in seconds, and its end as a value of t.
         let (start, end) = if self.backwards {
             (film_secs, timing.from)
         } else {
@@ -172,7 +174,7 @@ impl Playback {
         }
     }
 
-    /// Plays to `to` and waits there.
+    /// Plays from the current t to `to` and stops there.
     pub fn play_to(&mut self, to: f64, timing: &Timing, stops: &[TransitionStop]) {
         // The motion takes about as long as the film takes for the same distance.
         let middle = 0.5 * (self.t + to);
@@ -202,7 +204,7 @@ impl Playback {
         next_landmark(self.heading(), false, timing, stops)
     }
 
-    /// Selects the next faster or slower speed of [`SPEEDS`].
+    /// Selects the next higher speed of [`SPEEDS`] or, if not `faster`, the next lower one.
     pub fn change_speed(&mut self, faster: bool) {
         let next = if faster {
             // A speed between two entries moves to the next entry.
@@ -263,7 +265,7 @@ impl Playback {
             PlayMode::Once => unclamped_secs.clamp(0.0, film_secs),
             PlayMode::Loop => unclamped_secs.rem_euclid(film_secs),
             PlayMode::PingPong => {
-                // A slow frame at tenfold speed may pass several ends.
+                // At tenfold speed, the film may turn round several times during one slow frame.
                 let turns = (unclamped_secs / film_secs).floor();
                 let secs_from_end = unclamped_secs - turns * film_secs;
                 if turns.rem_euclid(2.0) == 0.0 {

@@ -137,7 +137,8 @@ pub fn apply(
                 let window = windows.single_mut().ok();
                 let mode = window
                     .map(|(mut window, _)| std::mem::replace(&mut window.mode, fullscreen_mode()));
-                // A window opened for the talk may already be full screen.
+                // A window opened for the talk may already be full screen. If the talk cannot
+                // begin, the window stays open in windowed mode.
                 let mode = mode.map(|mode| if *is_all { WindowMode::Windowed } else { mode });
                 presentation.begin(*is_all, (*preferences, mode));
                 // Closes everything but the drawing.
@@ -151,7 +152,7 @@ pub fn apply(
                 if talk.is_all {
                     commands.write_message(Intent::Close);
                 } else {
-                    // The panels return first, because closing may ask a question.
+                    // Restores the panels first, because closing the window may ask a question.
                     *preferences = talk.before.0;
                     if let (Ok((mut window, _)), Some(mode)) = (windows.single_mut(), talk.before.1)
                     {
@@ -208,7 +209,7 @@ pub fn begin(
         }
         talk.has_begun = true;
     } else if session.work().is_none() {
-        // Nothing to show; the window shows the reason.
+        // There is nothing to show. The window stays open and shows the reason.
         talk.is_all = false;
         intents.write(Intent::Escape);
     }

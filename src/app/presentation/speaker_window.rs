@@ -102,7 +102,8 @@ pub fn apply(
     }
 }
 
-/// Opens the window on a screen; returns the window and its camera.
+/// Opens the speaker's window on `screen`, or on the primary screen if it is `None`; returns the
+/// window and its camera.
 fn open(commands: &mut Commands, screen: Option<Entity>) -> (Entity, Entity) {
     let screen = screen.map_or(MonitorSelection::Primary, MonitorSelection::Entity);
     let window = Window {
@@ -132,7 +133,8 @@ fn close(speaker: &mut SpeakerWindow, commands: &mut Commands) {
     *speaker = SpeakerWindow::default();
 }
 
-/// Draws the next stop in the background whenever it changes.
+/// While the speaker's window is open, draws the film at the next stop in the background whenever
+/// the film or that stop changes.
 pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playback: Res<Playback>) {
     if !speaker.is_open() {
         return;

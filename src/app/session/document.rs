@@ -77,7 +77,7 @@ impl OpenDocument {
     #[must_use]
     pub fn has_new_designs(&self) -> bool {
         let designs = &self.loaded.project.designs;
-        // A single design has been paired with itself.
+        // A single design is paired with itself, so both paths are equal.
         let are_different = designs.windows(2).any(|pair| pair[0].path != pair[1].path);
         are_different && self.origin == ProjectOrigin::Unsaved && !self.is_dirty()
     }
@@ -108,7 +108,8 @@ impl OpenDocument {
         self.refresh_segment();
     }
 
-    /// Updates the settings of the current segment, or of the last one if that no longer exists.
+    /// Updates [`Self::segment_project`]. If the current segment no longer exists in the settings,
+    /// the last one takes its place.
     fn refresh_segment(&mut self) {
         let last = self.loaded.project.segment_count() - 1;
         self.segment_settings = self.loaded.project.segment(self.segment_index.min(last));
@@ -250,8 +251,8 @@ impl OpenDocument {
             .unwrap_or_else(|| self.loaded.title())
     }
 
-    /// Base name for files exported from the project, without extension; names the path on the map
-    /// if there is one.
+    /// Base name, without extension, for files exported from the project; includes the name of the
+    /// path on the map, if it has one.
     #[must_use]
     pub fn file_stem(&self) -> String {
         let name = || self.gallery_name().map(str::to_owned);
@@ -284,7 +285,8 @@ impl OpenDocument {
         self.history.record(before, self.snapshot(), mark);
     }
 
-    /// Replaces the settings of the current segment, as [`Self::edit`] does.
+    /// Replaces the settings of the current segment by those in `pair`; otherwise like
+    /// [`Self::edit`].
     pub fn edit_segment(&mut self, pair: Project, mark: Option<u64>) {
         let mut project = self.loaded.project.clone();
         let last = project.segment_count() - 1;
@@ -364,7 +366,7 @@ impl OpenDocument {
                 .iter()
                 .all(|segment| segment.problem.is_some())
         {
-            // Every replacement failed: what is on the stage is at least as good.
+            // Every replacement failed, so the segments on the stage stay as they are.
             let new = self.segments.iter_mut().zip(built.segments);
             new.for_each(|(segment, built)| segment.problem = built.problem);
             return false;
@@ -413,7 +415,7 @@ impl OpenDocument {
         self.segments.iter().all(is_same).then_some(first)
     }
 
-    /// Resets the designs to those on the stage, because the file of a new one cannot be read.
+    /// Resets the designs to those on the stage, because the file of a new design cannot be read.
     pub fn reset_designs(&mut self) {
         self.must_reread = false;
         self.amend(|now, staged| {
@@ -427,8 +429,8 @@ impl OpenDocument {
         });
     }
 
-    /// Changes the settings and corrects the last undo step accordingly; `change` receives the
-    /// settings that the stage was built from as second argument.
+    /// Changes the settings and corrects the last undo step accordingly. The arguments of `change`
+    /// are the current settings and those that the stage was built from.
     fn amend(&mut self, change: impl FnOnce(&mut Project, &Project)) {
         let before = self.snapshot();
         change(&mut self.loaded.project, &self.staged);
@@ -456,7 +458,7 @@ impl OpenDocument {
         save::save(&mut self.loaded, &path)?;
         self.refresh_segment();
         self.saved = self.loaded.project.clone();
-        // Only paths changed, which requires no rebuild.
+        // Saving changes only the paths of designs, which requires no rebuild.
         if self.staged.designs.len() == self.saved.designs.len() {
             self.staged.designs.clone_from(&self.saved.designs);
             for (k, segment) in self.segments.iter_mut().enumerate() {

@@ -51,8 +51,8 @@ pub struct PlayableSegment {
 pub struct SegmentSettings {
     /// The two designs of the segment and their settings.
     pub segment_project: Project,
-    /// All designs of the project, if the segment depends on them: they share a frame aligned with
-    /// the first design, and fields share one grid. Empty otherwise.
+    /// All designs of the project, if the segment's transition depends on all of them: because they
+    /// are aligned with the first design, or because their fields share one grid. Empty otherwise.
     all_designs: Vec<DesignEntry>,
     /// Index of the segment, if it belongs to a path on the map.
     path_segment: Option<usize>,
@@ -277,8 +277,8 @@ impl LoadRequest {
     /// Carries out the request.
     ///
     /// When opening, `on_interim` receives the project built by the plainest method, and then a
-    /// draft, while the requested transition is being built. If that cannot be built, the last
-    /// interim result takes its place.
+    /// draft, while the requested transition is being built. If the requested transition cannot be
+    /// built, the last interim result takes its place.
     ///
     /// # Errors
     /// The project or a design cannot be read. A transition that cannot be built is no error: the
@@ -359,7 +359,7 @@ fn fully_built(project: LoadedProject, stages: Vec<PlayableSegment>) -> BuiltPro
     }
 }
 
-/// Share of a segment's progress that building its draft takes (heuristic).
+/// Progress, in [0, 1], at which all drafts are built and the final builds begin (heuristic).
 const DRAFT_SHARE: f64 = 0.25;
 
 /// Builds the segments of a project, with drafts first where they are quicker.

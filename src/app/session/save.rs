@@ -10,7 +10,7 @@ use crate::app::output_files::{create_new, keep_if_written};
 use crate::design::DesignSource;
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 
-/// Why a project was not saved.
+/// Reason why a project was not saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
     /// No project is open.
@@ -77,7 +77,7 @@ fn write_bundled_design(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveEr
         error,
     };
     let bytes = gallery::bytes(bundled).ok_or_else(|| failed(io::ErrorKind::NotFound.into()))?;
-    // Otherwise each save would write the designs again under new names.
+    // If an equal file were not reused, each save would write the design again under a new name.
     if std::fs::read(folder.join(bundled)).is_ok_and(|existing| existing == bytes) {
         return Ok(bundled.to_owned());
     }
@@ -103,7 +103,7 @@ fn relative(folder: &Path, file: &Path) -> PathBuf {
     up.chain(to[shared..].iter().copied()).collect()
 }
 
-/// Components of a path without `.`.
+/// Components of a path; components `.` are left out.
 fn parts(path: &Path) -> Vec<Component<'_>> {
     path.components()
         .filter(|part| *part != Component::CurDir)

@@ -38,7 +38,7 @@ pub enum WorkOutcome {
     /// No transition can be built from the new settings, and the old one stays;
     /// [`Session::problem`] gives the reason.
     RebuildFailed,
-    /// Opening or rebuilding failed.
+    /// A project or design cannot be read, or the job failed for another reason.
     Failed(JobError<LoadError>),
 }
 
@@ -223,7 +223,7 @@ impl Session {
         }
     }
 
-    /// Stops of the project.
+    /// Stops of the project; empty if no project is open.
     #[must_use]
     pub fn stops(&self) -> &[TransitionStop] {
         self.whole_project().map_or(&[], |project| &project.stops)
@@ -363,7 +363,7 @@ impl Session {
         self.open.as_ref().map(OpenDocument::unsaved_project)
     }
 
-    /// Question text about unsaved changes.
+    /// Text of the question about unsaved changes.
     #[must_use]
     pub fn unsaved_text(&self) -> String {
         format!("“{}” has unsaved changes.", self.title())
@@ -481,8 +481,8 @@ impl Session {
 
 /// Background work on the next transition.
 impl Session {
-    /// Name of the current stage of the background work, and the progress of the whole work in [0,
-    /// 1]; `None` if no work is running.
+    /// Name of the current stage of the background work, and the progress of the whole work, from 0
+    /// to 1; `None` if no work is running.
     #[must_use]
     pub fn work(&self) -> Option<(&'static str, f64)> {
         self.work.as_ref().map(|work| work.job.progress())
@@ -502,8 +502,8 @@ impl Session {
         (work.job.elapsed() > SHOWN_AFTER).then_some((stage, fraction))
     }
 
-    /// Builds a transition that was refused for its cost, and lifts the limits for this project
-    /// from now on.
+    /// Builds a transition that was refused because it would take too long or too much memory, and
+    /// lifts both limits for this project from now on.
     pub fn build_anyway(&mut self) {
         if let Some(open) = &mut self.open {
             open.loaded.patient = true;
@@ -513,7 +513,7 @@ impl Session {
         }
     }
 
-    /// Reads the designs of the open project again.
+    /// Requests that the designs of the open project are read again.
     pub fn reread(&mut self) {
         if let Some(open) = &mut self.open {
             open.must_reread = true;

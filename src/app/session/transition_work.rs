@@ -94,7 +94,8 @@ impl TransitionWork {
         self.origin.is_none() && self.job.elapsed() > ABANDON_AFTER
     }
 
-    /// Whether the work builds a transition for other settings than these.
+    /// Whether the work builds a transition for other settings than those of `project`; true while
+    /// its settings are unknown.
     #[must_use]
     pub fn builds_other_than(&self, project: &Project) -> bool {
         let settings = self.settings.as_ref();

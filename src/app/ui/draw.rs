@@ -37,7 +37,8 @@ impl Plugin for UiPlugin {
             .add_systems(
                 PreUpdate,
                 keep_keys_from_widgets
-                    // After the events are collected, and before the egui pass that reads them.
+                    // Key events must be removed after they are collected, and before the egui pass
+                    // that reads them.
                     .after(EguiInputSet::WriteEguiEvents)
                     .before(EguiPreUpdateSet::BeginPass),
             )
@@ -60,7 +61,7 @@ impl Plugin for UiPlugin {
                 PostUpdate,
                 record_repaint
                     .after(EguiPostUpdateSet::EndPass)
-                    // `ProcessOutput` consumes the output that is recorded.
+                    // `ProcessOutput` consumes the output that `record_repaint` reads.
                     .before(EguiPostUpdateSet::ProcessOutput),
             );
     }
@@ -99,8 +100,8 @@ fn keep_keys_from_widgets(
     for mut input in &mut contexts {
         input.events.retain(|event| match event {
             egui::Event::Key { .. } | egui::Event::Text(_) => typing.0,
-            // This event arrives in every frame, and egui repaints after each event, so only actual
-            // changes are passed on.
+            // This event arrives in every frame, and egui repaints after each event. Only actual
+            // changes are passed on, so that the window can rest.
             egui::Event::ModifiersChanged(now) => std::mem::replace(&mut *modifiers, *now) != *now,
             _ => true,
         });
@@ -122,9 +123,9 @@ struct UiOutputs<'w> {
     typing: ResMut<'w, KeyboardFocus>,
     /// Set while text in a panel is selected.
     text_selected: ResMut<'w, TextSelected>,
-    /// Rectangle of the stage in the window.
+    /// Set to the rectangle of the stage in the window.
     area: ResMut<'w, StageArea>,
-    /// Intents that the user triggered in this frame.
+    /// Receives the intents that the user triggered in this frame.
     intents: MessageWriter<'w, Intent>,
 }
 
@@ -263,7 +264,8 @@ fn overlays(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &m
 
 /// Draws the progress of background jobs and the notices.
 fn messages(ctx: &egui::Context, state: &UiState, stage: egui::Rect, intents: &mut Intents) {
-    // Progress must not cover the match editor's toolbar, and notices not its instructions either.
+    // Progress cards must not cover the toolbar of the match editor. Notices must cover neither the
+    // toolbar nor the instructions of the match editor.
     let mut free = stage;
     if state.editor.is_open {
         free.min.y += match_editor::BAR_HEIGHT;

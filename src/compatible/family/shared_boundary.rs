@@ -2,9 +2,9 @@
 //!
 //! Every design is matched with one of them, the *hub*. Each match adds points of its own to the
 //! hub's outline. Between two neighbouring corners of the hub the outline is straight, so the
-//! points of all matches can be ordered along that edge. If a design has no point at the place of
-//! such a point, it gets one, interpolated between its neighbouring points along the same edge.
-//! Points of different matches that lie at the same place on the hub become one point.
+//! points of all matches can be ordered along that edge. Where only some matches have a point, the
+//! other designs get a corresponding one, interpolated between their neighbouring points along the
+//! same edge. Points of different matches that lie at the same place on the hub become one point.
 
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
 use crate::geometry::{Bounds, DVec2};
@@ -47,7 +47,8 @@ pub(super) fn shared_rings(
     // Each match lists pieces and rings in its own order. Rings are therefore looked up by the
     // points of the hub on them.
     let lookups: Vec<_> = matches.iter().map(|m| m.map(RingLookup::of)).collect();
-    // If all matches are one to one, they must also have the same numbers of rings.
+    // All matches are one to one and have the hub as the source, so their pieces must have the same
+    // numbers of rings.
     let counts = |m: &RegionMatch| {
         let mut rings: Vec<usize> = m.pieces.iter().map(|piece| piece.rings.len()).collect();
         rings.sort_unstable();
@@ -143,7 +144,8 @@ struct HubEdgePoint {
     place: DVec2,
 }
 
-/// Returns the ring of every design, with corresponding points of all matches.
+/// Merges the matches of one ring. Returns this ring in every design, as lists of corresponding
+/// points that contain the points of all matches.
 ///
 /// For each design, `lists` contains the match of the hub's ring with that design's ring; for the
 /// hub it contains `None`.
@@ -156,12 +158,12 @@ fn merged_rings(
 ) -> Result<Vec<Vec<DVec2>>, usize> {
     let corners = shared_corners(lists)?;
     let mut rings = vec![Vec::new(); lists.len()];
-    // Position of a corner of the hub in the match's list of points.
+    // Returns the index of a corner of the hub in the match's list of points.
     let index = |list: &RingMatch, corner: DVec2| {
         let is_it = |p: &DVec2| key(*p) == key(corner);
         list.source.iter().position(is_it)
     };
-    // For each design, the position of the current corner in its match's list of points.
+    // For each design, the index of the current corner in its match's list of points.
     let mut corner_index = Vec::new();
     for (k, list) in lists.iter().enumerate() {
         corner_index.push(match list {
@@ -182,7 +184,8 @@ fn merged_rings(
             let count = list.source.len();
             let first = corner_index[k];
             let mut cursor = first;
-            // All points between this corner and the next lie on this edge.
+            // All points of the match between this corner and the next one lie on the hub's edge
+            // between them.
             loop {
                 cursor = (cursor + 1) % count;
                 if key(list.source[cursor]) == key(next) {

@@ -1,5 +1,6 @@
-//! Advancing front over a piece in two designs. A stretch of the front is replaced by two edges to
-//! a new point that sees the whole stretch in each design; corners are cut off.
+//! Advancing front that triangulates a piece (a matched connected part) from its boundary inwards,
+//! in two designs at once. Each step replaces a stretch of the front by two edges to a new point,
+//! which sees the whole stretch in each design, or cuts off a corner.
 
 use super::boundary_rings::BoundaryRings;
 use super::edge_grid::EdgeGrid;
@@ -8,14 +9,17 @@ use crate::geometry::{DVec2, orient2d, ring_edges, segments_touch};
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use std::collections::HashSet;
 
-/// Numbers of edges of the stretches that are tried, longest first (heuristic). A stretch is
-/// replaced by two edges, so three edges are the minimum that reduces their number.
+/// Lengths, in edges, of the stretches of the front that are tried, longest first (heuristic). A
+/// stretch is replaced by two edges, so it needs at least three edges to shorten the front.
 const STRETCHES: [usize; 4] = [7, 5, 4, 3];
-/// Distances from a stretch within which a new point is sought, in units of the stretch's extent
-/// (heuristic). The farthest comes first, because it gives good angles.
+/// Half sides of the squares in which a new point is sought, in units of the stretch's radius
+/// (heuristic). The squares are centred at the mean of the stretch's vertices; the radius is the
+/// largest distance of a vertex from this mean. The largest square comes first, because it gives
+/// good angles.
 const REACHES: [f64; 5] = [0.6, 0.3, 0.12, 0.04, 0.01];
-/// Factor by which the sight lines to a new point are extended when they are checked, so that parts
-/// of the front that approach each other leave room in between (heuristic).
+/// Factor by which a new point is moved away from the middle of its stretch for a second check of
+/// its sight lines (heuristic). This leaves room between parts of the front that approach each
+/// other.
 const CLEARANCE: f64 = 1.5;
 /// Maximum shape term of a corner triangle that is cut off (heuristic). The term is 1 for an
 /// equilateral triangle and 3 for a right triangle with legs 1 and 5.
@@ -111,14 +115,14 @@ impl<'a> FrontRing<'a> {
         }
     }
 
-    /// Advances once around the ring. The start depends on `turn`.
+    /// Advances once around the ring, from position `turn` modulo 3.
     pub(super) fn advance(
         &mut self,
         turn: usize,
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
-        // From the same start, the stretches that did not fit in the previous turn would only be
-        // tried again.
+        // The start changes from turn to turn. From the same start, a turn would only try the
+        // stretches again that did not fit in the previous turn.
         let len = self.len();
         let mut at = turn % 3;
         let end = at + len;
@@ -144,8 +148,8 @@ impl<'a> FrontRing<'a> {
         self.coarse.points[design][vertex as usize]
     }
 
-    /// Cuts off the corner after position `at`, or else replaces the longest possible stretch that
-    /// starts at `at`. Returns the number of edges removed from the ring; `None` if nothing fits.
+    /// Cuts off the corner at position `at + 1`, or else replaces the longest possible stretch that
+    /// starts at `at`. Returns how many edges of the ring were replaced; `None` if nothing fits.
     fn step(&mut self, at: usize) -> Option<usize> {
         // Cutting off a corner adds no vertex, so it is tried first.
         if self.cut_corner(at) {
@@ -156,16 +160,16 @@ impl<'a> FrontRing<'a> {
             .find(|&k| self.replace(at, k).is_some())
     }
 
-    /// Cuts off the corner after position `at` if that is valid in both designs. Returns whether it
-    /// was cut off.
+    /// Cuts off the corner at position `at + 1` if that is valid in both designs. Returns whether
+    /// it was cut off.
     fn cut_corner(&mut self, at: usize) -> bool {
         let stretch = [0, 1, 2].map(|k| self.vertex(at + k));
         // The ring needs at least three corners.
         if self.len() < 4 || self.has_frozen(&stretch) {
             return false;
         }
-        // In each design the corner triangle must be positive, well shaped and empty. Its new side
-        // must be visible from the neighbouring vertices.
+        // In each design the corner triangle must be positive, well shaped and empty. At both ends,
+        // the new side must run into the region that is left to triangulate.
         let fits = (0..2).all(|d| {
             let corners = stretch.map(|v| self.place(d, v));
             face_cost::is_positive(corners)
@@ -323,7 +327,7 @@ fn centre_of_kernel(middle: DVec2, half: f64, sides: &[[DVec2; 2]]) -> Option<DV
         .iter()
         .map(|&(x, y)| middle + half * DVec2::new(x, y))
         .collect();
-    // Keeps the part to the left of each line (Sutherland, Hodgman 1974).
+    // Keeps the part of the polygon to the left of each line (Sutherland, Hodgman 1974).
     for &[a, b] in sides {
         let height = |p: DVec2| (b - a).perp_dot(p - a);
         let mut cut = Vec::with_capacity(kernel.len() + 1);

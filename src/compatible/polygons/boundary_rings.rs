@@ -68,7 +68,8 @@ pub(super) fn validate_rings(rings: &BoundaryRings, side: Side) -> Result<(), Pi
     if let Some(point) = rings.points.iter().position(|p| !p.is_finite()) {
         return Err(not_finite(rings, point, side));
     }
-    // The triangulation quickly detects any fault. Only then is the cause searched for.
+    // The triangulation detects any fault quickly. The slow search for its cause runs only if there
+    // is one.
     match constrained_delaunay(&loops) {
         Ok(_) => Ok(()),
         Err(TriangulationError::OutOfRange) => {
@@ -92,8 +93,8 @@ fn not_finite(rings: &BoundaryRings, point: usize, side: Side) -> PieceMeshError
     }
 }
 
-/// Finds out, by slow tests, why the rings do not bound one connected region. `error` is the
-/// triangulation's own error.
+/// Finds out, by slow tests, why the rings do not bound one connected region. `error` is the error
+/// of the triangulation that detected the fault.
 fn find_fault(
     rings: &BoundaryRings,
     loops: &[&[DVec2]],

@@ -3,8 +3,8 @@
 //!
 //! A bridge joins the outer boundary to a hole. In one design it is a straight diagonal. In the
 //! other design it runs through a triangulation of the piece, from edge midpoint to edge midpoint;
-//! these points are its inner points. The straight diagonal gets the same number of inner points.
-//! Inner points become movable vertices of the mesh.
+//! these midpoints are the inner points of the bridge. The straight diagonal gets the same number
+//! of inner points. Inner points become movable vertices of the mesh.
 
 use super::boundary_rings::BoundaryRings;
 use super::chords;
@@ -18,9 +18,9 @@ use crate::mesh::{Connectivity, sides};
 use crate::work::progress::{Progress, checkpoint};
 use std::collections::{HashMap, VecDeque};
 
-/// Maximum number of diagonals tried for each bridge, shortest first (resource limit: each diagonal
-/// needs a search through the other design's triangulation. A better bridge only has fewer inner
-/// points, most of which are removed later anyway).
+/// Maximum number of diagonals tried for each bridge in each design, shortest first (resource
+/// limit: each diagonal needs a search through the other design's triangulation. More diagonals
+/// could only save inner points, most of which are removed later anyway).
 const MAX_DIAGONALS: usize = 12;
 
 /// Corner of a boundary loop, with its positions in both designs and its vertex index.
@@ -34,8 +34,8 @@ struct BridgeCorner {
 /// has reached yet.
 struct PieceLoops(Vec<Vec<BridgeCorner>>);
 
-/// Bridge between two corners. Corners are numbered consecutively through all loops. `inner`
-/// contains the positions of the bridge's inner points in both designs.
+/// Bridge between the two corners with the numbers `ends`. Corners are numbered consecutively
+/// through all loops. `inner` contains the positions of the bridge's inner points in both designs.
 struct Bridge {
     ends: [usize; 2],
     inner: Vec<[DVec2; 2]>,
@@ -54,7 +54,7 @@ pub(super) fn bridged_base(
         points: [source.points.clone(), target.points.clone()],
         faces: Vec::new(),
     };
-    // Only one hole is joined at a time, so that the next bridge may start on this hole.
+    // Only one hole is joined at a time, so that the next bridge may start on the hole joined last.
     let holes = loops.0.len();
     while loops.0.len() > 1 {
         let done = 1.0 - loops.0.len() as f64 / holes as f64;
@@ -72,7 +72,7 @@ pub(super) fn bridged_base(
     let points = [0, 1].map(|d| disc.iter().map(|c| c.places[d]).collect::<Vec<_>>());
     let triangulations = chords::triangulations(&points[0], &points[1], progress)?;
     let mesh = overlay_triangulations(&points[0], &points[1], &triangulations, progress)?;
-    // The vertices on both banks of a bridge are merged again.
+    // Both banks of a bridge have the same vertex indices, so this joins them again.
     let vertices: Vec<u32> = disc.iter().map(|corner| corner.vertex).collect();
     whole.append(
         &vertices,
@@ -99,7 +99,8 @@ impl PieceLoops {
         )
     }
 
-    /// Corners of all loops, loop after loop.
+    /// Returns the corners of all loops, loop after loop. This is the order in which they are
+    /// numbered.
     fn corners(&self) -> impl Iterator<Item = &BridgeCorner> {
         self.0.iter().flatten()
     }
@@ -115,8 +116,8 @@ impl PieceLoops {
             let bent = &graphs[1 - straight];
             diagonals.filter_map(move |ends| Some((straight, ends, bent.path(ends)?)))
         });
-        // Among bridges with equally many inner points the first is chosen: straight in the source,
-        // then the shortest.
+        // Of bridges with equally few inner points the first is chosen. Bridges that are straight
+        // in the source come first, and shorter ones before longer ones.
         let (straight, ends, bent) = candidates
             .min_by_key(|(_, _, bent)| bent.len())
             .ok_or(PieceMeshError::NoBridge)?;
@@ -124,8 +125,9 @@ impl PieceLoops {
         Ok(Bridge { ends, inner })
     }
 
-    /// Returns the shortest diagonals of a design's triangulation that lead from the first loop to
-    /// another loop, as corner numbers.
+    /// Returns diagonals of a design's triangulation that lead from the first loop to another loop,
+    /// each as the numbers of its two corners. They are sorted, shortest first; at most
+    /// [`MAX_DIAGONALS`] are returned.
     fn diagonals(&self, graph: &MidpointGraph, design: usize) -> Vec<[usize; 2]> {
         // Corners with smaller numbers belong to the first loop.
         let outer = self.0[0].len() as u32;
@@ -138,8 +140,8 @@ impl PieceLoops {
             .faces
             .iter()
             .flat_map(|&face| sides(face))
-            // Each diagonal is listed once: the face on its other side lists it in the opposite
-            // direction.
+            // Each diagonal passes this filter once: the face on its other side lists it in the
+            // opposite direction, which does not pass.
             .filter(|&[a, b]| a < outer && b >= outer)
             .map(|edge| edge.map(|k| k as usize))
             .collect();
@@ -229,8 +231,9 @@ impl MidpointGraph {
         })
     }
 
-    /// Returns the edge midpoints along the path between two corners that crosses the fewest edges;
-    /// an empty list if the corners share a face. `None` if no path exists.
+    /// Finds the path between two corners that crosses the fewest edges, and returns the midpoints
+    /// of these edges in order. The list is empty if the corners share a face. `None` if no path
+    /// exists.
     fn path(&self, ends: [usize; 2]) -> Option<Vec<DVec2>> {
         let [from, to] = ends.map(|end| end as u32);
         // All faces at the start corner are queued first. If one of them also contains the end

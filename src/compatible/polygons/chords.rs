@@ -19,9 +19,9 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 const MAX_SEARCHED: usize = 400;
 /// Number of turns; in each turn one polygon adapts to the other (heuristic).
 const TURNS: usize = 4;
-/// Cost of the shape of a flat triangle, in crossings (derived: the costs of all triangles, at most
-/// [`MAX_SEARCHED`], add up to less than one crossing, so shape only decides between triangulations
-/// with equally many crossings).
+/// Shape cost of a flat triangle, the largest of all, in crossings (derived: there are fewer than
+/// [`MAX_SEARCHED`] triangles, so their shape costs add up to less than one crossing. Shape
+/// therefore decides only between triangulations with equally many crossings).
 const SHAPE_COST: f64 = 1e-3;
 /// Cost, in crossings, of a triangle that is flat up to rounding, such as one at a point on a
 /// straight side (derived: more than the 158,000 crossings that are possible, because crossings
@@ -170,8 +170,9 @@ pub(super) fn interleave([a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
     (a < c && c < b && b < d) || (c < a && a < d && d < b)
 }
 
-/// Returns the triangulation with the least total `cost` of its diagonals, where shape decides
-/// between equal ones. If no triangulation exists, faces are missing.
+/// Returns the triangulation with the least total `cost` of its diagonals. Triangles that are flat
+/// up to rounding are avoided, and shape decides between equally cheap triangulations. If no
+/// triangulation exists, the result has fewer than n − 2 faces.
 fn cheapest_triangulation(
     points: &[DVec2],
     chords: &InteriorChords,
@@ -212,8 +213,8 @@ fn best_apex(points: &[DVec2], best: &[(f64, usize)], i: usize, j: usize) -> (f6
     let mut cheapest = (f64::INFINITY, 0);
     for k in i + 1..j {
         let parts = best[i * n + k].0 + best[k * n + j].0;
-        // A triangle may be flat although all its sides are inside or edges: its corners may be
-        // points on one straight side.
+        // All three corners may be points on one straight side. Such a triangle is flat, although
+        // each of its sides is an edge or an allowed chord.
         if parts < cheapest.0 && orient2d(points[i], points[k], points[j]) > 0.0 {
             let flatness = flatness(points[i], points[k], points[j]);
             let sliver = if flatness > 1.0 - SLIVER {

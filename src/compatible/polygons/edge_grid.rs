@@ -76,8 +76,8 @@ impl EdgeGrid {
     }
 
     /// Returns whether `is` holds for at least one edge near a segment. An edge is near if its
-    /// bounding box touches a cell that the segment's bounding box touches; `is` must do any exact
-    /// test. Some edges are tested more than once.
+    /// bounding box touches a cell that the segment's bounding box touches. This is only a coarse
+    /// filter, so `is` must make the exact test. Some edges are tested more than once.
     pub(super) fn any_edge_near(&self, segment: [DVec2; 2], is: impl Fn(GridEdge) -> bool) -> bool {
         let mut cells = self.cells(segment);
         cells.any(|cell| self.edges_in_cell[cell].iter().any(|&edge| is(edge)))

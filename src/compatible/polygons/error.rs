@@ -73,7 +73,7 @@ pub enum PieceMeshError {
         side: Side,
         /// The two edges, numbered in the rings that the caller passed.
         edges: [PieceEdge; 2],
-        /// Position of the first edge's start.
+        /// Position at which the first of the two edges starts.
         place: DVec2,
     },
     /// The outer boundary of this design runs clockwise.
@@ -92,7 +92,8 @@ pub enum PieceMeshError {
         "a hole of the {0} lies outside its outline or in another hole; make it a separate part"
     )]
     HoleOutside(Side),
-    /// [`edge_length`](super::PolygonOptions::edge_length) is this number, which is not positive.
+    /// The option [`edge_length`](super::PolygonOptions::edge_length) is not a positive number. The
+    /// field is its value.
     #[error(
         "the edge length {0} is not a positive fraction of the diameter; use 0.05, for example"
     )]
@@ -107,7 +108,7 @@ pub enum PieceMeshError {
         side: Side,
         /// The shortest edge of its rings, which is the likeliest cause.
         shortest: PieceEdge,
-        /// Position of that edge's start.
+        /// Position at which the shortest edge starts.
         place: DVec2,
         /// Error that the triangulation returned.
         error: TriangulationError,

@@ -91,13 +91,13 @@ pub(super) fn evaluate(p: FaceCorners, q: FaceCorners, area_weight: f64) -> Opti
     let value = squared * squared
         + (shapes[0] * shapes[0] + shapes[1] * shapes[1])
         + area_weight * 0.5 * (ratios[0] + ratios[1]);
-    // The inverse of a tiny area may be infinite.
+    // The inverse of a tiny area may be infinite; such a face counts as not positive.
     value.is_finite().then_some(FaceCost { value, gradients })
 }
 
-/// Second derivative of the cost with respect to each design's edges, at fixed areas and with the
-/// other design fixed: for each design one stiffness for each edge. A single stiffness may be
-/// negative, but the stiffness matrix of the face is positive semidefinite.
+/// For each design, the stiffness of each edge: the second derivative of the cost with respect to
+/// that edge, at fixed areas and with the other design fixed. A single stiffness may be negative,
+/// but the stiffness matrix of the face is positive semidefinite.
 pub(super) fn stiffness(p: FaceCorners, q: FaceCorners) -> [[f64; 3]; 2] {
     let det = [p, q].map(twice_area);
     let e = [edges(p), edges(q)];
@@ -128,8 +128,9 @@ fn products(e: FaceCorners) -> [f64; 3] {
     [-e[1].dot(e[2]), -e[2].dot(e[0]), -e[0].dot(e[1])]
 }
 
-/// The Dirichlet energy |J|² / det J of a face, times twice its area in both designs. `products`
-/// belongs to one design, the edges `e` to the other; the result is symmetric in the two.
+/// The conformal energy |J|² / det J of a face, times the product of its doubled areas in both
+/// designs. `products` belongs to one design, the edges `e` to the other; the result is symmetric
+/// in the two.
 fn dirichlet(products: [f64; 3], e: FaceCorners) -> f64 {
     (0..3).map(|k| products[k] * e[k].length_squared()).sum()
 }

@@ -24,25 +24,28 @@ use crate::work::progress::{Cancelled, Progress, ProgressSpan, check_cancelled, 
 /// (heuristic).
 const POINTS_ALONG: f64 = 24.0;
 
-/// Minimum distance between points, in units of the spacing (heuristic: less than the 0.87 between
-/// two rows of a triangular lattice).
+/// Minimum distance of a filling point from all earlier points, in units of the spacing of its
+/// lattice (heuristic: less than the 0.87 between two rows of a triangular lattice).
 const MIN_DISTANCE: f64 = 0.6;
 
 /// Narrowest spacing of points around a pin, as a fraction of the distance to the nearest other pin
-/// or border point (heuristic: it leaves one or two rows of points between them).
+/// or border point (heuristic: it leaves one or two rows of points between the two).
 const PIN_SPACING: f64 = 0.35;
 /// Growth of the spacing per unit of distance from a pin (heuristic: the spacing grows by less than
 /// a factor of two over two rows).
 const GRADING: f64 = 0.35;
 
-/// Number of spacings, each half as wide as the one before, down to 1/32 of the widest (resource
-/// limit: the narrowest suits pins that are 1/270 of the frame's longer side apart).
+/// Number of triangular lattices that fill the frame. Each has half the spacing of the one before,
+/// so the last has 1/32 of the widest spacing (resource limit: that spacing suits pins that are
+/// 1/270 of the frame's longer side apart).
 const LATTICES: u32 = 6;
 
-/// Maximum number of points (resource limit: each candidate is compared with all earlier points).
+/// Maximum number of points after filling, border and pins included (resource limit: each candidate
+/// is compared with all earlier points).
 const MAX_POINTS: usize = 8_000;
 
-/// Number of steps from source to target; edges can be flipped after each (heuristic).
+/// Number of steps in which the pins move from source to target. Edges can be flipped after each
+/// step (heuristic).
 const STEPS: u32 = 6;
 
 /// Progress reported once the mesh has reached the target, in [0, 1] (heuristic).
@@ -61,7 +64,7 @@ pub enum FramePinsError {
     Outside {
         /// Index of the pin, from 0.
         pin: usize,
-        /// Design in which the pin lies outside.
+        /// Design in which the pin lies outside the frame.
         side: Side,
     },
     /// Two pins coincide in one design but not in the other.
@@ -143,13 +146,14 @@ impl CompatibleMesh {
         let (source, fixed_targets) = (scaled(&source), scaled(&fixed_places[1]));
         let faces = delaunay(&source)?;
         let mut mesh = PairMesh::new(fixed, [source.clone(), source], faces);
-        // Faces whose vertices are all fixed could not follow the pins.
+        // Every edge between two fixed vertices is split, so that each face has a vertex that can
+        // move when the pins do.
         transfer::split_chords(&mut mesh);
         // The mesh moves in several steps, so that edges can be flipped on the way.
         for step in 1..=STEPS {
             let along = f64::from(step) / f64::from(STEPS);
-            // The iteration ends with `fixed_targets`: only the border, which stays in place, and
-            // the pins get waypoints.
+            // `zip` ends with `fixed_targets`, so only the border, which stays in place, and the
+            // pins get waypoints.
             let waypoints: Vec<DVec2> = (mesh.points[0].iter().zip(&fixed_targets))
                 .map(|(p, q)| *p + (*q - *p) * along)
                 .collect();
@@ -211,14 +215,15 @@ fn distinct_pins(
     Ok(distinct)
 }
 
-/// Widest spacing between points, in units of the plane.
+/// Widest spacing between filling points, in units of the plane.
 fn spacing(frame: &Bounds) -> f64 {
     frame.size().max_element() / POINTS_ALONG
 }
 
-/// Returns the points of triangular lattices between border and pins. They are spaced like the
-/// points of the border, but more closely around pins that are close to another pin in either
-/// design.
+/// Returns the points of triangular lattices that fill the frame between border and pins. They are
+/// spaced like the points of the border, but more closely around pins that are close to another pin
+/// or to the border in either design. For each design, `ends` holds the border points, `border` in
+/// number, and then the pins.
 fn fill_points(
     frame: &Bounds,
     border: usize,
@@ -242,16 +247,16 @@ fn fill_points(
         pins.iter().map(about).fold(widest, f64::min)
     };
     let mut points = ends[0].clone();
-    // The narrowest spacing comes first, so that points of wider spacings keep their distance from
-    // its points.
+    // The lattice with the narrowest spacing comes first, so that the points of wider lattices keep
+    // their distance from its points.
     for lattice in (0..LATTICES).rev() {
         let step = widest / f64::from(1u32 << lattice);
         let is_last = lattice + 1 == LATTICES;
         for p in triangular_lattice(frame, step) {
             check_cancelled(progress)?;
-            // Each point of the frame is filled by the one level whose spacing suits it. Where the
-            // required spacing is beyond the range of the levels, the widest or the narrowest level
-            // is used.
+            // At each place, only the lattice whose spacing suits the place adds points. Where the
+            // required spacing is beyond the range of the lattices, the widest or the narrowest one
+            // adds them.
             let size = spacing_at(p);
             let fits =
                 size < 2.0 * step && (size >= step || is_last) || lattice == 0 && size >= step;
@@ -282,7 +287,8 @@ fn triangular_lattice(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> 
         .filter(move |p| room.contains(*p))
 }
 
-/// Indices of the pins nearest to the folded faces, sorted and each once.
+/// Returns the indices of the pins nearest to the faces that are folded in the target: ascending,
+/// each once. `first` is the vertex index of the first pin of `all`.
 fn pins_near_folds(mesh: &PairMesh, first: usize, all: &[(usize, PointPair)]) -> Vec<usize> {
     let targets = &mesh.points[1];
     let mut pins: Vec<usize> = (mesh.faces())
@@ -329,8 +335,8 @@ mod tests {
     fn pins_that_exchange_places_are_met_or_named() {
         let pins = [pin((0.0, 3.0), (3.0, 3.0)), pin((3.0, 3.0), (0.0, 3.0))];
         let mesh = CompatibleMesh::around_pins(&FRAME, &pins, &Silent);
-        // A half turn around a point between the pins meets them. If the search does not find it,
-        // the error names the pins.
+        // A half turn around a point between the pins satisfies both. If the search does not find
+        // it, the error names the pins.
         match mesh {
             Ok(mesh) => assert!(mesh.target().contains(&pins[0].target)),
             Err(FramePinsError::Folds { pins }) => assert!(!pins.is_empty()),

@@ -23,7 +23,7 @@ use rayon::prelude::*;
 type SharedTriangulation = (Vec<[u32; 3]>, Vec<Vec<DVec2>>);
 
 /// The search for triangulations ends when the number of valid ones times the number of designs
-/// reaches this (resource limit: three triangulations of four designs, one of twelve).
+/// reaches this (resource limit: that is three triangulations of four designs, or one of twelve).
 const ENOUGH_TRANSFERS: usize = 12;
 
 /// Maximum number of rounds of distortion reduction after each transfer (heuristic).
@@ -90,8 +90,8 @@ fn best_triangulation(
             break;
         }
     }
-    // If no start works: the common mesh of the first design and one other design is nearly always
-    // found, and it may transfer to the remaining designs.
+    // If no start works, the common mesh of the first design and one other design is tried as the
+    // start. Such a mesh is nearly always found, and it may transfer to the remaining designs.
     for hard in order.skip(1) {
         if !candidates.is_empty() {
             break;
@@ -162,11 +162,12 @@ fn reduce_distortion(mesh: &mut PairMesh, progress: &dyn Progress) {
     }
 }
 
-/// Transfers the triangulation `base` of the design `from` to all other designs. Returns the sum of
-/// its costs and the result; `None` if it is folded in one of the designs.
+/// Transfers the triangulation `base` of the design `from` to all other designs. Returns the result
+/// with the sum of its mean face costs over all designs; `None` if the result is folded in one of
+/// the designs.
 ///
 /// If present, `hard_points` contains the index of another design and the positions of the vertices
-/// in it; no transfer to that design is needed.
+/// in that design, which then needs no transfer.
 fn transfer_to_all(
     base: &PairMesh,
     from: usize,

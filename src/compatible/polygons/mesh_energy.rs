@@ -135,8 +135,8 @@ impl<'a> MeshEnergy<'a> {
         }
     }
 
-    /// Returns the cost at the unknowns `x` and writes its gradient; infinite if a face is not
-    /// positive.
+    /// Returns the cost at the unknowns `x` and writes its gradient to `gradient`. If a face is not
+    /// positive, returns infinity and writes no gradient.
     fn energy(&mut self, x: &[f64], gradient: &mut [f64]) -> f64 {
         self.apply(x);
         for gradients in &mut self.gradients {
@@ -145,7 +145,7 @@ impl<'a> MeshEnergy<'a> {
         let mut total = 0.0;
         for &(face, weight) in &self.faces {
             let [p, q] = [0, 1].map(|d| face.map(|v| self.current[d][v as usize]));
-            // No gradient is needed here, because the line search then only shortens its step.
+            // After an infinite cost, the line search only shortens its step and reads no gradient.
             let Some(cost) = face_cost::evaluate(p, q, self.area) else {
                 return f64::INFINITY;
             };
@@ -166,7 +166,8 @@ impl<'a> MeshEnergy<'a> {
         }
         for (i, slider) in self.sliders.iter().enumerate() {
             let (v, by) = (slider.vertex as usize, x[4 * n + i]);
-            // Chain rule: a slide moves the vertex in both designs.
+            // A slide moves the vertex in both designs, so the derivatives in both add up (chain
+            // rule).
             let along = |d: usize| self.gradients[d][v].dot(self.velocity(i, by, d));
             gradient[4 * n + i] = along(0) + along(1);
         }

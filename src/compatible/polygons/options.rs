@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PolygonOptions {
-    /// Requested maximum length of inner edges, as a fraction of each design's diameter. `None`:
+    /// Requested maximum length of inner edges, as a fraction of each design's diameter. If `None`,
     /// faces grow from the boundary inwards, with at most two inner vertices for each boundary
     /// vertex except in hard cases.
     pub edge_length: Option<f64>,

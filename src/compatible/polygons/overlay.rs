@@ -66,7 +66,7 @@ struct OverlayVertices {
     points: [Vec<DVec2>; 2],
 }
 
-/// Orders a chord `own` of `design` and a chord `other` of the other design: returns the source's
+/// Returns the chord `own` of `design` and the chord `other` of the other design, the source's
 /// chord first.
 fn source_first(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
     if design == 0 {
@@ -102,8 +102,8 @@ impl OverlayVertices {
                             ranks: [0; 2],
                         }
                     };
-                    // A crossing is added when the source's chord is visited. It is already present
-                    // when the target's chord is.
+                    // A crossing is added when its source chord is visited. When its target chord
+                    // is visited, the crossing is already present.
                     let chords = source_first(design, chord, other);
                     let crossing = self.crossings.entry(chords).or_insert_with(new);
                     crossing.ranks[design] = rank;
@@ -167,8 +167,8 @@ impl OverlayVertices {
         }
     }
 
-    /// Splits a cell into triangles: of all fans around one of its corners, the one whose
-    /// worst-shaped triangle is best.
+    /// Splits a cell into a fan of triangles around one of its corners. Of all these fans, the one
+    /// whose worst-shaped triangle is best is taken.
     fn fill(&self, cell: &[u32], faces: &mut Vec<[u32; 3]>) {
         let k = cell.len();
         let fan = |apex: usize| -> Vec<[u32; 3]> {

@@ -26,8 +26,8 @@ pub(super) struct PairMesh {
     vertex_faces: Vec<Vec<u32>>,
 }
 
-/// The two faces at an inner edge a → b: (a, b, left) and (b, a, right). `left` and `right` are
-/// vertices.
+/// The two faces at an inner edge a → b, which have the vertices (a, b, left) and (b, a, right).
+/// `faces` holds their indices in this order.
 struct EdgeFaces {
     faces: [u32; 2],
     left: u32,

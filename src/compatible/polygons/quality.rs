@@ -19,8 +19,8 @@ const ROUNDS: usize = 5;
 const FIRST_STEPS: usize = 20;
 /// Maximum number of descent steps in the last round (heuristic).
 const LAST_STEPS: usize = 60;
-/// Maximum number of descent steps in earlier rounds, after which the mesh changes once more
-/// (heuristic).
+/// Maximum number of descent steps in each earlier round (heuristic: few, because the next round
+/// changes the mesh again).
 const EARLY_STEPS: usize = 8;
 /// Maximum product of descent steps and faces in a round (resource limit: it reduces the steps only
 /// of meshes with more than 20,000 faces).
@@ -28,8 +28,8 @@ const MAX_WORK: usize = 1_200_000;
 /// Face cost above which a face is split while the limit on vertices allows it (heuristic: an
 /// undistorted equilateral face costs about 3).
 const COSTLY: f64 = 6.0;
-/// Maximum product of faces and round number in thinning; beyond it, thinning ends and the
-/// remaining vertices stay (resource limit).
+/// Maximum product of the number of faces and the round number while unneeded vertices are removed.
+/// Beyond it, the removal ends and the remaining vertices stay (resource limit).
 const MAX_THINNING_WORK: usize = 150_000;
 /// Maximum number of rounds in which unneeded vertices are removed from the guaranteed base mesh
 /// (resource limit).
@@ -164,7 +164,8 @@ pub(super) fn remove_unneeded_vertices(
     Ok(())
 }
 
-/// Flips every edge whose flip improves its two faces, until no flip does.
+/// Flips every edge whose flip improves its two faces, in several passes, until no flip improves
+/// any.
 fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     /// Maximum number of passes over all edges (resource limit).
     const MAX_PASSES: usize = 6;
@@ -172,7 +173,7 @@ fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelle
         let mut flipped = 0;
         for edge in mesh.inner_edges() {
             check_cancelled(progress)?;
-            // A flip removes no edge that is still to come in the list.
+            // A flip removes only the flipped edge, so all later edges of the list still exist.
             flipped += usize::from(mesh.flip_if_better(edge));
         }
         if flipped == 0 {

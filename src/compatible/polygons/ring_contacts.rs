@@ -59,12 +59,13 @@ impl LoopEdges {
     }
 }
 
-/// Returns the indices of two edges that touch or cross where they must not. Crossings have
-/// priority over vertices that coincide without a slit.
+/// Returns the indices of two edges that touch or cross where they must not; `None` if there are
+/// none. Crossings have priority over vertices that coincide without a slit.
 pub(super) fn touching_edges(loops: &[&[DVec2]]) -> Option<[usize; 2]> {
     let edges = LoopEdges::of(loops);
     let all: Vec<usize> = (0..edges.next.len()).collect();
-    // The lenient sweep comes first. It ignores coinciding vertices and therefore finds crossings.
+    // The lenient sweep comes first. It ignores coinciding vertices, so any crossing is reported
+    // before them.
     first_contact(&edges, all, true).or_else(|| {
         // Adding zero turns -0 into 0, so that equal points have equal keys.
         let key = |[a, b]: [DVec2; 2]| [a.x, a.y, b.x, b.y].map(|x| (x + 0.0).to_bits());

@@ -26,19 +26,19 @@ use crate::work::progress::Progress;
 /// angular distortion could shrink whole limbs to a point.
 const AREA: f64 = 0.45;
 
-/// Number added to the diagonal entry of each unknown, as a fraction of the sum of its springs'
-/// stiffness (tolerance: keeps the matrix positive definite where springs cancel).
+/// Number added to the diagonal entry of each unknown, as a fraction of the summed absolute
+/// stiffness of the springs that act on this unknown (tolerance: keeps the matrix positive definite
+/// where springs cancel).
 const REGULARISATION: f64 = 1e-6;
 
-/// Number of descent steps in a round, after which the mesh is adapted (heuristic).
+/// Maximum number of descent steps in a round. After each round the mesh is adapted (heuristic).
 const STEPS: usize = 20;
 /// Number of rounds of descent and adaptation (heuristic).
 const ROUNDS: usize = 4;
 
-/// Returns, for each ring of the piece, new places of its vertices on both outlines, for which the
-/// map between the designs distorts less than in `mesh`. The places have the form of
-/// `MatchedCurves::places`. `None` if no vertex can slide, if rounding makes the mesh invalid, or
-/// on a cancel.
+/// Returns, for each ring of the piece, new places `[source, target]` of its vertices on both
+/// outlines. At these places the map between the designs distorts less than in `mesh`. `None` if no
+/// vertex can slide, if rounding makes the mesh invalid, or on a cancel.
 pub(crate) fn slide_outlines(
     piece: &PieceMatch,
     mesh: &CompatibleMesh,
@@ -75,7 +75,7 @@ pub(crate) fn slide_outlines(
     Some(places(piece, sides, &sliding))
 }
 
-/// Returns a sliding vertex for each vertex of a matched ring that no pin fixes.
+/// Returns one sliding vertex for each vertex of the matched rings, except for pinned vertices.
 fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<SlidingVertex<'_>> {
     let mut ring_start = 0;
     let mut all = Vec::new();
@@ -93,7 +93,8 @@ fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<SlidingVertex<'_>> {
     all
 }
 
-/// Returns the places of all vertices after the slides, one list for each ring.
+/// Returns the places `[source, target]` of all vertices after the slides: one list for each ring,
+/// empty for a ring without matched curves.
 fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[SlidingVertex]) -> Vec<Vec<[f64; 2]>> {
     let mut ring_start = 0;
     let mut sliders = sliders.iter().peekable();
@@ -132,8 +133,8 @@ fn equal_area_pair(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (Pa
     (pair, scales)
 }
 
-/// Quadratic approximation of the cost at fixed areas, as springs between vertices over all
-/// unknowns. A sliding vertex has a single unknown, which moves it in both designs.
+/// Quadratic approximation of the cost at fixed areas, as a network of springs between vertices in
+/// both designs. A sliding vertex has a single unknown, which moves it in both designs.
 struct QuadraticProxy {
     factor: Cholesky,
     workspace: CholeskyWorkspace,
@@ -168,7 +169,8 @@ impl QuadraticProxy {
             Some(((4 * n + i) as u32, energy.velocity(i, 0.0, d)[axis]))
         };
         let unknowns = energy.unknown_count();
-        // For each face: two designs × two axes × three edges × three entries.
+        // The capacity is 36 entries for each face (two designs × two axes × three edges × three
+        // entries) and one for each unknown.
         let mut matrix = SymmetricMatrix::zero(unknowns, 36 * energy.faces.len() + unknowns);
         // Positive, so that an unknown without springs gets a positive diagonal entry.
         let mut stiffness_of = vec![f64::MIN_POSITIVE; unknowns];

@@ -122,7 +122,8 @@ fn shape(kind: usize, n: usize, random: &mut Random) -> Vec<DVec2> {
     with_points(points, n)
 }
 
-/// Checks all guarantees for a mesh of two polygons, against slow and simple oracles.
+/// Checks a mesh of two polygons for all guarantees of the triangulation, by slow and simple
+/// oracles.
 fn assert_valid(mesh: &CompatibleMesh, source: &[DVec2], target: &[DVec2]) {
     assert_valid_piece(mesh, &[source], &[target]);
 }

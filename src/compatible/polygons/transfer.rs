@@ -13,7 +13,8 @@ use crate::mesh::triangulation::{RefinementOptions, refined_delaunay};
 use crate::numerics::{Cholesky, SymmetricMatrix};
 use crate::work::progress::{Cancelled, Progress, check_cancelled, checkpoint};
 
-/// Maximum number of rounds of fold removal (resource limit: [`PATIENCE`] usually ends it earlier).
+/// Maximum number of rounds of fold removal (resource limit: [`PATIENCE`] usually ends the removal
+/// earlier).
 pub(super) const MAX_ROUNDS: usize = 60;
 /// Number of rounds of fold removal after which a transfer stops, if it or the transfer in the
 /// other direction is free of folds by then (heuristic).
@@ -32,7 +33,8 @@ pub(super) struct Transfer {
 
 impl Transfer {
     /// Creates a refined triangulation of the polygon `from` and places it on the polygon `to`,
-    /// where it may be folded; `None` if that is impossible.
+    /// where it may be folded. `None` if `from` cannot be triangulated or the placement cannot be
+    /// computed.
     pub(super) fn begin(
         from: &BoundaryRings,
         to: &BoundaryRings,
@@ -60,7 +62,8 @@ impl Transfer {
         Ok(is_possible.then_some(Self { mesh, folds }))
     }
 
-    /// Removes folds. Stops when all calls together have used `rounds` rounds.
+    /// Removes folds. Stops at the latest when all calls for this transfer together have used
+    /// `rounds` rounds.
     pub(super) fn unfold(
         &mut self,
         rounds: usize,
@@ -94,7 +97,7 @@ pub(super) fn transfer_onto(
 }
 
 /// Places a mesh on the second design, in which its polygon vertices have the positions `to`. Folds
-/// may result. Returns whether that was possible.
+/// may result. Returns false if the positions of the inner vertices cannot be computed.
 fn lay_onto(mesh: &mut PairMesh, to: &[DVec2], progress: &dyn Progress) -> Result<bool, Cancelled> {
     // A similarity is tried first, because a harmonic map would distort even a polygon that has
     // only moved.
@@ -125,9 +128,10 @@ pub(super) fn continue_transfer(
 /// History of a fold removal.
 #[derive(Default)]
 struct FoldHistory {
-    /// For each round done: the smallest number of folds before it or any earlier round.
+    /// For each round done: the smallest number of folds counted before that round or before any
+    /// earlier round.
     min_folds: Vec<usize>,
-    /// Whether further rounds are not worthwhile.
+    /// Whether the removal was given up, because further rounds are not worthwhile.
     is_given_up: bool,
 }
 
@@ -165,8 +169,8 @@ impl FoldHistory {
     }
 }
 
-/// Splits every inner edge between two polygon vertices. A face whose corners are all polygon
-/// vertices cannot move.
+/// Splits every inner edge between two polygon vertices. Otherwise a face could have polygon
+/// vertices only and could not move.
 pub(super) fn split_chords(mesh: &mut PairMesh) {
     let n = mesh.fixed as u32;
     for edge in mesh.inner_edges() {
@@ -177,9 +181,9 @@ pub(super) fn split_chords(mesh: &mut PairMesh) {
     }
 }
 
-/// Places the polygon vertices at `to` in the second design, and the inner vertices at their image
-/// under the similarity that maps the polygons onto each other best. Similar polygons are therefore
-/// not distorted.
+/// Places the polygon vertices at `to` in the second design, and each inner vertex at its image
+/// under the similarity that maps the first design's polygon onto `to` best. Similar polygons are
+/// therefore not distorted.
 fn place_onto(mesh: &mut PairMesh, to: &[DVec2]) {
     let n = mesh.fixed;
     let [points, placed] = &mut mesh.points;
@@ -189,8 +193,8 @@ fn place_onto(mesh: &mut PairMesh, to: &[DVec2]) {
         return;
     };
     let [from, to] = fit.means;
-    // The similarity is applied as a difference, so that equal polygons keep their positions bit by
-    // bit.
+    // The similarity is applied as a displacement of each point, so that equal polygons keep their
+    // positions bit by bit.
     let turn = fit.factor - DVec2::X;
     for (place, &p) in placed[n..].iter_mut().zip(&points[n..]) {
         *place = p + turn.rotate(p - from) + (to - from);

@@ -64,7 +64,8 @@ impl CompatibleMesh {
         let enlarged = |error: PieceMeshError| error.scaled(scales.map(f64::recip));
         boundary_rings::validate_rings(&p, Side::Source).map_err(enlarged)?;
         boundary_rings::validate_rings(&q, Side::Target).map_err(enlarged)?;
-        // A pair is always solved in the same order. If necessary, the result is exchanged back.
+        // A pair is always solved in the order of `precedes`. If the designs were exchanged for
+        // this, the result is exchanged back.
         let mesh = if precedes(&p, &q) {
             triangulate_pair(&p, &q, options, progress)
         } else {
@@ -162,8 +163,8 @@ fn best_transfer(
             Some(transfer) => transfer.unfold(rounds, share),
             None => Ok(()),
         })?;
-        // A direction that needs many more rounds than the other ends up worse, if it succeeds at
-        // all.
+        // If one direction is free of folds by now, the other is given up: it would need many more
+        // rounds and end up worse, if it succeeded at all.
         if transfers.iter().flatten().any(Transfer::is_fold_free) {
             break;
         }
@@ -228,7 +229,8 @@ fn coarse_base(
     target: &BoundaryRings,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PieceMeshError> {
-    // The front keeps at most half the limit, because bridges to holes add corners again.
+    // The front is coarsened to at most half the limit, if possible, because bridges to holes add
+    // corners again.
     checkpoint(progress, "simplifying", 0.0)?;
     let coarse = coarsen::coarsen(source, target, MAX_BASE_POINTS / 2, progress)?;
     let core = bridges::bridged_base(&coarse.front_rings(0), &coarse.front_rings(1), progress)?;

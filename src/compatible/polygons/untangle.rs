@@ -14,18 +14,18 @@ use crate::work::progress::Progress;
 /// Minimum of ε, in units of the mean determinant (heuristic: a smaller ε allows thinner faces but
 /// needs shorter steps).
 const MIN_EPSILON: f64 = 1e-3;
-/// Number of descent steps in a round, which has one ε (heuristic: a new ε is better as soon as the
-/// worst face has moved).
+/// Maximum number of descent steps in a round, during which ε is fixed (heuristic: a new ε is
+/// better as soon as the worst face has moved).
 const STEPS: usize = 30;
 
 /// Face with the quantities from which its energy is computed.
 struct UntangleFace {
     /// Vertex indices of the corners.
     corners: [usize; 3],
-    /// Matrix that maps the face's edge vectors in the target to its Jacobian. It is scaled so that
-    /// the mean determinant over all faces is 1.
+    /// Matrix by which the face's edge vectors in the target are multiplied to give its Jacobian.
+    /// It is scaled so that the mean determinant over all faces is 1.
     from_edges: DMat2,
-    /// Fraction of the source's total area that the face has.
+    /// Area of the face in the source, as a fraction of the source's total area.
     share: f64,
 }
 
@@ -60,8 +60,8 @@ fn untangle_faces(mesh: &PairMesh) -> Vec<UntangleFace> {
     mesh.faces().map(prepared).collect()
 }
 
-/// Runs one round with one ε and moves the inner vertices in the second embedding. A cancel ends
-/// the round early. Returns whether any vertex moved.
+/// Runs one round of minimisation with a fixed ε, which moves the inner vertices in the second
+/// embedding. A cancel ends the round early. Returns whether any vertex moved.
 pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
     let faces = untangle_faces(mesh);
     let n = mesh.fixed;
@@ -88,8 +88,8 @@ pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
     mesh.points[1] != start
 }
 
-/// Springs whose stiffness is, up to a factor, the second derivative of the energy near an
-/// undistorted map.
+/// Returns springs whose stiffness is, up to a factor, the second derivative of the energy near an
+/// undistorted map; `None` if their matrix is not positive definite, or on a cancel.
 fn springs(faces: &[UntangleFace], movable: &[u32], progress: &dyn Progress) -> Option<Springs> {
     let springs = faces.iter().flat_map(|face| {
         let weight = 2.0 * face.share;
@@ -149,8 +149,8 @@ fn energy(
 /// Computes χ = (det + √(ε² + det²)) / 2, which is positive for either sign of `det`.
 fn chi(det: f64, epsilon: f64) -> f64 {
     let root = (epsilon * epsilon + det * det).sqrt();
-    // For det < 0 this form of χ cancels to zero in floating point; the equivalent form below does
-    // not.
+    // For det < 0 the sum det + √(ε² + det²) cancels to zero in floating point. The equivalent form
+    // in the second branch does not.
     if det > 0.0 {
         0.5 * (det + root)
     } else {

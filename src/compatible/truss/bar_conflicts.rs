@@ -46,8 +46,8 @@ fn conflicts_in(
         let right = range(i).1;
         let later = order[place + 1..].iter();
         for &j in later.take_while(|&&j| range(j).0 <= right) {
-            // Most bars that overlap along x do not overlap along y. A bounding-box test rejects
-            // these before the exact predicates run.
+            // Most bars that overlap along x do not overlap along y. `segments_touch` rejects these
+            // by their bounding boxes, before its exact predicates run.
             if bars_meet(bars[i], bars[j], nodes) {
                 conflicts.push([i.min(j), i.max(j)].map(|bar| bar as u32));
             }

@@ -29,13 +29,14 @@ impl PlanarBlocks {
         let mut links = Vec::new();
         for (panel, cycle) in (0..).zip(&panels) {
             for (a, b) in ring_edges(cycle) {
-                // A bar that separates two panels links them.
+                // Two panels that share a bar belong to the same block.
                 let neighbour = panel_at.insert(undirected([a, b]), panel);
                 links.extend(neighbour.map(|other| [panel, other]));
             }
         }
         // All faces of a block, including the outer one, are connected across bars. Since a block
-        // has no cut nodes, its panels stay connected when the outer face is removed.
+        // has no cut nodes, its panels stay connected when the outer face is removed. The connected
+        // components of the panels are therefore the blocks.
         let mut blocks_of: HashMap<u32, Vec<u32>> = HashMap::new();
         for (cycle, block) in panels.iter().zip(components(panels.len(), links)) {
             for &node in cycle {
@@ -64,7 +65,7 @@ fn bounded_faces(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<Vec<u32>> {
     let successor = successors(bars, nodes);
     let mut seen = HashSet::new();
     let mut faces = Vec::new();
-    // Position of each node in the current path; `None` if the path does not contain it.
+    // For each node, its index in the current path; `None` if the path does not contain the node.
     let mut position = vec![None; nodes.len()];
     for &start in successor.keys() {
         let mut path = Vec::new();

@@ -73,8 +73,8 @@ impl ChordTable {
         i * self.size + j
     }
 
-    /// Returns the cell of the chord i–j: the smallest sine and the third corner that lead to the
-    /// best triangulation of the part that the chord cuts off.
+    /// Returns the cell of the chord i–j, for the best triangulation of the part that the chord
+    /// cuts off: the sine of its smallest angle, and the third corner of its triangle at the chord.
     fn best_corner(
         &self,
         cycle: &[u32],

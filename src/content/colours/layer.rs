@@ -126,7 +126,8 @@ const FAR: f64 = (1u64 << 29) as f64;
 
 impl<'a> PictureSampler<'a> {
     /// Prepares the sampling of a face. Its samples start at column and row `first` and extend over
-    /// at most `max_offset` columns and rows. `plane` maps them to the plane.
+    /// at most `max_offset` columns and rows. `plane` maps columns and rows of samples to points of
+    /// the plane.
     ///
     /// Positions are exact to `max_offset` · 2⁻³⁰ pixels if neighbouring samples are at most 2²⁸ /
     /// `max_offset` pixels apart. Longer steps are shortened to that; they would skip from one

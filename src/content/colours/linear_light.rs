@@ -21,7 +21,7 @@ const TABLE_SIZE: usize = 1 << 16;
 const OPAQUE: f32 = 1.0 - 1e-6;
 
 /// The number 2²³. If it is added to a smaller non-negative `f32`, the lowest bits of the sum
-/// contain that number, rounded to an integer.
+/// contain the smaller number, rounded to an integer.
 const ROUNDING_OFFSET: f32 = 8_388_608.0;
 
 /// Linear light of each 8-bit sRGB value.

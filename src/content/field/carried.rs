@@ -71,8 +71,9 @@ impl FieldPair {
         rings
     }
 
-    /// Maximum number of cells, over all four sides, by which shapes in `placement` extend beyond
-    /// the grid; limited to [`MAX_EXTENSION`].
+    /// Returns by how many cells the shapes in `placement` extend beyond the grid, at the side
+    /// where they extend farthest. The result is limited to [`MAX_EXTENSION`] times the grid's
+    /// longer side.
     fn cells_beyond(&self, placement: &Placement) -> u32 {
         let grid = self.grid();
         let bounds = grid.bounds();

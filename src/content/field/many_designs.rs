@@ -61,8 +61,9 @@ impl FieldSet {
     }
 
     /// Returns the blend for these weights as a distance field: at each sample, the distance at
-    /// which L has the value F. Blending two such fields gives the same as blending their weights.
-    /// With all weight on one design the result is that design's field, unchanged.
+    /// which L has the value F. At the samples, a blend of two such fields therefore equals the
+    /// blend for the weights blended in the same way. With all weight on one design the result is
+    /// that design's field, unchanged.
     ///
     /// # Panics
     /// Panics if the number of weights differs from the number of fields.

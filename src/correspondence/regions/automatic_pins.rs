@@ -10,7 +10,7 @@ impl RegionMatch {
     /// Returns pairs of points (pins) along the matched rings, one list for each matched ring. Pins
     /// lie where the outlines bend and where they change most. The longest ring gets about `count`
     /// pins, a shorter one proportionally fewer, but at least four. Rings that close to a point or
-    /// open from one have no list, because no continuous map of the plane can do that.
+    /// open from one have no list, because no invertible map of the plane closes a ring to a point.
     ///
     /// ```
     /// use morphospace::correspondence::{MatchSettings, match_regions};

@@ -26,7 +26,7 @@ const MAX_SEARCHED_EDGES: usize = 256;
 pub(super) struct RingVertices<'a> {
     /// Vertices in the design that contains the hole.
     pub(super) from: &'a [DVec2],
-    /// Vertices in the other design.
+    /// Vertices in the other design, in which the hole closes to a point.
     pub(super) to: &'a [DVec2],
 }
 
@@ -75,8 +75,8 @@ impl<'a> FreeSpace<'a> {
         let with_clearance = |(p, to_boundary): (DVec2, f64)| (p, self.clearance(p, to_boundary));
         let clearances: Vec<(DVec2, f64)> = points.chain(shifted).map(with_clearance).collect();
         let best_clearance = clearances.iter().map(|place| place.1).fold(0.0, f64::max);
-        // Take the nearest such point, not the one with the most clearance: the hole should close
-        // near its own place.
+        // Take the nearest point with enough clearance, not the one with the most: the hole should
+        // close near its own place.
         let mut candidates = clearances
             .iter()
             .copied()
@@ -153,8 +153,8 @@ fn map_by_mean_values(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
     place.is_finite().then_some(place)
 }
 
-/// Returns points inside a part: from the middle of each edge, halfway along the inward normal to
-/// the opposite boundary.
+/// Returns points inside a part. Each lies on the inward normal at the middle of an edge, halfway
+/// to the opposite boundary. If the part has many edges, only every few edges are used.
 fn interior_points(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
     let count: usize = part.rings().map(|ring| ring.points().len()).sum();
     let step = count.div_ceil(MAX_SEARCHED_EDGES);

@@ -22,7 +22,8 @@ pub(crate) struct PartGroup {
 
 impl PartGroup {
     /// Returns the key by which groups are sorted: the index of the group's first part in the
-    /// source, then in the target. A group without a part in a design comes last there.
+    /// source, then in the target. A group without a part in a design has `usize::MAX` there, so it
+    /// comes last.
     pub(super) fn key(&self) -> [usize; 2] {
         let first = |side: Side| self.parts[side].first().copied().unwrap_or(usize::MAX);
         Side::BOTH.map(first)
@@ -207,8 +208,8 @@ fn declared_unmatched(
     unmatched
 }
 
-/// Adds each unmatched part to the nearest group whose part in the other design may be split for
-/// it, or gives it a group of its own if there is none in its paint layer.
+/// Adds each unmatched part to the nearest group of its paint layer whose single part in the other
+/// design may be split for it. If there is no such group, the part gets a group of its own.
 fn assign_unmatched(
     groups: &mut Vec<PartGroup>,
     designs: [&Regions; 2],

@@ -57,7 +57,7 @@ impl MatchPlan<'_> {
     }
 
     /// Assigns an unmatched part to the nearest pair. Returns false, and changes nothing, if there
-    /// is no such pair or if its part in the other design cannot be cut.
+    /// is no such pair or if the pair's part in the other design cannot be cut.
     fn assign_to_nearest(
         &mut self,
         side: Side,

@@ -67,8 +67,8 @@ pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingIndex {
     best.1
 }
 
-/// Returns the part that contains a point, the topmost if there are several, or else the nearest
-/// part.
+/// Returns the part that contains a point. If several do, returns the topmost, which is the last;
+/// if none does, the nearest.
 pub(super) fn part_at(design: &Regions, p: DVec2) -> usize {
     // Containment comes first: a click inside a part may be nearer to another part's boundary.
     let containing = design

@@ -2,7 +2,8 @@
 //!
 //! The time to match a ring grows with the square of its samples, and each unmatched hole could be
 //! cut open in dozens of ways. If a design has more than [`MAX_RINGS`] rings, the samples of all
-//! rings together are limited, unmatched holes close, and only the requested match is tried.
+//! rings together are limited, unmatched holes close, and no variants of the requested match are
+//! tried.
 
 use super::super::{HoleRule, MatchOptions};
 use crate::geometry::Regions;

@@ -136,7 +136,8 @@ impl PartMatcher<'_> {
         Ok(rings)
     }
 
-    /// Returns the ring with long edges divided into shorter ones.
+    /// Returns a hole's ring with long edges divided into equal parts, so that the ring meets the
+    /// limits [`MAX_EDGE`] and [`MIN_VERTICES`].
     fn subdivide_ring(&self, side: Side, ring: &Ring) -> Ring {
         let outer = self.boundaries[side].ring.perimeter();
         let longest = (MAX_EDGE * outer).min(ring.perimeter() / MIN_VERTICES);

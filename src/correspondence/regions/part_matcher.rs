@@ -1,8 +1,8 @@
 //! Working state of the match of one part with another: the boundary loops of both, the holes cut
 //! open so far, and the pins on each ring.
 //!
-//! It decides which holes are paired, which are cut open and which close, and it matches the
-//! resulting outer boundaries.
+//! [`PartMatcher`] decides which holes are paired, which are cut open and which close. It also
+//! matches the resulting outer boundaries.
 
 use super::super::boundary::match_curves;
 use super::super::boundary_match::BoundaryMatch;
@@ -137,8 +137,9 @@ impl<'a> PartMatcher<'a> {
         Ok(across)
     }
 
-    /// Returns for each design the cuts that the user requested: index of the cut, index of the
-    /// hole, and ends, the outer one first. Each hole is cut at most once.
+    /// Returns for each design the cuts that the user requested. Each has the index of the cut, the
+    /// index of the hole, and the two ends of the cut, the outer one first. Each hole is cut at
+    /// most once.
     fn requested_cuts(&self) -> [Vec<(usize, usize, [DVec2; 2])>; 2] {
         Side::BOTH.map(|side| {
             let region = self.task.regions[side];
@@ -292,8 +293,8 @@ impl<'a> PartMatcher<'a> {
         Some(candidate.slit.ends)
     }
 
-    /// Adds a note if a hole closes although it should have been cut open, and one for each pin
-    /// that is ignored for that reason.
+    /// Adds a note if a hole closes although the rule or a pin demands that it is cut open, and a
+    /// note for each pin that is ignored because the hole closes.
     fn note_uncut(&mut self, side: Side, hole: usize, forced: bool) {
         let part = self.task.parts[side];
         if forced || self.task.holes == HolePolicy::Paired(HoleRule::Cut) {
@@ -336,9 +337,9 @@ impl<'a> PartMatcher<'a> {
         self.match_with_pins(is_on_both, &curves, &curves)
     }
 
-    /// Matches two curves with the pins that satisfy `is_here`. The places of pins are found on the
-    /// curves `located`, which may be rotated copies of the two. Errors refer to pins by their
-    /// indices among all pins.
+    /// Matches the curves `source` and `target` with the pins that satisfy `is_here`. The places of
+    /// the pins are found on the curves `located`: the same two curves as drawn, of which `source`
+    /// and `target` may be rotated copies. Errors refer to pins by their indices among all pins.
     pub(super) fn match_with_pins(
         &self,
         is_here: impl Fn(&PartPin) -> bool,

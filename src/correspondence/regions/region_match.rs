@@ -38,7 +38,7 @@ pub struct PieceMatch {
     /// Index of the target's part that contains the piece; `None` if the piece exists only in the
     /// source.
     pub target_part: Option<usize>,
-    /// Cuts that were made to open rings.
+    /// Cuts that were made in the piece to open the rings around holes.
     pub cuts: Vec<RingCut>,
     /// Rotation of the source's outer ring that best aligns it with the target's, in radians in
     /// (−π, π].

@@ -1,4 +1,4 @@
-//! Finds the best place to cut the ring around a hole open.
+//! Finds the best place at which the ring around a hole can be cut open.
 //!
 //! Candidate cuts start at evenly spaced places on the boundary and end at the nearest point of the
 //! hole. Each is rated by the cost of a match with few samples. A second round tries places between

@@ -130,7 +130,7 @@ fn ring_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
     let mut loop_points = vec![from];
     loop_points.extend((1..=n).map(|k| points[(edge + k) % n]));
     loop_points.push(from);
-    // If `from` is a vertex, it would occur twice in a row.
+    // If `from` is a vertex of the ring, it occurs twice in a row; one of the two is removed.
     loop_points.dedup();
     loop_points
 }

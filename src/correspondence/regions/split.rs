@@ -62,7 +62,7 @@ pub(super) fn split(
         pieces[order[step]] = Some(first);
         rest = remainder;
     }
-    // `parts` has at least two parts.
+    // `order` is not empty, because `parts` has at least two parts.
     pieces[order[order.len() - 1]] = Some(rest);
     pieces.into_iter().collect()
 }
@@ -119,8 +119,8 @@ struct SplitGoal<'a> {
     others: &'a [&'a Region],
     /// Fraction of the region's area that the side for `first` should get.
     share: f64,
-    /// Vector from the centre of `first` to that of `others`, in units of the square root of the
-    /// area.
+    /// Vector from the centre of `first` to that of `others`, in units of the square root of their
+    /// total area.
     apart: DVec2,
 }
 

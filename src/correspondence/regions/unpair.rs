@@ -12,9 +12,9 @@ impl MatchPlan<'_> {
     /// Unpairs the pieces of `matched` with the indices `unpaired`, and returns whether anything
     /// changed. The match must have been made from this plan.
     ///
-    /// A part that was split is split again for its remaining partners. It keeps its largest
-    /// partner if none would remain. Groups with a part that the user linked or pinned do not
-    /// change, and no group does if the rule for parts is [`PartRule::Split`].
+    /// A part that was split is split again for its remaining partners. If no partner would remain,
+    /// it keeps the largest one. Groups with a part that the user linked or pinned do not change.
+    /// If the rule for parts is [`PartRule::Split`], no group changes.
     pub(crate) fn unpair(
         &mut self,
         matched: &RegionMatch,

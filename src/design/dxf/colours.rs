@@ -34,8 +34,7 @@ pub(super) enum ColourSource {
 /// Colours of layers by name; `None` for index 7 or an invalid index.
 pub(super) type LayerColours = HashMap<Vec<u8>, Option<Rgb>>;
 
-/// Name of a special layer: an entity of a block that lies on it takes the layer of the block
-/// reference.
+/// Name of the layer that stands for the layer of the block reference, for entities inside a block.
 const OF_BLOCK: &[u8] = b"0";
 
 impl ColourSource {

@@ -2,8 +2,8 @@
 //!
 //! Arcs are divided evenly: a chord over the angle h deviates by at most 1 − cos(h/2) times the
 //! larger radius. NURBS curves (Piegl and Tiller, The NURBS Book, 1997) are evaluated by de Boor's
-//! algorithm (1972) and bisected within each knot span until three points of the curve between two
-//! neighbouring polyline points lie within the tolerance of their chord; the error is estimated,
+//! algorithm (1972). Each knot span is bisected until every piece is flat: three points inside the
+//! piece lie within the tolerance of its chord. The error of a NURBS curve is therefore estimated,
 //! not bounded.
 
 use crate::design::flatten::MAX_POINTS;
@@ -180,9 +180,9 @@ impl NurbsCurve {
     /// Maximum degree (resource limit: CAD programs support up to 25).
     pub const MAX_DEGREE: usize = 25;
 
-    /// Creates a curve. If `weights` is empty, all weights are 1. Returns `None` if the number or
-    /// order of the knots does not match the degree and points, or if a weight is not in [1e-9,
-    /// 1e9].
+    /// Creates a curve. If `weights` is empty, all weights are 1. Returns `None` if the degree, the
+    /// knots, and the numbers of points and weights do not fit together, or if a weight is not in
+    /// [1e-9, 1e9].
     pub fn new(degree: usize, knots: Vec<f64>, points: &[DVec2], weights: &[f64]) -> Option<Self> {
         let degree_fits = (1..=Self::MAX_DEGREE).contains(&degree) && points.len() > degree;
         let knots_fit = knots.len() == points.len() + degree + 1

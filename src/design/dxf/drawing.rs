@@ -243,7 +243,8 @@ fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
 struct BlockExpansion<'b> {
     blocks: &'b HashMap<Vec<u8>, DxfBlock>,
     layers: &'b LayerColours,
-    /// Number of steps so far; each path, each control point of a curve and each block copy counts.
+    /// Number of steps so far: one for each path and for each control point of a curve, and two for
+    /// each block copy.
     steps: usize,
     drawing: DxfDrawing,
 }
@@ -291,9 +292,10 @@ impl BlockExpansion<'_> {
         Ok(())
     }
 
-    /// Counts the control points of a path, or a block copy; returns an error above the limit.
+    /// Adds `steps` and one more to the number of steps; returns an error if the sum exceeds the
+    /// limit.
     fn count(&mut self, steps: usize) -> Result<(), DxfError> {
-        // One more than `steps`, so that paths without curves also reach the limit.
+        // The additional step lets paths without curves reach the limit, too.
         self.steps += 1 + steps;
         check_count(self.steps, 2 * MAX_OBJECTS)
     }

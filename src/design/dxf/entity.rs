@@ -30,8 +30,8 @@ pub(super) enum EntityShape {
     Insert {
         /// Name of the block.
         block: Vec<u8>,
-        /// For each copy, the map from block coordinates with the base point as origin to the
-        /// coordinates that contain the reference.
+        /// For each copy, the map from block coordinates, with the base point as origin, to the
+        /// coordinate system that contains the reference.
         places: Vec<DAffine2>,
     },
 }
@@ -313,8 +313,8 @@ fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
 /// Vertex of a polyline.
 struct PolylineVertex {
     point: DVec2,
-    /// Bulge of the segment that starts at this vertex: the tangent of a quarter of its angle, 0
-    /// for a line.
+    /// Bulge of the segment that starts at this vertex: the tangent of a quarter of the arc's
+    /// angle, or 0 for a line.
     bulge: f64,
 }
 

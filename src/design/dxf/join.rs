@@ -3,8 +3,8 @@
 //! End points closer than a given distance form one node of a graph. Curves with a free end are
 //! removed repeatedly until every node joins at least two curves. The remaining curves are
 //! traversed, and whenever the traversal returns to a node, a ring is closed. Where more than two
-//! curves meet, it is arbitrary which one comes next: if the number of curves is even, the area
-//! under the even-odd rule does not depend on this choice.
+//! curves meet, the choice of the next curve is arbitrary. If the number of curves at the node is
+//! even, the choice does not change the area under the even-odd rule.
 
 use crate::geometry::DVec2;
 use std::collections::{HashMap, HashSet};
@@ -147,7 +147,7 @@ impl EndpointGraph {
             here = if is_forward { last } else { first };
             match steps_from.get(&here).copied() {
                 Some(closed) => {
-                    // The nodes of the closed ring, except its start, may be visited again.
+                    // The nodes of the closed ring, except its start, are no longer on the trail.
                     for step in &trail[closed + 1..] {
                         steps_from.remove(&step.from);
                     }

@@ -75,7 +75,7 @@ pub(in crate::design) fn flat_colour_layers(
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct PixelColour([u8; 3], bool);
 
-/// Colour of every transparent pixel: one with an opacity below one half.
+/// Stands for the colour of every pixel whose opacity is below one half.
 const TRANSPARENT: PixelColour = PixelColour([0; 3], false);
 
 impl PixelColour {
@@ -222,7 +222,7 @@ impl FlatColours {
     }
 
     /// Fills enclosed areas that contain no background, because the colours in them are stacked on
-    /// top of this one.
+    /// top of the figure.
     fn fill_enclosed(&self, figure: &mut FigureSamples) {
         let (count, width) = (figure.samples.len(), figure.width as usize);
         let across = (1..count).filter(|i| !i.is_multiple_of(width));

@@ -3,10 +3,10 @@
 //! A traced boundary has a point on each grid edge that it crosses, with an uncertainty, the slack
 //! ([`TracedPoint::slack`]). Stair steps and noise within the slack should not appear in the
 //! outline. The fit has two steps:
-//! 1. Find the polygon with the fewest chords that pass within the slack of all points (Imai and
-//!    Iri 1988, "Polygonal approximations of a curve", with wedges as in Chan and Chin 1996); among
-//!    these polygons, choose the one with the smallest squared distances of the points from lines
-//!    that are fitted along the chords.
+//! 1. Find the polygons with the fewest chords that pass within the slack of all points (Imai and
+//!    Iri 1988, "Polygonal approximations of a curve", with wedges as in Chan and Chin 1996). Fit a
+//!    line along each chord, and choose the polygon with the smallest sum of squared distances of
+//!    the points from these lines.
 //! 2. Move the corners to the intersections of these lines and round them within the slack. Both
 //!    follow Selinger 2003 ("Potrace: a polygon-based tracing algorithm"), but with parabolas.
 
@@ -33,8 +33,9 @@ const MAX_CORNER_SHIFT: f64 = 2.0;
 /// (tolerance: at smaller angles the intersection is dominated by noise).
 const MIN_CORNER_SINE: f64 = 0.5;
 
-/// Minimum length of the part of each chord that a rounded corner replaces, as a fraction of half
-/// the shorter chord; below it the corner counts as intentional and stays sharp (heuristic).
+/// Rounding a corner replaces an equally long part of each of its two chords. If this part is
+/// shorter than this fraction of half the shorter chord, the corner counts as intentional and stays
+/// sharp (heuristic).
 const MIN_ROUNDING: f64 = 0.5;
 
 /// Inserts points so that neighbours are about one pixel apart. This restores the points that
@@ -156,8 +157,8 @@ fn sharpest_point(boundary: &[TracedPoint]) -> usize {
     (best.unwrap_or(0) + reach) % count
 }
 
-/// Range of the directions in which a chord from the apex passes within the slack of all points so
-/// far.
+/// Range of the directions in which a chord from the apex passes within the slack of all points
+/// given to [`Self::narrow`] so far.
 struct DirectionWedge {
     apex: DVec2,
     /// Right and left limiting directions; `None` if all directions are allowed.

@@ -15,8 +15,8 @@ use usvg::roxmltree::{Document, Node};
 /// filled area, but could expand exponentially.
 pub(super) const STYLE: &str = "* { marker: none !important; filter: none !important }";
 
-/// Maximum number of style rules times number of elements, since every rule is tested against every
-/// element (resource limit).
+/// Maximum product of the number of style rules and the number of elements (resource limit: every
+/// rule is tested against every element).
 const MAX_STYLE_TESTS: usize = 50_000_000;
 
 /// Maximum estimated time for laying out all text, in microseconds (resource limit: 2 s).
@@ -88,7 +88,7 @@ impl<'d> StyleReferences<'d> {
             .descendants()
             .filter(|n| n.tag_name().name() == "style");
         for text in styles.flat_map(|n| n.children()).filter_map(|n| n.text()) {
-            // This is an upper bound, because declarations also contain commas.
+            // This count is an upper bound, because declarations also contain commas.
             sheet.rules += text.matches(['{', ',']).count();
             sheet.read(text);
         }

@@ -18,7 +18,7 @@ pub(super) const UNNAMED: &str = "serif";
 /// Font selection for one drawing, with a record of missing fonts and characters.
 #[derive(Default)]
 pub(super) struct FontLookup {
-    /// Number of searches for fonts with a missing character so far.
+    /// Number of searches so far for a font that has a character which the chosen font lacks.
     searches: AtomicUsize,
     absent: Mutex<MissingFonts>,
 }

@@ -8,7 +8,7 @@ use usvg::roxmltree::{Document, Node};
 /// Names of the attributes and style properties that can specify a colour.
 const PAINTS: [&str; 3] = ["fill", "stroke", "stop-color"];
 
-/// Values of these attributes and properties that specify no colour.
+/// Values of the attributes and properties in [`PAINTS`] that specify no colour.
 const NOTHING: [&str; 6] = ["", "none", "currentColor", "inherit", "initial", "unset"];
 
 /// Returns whether any fill, stroke or gradient stop of a drawing has a colour.

@@ -4,8 +4,8 @@
 //!
 //! Later shapes cover earlier ones, so each alternation between ink and paper costs a Boolean
 //! operation on everything below. Shapes that do not overlap may be reordered, so each shape goes
-//! into the lowest layer of its kind that lies above everything it might cover. Ten thousand dots,
-//! alternately black and white, then form two layers instead of ten thousand.
+//! into the lowest layer of its kind that lies above everything of the other kind it might cover.
+//! Ten thousand dots, alternately black and white, then form two layers instead of ten thousand.
 
 use super::z_order::ZOrderGrid;
 use crate::geometry::{Bounds, DVec2};

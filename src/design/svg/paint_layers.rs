@@ -1,7 +1,8 @@
 //! Merges the shapes of a drawing into as few paint layers as the painting order allows.
 //!
-//! Each shape goes into the lowest layer with the same paint that lies above everything the shape
-//! might cover. All letters of a word thus share one layer.
+//! Each shape goes into the lowest layer with the same paint that lies above everything of another
+//! paint that the shape might cover. Translucent shapes and shapes with a stroke must not overlap
+//! within a layer. All letters of a word thus share one layer.
 
 use super::ink_layers::{WindingRings, union};
 use super::shape::SvgShape;

@@ -130,7 +130,7 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
-    /// Counts the mask and blend mode of a group.
+    /// Counts the mask and the blend mode of a group, if it has them, among the approximations.
     fn count_left_out(&mut self, group: &Group) {
         let left_out = &mut self.painted.approximations;
         left_out.masks += usize::from(group.mask().is_some());
@@ -242,9 +242,9 @@ impl SvgPainter<'_> {
         });
     }
 
-    /// Adds a path as one shape with an attached stroke and returns `true` if the stroke has no
-    /// dashes and a uniform width, and the subpaths are closed and cross neither themselves nor
-    /// each other. Otherwise adds nothing and returns `false`.
+    /// Tries to add a path as one shape with an attached stroke; returns whether it was added. The
+    /// stroke must have no dashes and a uniform width. The subpaths must be closed and cross
+    /// neither themselves nor each other.
     fn add_stroked_fill(
         &mut self,
         path: &Path,

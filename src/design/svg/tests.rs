@@ -147,8 +147,8 @@ fn an_ignored_mask_is_reported() {
     assert_eq!(found.notes, [ImportNote::Masks(1)]);
 }
 
-/// Builds `levels` nested groups. Each has `copies` references to the previous group, made by
-/// `link` from its level.
+/// Builds a drawing of `levels` groups. Each group has `copies` references to the previous group.
+/// `link` returns the text of a reference to the group with a given number.
 fn bomb(levels: usize, copies: usize, link: impl Fn(usize) -> String) -> String {
     let mut body = String::from(r#"<defs><g id="g0"><rect width="1" height="1"/></g>"#);
     for level in 1..=levels {

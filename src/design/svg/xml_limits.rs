@@ -12,8 +12,9 @@ use std::collections::{HashMap, HashSet};
 /// drawings that store a style in an entity and use it for each shape).
 const MAX_EXPANDED: u64 = 64 << 20;
 
-/// Maximum number of comparisons of names, for each kind of name (resource limit: a fraction of a
-/// second, enough for 20,000 attributes of one element).
+/// Maximum number of comparisons of names, separately for attributes, namespaces and entities
+/// (resource limit: they take a fraction of a second, and 20,000 attributes of one element are
+/// allowed).
 const MAX_COMPARISONS: u64 = 200_000_000;
 
 /// Maximum number of references that the parser follows within one entity (defined by

@@ -7,13 +7,12 @@ use image::RgbaImage;
 
 use crate::export::palette::GifPalette;
 
-/// Palette index that stands for transparent. The colours of the palette have the indices below it.
+/// Palette index of transparent pixels. The colours of the palette have the indices below it.
 pub(super) const TRANSPARENT: u8 = 255;
 
-/// A pixel of a moving frame stays unchanged if the colour already shown deviates from the exact
-/// one by at most this much, in each of red, green and blue, of 255 (heuristic). So no shown colour
-/// deviates by more than this, or by more than the nearest palette colour does, whichever is
-/// larger.
+/// Maximum difference per channel, of 255, between the colour that a pixel already shows and its
+/// exact colour in the next frame, up to which the pixel is not redrawn (heuristic). Still frames
+/// are exempt: they always get the nearest palette colours.
 const SLACK: u8 = 6;
 
 /// A frame, and its pixels mapped to the colours of the palette.
@@ -51,8 +50,8 @@ pub(super) struct GifCanvas(Vec<u8>);
 
 impl GifCanvas {
     /// Returns the rectangle to draw so that the shown image becomes `next`, which must have no
-    /// transparent pixels, and updates the canvas. Unless the frame `is_still`, pixels with small
-    /// colour deviations are not redrawn.
+    /// transparent pixels, and updates the canvas. Pixels whose colour changes by at most [`SLACK`]
+    /// are redrawn only if `is_still`.
     pub fn patch(
         &mut self,
         next: &IndexedFrame,
@@ -87,7 +86,8 @@ impl GifCanvas {
     }
 }
 
-/// Returns the smallest rectangle that contains all non-transparent pixels, at least one pixel.
+/// Returns the smallest rectangle that contains all pixels that are not transparent. If there are
+/// none, returns the first pixel of the frame.
 pub(super) fn crop_to_opaque(width: u32, indices: &[u8]) -> FramePatch {
     let columns = width as usize;
     let is_drawn = |&k: &usize| indices[k] != TRANSPARENT;

@@ -8,7 +8,7 @@
 use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
 
-/// Nested boxes that lead from the file to the sample size table of a track.
+/// Types of the nested boxes, from the outermost to the sample size box (`stsz`) of a track.
 const SAMPLE_SIZE_PATH: [&[u8; 4]; 6] = [b"moov", b"trak", b"mdia", b"minf", b"stbl", b"stsz"];
 
 /// Type of a box and the byte range of its content.
@@ -29,12 +29,12 @@ pub(super) fn frame_count(file: &mut (impl Read + Seek)) -> io::Result<usize> {
         content = find_content(&inside, kind)?;
     }
     file.seek(SeekFrom::Start(content.start))?;
-    // The box starts with version and flags, the common frame size (0 if frames differ), and the
-    // number of frames.
+    // The sample size box starts with three 32-bit numbers: version and flags, the common size of
+    // all frames (0 if their sizes differ), and the number of frames.
     let [_, common, count] = [word(file)?, word(file)?, word(file)?];
     let mut total = u64::from(common) * u64::from(count);
     if common == 0 {
-        // Reading is limited to the box, whatever count the box claims.
+        // Reading stops at the end of the box, even if the box claims more frames.
         let mut sizes = file.take(content.end.saturating_sub(content.start + 12));
         for _ in 0..count {
             total += u64::from(word(&mut sizes)?);
@@ -47,7 +47,7 @@ pub(super) fn frame_count(file: &mut (impl Read + Seek)) -> io::Result<usize> {
     Ok(count as usize)
 }
 
-/// Lists the boxes in a part of the file, which they must fill completely.
+/// Lists the boxes in the byte range `within`, which they must fill completely.
 fn boxes(file: &mut (impl Read + Seek), within: Range<u64>) -> io::Result<Vec<Mp4Box>> {
     let mut listed = Vec::new();
     let mut start = within.start;
@@ -56,7 +56,7 @@ fn boxes(file: &mut (impl Read + Seek), within: Range<u64>) -> io::Result<Vec<Mp
         let (size, mut kind) = (word(file)?, [0; 4]);
         file.read_exact(&mut kind)?;
         let (head, size) = match size {
-            // Size 0 means that the box extends to the end.
+            // Size 0 means that the box extends to the end of `within`.
             0 => (8, within.end - start),
             // Size 1 means that a 64-bit size follows.
             1 => (16, u64::from(word(file)?) << 32 | u64::from(word(file)?)),
@@ -125,7 +125,7 @@ mod tests {
         let message = count_frames(&film(&[5, 3, 5], 12)).expect_err("too little");
         assert!(message.contains("13 bytes"), "{message}");
         for length in 1..whole.len() {
-            // Some truncations end exactly at the end of a box.
+            // Also checks lengths at which the file ends exactly at the end of a box.
             assert!(count_frames(&whole[..length]).is_err(), "{length}");
         }
         assert!(count_frames(b"").expect_err("empty").contains("`moov`"));
@@ -138,7 +138,7 @@ mod tests {
             for value in [0, 1, 2, 255] {
                 let mut other = whole.clone();
                 other[at] = value;
-                // Any number or error is fine.
+                // The result does not matter; only a panic would be a failure.
                 drop(count_frames(&other));
             }
         }

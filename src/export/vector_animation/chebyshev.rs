@@ -7,7 +7,7 @@
 use crate::geometry::DVec2;
 use std::f64::consts::PI;
 
-/// Returns the nodes for `n` intervals, ascending from 0 to 1.
+/// Returns the `n` + 1 Chebyshev–Lobatto nodes, ascending from 0 to 1.
 pub(super) fn chebyshev_nodes(n: usize) -> impl Iterator<Item = f64> {
     (0..=n).map(move |k| match k {
         // Both ends are set exactly, since the cosine would be off by rounding.
@@ -17,19 +17,21 @@ pub(super) fn chebyshev_nodes(n: usize) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Returns the coefficients of the series that interpolates the points given at the
-/// [`chebyshev_nodes`], term by term.
+/// Returns the coefficients of the series that interpolate moving points. `at_nodes[k]` holds all
+/// points at the `k`-th of the [`chebyshev_nodes`]; element `j` of the result holds the
+/// coefficient of degree `j` for each point.
 pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
     let n = at_nodes.len() - 1;
     if n == 0 {
         return vec![at_nodes[0].to_vec()];
     }
-    // In the sums, the first and the last node and term count half.
+    // The first and the last node have half weight in each sum; the first and the last coefficient
+    // are halved.
     let half = |k: usize| if k == 0 || k == n { 0.5 } else { 1.0 };
     let term = |j: usize| {
         let mut term = vec![DVec2::ZERO; at_nodes[0].len()];
         for (k, points) in at_nodes.iter().enumerate() {
-            // The nodes ascend, whereas the cosines descend.
+            // The cosine of k π / n descends with k, but the nodes ascend; hence n − k.
             let angle = PI * (j * (n - k)) as f64 / n as f64;
             let weight = 2.0 / n as f64 * half(j) * half(k) * angle.cos();
             for (sum, &p) in term.iter_mut().zip(*points) {
@@ -41,7 +43,8 @@ pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
     (0..=n).map(term).collect()
 }
 
-/// Drops trailing terms of a series as long as no point moves by more than `tolerance`.
+/// Drops as many of the last terms of a series as possible without moving any point by more than
+/// `tolerance` in total.
 pub(super) fn truncate_series(terms: &mut Vec<Vec<DVec2>>, tolerance: f64) {
     let mut dropped = vec![0.0; terms.first().map_or(0, Vec::len)];
     while terms.len() > 1 {
@@ -56,7 +59,7 @@ pub(super) fn truncate_series(terms: &mut Vec<Vec<DVec2>>, tolerance: f64) {
     }
 }
 
-/// Evaluates a series at `s` in [0, 1] by the three-term recurrence.
+/// Returns the points of a series at `s` in [0, 1], evaluated by the three-term recurrence.
 pub(super) fn evaluate(terms: &[Vec<DVec2>], s: f64) -> Vec<DVec2> {
     let x = 2.0 * s - 1.0;
     let mut sum = terms.first().cloned().unwrap_or_default();

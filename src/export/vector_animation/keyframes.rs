@@ -1,26 +1,27 @@
 //! Chooses the fewest keyframes between which linear interpolation stays within a tolerance.
 //!
-//! Keyframes are a subset of the samples. From a given keyframe, each later sample narrows the
-//! range of slopes of the lines that pass all samples so far within the tolerance. A sample that
-//! such a line hits exactly can be the next keyframe. The smallest set of keyframes is then a
-//! shortest path (Imai and Iri 1988).
+//! Keyframes are a subset of the samples. The lines that start at a given keyframe and pass all
+//! following samples up to the current one within the tolerance have a range of slopes, which each
+//! sample narrows. A sample that one of these lines hits exactly can be the next keyframe. The
+//! smallest set of keyframes is then a shortest path (Imai and Iri 1988).
 
 /// Returns the indices of the fewest rows, including the first and the last, such that linear
 /// interpolation between them reproduces every number of all other rows within the tolerance.
 /// `places` holds the place of each row on the time axis, ascending.
 ///
-/// The cost is proportional to the number of rows, times the number of rows that one line can
-/// follow, times the number of numbers per row.
+/// The running time is proportional to the product of the number of rows, the number of numbers per
+/// row, and the number of rows that one line can follow.
 pub(super) fn fewest_keys(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> Vec<usize> {
     let count = rows.len();
-    // For each row: the number of keys that follow it, and the next one. Computed from the last row
-    // backwards.
+    // For each row, if it is a keyframe: the minimum number of keyframes after it, and the index of
+    // the next one. The entries are computed from the last row backwards.
     let mut next_keys = vec![(0, 0); count];
     for from in (0..count.saturating_sub(1)).rev() {
         let mut best = (usize::MAX, from + 1);
         reach(places, rows, tolerance, from, |to| {
             let keys: usize = next_keys[to].0 + 1;
-            // Of equally good next keys, the farthest is used, for long segments.
+            // Of the rows that lead to equally few keyframes, the last is used, because it gives
+            // the longest segment.
             if keys <= best.0 {
                 best = (keys, to);
             }
@@ -36,8 +37,8 @@ pub(super) fn fewest_keys(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> 
     keys
 }
 
-/// Calls `visit` with each row that can follow `from` as a keyframe: a line from `from` to it
-/// passes all rows in between within the tolerance.
+/// Calls `visit` with the index of each row that can be the next keyframe after the row `from`: the
+/// straight line between the two rows passes all rows in between within the tolerance.
 fn reach(
     places: &[f64],
     rows: &[Vec<f64>],
@@ -57,8 +58,8 @@ fn reach(
             slope[1] = slope[1].min((rise + tolerance) / run);
             slope[0] <= slope[1]
         });
-        // Counted instead of tested with `all`, which would stop before updating the remaining
-        // slopes.
+        // The failures are counted, because `all` would stop at the first one and would not update
+        // the remaining slopes.
         let is_open = has_slopes.filter(|is_open| !is_open).count() == 0;
         if can_be_key || to == from + 1 {
             visit(to);

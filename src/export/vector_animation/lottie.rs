@@ -26,8 +26,8 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let timeline = &animation.timeline;
     let frames = timeline.frames();
     let (width, height) = (animation.size.width(), animation.size.height());
-    // Players interpret a remapped time equal to the number of frames as the end, so the
-    // precomposition of such a film is one frame longer.
+    // Players interpret a remapped time equal to the number of frames as the end. The two numbers
+    // are equal only for a film of one frame, so its precomposition is one frame longer.
     let length = if timeline.pass_frames == frames {
         frames + 1
     } else {
@@ -46,8 +46,8 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     let layers = layers(animation, &stations);
     let last = layers.len().saturating_sub(1);
     let scenes = layers.iter().enumerate().map(|(k, layer)| {
-        // The first and the last scene extend beyond the ends, so that rounding in a player never
-        // hides them.
+        // The first scene begins at 0, and the last one ends after the end of the film, so that
+        // rounding in a player never hides them.
         let from = if k == 0 { 0.0 } else { layer.from };
         let to = if k == last { length + 1.0 } else { layer.to };
         scene(layer, k, [from, to])
@@ -72,7 +72,8 @@ pub(super) fn lottie_json(animation: &VectorAnimation, title: &str) -> Value {
     })
 }
 
-/// Returns the time remapping: which second of the precomposition to show at each frame.
+/// Returns the Lottie time remapping, which assigns to each frame of the film the second of the
+/// precomposition that it shows.
 fn time_remap(timeline: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
     let secs = |frame: usize| round_number(secs_at(timeline.times[frame]), 6);
     let key = |curve: TimelineCurve| {
@@ -186,7 +187,8 @@ fn outlines(layer: &SceneLayer, poses: &[PosedShape], verbs: &[PathVerb]) -> Vec
         .collect()
 }
 
-/// Returns the path through the points from index `first` on.
+/// Returns the path of one contour. Its points are those of the shape from index `first` on, as
+/// many as the commands `verbs` take.
 fn outline(
     layer: &SceneLayer,
     poses: &[PosedShape],
@@ -202,7 +204,7 @@ fn outline(
     let path = animated_property(&keyed, |bezier| vec![bezier.clone()]);
     let path = match path {
         Value::Object(mut path) if is_still => {
-            // A constant path is a bare object, not a list.
+            // Lottie stores a constant path as an object, not as a list with one object.
             let still = path["k"][0].take();
             path.insert("k".to_owned(), still);
             Value::Object(path)
@@ -212,7 +214,8 @@ fn outline(
     json!({"ty": "sh", "ks": path})
 }
 
-/// Returns the vertices of a path with their incoming and outgoing handles, relative to the vertex.
+/// Returns the vertices of a path, and the incoming and outgoing handle of each vertex relative to
+/// the vertex.
 fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
     let mut corners: Vec<[DVec2; 3]> = Vec::new();
     let mut rest = points;
@@ -223,7 +226,7 @@ fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
             continue;
         };
         let start = corners.last().map_or(end, |corner| corner[0]);
-        // Quadratic curves are raised to cubic ones.
+        // Quadratic curves are converted to cubic curves, because Lottie has no others.
         let (out, into) = match *verb_points {
             [c, _] => ((c - start) * 2.0 / 3.0, (c - end) * 2.0 / 3.0),
             [c, d, _] => (c - start, d - end),

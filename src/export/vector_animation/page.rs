@@ -1,8 +1,9 @@
 //! Writes a vector animation as a self-contained HTML page with a player.
 //!
-//! The page contains the Chebyshev coefficients of all points as integer multiples of [`STEP_PX`].
-//! Each is stored as its difference from the coefficient of the previous point. The player,
-//! `player.html` next to this file, evaluates the series for the t shown.
+//! The page contains the Chebyshev coefficients of all points, rounded to integer multiples of
+//! [`STEP_PX`] or, for shapes that do not move, of a step from [`STILL_PX`]. Each coefficient is
+//! stored as its difference from the coefficient of the previous point. The player, `player.html`
+//! next to this file, evaluates the series for the t shown.
 
 use std::collections::HashMap;
 use std::io::Read;
@@ -24,11 +25,12 @@ use super::shape::{PathVerb, ShapeForm};
 use super::simplify::simplify;
 
 /// Step to which the coefficients of moving shapes are rounded, in pixels (tolerance: rounding 16
-/// terms by up to half a step displaces a point by a twelfth of a pixel on average).
+/// terms by up to half a step displaces a point by less than a twentieth of a pixel on average).
 const STEP_PX: f64 = 1.0 / 24.0;
 
-/// Steps to which the points of shapes are rounded if the shape does not move within its piece, in
-/// pixels, the finest first. The first with which the page is not too large is used (heuristic).
+/// Steps to which the points of a shape are rounded if it does not move within its piece, in
+/// pixels, the finest first. The first step with which the page is small enough is used, or else
+/// the last one (heuristic).
 const STILL_PX: [f64; 4] = [1.0 / 16.0, 1.0 / 12.0, 1.0 / 10.0, 1.0 / 8.0];
 
 /// Maximum distance of a removed point from the line that replaces it, in pixels, for static shapes
@@ -40,7 +42,7 @@ const LARGE_FILM_TOLERANCE_PX: f64 = 0.08;
 const MAX_FILM_CHARS: usize = 285_000;
 
 /// Maximum displacement of a point by dropping the last terms of its series, in pixels (tolerance:
-/// a quarter of the total error of the animation).
+/// a quarter of [`VectorAnimation::TOLERANCE_PX`]).
 const TRUNCATION_PX: f64 = 0.05;
 
 /// HTML template with the placeholders `{{title}}` and `{{film}}`.
@@ -85,7 +87,8 @@ fn pack(animation: &VectorAnimation, title: &str, still_px: f64) -> String {
     }
 }
 
-/// Returns the JSON description of the film without the series, which are appended to `bytes`.
+/// Returns the JSON description of the film. The series of all shapes are not part of it; they are
+/// appended to `bytes`.
 fn film(animation: &VectorAnimation, title: &str, still_px: f64, bytes: &mut Vec<u8>) -> Value {
     let mut forms = FormTable::default();
     let pieces: Vec<Value> = (animation.pieces.iter())
@@ -113,12 +116,13 @@ fn film(animation: &VectorAnimation, title: &str, still_px: f64, bytes: &mut Vec
 #[derive(Default)]
 struct FormTable {
     all: Vec<Value>,
-    /// Index in `all` of each entry, by its JSON text.
+    /// For the JSON text of each entry: the index of the entry in `all`.
     numbers: HashMap<String, usize>,
 }
 
 impl FormTable {
-    /// Returns the index of the constant data of a shape, which is added if it is new.
+    /// Returns the index in the table of a shape's constant data, and adds the data if they are
+    /// new.
     fn number(&mut self, shape: &MovingShape) -> usize {
         let form = form_json(&shape.first.form, shape.first.points.len());
         *self.numbers.entry(form.to_string()).or_insert_with(|| {
@@ -188,7 +192,7 @@ fn looks(shape: &MovingShape) -> Vec<Vec<Value>> {
     shape.appearances.iter().map(look).collect()
 }
 
-/// Appends the series of a shape to `bytes`; returns its number of terms.
+/// Appends the series of a shape to `bytes`, and returns the number of terms of the series.
 fn push_terms(shape: &MovingShape, still_px: f64, bytes: &mut Vec<u8>) -> usize {
     let mut terms = shape.terms.clone();
     truncate_series(&mut terms, TRUNCATION_PX);

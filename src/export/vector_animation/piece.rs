@@ -15,7 +15,7 @@ pub(super) struct AnimationPiece {
     pub to: f64,
     /// Shapes in painting order, the lowest first.
     pub shapes: Vec<MovingShape>,
-    /// Whether the shapes continue those of the previous piece without a jump.
+    /// Whether the piece begins with the shapes of the previous piece, in the same places.
     pub is_continuation: bool,
 }
 
@@ -26,8 +26,8 @@ pub(super) struct MovingShape {
     pub first: PosedShape,
     /// Chebyshev coefficients of the shape's points, term by term.
     pub terms: Vec<Vec<DVec2>>,
-    /// Appearances (colour, width and gradient numbers) at uniform t from the first to the last of
-    /// the piece; at least one.
+    /// Appearances (colour, width and gradient numbers) at evenly spaced t from the beginning to
+    /// the end of the piece. There is only one if the appearance is constant.
     pub appearances: Vec<Vec<f64>>,
 }
 

@@ -1,8 +1,9 @@
 //! Records the drawings of a camera as pieces of polynomials in t.
 //!
-//! Each interval of t is fitted with one Chebyshev series per point and tested at moments not used
-//! for the fit. If it is not accurate enough, it is bisected. A moment at which shapes appear or
-//! disappear is located by bisection, and the interval is split there.
+//! In each interval of t, the path of each point is fitted by a Chebyshev series, and the series
+//! are tested at moments not used for the fit. If they are not accurate enough, the interval is
+//! bisected. A moment at which shapes appear or disappear is located by bisection, and the interval
+//! is split there.
 
 use crate::content::Content;
 use crate::geometry::DVec2;
@@ -16,25 +17,24 @@ use super::chebyshev::{chebyshev_nodes, evaluate, interpolate, truncate_series};
 use super::piece::{AnimationPiece, MovingShape};
 use super::shape::PosedShape;
 
-/// Maximum distance of a point of a series from the drawings at the tested moments, in pixels
-/// (tolerance: a tenth of the total error of the animation).
+/// Maximum distance of a point of a series from the same point of the drawing, at the tested
+/// moments, in pixels (tolerance: a tenth of `VectorAnimation::TOLERANCE_PX`).
 const FIT_TOLERANCE_PX: f64 = 0.02;
 
 /// Maximum displacement of a point by dropping the last terms of its series, in pixels (tolerance:
 /// half of [`FIT_TOLERANCE_PX`]).
 const TRUNCATION_PX: f64 = 0.01;
 
-/// Maximum distance between the end of a point's motion in one piece and its start in the next, in
-/// pixels, with which the second piece continues the first (tolerance: half of the total error of
-/// the animation).
+/// Maximum distance that a point may jump between two pieces if the second piece counts as a
+/// continuation of the first, in pixels (tolerance: half of `VectorAnimation::TOLERANCE_PX`).
 const JUMP_PX: f64 = 0.1;
 
-/// Precision with which moments of appearing or disappearing shapes are located, as a fraction of
-/// the range of t (tolerance: well below one frame).
+/// Precision with which the moments are located at which shapes appear or disappear, as a fraction
+/// of the range of t of the film (tolerance: well below one frame).
 const CHANGE_PRECISION: f64 = 1e-6;
 
-/// Length below which an interval is not bisected any further, as a fraction of the range of t
-/// (resource limit: whatever happens within it is a jump).
+/// Length below which an interval is not bisected any further, as a fraction of the range of t of
+/// the film (resource limit: motion within such an interval becomes a jump).
 const MIN_LENGTH: f64 = 1e-4;
 
 /// Maximum number of pieces (resource limit: bounds the export time and the size of the file).
@@ -107,8 +107,8 @@ impl AnimationRecorder<'_> {
         items.iter().filter_map(PosedShape::of).collect()
     }
 
-    /// Stores each frame as a constant piece that extends halfway to the frames before and after
-    /// it.
+    /// Stores each frame as a piece without motion. The piece extends halfway to the frames before
+    /// and after it.
     fn record_frames(&mut self, times: &[f64]) -> Result<(), ExportError> {
         self.pieces.clear();
         for (k, &t) in times.iter().enumerate() {
@@ -121,9 +121,9 @@ impl AnimationRecorder<'_> {
         Ok(())
     }
 
-    /// Returns a lower bound on the number of contours that appear or disappear. Each of them ends
-    /// a piece and costs dozens of evaluations to locate, which would take minutes for thousands of
-    /// parts.
+    /// Returns a lower bound on the number of contours that appear or disappear. Each of these
+    /// changes ends a piece, and dozens of frames must be evaluated to locate it. With thousands of
+    /// changes, this would take minutes.
     fn min_changes(&mut self, times: &[f64]) -> Result<usize, ExportError> {
         let (mut changes, mut before) = (0, None);
         for &t in times.iter().step_by(PREVIEW_STRIDE) {
@@ -135,14 +135,15 @@ impl AnimationRecorder<'_> {
         Ok(changes)
     }
 
-    /// Records the whole range of t in smooth pieces; returns `false` if there would be too many.
+    /// Records the whole range of t in smooth pieces. Returns `false` if there would be more than
+    /// [`MAX_PIECES`].
     fn record_smooth(&mut self, times: &[f64]) -> Result<bool, ExportError> {
         let (Some(&from), Some(&to)) = (times.first(), times.last()) else {
             return Ok(true);
         };
         let mut cuts = self.camera.sequence.break_times();
-        // Colours are constant beyond the first and the last design, so their course has a kink
-        // there.
+        // Colours change only between the first and the last design. The range is cut at both,
+        // because colours have a kink there.
         cuts.extend([0.0, self.camera.sequence.end()]);
         cuts.retain(|&cut| from < cut && cut < to);
         cuts.extend([from, to]);
@@ -316,8 +317,8 @@ fn is_near(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// Drops every second sample of an appearance as long as linear interpolation reproduces it. If
-/// nothing changes, a single sample remains.
+/// Repeatedly drops every second sample of an appearance, as long as linear interpolation
+/// reproduces the dropped samples. If nothing changes, a single sample remains.
 fn reduce_samples(looks: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     if looks.iter().all(|look| is_near(look, &looks[0])) {
         return looks.into_iter().take(1).collect();

@@ -1,6 +1,6 @@
-//! Removes superfluous polygon points of animated shapes: those that at every moment lie close to
-//! the line between their neighbours (Douglas and Peucker 1973, with the largest distance over all
-//! moments).
+//! Removes superfluous polygon points of animated shapes. A point is superfluous if at every moment
+//! it lies close to the line between the remaining points before and after it (Douglas and Peucker
+//! 1973, with the largest distance over all moments).
 //!
 //! Matched outlines have extra points on straight sides and dense points along curves; an exported
 //! film needs only those that are visible.
@@ -15,7 +15,7 @@ use super::piece::AnimationPiece;
 use super::shape::{PathVerb, ShapeForm};
 
 /// Maximum distance of a removed point of a moving shape from the line that replaces it, in pixels
-/// (tolerance: a fifth of the total error of the animation).
+/// (tolerance: a fifth of `VectorAnimation::TOLERANCE_PX`).
 const TOLERANCE_PX: f64 = 0.04;
 
 /// Maximum distance of a removed point of a static shape from the line that replaces it, in pixels
@@ -112,7 +112,7 @@ fn moments(scene: &[AnimationPiece], k: usize) -> Vec<Vec<DVec2>> {
     scene.iter().flat_map(of_piece).collect()
 }
 
-/// Returns the indices of the points of a ring that remain, ascending, at least three.
+/// Returns the indices of the ring's points that remain, in ascending order. At least three remain.
 fn indices_to_keep(moments: &[Vec<DVec2>], ring: Range<usize>, tolerance: f64) -> Vec<usize> {
     // The ring is split at its first point and at the point farthest from it.
     let distance = |&i: &usize| {
@@ -141,7 +141,7 @@ fn indices_to_keep(moments: &[Vec<DVec2>], ring: Range<usize>, tolerance: f64) -
         }
     }
     if indices.len() < 3 {
-        // A degenerate ring (a line or a point) is left as it is.
+        // A degenerate ring (a line or a point) keeps all its points.
         return ring.collect();
     }
     indices.sort_unstable();

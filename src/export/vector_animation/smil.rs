@@ -15,12 +15,12 @@ use super::shape::{PathVerb, PosedShape, ShapeForm};
 use super::tracks::{KeyedProperty, SceneLayer, layers};
 use super::two_point_gradient::TwoPointGradient;
 
-/// Number of steps over a whole film to which times are rounded (tolerance: several hundred per
-/// frame even in a film of a few hundred frames).
+/// Number of equal steps of the film's duration to which times are rounded (tolerance: in a film of
+/// a few hundred frames, one frame still takes several hundred steps).
 const TIME_STEPS: f64 = 1e5;
 
-/// Step to which coordinates are rounded, in pixels (tolerance: a twentieth of the total error of
-/// the animation).
+/// Step to which coordinates are rounded, in pixels (tolerance: a twentieth of
+/// [`VectorAnimation::TOLERANCE_PX`]).
 const STEP_PX: f64 = 0.01;
 
 /// Returns the animation as an animated SVG document.
@@ -57,7 +57,8 @@ pub(super) fn animated_svg(animation: &VectorAnimation) -> String {
     svg + "</svg>\n"
 }
 
-/// Time axis of the film. Its methods write the elements that are animated over it.
+/// Number of frames and duration of the film. The methods write SVG elements that are animated over
+/// this time.
 struct SmilClock {
     /// Number of frames of the film.
     frames: f64,
@@ -67,13 +68,13 @@ struct SmilClock {
 }
 
 impl SmilClock {
-    /// Returns an `<animate>` element for one attribute from keys, each of a frame number and a
-    /// value. If `discrete`, values jump instead of being interpolated.
+    /// Returns an `<animate>` element for one attribute. `keys` are pairs of a frame number and a
+    /// value. If `discrete`, the value jumps at each key instead of being interpolated.
     fn animate(&self, attribute: &str, keys: &[(f64, String)], discrete: bool) -> String {
         let mut times = String::new();
         let mut values = String::new();
-        // The first and the last value extend to the ends of the film, as SVG requires keys for
-        // times 0 and 1.
+        // SVG requires a key at time 0 and, for interpolation, at time 1. If there is none, the
+        // first or the last value is repeated there.
         let ends = [(0.0, keys.first()), (self.frames, keys.last())];
         let before = ends[0].1.filter(|key| key.0 > 0.0).map(|key| (0.0, &key.1));
         let last = ends[1].1.filter(|key| key.0 < self.frames && !discrete);
@@ -107,8 +108,8 @@ impl SmilClock {
         )
     }
 
-    /// Returns an attribute with its first value, and the element that animates it, which is empty
-    /// if the value is constant.
+    /// Returns an attribute with its first value, and the element that animates the attribute. The
+    /// element is empty if the value is constant.
     fn attribute<T>(
         &self,
         name: &str,
@@ -126,7 +127,7 @@ impl SmilClock {
         (format!(" {name}=\"{still}\""), moving)
     }
 
-    /// Returns a group that is visible only while its layer is.
+    /// Returns a group with the content `body` that is visible only during the period of `layer`.
     fn visible_group(&self, layer: &SceneLayer, is_last: bool, body: &str) -> String {
         let display = |yes: bool| if yes { "inline" } else { "none" }.to_owned();
         let is_first = layer.from <= 0.0;
@@ -142,7 +143,8 @@ impl SmilClock {
         format!("<g display=\"{still}\">{moving}\n{body}</g>\n")
     }
 
-    /// Returns the path of a shape with its animations and its gradient.
+    /// Returns the path element of a shape, including its animations and the definition of its
+    /// gradient. `id` identifies the gradient.
     fn shape(&self, layer: &SceneLayer, poses: &[PosedShape], id: &str) -> String {
         let Some(first) = poses.first() else {
             return String::new();
@@ -294,7 +296,8 @@ fn path(posed: &PosedShape) -> String {
     };
     let mut rest = posed.points.as_slice();
     let mut text = String::new();
-    // Differences between rounded positions are short, and rounding errors do not accumulate.
+    // Coordinates are differences between rounded positions, which are short to write. Rounding
+    // errors do not accumulate, because the positions themselves are rounded.
     let mut at = DVec2::ZERO;
     let mut start = at;
     for verb in verbs {
@@ -323,7 +326,8 @@ fn path(posed: &PosedShape) -> String {
     text
 }
 
-/// Formats two numbers, with a space only where no sign separates them.
+/// Formats two numbers. A space is written between them, and before them if `is_next`, unless a
+/// minus sign already separates them.
 fn pair(p: DVec2, is_next: bool) -> String {
     let [x, y] = [p.x, p.y].map(|x| ShortNumber(x).to_string());
     let between = |text: &str| if text.starts_with('-') { "" } else { " " };

@@ -1,11 +1,11 @@
-//! Timeline of a film: the t of each frame, and compact forms of it as linear knots (HTML) and
-//! cubic curves (Lottie).
+//! Timeline of a film: the t of each frame. It is also available in two compact forms: linear knots
+//! (HTML) and cubic curves (Lottie).
 
 use super::super::film_spec::FilmSpec;
 use super::keyframes::fewest_keys;
 
-/// Maximum deviation of the compact forms, as a fraction of the range of t (tolerance: a tenth of a
-/// pixel on a path of 1,000 pixels).
+/// Maximum deviation of linear knots and cubic curves from the t of a frame, as a fraction of the
+/// range of t (tolerance: a tenth of a pixel on a path of 1,000 pixels).
 const TIME_TOLERANCE: f64 = 1e-4;
 
 /// The t of each frame of a film, and how the film continues at its end.
@@ -28,7 +28,7 @@ impl FilmTimeline {
         let mut times = film.times().to_vec();
         let n = times.len();
         let comes_back = film.repeats() && n > 2 && (1..n).all(|k| times[k] == times[n - k]);
-        // A ping-pong film ends where it began; any other rests at its last frame.
+        // A ping-pong film returns to its first t at the end; any other film stays at its last t.
         times.push(if comes_back { times[0] } else { times[n - 1] });
         Self {
             times,
@@ -57,8 +57,8 @@ impl FilmTimeline {
         keys.into_iter().map(|k| (k, self.times[k])).collect()
     }
 
-    /// Returns the timeline as consecutive cubic curves. There are fewer of them than of linear
-    /// knots, because easings are cubic or close to it.
+    /// Returns the timeline as consecutive cubic curves. Fewer curves than linear knots are needed,
+    /// because easings are cubic or nearly cubic.
     pub(super) fn curves(&self) -> Vec<TimelineCurve> {
         let tolerance = TIME_TOLERANCE * self.span();
         let last = self.frames();
@@ -92,12 +92,12 @@ impl FilmTimeline {
     }
 }
 
-/// Regularisation of the least-squares fit (tolerance: keeps the handles of a straight line if too
-/// few values determine them).
+/// Regularisation weight of the least-squares fit of the handles (tolerance: if there are too few
+/// values to determine the handles, they become those of a straight line).
 const RIDGE: f64 = 1e-9;
 
-/// Course of t from one frame to another, with time and t both normalised to [0, 1]: a cubic Bézier
-/// curve with handles at one third and two thirds of the time.
+/// Course of t from one frame to another, as a cubic Bézier curve. Time and t are both normalised
+/// to [0, 1]; the handles are at one third and two thirds of the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TimelineCurve {
     /// Number of the first frame of the curve.
@@ -109,7 +109,7 @@ pub(super) struct TimelineCurve {
 }
 
 impl Default for TimelineCurve {
-    /// The straight line.
+    /// Returns the straight line from (0, 0) to (1, 1).
     fn default() -> Self {
         Self {
             from: 0,
@@ -128,8 +128,9 @@ impl TimelineCurve {
         if rise == 0.0 {
             return values.iter().all(|&v| v == first).then(Self::default);
         }
-        // The handles minimise the squared residual after the straight line. With fewer values than
-        // handles, the regularisation keeps them close to the line.
+        // The unknowns are the offsets of the handles from those of a straight line. They minimise
+        // the sum of squared deviations from the values. With fewer values than handles, the
+        // regularisation keeps the offsets close to 0.
         let straight = Self::default();
         let (mut a, mut b, mut c, mut p, mut q) = (RIDGE, 0.0, RIDGE, 0.0, 0.0);
         for (k, v) in values.iter().enumerate() {
@@ -177,7 +178,7 @@ mod tests {
         let timeline = FilmTimeline::of(&film);
         let knots = timeline.linear_knots();
         assert!(knots.len() < 200, "{}", knots.len());
-        // Two pauses and two passes.
+        // The film has two pauses and two passes; more than six curves would be wasteful.
         assert!(timeline.curves().len() <= 6, "{:?}", timeline.curves());
         for (k, &t) in timeline.times.iter().enumerate() {
             let after = knots

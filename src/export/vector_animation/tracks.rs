@@ -8,8 +8,8 @@ use super::animation::VectorAnimation;
 use super::keyframes::fewest_keys;
 use super::shape::PosedShape;
 
-/// Maximum deviation of a keyframed point in x and in y, in pixels (derived: 0.088 √2 for both,
-/// plus 0.04 for removed points and 0.02 for the series, is below
+/// Maximum deviation of a keyframed point in x and in y each, in pixels (derived: the distance
+/// 0.088 √2, plus 0.04 for removed points and 0.02 for the series, is below
 /// [`VectorAnimation::TOLERANCE_PX`]).
 const POINT_TOLERANCE_PX: f64 = 0.088;
 
@@ -39,14 +39,14 @@ pub(super) struct SceneLayer {
 /// A property of a shape over time, reduced to few keyframes.
 #[derive(Clone, Debug)]
 pub(super) struct KeyedProperty<T> {
-    /// Keyframes: places on the time axis with the values there. Only one if the property is
-    /// constant.
+    /// Keyframes: places on the time axis, each with the value there. There is only one keyframe if
+    /// the property is constant.
     pub keys: Vec<(f64, T)>,
 }
 
 impl SceneLayer {
-    /// Returns a property of a shape as keyframes. Between them, all its `numbers` are linear
-    /// within `tolerance`. `take` extracts the value of a keyframe.
+    /// Returns a property of a shape as keyframes. Between two keyframes, all its `numbers` are
+    /// linear within `tolerance`. `take` returns the value of the property at a keyframe.
     pub(super) fn keyed<T>(
         &self,
         poses: &[PosedShape],
@@ -128,8 +128,9 @@ impl SceneLayer {
     }
 }
 
-/// Returns the layers of an animation. `timeline` lists ascending places on the time axis with the
-/// t shown at each. Scene changes between two places are located by linear interpolation.
+/// Returns the layers of an animation. `timeline` lists places on the time axis in ascending order,
+/// each with the t shown there. A scene change between two places is located by linear
+/// interpolation of t.
 pub(super) fn layers(animation: &VectorAnimation, timeline: &[(f64, f64)]) -> Vec<SceneLayer> {
     let scenes = scenes(animation);
     let scene_at = |t: f64| {
@@ -178,7 +179,8 @@ fn scenes(animation: &VectorAnimation) -> Vec<(f64, std::ops::Range<usize>)> {
     scenes
 }
 
-/// Samples a scene at the given stations, each a place on the time axis and the t shown there.
+/// Returns the layer of a scene, sampled at the given `stations`. A station is a place on the time
+/// axis and the t shown there.
 fn layer(
     animation: &VectorAnimation,
     scenes: &[(f64, std::ops::Range<usize>)],

@@ -1,8 +1,8 @@
 //! Gradients reduced to points and radii, for animation formats without an affine gradient
 //! transform.
 //!
-//! Linear gradients are reproduced exactly under every affine map. Radial gradients that are not
-//! uniformly scaled become circular, with the same area.
+//! Linear gradients are reproduced exactly under every affine map. A radial gradient that an affine
+//! map makes elliptical becomes circular, with the same area.
 
 use crate::colour::{Gradient, GradientGeometry};
 use crate::geometry::DVec2;
@@ -12,12 +12,13 @@ use crate::geometry::DVec2;
 pub(super) enum TwoPointGradient {
     /// Linear gradient from one point to another.
     Linear { from: DVec2, to: DVec2 },
-    /// Radial gradient from a small circle around the focus to a large circle around the middle.
+    /// Radial gradient from the circle with radius `inner` around `focus` to the circle with radius
+    /// `radius` around `middle`.
     Radial {
         middle: DVec2,
         radius: f64,
         focus: DVec2,
-        /// Radius of the start circle around the focus.
+        /// Radius of the circle at which the gradient starts.
         inner: f64,
     },
 }

@@ -136,8 +136,8 @@ fn saddles_are_resolved_by_the_value_at_the_centre() {
 
 #[test]
 fn the_area_inside_a_random_picture_is_that_of_its_contours() {
-    // Every contour must close, whatever the picture: the total area of the contours equals the sum
-    // of the inside areas of all squares.
+    // If every contour closes, the total area of the contours equals the sum of the inside areas of
+    // all squares. Test this on random pictures.
     let mut state = 12345_u32;
     let mut bit = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

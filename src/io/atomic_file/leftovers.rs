@@ -31,8 +31,8 @@ pub(super) fn create_temporary(path: &Path, folder: &Path) -> io::Result<(File, 
         let temporary = folder.join(format!(".{name}{MARKER}{owner}-{number}{EXTENSION}"));
         match File::create_new(&temporary) {
             Ok(file) if try_lock(&file)? => return Ok((file, temporary)),
-            // Another process took the file for a leftover before it was locked; the next number is
-            // tried.
+            // Before the new file was locked, another process took it for a leftover. The next
+            // number is tried.
             Ok(_) => {}
             // The name is used by another thread, or by a process with this id on another machine.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
@@ -42,7 +42,7 @@ pub(super) fn create_temporary(path: &Path, folder: &Path) -> io::Result<(File, 
     Err(io::ErrorKind::AlreadyExists.into())
 }
 
-/// Locks a new file; returns `false` if another process is removing it or has removed it.
+/// Locks a new file. Returns `false` if another process is removing the file or has removed it.
 #[cfg(unix)]
 fn try_lock(file: &File) -> io::Result<bool> {
     use std::fs::TryLockError;
@@ -50,7 +50,8 @@ fn try_lock(file: &File) -> io::Result<bool> {
     match file.try_lock() {
         Ok(()) => Ok(file.metadata()?.nlink() > 0),
         Err(TryLockError::WouldBlock) => Ok(false),
-        // Where locks are not supported, no process removes leftovers either.
+        // If the file system does not support locks, no process removes leftovers, so the file is
+        // safe without a lock.
         Err(TryLockError::Error(_)) => Ok(true),
     }
 }

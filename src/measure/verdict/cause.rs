@@ -14,8 +14,8 @@ use std::f64::consts::{FRAC_PI_3, PI};
 /// Unevenness of the boundary stretch above which the match is named as the cause (heuristic).
 const MIN_UNEVENNESS: f64 = 3.0;
 
-/// Fraction of a face's area under the polar homotopy. A face with less area than that under its
-/// own homotopy counts as flattened by this homotopy (heuristic).
+/// A face counts as flattened by its homotopy if its area is below this fraction of the area that
+/// it would have with the polar homotopy (heuristic).
 const FLATTENED_AREA_FRACTION: f64 = 0.1;
 
 /// A transition of rigid parts, evaluated at the `t` at which a defect is worst.
@@ -124,8 +124,7 @@ pub(super) fn straight_paths(
     let t = search
         .transition
         .part_time_at(search.arap.mesh().faces()[face][0], t);
-    // The area is compared with that of the polar homotopy, which runs monotonically between the
-    // ends.
+    // The area is compared with that of the polar homotopy, which never flattens a face.
     let area = homotopy.at(&map, t).determinant();
     let polar_area = Homotopy::Polar.at(&map, t).determinant();
     (area < FLATTENED_AREA_FRACTION * polar_area).then_some(FindingCause::StraightPaths {
@@ -186,8 +185,8 @@ pub(super) fn uneven_match(search: &CauseSearch<'_>, face: usize) -> Option<Find
     })
 }
 
-/// Returns the largest difference of rotation across an edge of the given faces as the cause, if it
-/// exceeds 60°.
+/// Returns the largest difference between the rotations of one of the given faces and an adjacent
+/// face as the cause, if the difference exceeds 60°.
 pub(super) fn differing_neighbours(
     search: &CauseSearch<'_>,
     faces: &[usize],

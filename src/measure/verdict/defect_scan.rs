@@ -133,7 +133,8 @@ pub(super) fn max_count(moments: &[MomentCounts], count: DefectCounts) -> usize 
 }
 
 /// Returns the t at which a count is largest (the middle one if several t share the maximum), and
-/// the first and last t at which it exceeds `allowed`; `None` if it never exceeds it.
+/// the first and last t at which it exceeds `allowed`. Returns `None` if the count never exceeds
+/// `allowed`.
 pub(super) fn worst_moment(
     moments: &[MomentCounts],
     count: DefectCounts,

@@ -9,8 +9,8 @@ use crate::geometry::{DVec2, signed_area};
 use crate::transition::Transition;
 use crate::work::progress::{Cancelled, Progress};
 
-/// Overlap of the two designs below which the lack of overlap is named as the cause, as a fraction
-/// of the smaller design's area (heuristic).
+/// If the two designs overlap by less than this fraction of the smaller design's area, the lack of
+/// overlap is named as the cause (heuristic).
 const LITTLE_OVERLAP: f64 = 0.5;
 
 /// Creates a defect from the largest count at any t and the larger of the counts at the two ends.
@@ -29,7 +29,7 @@ pub(super) fn field_findings(
     };
     let ends = |of: defect_scan::DefectCounts| of(first).max(of(last));
     let mut defects = Vec::new();
-    // `worst_moment` does not apply: here the count is too small, not too large.
+    // `worst_moment` finds counts that are too large, but here the number of pieces is too small.
     let absent = defect_scan::times_where(moments, |g| g.pieces == 0);
     if let (Some(&begin), Some(&end)) = (absent.first(), absent.last())
         && ends(|g| g.pieces) > 0
@@ -89,7 +89,7 @@ fn finding(
 }
 
 /// Returns the centre of the smallest piece at `t`, or of the smallest hole if the defect is extra
-/// holes; without any, the centre of the grid.
+/// holes. If there is no such piece or hole, returns the centre of the grid.
 fn place_of(transition: &Transition, pair: &FieldPair, trouble: &FindingKind, t: f64) -> DVec2 {
     let orientation = if matches!(trouble, FindingKind::Holes { .. }) {
         -1.0

@@ -37,19 +37,19 @@ pub enum FindingKind {
     },
     /// The boundary crosses itself.
     Crossings {
-        /// All crossings at the t at which there are most.
+        /// All crossings at the sampled t with the most crossings.
         crossings: Vec<EdgeCrossing>,
     },
     /// A contour has more pieces than at either end.
     Pieces {
-        /// Number of pieces at the t at which there are most.
+        /// Largest number of pieces at any sampled t.
         count: usize,
         /// Number of pieces at t = 0 or t = 1, whichever is larger.
         at_ends: usize,
     },
     /// A contour has more holes than at either end.
     Holes {
-        /// Number of holes at the t at which there are most.
+        /// Largest number of holes at any sampled t.
         count: usize,
         /// Number of holes at t = 0 or t = 1, whichever is larger.
         at_ends: usize,
@@ -65,7 +65,8 @@ pub enum FindingKind {
     Missed {
         /// Number of missed pins and sample points of lines.
         count: usize,
-        /// Distance by which the worst of them is missed, as a fraction of the frame's diameter.
+        /// Largest distance by which a pin or a sample point of a line is missed, as a fraction of
+        /// the frame's diameter.
         by: f64,
     },
 }
@@ -82,7 +83,8 @@ pub enum FindingCause {
         /// Rotation of the worst face from source to target.
         turn: f64,
     },
-    /// A part rotates by more than half a turn relative to its neighbour or to the whole.
+    /// A part rotates by more than half a turn relative to a neighbouring part, or a face relative
+    /// to the whole shape.
     FarTurn {
         /// Index of the part, from 0, as in [`crate::warp::ArapOptions::extra_turns`]; `None` if
         /// the rotation is relative to the whole shape.
@@ -96,14 +98,14 @@ pub enum FindingCause {
         /// Local stretch of the boundary divided by the stretch of its whole loop; below 1 where
         /// squeezed.
         ratio: f64,
-        /// Position in the source of the place with this stretch.
+        /// Position, in the source, of the boundary point at which `ratio` was measured.
         source: DVec2,
-        /// Position in the target of the place with this stretch.
+        /// Position, in the target, of the boundary point at which `ratio` was measured.
         target: DVec2,
     },
     /// Neighbouring faces rotate by very different angles.
     UnlikeNeighbours {
-        /// Difference of the two rotations.
+        /// Difference between the rotations of the two faces.
         turn: f64,
     },
     /// Two places of the boundary move into each other.
@@ -142,10 +144,10 @@ pub enum Remedy {
     Change {
         /// Option to change, with its new value.
         change: SettingChange,
-        /// Number of these defects (folded faces, crossings, extra pieces or extra holes) that
-        /// remain with the change, at the worst t.
+        /// Number of defects of the finding's kind (folded faces, crossings, extra pieces or extra
+        /// holes) that remain with the change, at the worst t.
         left: usize,
-        /// Number of these defects without the change, at the worst t.
+        /// Number of defects of the finding's kind without the change, at the worst t.
         of: usize,
     },
     /// Pin a pair of points to each other.

@@ -8,8 +8,8 @@ use crate::transition::{Frame, Transition};
 use crate::warp::{MissedFeatures, WarpKind};
 use crate::work::progress::{Cancelled, Progress, checkpoint};
 
-/// Fraction of the frame: folds that cover less are ignored. In a window of 1000 by 1000 pixels,
-/// this is a spot 22 pixels across (heuristic).
+/// Folds that cover less than this fraction of the frame are ignored. In a window of 1000 by 1000
+/// pixels, this is a square 22 pixels wide (heuristic).
 const MIN_FOLD_FRACTION: f64 = 5e-4;
 
 /// Worst finding of one kind so far, with its size. Its `span` covers all findings of that kind so

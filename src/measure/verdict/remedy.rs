@@ -64,8 +64,8 @@ pub(super) fn try_rigid_part_options(
     Ok(())
 }
 
-/// Returns the remedy of a finding, with a pin instead of vertex edits: at the uneven match if that
-/// is the cause, otherwise at the defect.
+/// Returns the remedy of a finding, with a pin at the same place instead of vertex edits. If the
+/// cause is an uneven match, always returns a pin at that match.
 fn with_pin(finding: &Finding) -> Remedy {
     match (&finding.cause, &finding.remedy) {
         (&FindingCause::UnevenMatch { source, target, .. }, _)
@@ -98,8 +98,8 @@ fn changes(arap: &Arap, findings: &[Finding]) -> Vec<SettingChange> {
     changes
 }
 
-/// Returns the change of a part's extra turns by one, so that the part rotates in the other
-/// direction.
+/// Returns the setting change that gives a part one full turn more or less, so that the part
+/// rotates in the other direction. `turn` is its current rotation.
 fn turn_other_way(arap: &Arap, part: usize, turn: f64) -> SettingChange {
     let current_turns = &arap.options().extra_turns;
     let each = |p: usize| match current_turns.as_slice() {
@@ -114,7 +114,8 @@ fn turn_other_way(arap: &Arap, part: usize, turn: f64) -> SettingChange {
     SettingChange::ExtraTurns(turns)
 }
 
-/// Counts the defects of the film with a changed option; returns `None` if it cannot be built.
+/// Counts the defects of the film with a changed option; returns `None` if the film cannot be built
+/// with it.
 fn scan_with(
     change: &SettingChange,
     transition: &Transition,
@@ -139,7 +140,7 @@ fn scan_with(
 
 /// Adopts a change as the remedy of a finding of folds or crossings, on two conditions: it leaves
 /// fewer defects of the finding's kind than the best change so far, and no more defects of the
-/// other kind than there are without it.
+/// other kind than the film has without the change.
 fn adopt_if_better(
     finding: &mut Finding,
     change: &SettingChange,
@@ -166,8 +167,8 @@ fn adopt_if_better(
     }
 }
 
-/// Tests whether blending distances instead of their logarithms, or the reverse, leaves fewer
-/// defects; if so, makes this the remedy.
+/// Tests whether fewer defects are left if distances are blended instead of their logarithms, or
+/// the reverse. If so, makes this change the remedy.
 pub(super) fn try_other_blend_space(
     transition: &Transition,
     pair: &FieldPair,

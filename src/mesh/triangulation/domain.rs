@@ -35,7 +35,7 @@ pub enum TriangulationError {
 /// The library's constrained Delaunay triangulation.
 pub(super) type ConstrainedDelaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
-/// Marks a corner of a face that is no corner of a loop, or a missing vertex.
+/// Stands for "no loop corner" at a vertex of a face, and for "no vertex".
 const NONE: u32 = u32::MAX;
 
 /// A corner of a loop: indices of the merged points before, at and after it.
@@ -60,8 +60,8 @@ impl TriangulationDomain {
     pub(super) fn of<W: AsRef<[DVec2]>>(loops: &[W]) -> Result<Self, TriangulationError> {
         let (points, merged) = merged_points(loops)?;
         let mut directed_edges = HashSet::new();
-        // Each directed edge may occur only once: between two equal ones there would be no wedge of
-        // the piece.
+        // Each directed edge may occur only once, because the piece would have no area between two
+        // equal edges.
         let is_new = |&[_, a, b]: &LoopCorner| a != b && directed_edges.insert([a, b]);
         if !merged.iter().all(is_new) {
             return Err(TriangulationError::NotSimple);
@@ -124,11 +124,13 @@ impl TriangulationDomain {
         if winding[1..].iter().any(|w| !(0..=1).contains(w)) {
             return Err(TriangulationError::NotOnePiece);
         }
-        // If every loop corner bounds exactly one wedge of the piece, all corners of faces are
-        // assigned, because every wedge begins at an outgoing edge of a loop.
+        // A wedge is a part of the piece between two loop edges at a point. `corners` fails unless
+        // every loop corner bounds exactly one wedge. It then assigns all corners of faces, because
+        // every wedge begins at an outgoing edge of a loop.
         self.corners(&winding)
             .ok_or(TriangulationError::NotSimple)?;
-        // The leftmost point belongs to the outer boundary.
+        // The leftmost point belongs to the outer boundary, so it must be a corner of the first
+        // loop.
         let positions = self.delaunay.vertices().map(|v| v.position()).enumerate();
         let leftmost =
             positions.min_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -164,7 +166,8 @@ impl TriangulationDomain {
         winding
     }
 
-    /// Returns whether the faces inside are connected across edges that are not on a loop.
+    /// Returns whether the faces with winding number 1 are connected across edges that are not on a
+    /// loop.
     fn is_connected(&self, winding: &[i32]) -> bool {
         let edges = self.delaunay.undirected_edges();
         let unconstrained = edges.filter(|edge| !edge.is_constraint_edge());
@@ -178,8 +181,9 @@ impl TriangulationDomain {
         first.is_some_and(|(first, _)| inside.all(|(other, _)| other == first))
     }
 
-    /// Returns for each face the indices of the loop corners at its three vertices. Returns `None`
-    /// if, at some corner, the two edges of the loop do not bound exactly one wedge of the piece.
+    /// Returns for each face the indices of the loop corners at its three vertices, or [`NONE`] at
+    /// a vertex that refinement added. Returns `None` if, at some loop corner, the two edges of the
+    /// loop do not bound exactly one wedge of the piece.
     fn corners(&self, winding: &[i32]) -> Option<Vec<[u32; 3]>> {
         let mut corners = vec![[NONE; 3]; winding.len()];
         for (corner, points) in (0..).zip(&self.merged) {
@@ -233,7 +237,8 @@ impl TriangulationDomain {
     }
 }
 
-/// Returns the distinct points, and the merged points at each corner of the loops.
+/// Returns the distinct points of all loops, and for each loop corner the indices of the points
+/// before, at and after it.
 fn merged_points<W: AsRef<[DVec2]>>(
     loops: &[W],
 ) -> Result<(Vec<Point2<f64>>, Vec<LoopCorner>), TriangulationError> {

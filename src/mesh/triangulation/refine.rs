@@ -71,7 +71,7 @@ impl TriangulationDomain {
         {
             check_cancelled(progress)?;
             // A face that cannot be improved leaves the queue for good: only faces at new vertices
-            // enter it.
+            // enter the queue.
             let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {
                 continue;
             };
@@ -90,7 +90,8 @@ impl TriangulationDomain {
         let least_area = MIN_AREA_FRACTION * size * size;
         let equilateral = |edge: f64| (0.25 * 3f64.sqrt() * edge * edge).max(least_area);
         FaceLimits {
-            // The smallest angle α is opposite the shortest edge l: l = 2 R sin α.
+            // The smallest angle α is opposite the shortest edge l, and l = 2 R sin α with the
+            // circumradius R.
             ratio: (2.0 * MIN_ANGLE.sin()).powi(2),
             area: refinement.max_edge.map_or(f64::INFINITY, equilateral),
             least_area,
@@ -125,7 +126,7 @@ fn insert(
     [a, b, c]: [FixedVertexHandle; 3],
     centre: DVec2,
 ) -> Option<FixedVertexHandle> {
-    // Vertices inserted since the face entered the queue may have removed it.
+    // Vertices that were inserted after the face entered the queue may have removed the face.
     let edge = delaunay.get_edge_from_neighbors(a, b)?;
     let face = edge.face().as_inner()?;
     if !face.vertices().iter().any(|v| v.fix() == c) || !is_free(face, centre) {

@@ -6,8 +6,8 @@
 
 use crate::recording::nodes::MAX_NODES;
 
-/// Largest degree of a vertex coordinate as a polynomial of s (derived: the nodes and both ends of
-/// an interval determine it).
+/// Largest degree of a vertex coordinate as a polynomial of s (derived: the polynomial is
+/// determined by its values at the nodes and at both ends of the interval).
 const MAX_DEGREE: usize = MAX_NODES + 1;
 /// Largest degree of a product of two coordinates (derived).
 pub(super) const MAX_PRODUCT_DEGREE: usize = 2 * MAX_DEGREE;
@@ -75,8 +75,9 @@ impl BernsteinProducts {
         }
     }
 
-    /// Returns the polynomial whose coefficients are weighted sums of `of(i, j)`. If `of(i, j)` is
-    /// uᵢ vⱼ, this is the product of the polynomials u and v. The error bound is left at 0.
+    /// Returns the polynomial whose coefficient i + j is the weighted sum of `of(i, j)` over all i
+    /// and j with this sum. If `of(i, j)` is uᵢ vⱼ, this is the product of the polynomials with the
+    /// coefficients u and v. The error bound is left at 0.
     pub(super) fn sum(&self, of: impl Fn(usize, usize) -> f64) -> BernsteinPolynomial {
         let mut sum = BernsteinPolynomial::zero(2 * self.degree);
         for i in 0..=self.degree {

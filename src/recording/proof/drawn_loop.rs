@@ -7,6 +7,6 @@ pub struct DrawnLoop {
     pub vertices: Vec<u32>,
     /// Index of the loop's paint layer; loops of different layers may cross.
     pub layer: usize,
-    /// First and last t between which the loop is drawn.
+    /// First and last t at which the loop is drawn.
     pub visible_interval: [f64; 2],
 }

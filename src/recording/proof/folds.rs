@@ -8,7 +8,8 @@ use crate::work::progress::{Cancelled, Progress, check_cancelled};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Maximum number of halvings (tolerance: 2⁻³⁰, about 1e-9 of an interval).
+/// Maximum number of times that an interval is halved to decide a case (tolerance: the last part is
+/// 2⁻³⁰ of the interval, about 1e-9).
 pub(super) const MAX_HALVINGS: u32 = 30;
 
 /// Returns the smallest s in the interval at which a face is not proved to be positively oriented,
@@ -45,8 +46,8 @@ pub(super) fn first_fold(
     Ok(first)
 }
 
-/// Smallest s of all failures that any thread has found so far. Later parts of the interval need
-/// not be examined.
+/// Smallest s of all failures that any thread has found so far. Parts of the interval beyond this s
+/// need not be examined.
 pub(super) struct EarliestFailure(AtomicU64);
 
 impl Default for EarliestFailure {
@@ -106,8 +107,8 @@ pub(super) fn product(
 }
 
 /// Returns the smallest s in `[from, to]` at which a polynomial is not proved to be positive, by
-/// bisection; `None` if it is positive throughout. Returns `None` as well if a failure before
-/// `from` is known.
+/// bisection. The result is `None` if the polynomial is positive throughout, or if a failure before
+/// `from` is already known.
 pub(super) fn first_not_positive(
     of: &BernsteinPolynomial,
     ends: [EndSign; 2],

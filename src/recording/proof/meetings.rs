@@ -26,8 +26,9 @@ const MAX_INTERVAL_HALVINGS: u32 = 10;
 /// (tolerance: the two sides of a cut need some time to come apart).
 const UNTESTED_LENGTH: f64 = 1.0 / 1024.0;
 
-/// Returns the values of s at which the sections of an interval end. Next to t = 0 and t = 1 lies a
-/// short section of its own. `length` is the length of the interval in t.
+/// Returns the values of s at which the sections of an interval end. An interval that begins at t =
+/// 0 starts with a short section, and one that ends at t = 1 ends with a short section; the rest is
+/// one section. `length` is the length of the interval in t.
 fn piece_ends(at_ends: [bool; 2], length: f64) -> Vec<f64> {
     let near = (UNTESTED_LENGTH / length).min(0.25);
     let begin = at_ends[0].then_some(near);
@@ -38,7 +39,7 @@ fn piece_ends(at_ends: [bool; 2], length: f64) -> Vec<f64> {
 /// Meeting of a vertex and an edge: its s, the vertex, the edge, and the position of the vertex.
 type VertexEdgeMeeting = (f64, u32, [u32; 2], DVec2);
 
-/// Result of the search in one interval.
+/// Result of the search for meetings in one interval.
 #[derive(Default)]
 pub(super) struct IntervalMeetings {
     /// The earliest meeting; `None` if all outlines are proved to be apart.
@@ -55,7 +56,8 @@ struct LoopEdge {
     layer: usize,
 }
 
-/// Vertex and the two ends of an edge that it must not meet.
+/// Vertex and the two ends of an edge that it must not meet, as indices into
+/// [`MeetingSearch::vertices`].
 type VertexEdgePair = (usize, [usize; 2]);
 
 /// Returns the earliest meeting of the given loops in an interval. `at_ends` marks the ends of the
@@ -151,8 +153,8 @@ impl<'a> MeetingSearch<'a> {
         }
     }
 
-    /// Returns a crossing of loops of the same layer at the beginning of the curves, which is at
-    /// `s`.
+    /// Returns a crossing of two loops of the same layer at the beginning of `curves`, or `None`.
+    /// `s` is the place of this beginning in the interval and is copied to the result.
     fn first_crossing(
         &self,
         curves: &[VertexCurve],
@@ -179,8 +181,8 @@ impl<'a> MeetingSearch<'a> {
         Some((s, vertex, edge, crossing.place))
     }
 
-    /// Returns the earliest meeting in the part `[from, to]` of the interval, to which `curves`
-    /// belong. The part may be halved up to `halvings` times.
+    /// Returns the earliest meeting in the part `[from, to]` of the interval. `curves` are the
+    /// curves of the vertices during this part. The part may be halved up to `halvings` times.
     ///
     /// # Errors
     /// [`Cancelled`] if the work is cancelled.
@@ -233,8 +235,9 @@ impl<'a> MeetingSearch<'a> {
         })
     }
 
-    /// Returns the vertex–edge pairs of the same layer whose boxes overlap, by a sweep along x;
-    /// `None` if there are more than about `max_pairs`.
+    /// Finds all pairs of edges of the same layer whose boxes overlap, by a sweep along x. For
+    /// each, returns both ends of one edge paired with the other edge, and the reverse. Returns
+    /// `None` if there are more than about `max_pairs` vertex–edge pairs.
     fn near_pairs(&self, curves: &[VertexCurve], max_pairs: usize) -> Option<Vec<VertexEdgePair>> {
         let boxes: Vec<[DVec2; 2]> = curves.par_iter().map(VertexCurve::bounds).collect();
         let edge_box = |edge: &LoopEdge| {
@@ -258,7 +261,7 @@ impl<'a> MeetingSearch<'a> {
                     pairs.extend(both.filter(|(v, ends)| !ends.contains(v)));
                 }
             }
-            // Duplicates are removed below; a pair is expected up to four times.
+            // Duplicates are removed below. A pair occurs up to about four times.
             if pairs.len() > max_pairs.saturating_mul(4) {
                 return None;
             }
@@ -268,8 +271,8 @@ impl<'a> MeetingSearch<'a> {
         Some(pairs)
     }
 
-    /// Returns whether the vertex of a pair lies on its edge at t = 0 or t = 1. `at_ends` marks
-    /// which of these are ends of the curves.
+    /// Returns whether the vertex of a pair lies on its edge at t = 0 or t = 1. `at_ends` tells
+    /// whether the curves begin at t = 0 and whether they end at t = 1.
     fn touches(
         &self,
         curves: &[VertexCurve],
@@ -289,8 +292,8 @@ impl<'a> MeetingSearch<'a> {
     }
 
     /// Returns the smallest s in `[from, to]` at which the third curve is not proved to be off the
-    /// edge between the first two, by bisection; `None` if it is off the edge throughout. Returns
-    /// `None` as well if an earlier failure is known.
+    /// edge between the first two, by bisection. The result is `None` if the third curve is off the
+    /// edge throughout, or if a failure before `from` is already known.
     fn first_contact(
         &self,
         curves: [VertexCurve; 3],

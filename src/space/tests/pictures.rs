@@ -130,7 +130,7 @@ fn lines_in_all_pictures_align_the_balls() {
     let space = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
     let picture = render(&space, &weights);
     let pixel_at = |p: DVec2| *picture.get_pixel(p.x as u32, (f64::from(SIDE) - p.y) as u32);
-    // Red, green and blue in equal parts, in linear light.
+    // Red, green and blue are mixed in equal parts, in linear light.
     let Rgba([r, g, b, _]) = pixel_at(middle);
     assert!(
         r.abs_diff(154) < 12 && g.abs_diff(136) < 12 && b.abs_diff(158) < 12,

@@ -2,7 +2,8 @@
 //!
 //! Boundary features cannot predict how the interior deforms, so each candidate match is rated by
 //! its motion. Pieces move independently and are therefore chosen independently. The search starts
-//! with the requested match and then makes the attempts of [`ATTEMPTS`] in order:
+//! with the draft of each piece, or with the requested match if there is no draft. It then makes
+//! the attempts of [`ATTEMPTS`] in order:
 //!
 //! | attempt | pieces that it includes | match options | holes |
 //! |---|---|---|---|
@@ -43,17 +44,17 @@ const OTHER_STRETCH_COSTS: [f64; 2] = [0.6, 1.2];
 /// limbs and strokes dominate the match (heuristic).
 const INNER_DISTANCE_COST: f64 = 8.0;
 
-/// Weights of stretching that are tried with thickness ignored if the candidates so far fold or are
-/// distorted. With thickness, an arm can be matched to a thick body (heuristic).
+/// Weights of stretching that are tried, with thickness ignored, if the candidates so far fold or
+/// are distorted. If thickness counts, a match may map an arm to a thick body (heuristic).
 const COSTS_WITHOUT_THICKNESS: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
 /// Distortion above which matches without thickness are tried even if the best candidate does not
 /// fold (heuristic).
 const HIGH_DISTORTION: f64 = 3.0;
 
-/// Maximum work of one attempt for a group: the sum over its pieces of the number of candidates
-/// times the square of the number of boundary vertices (resource limit: a candidate with 700
-/// vertices takes about 0.3 s).
+/// Maximum work of one attempt for a group of parts. The work of a piece is the number of its
+/// candidates times the square of the number of its boundary vertices (resource limit: a candidate
+/// with 700 vertices takes about 0.3 s).
 const MAX_WORK: usize = 2_500_000;
 
 /// Maximum work of the attempt of a draft, measured as for [`MAX_WORK`] (resource limit: the user
@@ -74,17 +75,17 @@ const ATTEMPTS_PROGRESS: f64 = 0.7;
 struct Attempt {
     /// Result that the attempt improves.
     branch: SearchBranch,
-    /// Conditions that a piece must all meet to be included.
+    /// The attempt includes the pieces that meet all of these conditions.
     conditions: &'static [PieceCondition],
     /// Match options that are tried.
     options: TriedOptions,
-    /// Treatment of unmatched holes; `None` for the treatment in each piece's best candidate so
-    /// far.
+    /// Treatment of unmatched holes. If `None`, each piece keeps the treatment of its best
+    /// candidate so far.
     holes: Option<HolePolicy>,
     /// Limit of the work, measured as for [`MAX_WORK`]. The smallest pieces are tried first; pieces
     /// beyond the limit are left out.
     max_work: usize,
-    /// Progress of the whole search when the attempt begins and when it ends, in [0, 1]
+    /// Progress of the whole search, in [0, 1], when the attempt begins and when it ends
     /// (heuristic).
     progress: [f64; 2],
 }
@@ -92,11 +93,11 @@ struct Attempt {
 /// Result of the search that an attempt improves. The search keeps two results, which are equal
 /// until [`CUT_HOLES`] has been tried.
 enum SearchBranch {
-    /// Both results.
+    /// Both results of the search.
     Both,
     /// The result in which holes may be matched.
     PairedHoles,
-    /// The result in which all holes are unmatched.
+    /// The result in which all holes of a piece are to be left unmatched.
     UnpairedHoles,
 }
 
@@ -123,8 +124,8 @@ enum PieceCondition {
     /// The matched shapes are dissimilar, or the piece cannot be triangulated.
     Dissimilar,
     /// The best candidate folds or has a high distortion, or the piece cannot be triangulated.
-    /// Candidates whose outlines cross are not included: that would double the work and hardly ever
-    /// help.
+    /// Crossing outlines alone are no reason to include a piece: that would double the work and
+    /// hardly ever help.
     HighDistortion,
 }
 
@@ -247,8 +248,8 @@ const UNPAIR_HOLES: Attempt = Attempt {
     progress: [0.5, 0.6],
 };
 
-/// Returns the best candidate of each piece of a group. `drafts` holds the pieces with the
-/// requested match, if that has been computed already.
+/// Returns the best candidate of each piece of a group. `drafts` holds the result of
+/// [`drafts_of_group`], if it has been computed already.
 ///
 /// # Errors
 /// If the group cannot be matched, a motion cannot be solved, or the work is cancelled.
@@ -416,8 +417,9 @@ impl TriedOptions {
     }
 }
 
-/// Returns, for each piece, whether it is tried: it must be selected by `includes` and fit within
-/// `max_work`, counting the smallest pieces first and `candidates_per_piece` candidates for each.
+/// Returns, for each piece, whether it is tried. Of the pieces that `includes` selects, the
+/// smallest ones are tried as long as their total work is at most `max_work`. Each piece counts
+/// with `candidates_per_piece` candidates.
 fn affordable(
     results: &[PieceResult],
     includes: &dyn Fn(&PieceResult) -> bool,

@@ -23,14 +23,14 @@ const STEPS: u32 = 32;
 /// Progress reported once the mesh is built, in [0, 1] (heuristic).
 const MESH_PROGRESS: f64 = 0.9;
 
-/// Fraction of the mesh's area, made up of its most distorted faces, that the distortion ignores
-/// (heuristic: the corners of every triangulation are distorted).
+/// Fraction of the mesh's area that is left out when its distortion is computed. The most distorted
+/// faces are left out (heuristic: the corners of every triangulation are distorted).
 const IGNORED_AREA: f64 = 0.05;
 
-/// Exponent in the misfit of the factor 1 plus the excess turning of the outlines (heuristic).
+/// Exponent of the factor (1 + excess turning of the outlines) in the misfit (heuristic).
 const TURNING_EXPONENT: i32 = 3;
 
-/// Exponent in the misfit of the factor 1 plus the number of half turns of the piece (heuristic).
+/// Exponent of the factor (1 + number of half turns of the piece) in the misfit (heuristic).
 const ROTATION_EXPONENT: i32 = 2;
 
 /// Largest rotation, in radians, with which a piece counts as staying upright (heuristic).
@@ -55,11 +55,11 @@ struct MotionDefects {
     folds: usize,
     /// Number of crossings of the outlines, summed over all samples.
     crossings: usize,
-    /// Largest relative excess of the outlines' total turning over the straight line between its
-    /// values at the two ends.
+    /// Largest amount, over all samples, by which the total turning of the outlines exceeds its
+    /// linear interpolation between the two ends, as a fraction of the interpolated value.
     turning: f64,
-    /// Largest relative excess of the area over the straight line between its values at the two
-    /// ends.
+    /// Largest amount, over all samples, by which the area exceeds its linear interpolation between
+    /// the two ends, as a fraction of the interpolated value.
     swelling: f64,
     /// Rotation of the piece as a whole, in radians.
     rotation: f64,
@@ -102,8 +102,8 @@ impl MatchCandidate {
             .map_err(CandidateError::Mesh)?;
         let defects = if matched.is_matched() {
             // The piece is rated on its own, with default weights and anchor, because the requested
-            // ones refer to the whole design. The polar path stands in for bounded distortion,
-            // which is expensive and has the same ends.
+            // ones refer to the whole design. The polar homotopy replaces the bounded one, which is
+            // expensive and has the same ends.
             let homotopy = match options.arap.homotopy {
                 Homotopy::Bounded => Homotopy::Polar,
                 homotopy => homotopy,
@@ -191,7 +191,7 @@ impl MotionDefects {
             let absent = loops.len() + unmatched_holes.len() - rings.len();
             turned.push([t, total_turning(&rings, diameter) + TAU * absent as f64]);
             areas.push([t, rings.iter().map(|ring| signed_area(ring)).sum::<f64>()]);
-            // The ends are the designs themselves.
+            // At the ends, the frames are the designs themselves, which have no defects.
             if step > 0 && step < STEPS {
                 folds += count_folded(arap, places);
                 crossings += count_crossings(&rings);

@@ -9,7 +9,7 @@ use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, ProgressShares, ProgressSpan, check_cancelled};
 use rayon::prelude::*;
 
-/// Progress within a variant, reported once its pieces are matched, in [0, 1] (heuristic).
+/// Progress of one variant, in [0, 1], reported once its pieces are matched (heuristic).
 const MATCH_PROGRESS: f64 = 0.2;
 
 /// The result for a piece: its best candidate, or the matched piece and the reason why it cannot be
@@ -41,9 +41,9 @@ pub(in crate::transition) struct GroupSearch<'a> {
 }
 
 impl GroupSearch<'_> {
-    /// Returns how unmatched holes are treated at the start of the search: as requested, or, if the
-    /// treatment is automatic, as transient holes that appear or disappear without bending
-    /// anything.
+    /// Returns how unmatched holes are treated at the start of the search: as the user has
+    /// requested. If the user has left the choice to the program, they are transient, that is, they
+    /// appear or disappear without bending anything.
     pub(in crate::transition) fn initial_hole_policy(&self) -> HolePolicy {
         HolePolicy::Paired(match self.spec.options.matching.holes {
             HoleRule::Auto => HoleRule::Transient,

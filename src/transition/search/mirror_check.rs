@@ -14,15 +14,16 @@ use crate::transition::note::TransitionNote;
 use crate::transition::spec::TransitionSpec;
 use crate::work::progress::{Progress, check_cancelled};
 
-/// Distortion of the best match as drawn below which mirroring is not examined (heuristic).
+/// Mirroring is not examined if the distortion of the best match as drawn is below this
+/// (heuristic).
 const GOOD: f64 = 2.0;
 
-/// Ratio of the distortion of the mirrored draft to that of the best match as drawn, below which
-/// mirroring counts as far better (heuristic).
+/// Mirroring counts as far better if the distortion of the mirrored draft is below this fraction of
+/// the distortion of the best match as drawn (heuristic).
 const FAR_BETTER: f64 = 0.4;
 
-/// Returns a note if the designs would match far better mirrored; otherwise `None`, as for matches
-/// that the user has set by hand.
+/// Returns a note if the designs would match far better if one of them were mirrored; otherwise
+/// `None`. Also returns `None` if the user has set pins, links, cuts or unmatched parts by hand.
 ///
 /// # Errors
 /// If the work is cancelled.

@@ -19,9 +19,9 @@ const MAX_SLIDES: u32 = 3;
 /// shape (heuristic).
 pub(super) const LOW_DISTORTION: f64 = 1.02;
 
-/// Slides two candidates of each piece and returns the better one: the best candidate, and the
-/// candidate without matched holes if there is one. `unpaired` holds the latter; it has one entry
-/// per piece or is empty.
+/// For each piece, slides its candidate in `paired` and, if there is one, its candidate in
+/// `unpaired`, in which no holes are matched. Returns the better of the two. `unpaired` has one
+/// entry per piece or is empty.
 ///
 /// # Errors
 /// If the work is cancelled.
@@ -42,8 +42,8 @@ pub(super) fn slide_and_choose(
         let [first, second] =
             [(0.0, 0.5), (0.5, 1.0)].map(|(from, to)| ProgressSpan::new(&share, from, to));
         let mut best = slide_piece(paired, spec, &first)?;
-        // The two are compared only after sliding, which can repair a match of holes that folds, as
-        // between the letters D and P.
+        // The two candidates are compared only after sliding. Sliding can repair a match of holes
+        // that folds, as between the letters D and P.
         let unpaired = slide_while_better(unpaired, spec, &second)?;
         take_better(std::slice::from_mut(&mut best), vec![Some(unpaired)]);
         Ok(best)

@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 /// Number of equal steps of the size for which turning and area are tabulated (resource limit).
 pub(in crate::transition) const SIZE_STEPS: usize = 16;
 
-/// Table of the total turning, in radians minus one full turn per outline, and of the area of a
-/// growing shape, in equal steps from size 0 to full size.
+/// Table of the total turning and the area of a growing shape, in equal steps from size 0 to full
+/// size. The turning is in radians; one full turn per outline is subtracted.
 #[derive(Clone)]
 pub(in crate::transition) struct GrowthProfile([[f64; 2]; SIZE_STEPS + 1]);
 
@@ -38,7 +38,7 @@ impl GrowthProfile {
     }
 
     /// Tabulates turning and area. `at` returns both for a size, given as a fraction of the full
-    /// size.
+    /// size; its turning includes the full turn of each outline.
     fn by(outline_count: usize, at: impl Fn(f64) -> [f64; 2]) -> Self {
         let mut all = [[0.0; 2]; SIZE_STEPS + 1];
         for (k, entry) in all.iter_mut().enumerate().skip(1) {

@@ -8,11 +8,12 @@
 const EVEN_STEPS: u32 = 64;
 /// Number of steps at each end that are subdivided (heuristic).
 const SUBDIVIDED_STEPS: u32 = 2;
-/// Number of parts into which such a step is subdivided (heuristic).
+/// Number of equal parts into which each of the steps near the ends is subdivided (heuristic).
 const SUBDIVISION: u32 = 4;
 
-/// Length of the parts into which a step is subdivided. The first and the last of these parts are
-/// subdivided once more, because parts that appear or disappear at once do so within this time.
+/// Length of the equal intervals into which the steps near both ends are subdivided. The first
+/// interval after t = 0 and the last one before t = 1 are subdivided once more. Parts of a design
+/// that appear or disappear at once do so within this time.
 pub(in crate::transition) const FINE_STEP: f64 = 1.0 / (EVEN_STEPS * SUBDIVISION) as f64;
 
 /// Unit to whose multiples added times are rounded, so that the reversed motion has the same times
@@ -53,8 +54,8 @@ impl SampleTimes {
         self.0.partition_point(|&time| time <= t).max(1) - 1
     }
 
-    /// Returns the length of the interval of t in which the time with index `step` is the nearest
-    /// one.
+    /// Returns the length of the interval of t in which the sample time with index `step` is the
+    /// nearest one.
     pub(in crate::transition) fn weight(&self, step: usize) -> f64 {
         let [before, after] = [step.saturating_sub(1), (step + 1).min(self.last())];
         (self.0[after] - self.0[before]) / 2.0
@@ -100,7 +101,7 @@ mod tests {
         let [mut forwards, mut backwards] = [SampleTimes::default(), SampleTimes::default()];
         for t in [0.3, 0.0, 1.0, 0.999_999_999] {
             forwards.refine_at(t);
-            // The time that the reversed motion reports, up to rounding.
+            // The reversed motion reports this time, up to rounding.
             backwards.refine_at(1.0 - t + 1e-12);
         }
         let mirrored: Vec<f64> = backwards.times().iter().map(|t| 1.0 - t).rev().collect();

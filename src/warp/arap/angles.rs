@@ -2,9 +2,9 @@
 //!
 //! A polar decomposition determines the angle θ only modulo 2π. The angles of two faces with a
 //! shared edge differ by less than π, because a stretch rotates no vector by a right angle or more.
-//! Propagating from face to face and taking the representative nearest to the neighbour's therefore
-//! gives a unique result, independent of the order. A whole number of turns remains free for each
-//! edge-connected component (here called a part).
+//! The angles are therefore chosen face by face: among the angles that differ by 2π, a face takes
+//! the one nearest to that of its neighbour. The result is unique and independent of the order. A
+//! whole number of turns remains free for each edge-connected component (here called a part).
 
 use crate::mesh::Connectivity;
 use std::collections::VecDeque;
@@ -71,10 +71,10 @@ fn first_jump(connectivity: &Connectivity, angles: &[f64]) -> Option<[usize; 2]>
 
 /// Chooses the whole turns of each part.
 ///
-/// The mean angle of the first part is brought into (−π, π]; the mean angles of the other parts are
-/// brought nearest to the best-fit rotation `whole` of the design. `extra_turns` are added
-/// afterwards. Returns `whole` plus the whole turns that bring it nearest to the first part's
-/// angle.
+/// Whole turns are added to all angles of a part, such that its mean angle is in (−π, π] for the
+/// first part and nearest to the best-fit rotation `whole` of the design for the other parts. Then
+/// the `extra_turns` are added. Returns `whole` plus the whole turns that bring it nearest to the
+/// final mean angle of the first part.
 pub(super) fn choose_turns(
     angles: &mut [f64],
     areas: &[f64],
@@ -119,7 +119,7 @@ pub(super) fn choose_turns(
         })
         .collect();
     for (angle, &part) in angles.iter_mut().zip(part_of) {
-        // Rounds to exact whole turns, so that equal angles stay equal.
+        // The offset is rounded to a multiple of 2π, so that equal angles stay equal.
         *angle += TAU * (offsets[part as usize] / TAU).round();
     }
     whole + TAU * extra(0)

@@ -27,12 +27,12 @@ pub(super) struct FaceMap {
     pub map: PolarDecomposition,
     /// Gradients of the hat functions of the second and third vertex in the source.
     pub gradients: DMat2,
-    /// Weighted gradients W g.
+    /// `gradients` multiplied by the face's weight matrix W (see the module).
     pub weighted: DMat2,
     /// Gradients of the same hat functions in the target.
     pub target_gradients: DMat2,
-    /// Weights of the squared gradients in source and in target; the two terms add up to the
-    /// energy.
+    /// Factors of the two terms of the face's energy: the term with the gradients in the source and
+    /// the term with the gradients in the target.
     pub weights: [f64; 2],
 }
 
@@ -91,8 +91,9 @@ pub(super) struct LocalMaps {
     pub part_count: usize,
     /// Rotation of the whole design in radians.
     pub whole_angle: f64,
-    /// Mass of each vertex: a third of the area of its faces and half of that of its bars, as a
-    /// fraction of the total area, averaged over both designs.
+    /// Mass of each vertex: a third of the area of its faces plus half of the area of its bars,
+    /// where a bar has the area length²/2. It is a fraction of the total area, averaged over both
+    /// designs.
     pub masses: Vec<f64>,
     /// For each face, the factor of its weight; 1 for faces beyond the end of the list.
     pub stiffness: Vec<f64>,
@@ -156,7 +157,8 @@ impl LocalMaps {
         })
     }
 
-    /// Replaces the stiffness factors of the faces by `by`; faces beyond its end get the factor 1.
+    /// Replaces the stiffness factors of the faces by `by`; faces beyond the end of `by` get the
+    /// factor 1.
     pub(super) fn with_stiffness(mut self, by: &[f64]) -> Self {
         let before = std::mem::replace(&mut self.stiffness, by.to_vec());
         let factor = |stiffness: &[f64], face: usize| stiffness.get(face).copied().unwrap_or(1.0);
@@ -181,10 +183,11 @@ impl LocalMaps {
         self
     }
 
-    /// Returns K with one vertex of each connected component grounded, which makes it regular.
+    /// Returns K with one vertex of each connected component grounded: its diagonal entry is
+    /// increased, which makes K regular.
     ///
-    /// The right-hand sides sum to zero over a component. A grounded vertex therefore has zero
-    /// deviation, and the choice of the vertex only translates the component.
+    /// The right-hand sides sum to zero over a component. The solution therefore has zero deviation
+    /// at the grounded vertex, and the choice of the vertex only translates the component.
     pub(super) fn matrix(
         &self,
         mesh: &CompatibleMesh,
@@ -258,9 +261,9 @@ fn edges([a, b, c]: [DVec2; 3]) -> DMat2 {
     DMat2::from_cols(b - a, c - a)
 }
 
-/// Returns the gradients of the second and third hat function as columns.
+/// Returns the gradients of the hat functions of the second and third corner, as columns.
 ///
-/// They are the rows of the inverse edge matrix.
+/// These gradients are the rows of the inverse edge matrix.
 fn gradients(corners: [DVec2; 3]) -> DMat2 {
     edges(corners).inverse().transpose()
 }
@@ -282,8 +285,8 @@ fn element_map(
     let along = |points: &[DVec2]| points[ends[1] as usize] - points[ends[0] as usize];
     let (p, q) = (along(mesh.source()), along(mesh.target()));
     let (length_p, length_q) = (p.length_squared(), q.length_squared());
-    // The weight in each design is length²/2 or 1; the squared error |Δv − e|² is divided by
-    // length².
+    // The relative error |Δv − e|² / length² has the weight length²/2 with area weights and 1
+    // otherwise. The lengths here are already squared.
     let side = |length: f64| if by_area { 0.5 } else { 1.0 / length };
     let stiffness = if symmetric {
         0.5 * (side(length_p) + side(length_q))
@@ -376,7 +379,8 @@ fn permanent_masses(
     permanent
 }
 
-/// Returns the best-fit rotation from source to target in radians, in [−π, π].
+/// Returns the rotation that best fits the source vertices onto the target vertices, weighted by
+/// `masses`; in radians, in [−π, π].
 fn best_fit_angle(mesh: &CompatibleMesh, masses: &[f64]) -> f64 {
     let vertices = mesh.source().iter().zip(mesh.target());
     let pairs = vertices.map(|(&p, &q)| [p, q]);

@@ -3,15 +3,18 @@
 //! Faces along an outline that are sheared differently rotate its edges to incompatible directions,
 //! so that an outline that is smooth in both designs becomes jagged in between. To prevent this,
 //! each boundary edge is an element with the energy k |Δv − e(t)|², where Δv is the vector between
-//! its ends and e(t) the vector that it should have. The vector e(t) rotates at constant speed,
-//! with the whole turns of the edge's face; its length comes from `edge_lengths`. The angle between
-//! two such vectors then changes linearly from source to target, so that the total turning of the
-//! outline does not exceed that of the designs.
+//! its ends and e(t) the vector that it should have. The vector e(t) rotates at constant speed from
+//! the edge's vector in the source to its vector in the target. Of the rotation angles that lead
+//! from the one to the other and differ by full turns, it takes the one within 90° of the rotation
+//! angle of the edge's face. The length of e(t) comes from `edge_lengths`.
+//!
+//! The angle between the vectors e(t) of two edges thus changes linearly from source to target, so
+//! that the total turning of the outline does not exceed that of the designs.
 //!
 //! The stiffness k is proportional to 1/length, so that the sum over all edges approximates an
-//! integral along the outline, independent of its subdivision. It is also proportional to the
-//! diameter of the part, which makes the result independent of scale. The stiffness is averaged
-//! over both designs, so that the reversed motion is the same.
+//! integral along the outline, independent of its subdivision. The stiffness k is also proportional
+//! to the diameter of the part, which makes the result independent of scale. In the symmetric
+//! energy, k is averaged over both designs, so that the reversed motion is the same.
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
 use super::options::ArapOptions;
@@ -20,15 +23,16 @@ use super::time_window::TimeWindow;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{Bounds, DVec2};
 
-/// Stiffness of a boundary edge that is as long as the diameter of its part (heuristic).
+/// Factor of |Δv − e(t)|² in the energy for a boundary edge that is as long as the diameter of its
+/// part (heuristic).
 const STIFFNESS: f64 = 0.12;
 
-/// Maximum stiffness of an edge (tolerance: the directions of extremely short edges are dominated
-/// by rounding).
+/// Maximum stiffness of a boundary edge. It limits the effect of extremely short edges, whose
+/// directions are dominated by rounding (tolerance).
 const MAX_STIFFNESS: f64 = 1e4;
 
 impl LocalMaps {
-    /// Appends the boundary edges as elements, if the mesh has the constraints of outlines.
+    /// Appends the boundary edges as elements, if `constraints` is `On` for the chosen homotopy.
     pub(super) fn with_boundary_edges(
         mut self,
         mesh: &CompatibleMesh,
@@ -97,7 +101,7 @@ fn edge(
     }
 }
 
-/// Returns the diameter of each part in source and target.
+/// Returns, for each connected part, the diameter of its bounding box in source and in target.
 fn diameters(mesh: &CompatibleMesh, parts: &[u32]) -> Vec<[f64; 2]> {
     let count = parts.iter().max().map_or(0, |&last| last as usize + 1);
     let mut bounds = vec![[None; 2]; count];

@@ -2,7 +2,7 @@
 //!
 //! A boundary-edge element rotates at constant speed. If its length also changed linearly, a limb
 //! that grows out of a side would open like a fan: halfway, its edges have half of their rotation
-//! and half of their final length. Instead, the length halfway is free and minimises the energy.
+//! and half of their final length. Instead, the length at t = ½ is free and minimises the energy.
 //! Vertex positions and lengths are optimised alternately with the same matrix, like positions and
 //! rotations in Sorkine and Alexa (2007). At other times [`ForceAssembly`] corrects the length by a
 //! parabola in t that vanishes at both ends, so that the ends are exact and the reversed motion is
@@ -16,7 +16,7 @@ use crate::numerics::Cholesky;
 use crate::warp::homotopy::Homotopy;
 use crate::work::progress::{Cancelled, Progress, check_cancelled};
 
-/// Number of alternations between positions and lengths (heuristic).
+/// Number of times that positions and then lengths are optimised (heuristic).
 const ROUNDS: u32 = 5;
 
 /// Fits the lengths of all boundary edges at t = ½. Boundary edges are the elements that follow the
@@ -55,7 +55,8 @@ pub(super) fn fit_halfway_lengths(
             let element = &stresses.elements()[edge];
             let even = element.even_vector(homotopy, HALFWAY);
             let [from, to] = element.ends.map(position);
-            // The optimal length is that of the projection onto the element's direction.
+            // The optimal length is that of the current edge vector, projected onto the element's
+            // direction.
             let ratio = (to - from).dot(even) / even.length_squared();
             // The ratio is NaN for an edge that vanishes halfway, whose length does not matter.
             let ratio = if ratio.is_nan() { 1.0 } else { ratio };

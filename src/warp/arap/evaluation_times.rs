@@ -34,7 +34,7 @@ impl EvaluationTimes<'_> {
     }
 }
 
-/// Memory for separate times of the parts.
+/// Reusable memory for [`EvaluationTimes::PerPart`].
 #[derive(Clone, Debug, Default)]
 pub(super) struct PartTimeBuffer {
     parts: Vec<f64>,
@@ -42,7 +42,7 @@ pub(super) struct PartTimeBuffer {
 }
 
 impl PartTimeBuffer {
-    /// Sets the times of `count` parts.
+    /// Stores a separate time for each of `count` parts and returns these times.
     ///
     /// `time` returns the time of a part. `runs` yields ranges of vertices, each with its part;
     /// together they cover every vertex.

@@ -27,8 +27,7 @@ use std::sync::Arc;
 const LANES: usize = 8;
 
 /// Permitted length of a boundary edge relative to its linearly interpolated length (heuristic).
-/// The lower bound is positive because an edge of negative length points backwards and spreads the
-/// outline.
+/// The lower bound is positive, because an edge of negative length would point backwards.
 const LENGTH_RATIOS: RangeInclusive<f64> = 0.1..=2.0;
 
 /// One number per face of a block; zero beyond the last face.
@@ -60,13 +59,14 @@ struct FaceBlock {
     angle: FaceLanes,
     /// W g of the second and third corner, column by column.
     weighted: [FaceLanes; 4],
-    /// Matrix applied to W g, column by column: the projection onto the larger axis of the stretch
-    /// for the exponential homotopy, and the stretch otherwise.
+    /// For each face, the matrix B from which [`MapCoefficients`] builds M(t), column by column. B
+    /// is the projection onto the larger axis of the stretch for the exponential homotopy, and the
+    /// stretch itself otherwise.
     middle: [FaceLanes; 4],
 }
 
-/// Coefficients of M(t): a rotation by its sine and cosine, applied after the stretch
-/// `one` · I + `middle` · (middle matrix).
+/// Coefficients of M(t), the product of a rotation and a stretch. The rotation is given by its sine
+/// and cosine. The stretch is `one` · I + `middle` · B, with the matrix B of [`FaceBlock::middle`].
 #[derive(Clone, Copy)]
 struct MapCoefficients {
     sin: f64,
@@ -114,7 +114,8 @@ impl MapCoefficients {
         }
     }
 
-    /// Applies the map to a vector, given the middle matrix.
+    /// Returns M(t) (x, y)ᵀ. The array holds the matrix B of [`FaceBlock::middle`], column by
+    /// column.
     #[inline(always)]
     fn apply(self, [xx, yx, xy, yy]: [f64; 4], x: f64, y: f64) -> DVec2 {
         let stretched_x = self.one * x + self.middle * (xx * x + xy * y);
@@ -127,7 +128,7 @@ impl MapCoefficients {
 }
 
 impl ForceAssembly {
-    /// Precomputes the blocks and the sums at t = 0 and t = 1.
+    /// Precomputes the blocks of faces and, for each vertex, the sums Σ M W g at t = 0 and t = 1.
     pub(super) fn new(mesh: &CompatibleMesh, maps: &LocalMaps, homotopy: Homotopy) -> Self {
         let blocks = maps.faces.chunks(LANES);
         let logs = if homotopy == Homotopy::Exponential {
@@ -150,7 +151,8 @@ impl ForceAssembly {
             ends: Vec::new(),
         };
         let mut memory = stresses.memory();
-        // Both ends are computed with the operations of a frame, so that they cancel exactly.
+        // The sums at both ends are computed with the operations of a frame, so that at t = 0 and t
+        // = 1 they cancel exactly.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
             stresses.forces(EvaluationTimes::Uniform(t), &mut memory, &mut forces);
@@ -171,7 +173,8 @@ impl ForceAssembly {
         self.halfway_lengths[element] = ratio.clamp(*LENGTH_RATIOS.start(), *LENGTH_RATIOS.end());
     }
 
-    /// Returns the memory needed for a frame.
+    /// Allocates the working memory for the maps with bounded distortion; it is empty for other
+    /// homotopies.
     pub(super) fn memory(&self) -> Memory {
         let bounded = self.bounded.as_deref();
         bounded.map_or_else(Memory::default, Bounded::memory)
@@ -225,8 +228,9 @@ impl ForceAssembly {
 
     /// Adds the forces of all faces.
     ///
-    /// `time` returns the times of a block's faces, and `pose(t, angle, extra, lane)` the
-    /// coefficients of M(t). `extra` yields additional data for each block.
+    /// `time` returns the times of the faces in a block. `extra` yields the additional data of each
+    /// block. `pose(t, angle, extra, lane)` returns the coefficients of M(t) for face `lane` of a
+    /// block.
     #[inline(always)]
     fn add<Extra>(
         &self,
@@ -326,7 +330,8 @@ impl FaceBlock {
     }
 }
 
-/// Adds the forces of the second and third corner, and their negative sum to the first.
+/// For each face of a block, adds its forces to the second and third corner, and minus their sum to
+/// the first corner.
 #[inline(always)]
 fn scatter([x2, y2, x3, y3]: &[FaceLanes; 4], faces: &[[u32; 3]], forces: &mut [DVec2]) {
     for (lane, face) in (0..LANES).zip(faces) {
@@ -351,8 +356,8 @@ fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) ->
 }
 
 impl ElementMap {
-    /// Returns the element's vector at t according to the homotopy alone, without the length
-    /// correction.
+    /// Returns the vector e(t) of the element as given by the homotopy, without the length
+    /// correction of `edge_lengths`.
     pub(super) fn even_vector(&self, homotopy: Homotopy, t: f64) -> DVec2 {
         let map = PolarDecomposition {
             angle: self.angle,

@@ -36,17 +36,18 @@ pub(super) struct FactoredArap {
     pub guard: Option<Arc<Guard>>,
 }
 
-/// Evaluator of an interpolation, with the memory for one frame.
+/// Evaluates an interpolation frame by frame; owns the working memory for one frame.
 pub(super) struct FrameSolver {
     arap: Arc<FactoredArap>,
-    /// First the right-hand sides, after the solve the deviation U: all x, then all y, in
-    /// elimination order.
+    /// Holds the right-hand sides before the solve and the deviation U after it. All x come first,
+    /// then all y, each in elimination order.
     deviation: Vec<f64>,
     workspace: CholeskyWorkspace,
     memory: Memory,
-    /// Correction of the deviation in the same layout; empty unless distortion is bounded.
+    /// Working memory for a correction of `deviation`, in the same layout; empty unless the
+    /// homotopy has bounded distortion.
     correction: Vec<f64>,
-    /// Translation of each connected part.
+    /// Translation of each connected part, recomputed for each frame.
     shifts: Vec<DVec2>,
 }
 

@@ -71,7 +71,7 @@ impl ArapPath {
     /// Checks that the index of an anchor is less than `vertices`, the number of vertices.
     ///
     /// # Errors
-    /// [`ArapError::Anchor`] if it is not.
+    /// [`ArapError::Anchor`] if the index is too large.
     pub(super) fn check(self, vertices: usize) -> Result<(), ArapError> {
         match self {
             Self::Anchor(anchor) if anchor as usize >= vertices => Err(ArapError::Anchor {
@@ -87,7 +87,7 @@ impl ArapPath {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ArapOptions {
-    /// Path of each face's local map from the identity to its end.
+    /// Path of each face's local map, from the identity at t = 0 to its final value at t = 1.
     pub homotopy: Homotopy,
     /// Weights of the faces.
     pub weights: FaceWeights,
@@ -147,7 +147,7 @@ pub enum ArapError {
         /// Description of the first wrong weight.
         problem: String,
     },
-    /// The index of the anchor is not that of a vertex.
+    /// The anchor has an index that no vertex has.
     #[error("anchor vertex {anchor} does not exist; choose one from 0 to {last}")]
     Anchor {
         /// Index of the requested vertex.

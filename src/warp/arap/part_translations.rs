@@ -31,7 +31,8 @@ pub(super) struct PartTranslations {
     shares: Vec<f64>,
     /// Rotation of the design in radians.
     whole_angle: f64,
-    /// Index of the anchor in elimination order, and its part.
+    /// Place of the anchor vertex in the elimination order, and the index of its part; `None`
+    /// without an anchor.
     anchor: Option<(u32, u32)>,
     /// Whether the design rotates about its pole (the fixed point of its rigid motion) instead of
     /// its centroid.
@@ -115,8 +116,9 @@ impl PartTranslations {
     /// Returns the deviation of the design's centroid from its straight path; exactly 0 at both
     /// ends.
     ///
-    /// A rotation by θ about the pole moves the centroid along an arc with chord d. At t it has
-    /// moved by R((t − 1) θ/2) d · sin(tθ/2) / sin(θ/2).
+    /// A rotation by θ about the pole moves the centroid along an arc with chord d. At t the
+    /// centroid has moved by R((t − 1) θ/2) d · sin(tθ/2) / sin(θ/2), where R(α) is the rotation by
+    /// α.
     fn bend(&self, t: f64) -> DVec2 {
         let half = 0.5 * self.whole_angle;
         if !self.rotates_about_pole || half.sin().abs() < NO_POLE {
@@ -138,8 +140,7 @@ impl PartTranslations {
         self.parts.len()
     }
 
-    /// Returns the time window of a part, or `None` unless the part is a point in one of the
-    /// designs.
+    /// Returns the time window of a part, or `None` if the part is not a point in either design.
     pub(super) fn time_window(&self, part: usize) -> Option<TimeWindow> {
         self.time_windows.get(part).copied().flatten()
     }
@@ -174,7 +175,8 @@ impl PartTranslations {
             .map(|run| (run.range.clone(), run.part))
     }
 
-    /// Computes, for each part, the translation to be added to its deviations.
+    /// Writes, for each part, the translation to be added to the deviations of its vertices to
+    /// `shifts`.
     ///
     /// `deviation` holds all x and then all y in elimination order.
     pub(super) fn shifts(&self, times: EvaluationTimes, deviation: &[f64], shifts: &mut [DVec2]) {
@@ -188,7 +190,7 @@ impl PartTranslations {
         for (part, shift) in shifts.iter_mut().enumerate() {
             let t = times.of_part(part);
             match self.time_window(part) {
-                // Makes both ends exact.
+                // The formula below would leave rounding at both ends.
                 Some(_) if t == 0.0 || t == 1.0 => *shift = DVec2::ZERO,
                 Some(window) => {
                     let ([from, to], share) = (self.centres[part], window.fraction_done(t));

@@ -7,8 +7,8 @@
 use crate::numerics::{Cholesky, FactorError, SymmetricMatrix};
 use crate::work::progress::{Cancelled, Progress};
 
-/// Ridges tried in turn, as fractions of the diagonal (tolerance: from the rounding error of a
-/// pivot upwards).
+/// Ridges that are tried in turn, as fractions of each diagonal entry (tolerance: the smallest is
+/// about the rounding error of a pivot).
 ///
 /// Faces around a hole that closes to a point can be 10⁻⁴ times as large as their neighbours and
 /// leave pivots of the size of the rounding error. If whole parts are that thin, the errors of

@@ -10,8 +10,8 @@ use crate::geometry::DVec2;
 use crate::numerics::SymmetricMatrix;
 use crate::warp::homotopy::Homotopy;
 
-/// Stiffness of the constraint, relative to the vertex's diagonal entry of K (tolerance: large
-/// enough to dominate, small enough for an accurate factorisation).
+/// Factor of the constraint's energy term, relative to the vertex's diagonal entry of K (tolerance:
+/// large enough to dominate, small enough for an accurate factorisation).
 const STIFFNESS: f64 = 1e4;
 
 /// A vertex is on a straight side if neither the sine of its turning angle nor the difference of
@@ -43,8 +43,8 @@ struct SideVertex {
 impl OutlineConstraints {
     /// Returns the constraints for a homotopy.
     ///
-    /// With bounded distortion there are none: faces whose shear is limited fit together only if
-    /// the sides may bend.
+    /// With bounded distortion there are no constraints, because faces whose shear is limited fit
+    /// together only if the sides may bend.
     pub(super) fn for_homotopy(self, homotopy: Homotopy) -> Self {
         match homotopy {
             Homotopy::Bounded => Self::Off,
@@ -111,8 +111,8 @@ fn vertices_on_sides(mesh: &CompatibleMesh) -> Vec<SideVertex> {
     side_vertices
 }
 
-/// Returns whether the middle one of three vertices lies on the straight line between the others
-/// and divides it in the same ratio in both designs.
+/// Returns whether the middle one of three vertices lies on the straight segment between the other
+/// two, in both designs, and divides that segment in the same ratio.
 fn is_straight(mesh: &CompatibleMesh, vertices: [u32; 3]) -> bool {
     let share = |points: &[DVec2]| {
         let [a, p, b] = vertices.map(|v| points[v as usize]);

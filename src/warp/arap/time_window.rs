@@ -1,10 +1,10 @@
 //! Time window in which a transient part grows from a point or shrinks to one.
 //!
 //! A part that exists in only one design is a tiny seed shape in the other. It moves with the whole
-//! design from the first frame to the last, like every other part, but changes its size and its
-//! relative position only within its time window. A part that appears can thus wait until its place
-//! is free, and a part that disappears can make room in time. At times outside [0, 1] a part keeps
-//! the size that it has at the nearer end.
+//! design from the first frame to the last, like every other part, but changes its size, and its
+//! position relative to the design, only within its time window. A part that appears can thus wait
+//! until its place is free, and a part that disappears can make room in time. At times outside [0,
+//! 1] a part keeps the size that it has at the nearer end.
 
 use crate::geometry::Side;
 use serde::{Deserialize, Serialize};
@@ -13,13 +13,14 @@ use serde::{Deserialize, Serialize};
 /// whose speed drops to zero at full size (heuristic).
 const GROWTH_CURVATURE: f64 = 0.75;
 
-/// Time window within [0, 1] in which a transient part changes its size and relative position.
+/// Time window within [0, 1] in which a transient part changes its size and its position relative
+/// to the design.
 ///
-/// Before and after the window the part has the size of the respective end. It grows fast at first
-/// and slowly at last, and disappears in reverse, so that its area changes almost linearly. If one
-/// part disappears while an equal one appears, both together have 0.95 times the area of one
-/// halfway through the window. With a diameter that changes linearly, they would have only 0.5
-/// times that area.
+/// Before the window the part has its size in the source, after the window its size in the target.
+/// A part that appears grows fast at first and slowly at last; a part that disappears shrinks in
+/// reverse. The area thus changes almost linearly. If one part disappears while an equal one
+/// appears, both together have 0.95 times the area of one halfway through the window. With a
+/// diameter that changes linearly, they would have only 0.5 times that area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TimeWindow {
     /// Design in which the part exists.
@@ -49,8 +50,8 @@ impl TimeWindow {
     /// Returns the diameter of the part at `t`, relative to its diameter in the design in which it
     /// exists.
     ///
-    /// It is exactly 0 or 1 outside the window, so that extrapolation cannot turn the part inside
-    /// out.
+    /// The result is exactly 0 or 1 outside the window, so that extrapolation cannot turn the part
+    /// inside out.
     ///
     /// ```
     /// use morphospace::{geometry::Side, warp::TimeWindow};

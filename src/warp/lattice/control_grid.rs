@@ -68,7 +68,8 @@ impl ControlGrid {
         block.weights[row % SIDE][column % SIDE] += weight;
     }
 
-    /// Returns a block, allocating it if it is empty.
+    /// Returns the block in the given column and row of blocks. Allocates the block if it does not
+    /// exist yet.
     fn block(&mut self, column: usize, row: usize) -> &mut ControlBlock {
         let entry = row * self.columns + column;
         if self.directory[entry] == 0 {
@@ -79,7 +80,8 @@ impl ControlGrid {
         &mut self.blocks[self.directory[entry] as usize - 1]
     }
 
-    /// Replaces each sum by the weighted mean, with each coordinate clamped to ±`bound`.
+    /// Replaces the sum at each control point by the weighted mean of its requests. Each coordinate
+    /// is clamped to ±`bound`.
     pub(super) fn divide(&mut self, bound: f64) {
         for block in &mut self.blocks {
             let rows = block.controls.iter_mut().zip(&block.weights);

@@ -1,9 +1,9 @@
 //! One displacement layer: a uniform cubic B-spline fitted to the features.
 //!
 //! Lee, Wolberg, Shin, "Scattered data interpolation with multilevel B-splines" (1997), §3.1: each
-//! feature requests the smallest displacements of the 16 control points around it that move it as
-//! required. A control point takes the mean of all requests, weighted by its influence on each
-//! feature.
+//! feature requests displacements of the 16 control points around it. Of all displacements that
+//! move the feature as required, it requests the smallest. A control point takes the mean of all
+//! requests, weighted by its influence on each feature.
 //!
 //! The layer is twice continuously differentiable and zero away from the features.
 

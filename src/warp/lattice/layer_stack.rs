@@ -18,8 +18,9 @@ const MAX_DISPLACEMENT: f64 = 0.48;
 /// quarter of the frame, the first level needs ten layers to move a feature across the frame.
 const MAX_LAYERS: [u32; 3] = [16, 4, 8];
 
-/// Largest error of all features, as a fraction of the permitted error, at which no further layer
-/// is added (tolerance: one layer more or less must not cause a visible jump between frames).
+/// No further layer is added once the largest error of all features is at most this fraction of the
+/// permitted error (tolerance: one layer more or less must not cause a visible jump between
+/// frames).
 const TARGET_RESIDUAL: f64 = 0.1;
 
 /// Distances from the frame, in lengths of its longer side, at which the influence of a feature
@@ -94,7 +95,8 @@ struct LatticeFeature {
 }
 
 impl LayerStack {
-    /// Builds layers that move each feature `(position, displacement)` by its displacement.
+    /// Builds the layers. Each feature `(position, displacement)` should be moved by its
+    /// displacement, times its weight.
     pub(super) fn build(
         &mut self,
         ground: &LatticeDomain,
@@ -206,8 +208,8 @@ mod tests {
     use crate::geometry::DMat2;
 
     impl LayerStack {
-        /// Returns the Jacobian determinant of the map at a point and the smallest determinant of
-        /// a composed layer.
+        /// Returns two Jacobian determinants at a point: that of the map, and the smallest one of a
+        /// single layer. The second is infinite if the layers are summed.
         pub(in crate::warp::lattice) fn determinants(&self, place: DVec2) -> [f64; 2] {
             let mut at = place;
             let mut total = DMat2::IDENTITY;

@@ -16,12 +16,12 @@ pub const MAX_LATTICE_CELLS: u32 = 1024;
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LatticeOptions {
     /// Number of lattices, 1 to 9; each has half the spacing of the previous one. Up to
-    /// [`MAX_EXTRA_LEVELS`] are added while a feature is missed.
+    /// [`MAX_EXTRA_LEVELS`] further lattices are added while a feature is missed.
     pub levels: u32,
     /// Number of cells of the first lattice along the longer side of the frame, 1 to 32. With
     /// fewer cells a feature affects more of the plane.
     pub coarsest: u32,
-    /// Permitted error of features as a fraction of the frame's diameter, above 0 and at most 1.
+    /// Permitted error of features as a fraction of the frame's diameter, in (0, 1].
     pub tolerance: f64,
     /// Whether the plane must not fold. If so, layers with bounded displacements are composed;
     /// otherwise unbounded layers are summed.
@@ -46,10 +46,10 @@ pub enum LatticeError {
     /// The features are invalid.
     #[error(transparent)]
     Features(#[from] FeatureError),
-    /// The number of levels is out of range.
+    /// The number of levels is outside 1 to 9.
     #[error("the lattice has {0} levels, but must have 1 to 9; the default is 5")]
     Levels(u32),
-    /// The number of cells of the first lattice is out of range.
+    /// The number of cells of the first lattice is outside 1 to 32.
     #[error("the coarsest lattice has {0} cells, but must have 1 to 32; the default is 4")]
     Coarsest(u32),
     /// The finest requested lattice would have more than [`MAX_LATTICE_CELLS`] cells along a side.
@@ -57,7 +57,7 @@ pub enum LatticeError {
         "the finest lattice would have {0} cells along a side, but at most {MAX_LATTICE_CELLS} are possible; use fewer levels or a coarser first lattice"
     )]
     Finest(u32),
-    /// The tolerance is out of range.
+    /// The tolerance is outside (0, 1].
     #[error("the tolerance is {0}, but must be above 0 and at most 1 frame diameter")]
     Tolerance(f64),
 }

@@ -27,7 +27,7 @@ const NO_LENGTH: f64 = 1e-150;
 pub(super) struct LineFeature {
     pub(super) in_frame: LineEnds,
     pub(super) in_designs: [LineEnds; 2],
-    /// Length that determines the weight, if not the line's own length.
+    /// Length that determines the weight; `None` if that is the line's own length.
     pub(super) nominal: Option<f64>,
 }
 
@@ -43,7 +43,8 @@ pub(super) struct FieldLine {
     pub(super) across: AffineFunction,
     /// Half the length of the line in the frame.
     pub(super) half: f64,
-    /// Factor of the weight: (length / greatest length of all lines)^(b p).
+    /// Factor of the weight: (length / greatest length of all lines)^(b p). Holds the length until
+    /// [`super::LinesAtTime`] replaces it.
     pub(super) strength: f64,
     /// For each design, the x and y component of the displacement D.
     pub(super) carries: [[AffineFunction; 2]; 2],

@@ -1,4 +1,5 @@
-//! Coordinates scaled by a power of two so that those of features are of the order of 1.
+//! Coordinates scaled by a power of two, such that the coordinates of features are of the order of
+//! 1.
 //!
 //! Scaling by a power of two is exact, and products of several coordinates neither overflow nor
 //! underflow.

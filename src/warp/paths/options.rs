@@ -70,7 +70,7 @@ pub enum PathsError {
         /// Number of vertices in source and target.
         counts: [usize; 2],
     },
-    /// A coordinate is NaN, infinite or larger than 1e75.
+    /// A coordinate is NaN, or its absolute value exceeds 1e75.
     #[error("ring {} of part {} has a coordinate that is not finite or larger than {MAX_COORDINATE:e}; correct it", ring + 1, part + 1)]
     OutOfRange {
         /// Index of the part.

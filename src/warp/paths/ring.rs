@@ -2,9 +2,10 @@
 //!
 //! Sederberg, Gao, Wang, Mu, "2-D shape blending: an intrinsic solution to the vertex path problem"
 //! (1993), §3 and §4: the lengths and directions of the edges are interpolated. The resulting
-//! polygon has a gap. It is closed by changing the length of each edge by S, such that Σ (S/w)² is
-//! minimal with w = max(|L_A − L_B|, tolerance), where L_A and L_B are the lengths of the edge in
-//! the two designs. Two Lagrange multipliers make this a 2×2 system.
+//! polygon has a gap. To close the gap, the length of each edge is changed by S, such that Σ (S/w)²
+//! is minimal. The weight is w = max(|L_A − L_B|, tolerance), where L_A and L_B are the lengths of
+//! the edge in the two designs. The changes follow from two Lagrange multipliers, the solution of a
+//! 2×2 system.
 //!
 //! Guaranteed: a closed, finite ring at every finite t. Similar rings stay similar. Exchanging
 //! the rings mirrors the motion in time. Not guaranteed: that the ring does not cross itself.
@@ -38,12 +39,13 @@ struct IntrinsicEdge {
     angle: f64,
     /// Rotation from source to target, in radians.
     turn: f64,
-    /// Compliance of the length: w² relative to the largest w² of the ring.
+    /// Compliance of the length: w² (see the module) relative to the largest w² of the ring.
     freedom: f64,
     /// Mass of the start vertex as a fraction of the ring's mass: half the length of the two
     /// adjacent edges, averaged over both designs.
     mass: f64,
-    /// Fraction of the ring's length before the start vertex.
+    /// Length of the ring from its first vertex to the start vertex, as a fraction of the ring's
+    /// whole length.
     before: f64,
 }
 

@@ -28,7 +28,7 @@ pub(super) const MAX_SLOPE: f64 = 20.0;
 pub(super) struct ClosePair {
     /// Indices of the two centres, in increasing order.
     pub(super) pair: [usize; 2],
-    /// Factor (K d / D)² < 1 by which the difference is multiplied.
+    /// Factor (K d / D)² < 1 by which the difference between the two displacements is multiplied.
     pub(super) shrink_factor: f64,
     /// Coupling μ of the coefficients of the two centres; 0 until the linear system is assembled.
     pub(super) coupling: f64,
@@ -91,7 +91,8 @@ impl CentreData {
         }
     }
 
-    /// Shrinks displacement differences with slopes above [`MAX_SLOPE`] and records the pairs.
+    /// Shrinks the difference between the displacements of two centres where its slope exceeds
+    /// [`MAX_SLOPE`], and records these pairs.
     pub(super) fn limit_slopes(&mut self) {
         let Self {
             positions: at,
@@ -134,7 +135,8 @@ impl CentreData {
         }
     }
 
-    /// Normalises the centres and computes their squared radii rᵢ².
+    /// Normalises the centres and computes the squared radius rᵢ² of each: its squared distance to
+    /// the nearest other centre.
     ///
     /// The origin is the mean of the centres, and the scale is their largest distance from the
     /// origin, or `unit` if all centres coincide.
@@ -175,7 +177,7 @@ impl CentreData {
         own.iter_mut().for_each(|own| *own = own.min(4.0));
     }
 
-    /// Subtracts the best-fit similarity from the displacements and returns it.
+    /// Subtracts the best-fit similarity from the displacements and returns the similarity.
     ///
     /// For each design, the result holds the constant term, the coefficient of x and the
     /// coefficient of y, each as a vector [x, y].

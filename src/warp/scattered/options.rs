@@ -32,8 +32,8 @@ named! { RadialBasis {
 pub struct ScatteredOptions {
     /// Radial basis function φ.
     pub basis: RadialBasis,
-    /// Radius of the Gaussian as a fraction of the frame's diameter, above 0 and at most 10.
-    /// Accuracy drops if the radius is much larger than the distances between features.
+    /// Radius of the Gaussian as a fraction of the frame's diameter, in (0, 10]. Accuracy drops if
+    /// the radius is much larger than the distances between features.
     pub width: f64,
     /// Exponent μ of the multiquadric in [−1, 1) without 0; Ruprecht and Müller use ½.
     pub exponent: f64,
@@ -62,10 +62,10 @@ pub enum ScatteredError {
     /// The features are invalid.
     #[error(transparent)]
     Features(#[from] FeatureError),
-    /// The Gaussian's radius is out of range.
+    /// The Gaussian's radius is outside (0, 10].
     #[error("the width is {0}, but must be above 0 and at most 10 frame diameters")]
     Width(f64),
-    /// The exponent μ is out of range.
+    /// The exponent μ is 0 or outside [−1, 1).
     #[error("the exponent is {0}, but must be in [-1, 1) and not 0; the default is 0.5")]
     Exponent(f64),
     /// The smoothing parameter λ is negative or not finite.

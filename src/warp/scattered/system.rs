@@ -6,12 +6,15 @@
 //! ⎡ ±Φ + λI   P ⎤ ⎡c⎤   ⎡r⎤
 //! ⎣ Pᵀ       −E ⎦ ⎣a⎦ = ⎣0⎦
 //!
-//! Φ holds the radial functions at the centres, with the sign that makes it positive definite on
-//! the null space of Pᵀ; P has the columns 1, x, y. E is a tiny regularisation: slopes that the
-//! centres leave undetermined, because there are fewer than three or all are collinear, become
-//! those of the similarity. Two points thus give a similarity and one a translation without any
-//! special case. If the centres nearly lie on a line and their displacements require a steep
-//! slope across it, E grows and limits that slope continuously.
+//! c are the coefficients of the radial functions, a those of the affine part, and λ is the
+//! smoothing parameter. Φ holds the radial functions at the centres; the sign is the one that makes
+//! ±Φ positive definite on the null space of Pᵀ. P has the columns 1, x, y.
+//!
+//! E is a tiny regularisation. Fewer than three centres, or collinear ones, leave some slopes of
+//! the affine part undetermined; with E, these slopes become those of the similarity. Two points
+//! thus give a similarity and one a translation without any special case. If the centres nearly lie
+//! on a line and their displacements require a steep slope across it, E grows and limits that slope
+//! continuously.
 //!
 //! For each pair of close centres (`centres`), a coupling μ is added to both diagonal entries of Φ
 //! and subtracted from the entries between them. A large μ forces equal coefficients, as if the
@@ -138,7 +141,7 @@ impl RadialSolver {
         (self.options.smoothing * factor).min(1e12)
     }
 
-    /// Returns the regularisation E as the matrix entries [xx, xy, yy].
+    /// Returns the entries [xx, xy, yy] of the regularisation E for the slopes in x and y.
     ///
     /// E is [`MIN_SLACK`] in every direction. If the centres nearly lie on a line and their
     /// displacements require a slope above [`MAX_SLOPE`] across it, E is larger in that direction.

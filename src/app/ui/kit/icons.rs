@@ -56,7 +56,8 @@ pub const PLAY_BACKWARDS: Icon = Icon {
     ..PLAY
 };
 
-// Icons of playback, stops and set stars are solid, as in media players; all others are outlined.
+// Icons of playback, of stops and of a filled rating star are solid, as in media players. All other
+// icons are outlined.
 pub const ADD_STOP: Icon = solid(fill::FLAG_PENNANT);
 pub const STAR: Icon = solid(fill::STAR);
 pub const PAUSE: Icon = solid(fill::PAUSE);

@@ -1,5 +1,5 @@
-//! Bar for editing the time window of a part, in which its own clock runs from start to end. The
-//! user drags the ends of the bar or the whole bar.
+//! Bar for editing the time window of a part: the interval of the film in which the part moves from
+//! source to target. The user drags the ends of the bar or the whole bar.
 
 use bevy_egui::egui::{CursorIcon, Id, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
@@ -23,7 +23,8 @@ enum TimeBarGrip {
 /// A double-click resets the clock to the whole film. `salt` distinguishes the bars of a list.
 pub fn bar(ui: &mut Ui, salt: usize, width: f32, clock: &mut PartClock) {
     let (outer, _) = ui.allocate_exact_size(vec2(width, CONTROL_HEIGHT), Sense::hover());
-    // The id must not depend on the layout: a row that appears above must not end a drag.
+    // The id must not depend on the layout. Otherwise a row that appears above the bar would end a
+    // drag.
     let id = Id::new(("span", salt));
     let response = ui.interact(outer, id, Sense::click_and_drag());
     let track = outer.shrink2(vec2(2.0, 6.0));
@@ -69,8 +70,8 @@ fn dragged_grip(ui: &Ui, response: &Response, bar: Rect) -> Option<TimeBarGrip> 
     grip.filter(|_| response.dragged())
 }
 
-/// Returns the grip at the coordinate `x`: an end of the bar if it is near, the nearer of two ends,
-/// or the whole bar.
+/// Returns the grip at the coordinate `x`: the whole bar if `x` lies on the bar and is farther than
+/// [`GRID`] from both ends, otherwise the nearer end.
 fn grip_at(bar: Rect, x: f32) -> TimeBarGrip {
     let [from, to] = [bar.left(), bar.right()].map(|end| (end - x).abs());
     match from.min(to) {
@@ -82,7 +83,8 @@ fn grip_at(bar: Rect, x: f32) -> TimeBarGrip {
 
 fn drag_grip(clock: &mut PartClock, grip: TimeBarGrip, delta: f64) {
     match grip {
-        // A project file may contain time windows shorter than `MIN_WINDOW`.
+        // A project file may contain a time window shorter than `MIN_WINDOW`. The limits below keep
+        // `clamp` from panicking in this case.
         TimeBarGrip::Start => {
             let max_from = (clock.to - MIN_WINDOW).max(0.0).min(clock.to);
             clock.from = (clock.from + delta).clamp(0.0, max_from);

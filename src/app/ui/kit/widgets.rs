@@ -100,7 +100,7 @@ pub fn slider(
             .clamp_existing_to_range(false)
             .max_decimals(3);
         let number = ui.add_sized([56.0, CONTROL_HEIGHT], number);
-        // A slider does not fill the available width by itself.
+        // A slider does not fill the available width by itself, so its width is set.
         ui.spacing_mut().slider_width = (ui.available_width() - GRID).max(40.0);
         let slider = Slider::new(value, range)
             .logarithmic(logarithmic)
@@ -137,8 +137,8 @@ pub fn toggle(ui: &mut Ui, label: &str, tip: &str, on: &mut bool) {
     row(ui, label, tip, |ui| switch(ui, label, on));
 }
 
-/// Draws a row with a switch between an automatic value, stored as `None`, and a manual one, which
-/// is at first `manual`.
+/// Draws a row with a switch between an automatic value, stored as `None`, and a manual value. When
+/// the user turns the automatic value off, the manual value is first `manual`.
 pub fn automatic_toggle<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, manual: T) {
     let mut is_automatic = value.is_none();
     toggle(ui, label, tip, &mut is_automatic);
@@ -161,7 +161,7 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     response.widget_info(|| WidgetInfo::selected(WidgetType::Checkbox, true, is_on, label));
     let position = ui.ctx().animate_bool_responsive(response.id, is_on);
     let track = Rect::from_center_size(rect.center(), vec2(32.0, 16.0));
-    // The position of the knob has the same meaning as the colour, for colour-blind users.
+    // The knob also moves, because colour-blind users may not see the change of the colour.
     let fill = if is_on { palette.accent } else { palette.hover };
     ui.painter()
         .rect(track, 8.0, fill, (1.0, palette.line), StrokeKind::Inside);
@@ -350,7 +350,7 @@ pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame 
         .inner_margin(margin)
 }
 
-/// Draws a card with rounded corners, as above the stage, around some content.
+/// Draws content on a card with rounded corners, in the style of the cards that lie over the stage.
 pub fn card<R>(ui: &mut Ui, margin: impl Into<Margin>, content: impl FnOnce(&mut Ui) -> R) -> R {
     egui::Frame::window(ui.style())
         .corner_radius(CARD_RADIUS)
@@ -385,7 +385,7 @@ pub fn text_card(
 ) {
     painter.rect(card, RADIUS, fill, line, StrokeKind::Inside);
     let corner = card.center() - words.size() / 2.0;
-    // The text already has its colour; this argument applies only to text without one.
+    // The text already has a colour. The last argument would apply only to text without one.
     painter.galley(corner, words, Color32::PLACEHOLDER);
 }
 

@@ -26,8 +26,8 @@ const MAX_MITRE: f32 = 1.6;
 pub fn colour(place: f64, ring: usize, is_light: bool) -> Color32 {
     // 77 and 360 are coprime, so the first 360 rings all start at different hues.
     let hue = (360.0 * place as f32 + 77.0 * ring as f32).rem_euclid(360.0);
-    // Only a chroma up to 0.10 fits into sRGB for every hue, but it looks grey. Channels outside
-    // the range are therefore clamped.
+    // Only a chroma up to 0.10 fits into sRGB for every hue, but it looks grey. The chroma is
+    // therefore higher, and sRGB channels outside [0, 1] are clamped.
     let (lightness, chroma) = if is_light { (0.60, 0.15) } else { (0.74, 0.14) };
     let srgb = Srgba::from(Oklcha::lch(lightness, chroma, hue));
     let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
@@ -81,8 +81,9 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
     painter.add(Shape::mesh(mesh));
 }
 
-/// Returns the offset of a bend's mitre point from the centre line, for a stripe whose half width
-/// is 1. The offset is at most [`MAX_MITRE`] long.
+/// Returns the offset from a corner of the centre line to the mitre point of the stripe, for a
+/// stripe whose half width is 1. `incoming` and `outgoing` are the edges at the corner. The offset
+/// is at most [`MAX_MITRE`] long.
 fn mitre(incoming: Vec2, outgoing: Vec2) -> Vec2 {
     let (a, b) = (incoming.normalized(), outgoing.normalized());
     let across = |v: Vec2| vec2(v.y, -v.x);

@@ -30,7 +30,8 @@ const MAX_IMAGE_PX: u32 = 1024;
 /// Distance between hatch lines, in points. The fill must be visible between the lines.
 const HATCH_SPACING: f32 = 8.0;
 
-/// Minimum size of a hole that is labelled, in points. A label would cover a smaller hole.
+/// Minimum length of the longer side of a hole's bounds at which the hole is labelled, in points. A
+/// label would cover a smaller hole.
 const MIN_LABELLED_HOLE: f32 = 32.0;
 
 /// Pane of one design, with the map from the common frame of both designs to the window.
@@ -51,7 +52,7 @@ pub struct DesignPane {
 impl DesignPane {
     /// Fits the bounds of the design into `content_rect`, then applies the zoom and pan of `view`.
     pub fn new(side: Side, rect: Rect, content_rect: Rect, bounds: Bounds, view: PaneView) -> Self {
-        // The bounds of a line may have no height; this avoids a division by zero.
+        // The bounds of a line may have no height. The minimum avoids a division by zero.
         let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
         let fitted = (f64::from(content_rect.width().max(1.0)) / size.x)
             .min(f64::from(content_rect.height().max(1.0)) / size.y);
@@ -88,8 +89,8 @@ impl DesignPane {
         self.content_rect.center() + self.pan + offset
     }
 
-    /// Returns the pointer at the position `at` in the window, as the match editor uses it: in the
-    /// common frame of both designs. `is_free` turns snapping off.
+    /// Converts the pointer position `at` in the window to the common frame of both designs, in
+    /// which the match editor works. `is_free` turns snapping off.
     pub fn pointer_target(&self, at: Pos2, is_free: bool) -> EditorPointer {
         let offset = at - self.content_rect.center() - self.pan;
         let offset = DVec2::new(f64::from(offset.x), -f64::from(offset.y));
@@ -112,7 +113,8 @@ impl DesignPane {
         let sheet = &state.sheet;
         self.picture(&painter, sheet);
         if sheet.shows_pictures() {
-            // The fill and the outline traced from a picture would cover the picture.
+            // Only the title is drawn over a picture. The fill and the outline traced from the
+            // picture would cover it.
             return self.title(&painter, state, colours);
         }
         self.fill(&painter, state, colours);
@@ -184,8 +186,8 @@ impl DesignPane {
             for face in mesh.faces().iter() {
                 for k in 0..3 {
                     let (a, b) = (face[k], face[(k + 1) % 3]);
-                    // Two neighbouring faces contain an edge in opposite directions; this draws it
-                    // once.
+                    // Two neighbouring faces contain their common edge in opposite directions. The
+                    // condition holds for one of them, so the edge is drawn once.
                     if a < b {
                         painter.line_segment([points[a as usize], points[b as usize]], stroke);
                     }
@@ -241,7 +243,8 @@ impl DesignPane {
         }
     }
 
-    /// Draws hatch lines at 45° over a piece (a connected part of the match) without a partner.
+    /// Draws hatch lines at 45° over a piece (a connected part of the match) that has no
+    /// counterpart in the other design.
     fn hatch(&self, painter: &Painter, sheet: &MatchSheet, piece: usize, colour: Color32) {
         // The rings are rotated by 45°, so that the hatch lines are horizontal.
         let rotate = |p: &DVec2| {
@@ -259,7 +262,8 @@ impl DesignPane {
         };
         // The map (x, y) to (x + y, y − x) is a rotation that also scales by √2.
         let step = f64::from(HATCH_SPACING) * std::f64::consts::SQRT_2;
-        // Lines outside the pane are skipped; if the user has zoomed in far, these are most lines.
+        // Lines outside the pane are skipped. If the user has zoomed in far, most lines are
+        // outside.
         let visible = self.rect.expand(HATCH_SPACING);
         let mut y = (bounds.min.y / step).ceil() * step;
         let min_visible = f64::from(visible.top() - visible.right());
@@ -306,10 +310,10 @@ impl DesignPane {
         }
     }
 
-    /// Returns the offset of a part's name from its usual place in the part. The name of a small
-    /// part is drawn above the part.
+    /// Returns the offset from the usual place of a part's name, which is in the part, to the place
+    /// where it is drawn. The name of a small part is drawn above the part.
     fn name_offset(&self, sheet: &MatchSheet, piece: usize) -> Vec2 {
-        /// Minimum size of a part that contains its name, in points.
+        /// Minimum size of a part at which its name is drawn inside it, in points.
         const MIN_SIZE_FOR_NAME: f32 = 56.0;
         let rings = sheet.rings.iter().filter(|ring| ring.piece == piece);
         let points = rings.flat_map(|ring| self.line(&ring.sides[self.side]));

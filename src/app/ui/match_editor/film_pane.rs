@@ -13,8 +13,8 @@ use crate::app::ui::stage::area::{self, zoom_factor};
 use crate::app::ui::stage::{checks, onion};
 use crate::app::ui::ui_state::{Intents, UiState};
 
-/// Draws the parts of the pane above and below the film and the overlays of the film, and handles
-/// panning and zooming. Returns the rectangle in which the stage is visible.
+/// Fills the pane above and below the film, draws the overlays of the film, and handles panning and
+/// zooming. Returns the rectangle in which the stage is visible.
 pub fn show(
     root: &Ui,
     state: &UiState,

@@ -54,8 +54,8 @@ pub fn show(root: &mut Ui, state: &UiState, full_rect: Rect, intents: &mut Inten
     shown.unwrap_or(full_rect)
 }
 
-/// Returns the rectangle of the designs and, if the film is shown, that of the film pane: a third
-/// of the width, in whole points.
+/// Returns the rectangle of the designs and, if the film is shown, the rectangle of the film pane.
+/// The film pane takes a third of the width, in whole points.
 fn columns(state: &UiState, full_rect: Rect) -> (Rect, Option<Rect>) {
     if !state.editor.shows_film() {
         return (full_rect, None);
@@ -135,8 +135,8 @@ fn handle_pointer(
         send(EditorAction::Release);
     }
     if let Some(pointer) = response.hover_pos() {
-        // An intent is sent only if the pointer moves; one in every frame would keep the window
-        // redrawing.
+        // An intent is sent only if the pointer has moved. An intent in every frame would keep the
+        // window redrawing.
         if moved && !response.dragged() {
             send(EditorAction::Hover(Some(
                 pane.pointer_target(pointer, shift),

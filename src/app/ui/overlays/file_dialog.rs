@@ -46,7 +46,8 @@ pub fn show(ctx: &Context, state: &UiState, files: &mut FileDialogState, intents
         intents.push(Intent::AnswerDialog(Vec::new()));
         return;
     }
-    // The dialog draws selected names in the colour of the selection's background.
+    // The dialog uses the background colour of selected text as the text colour of selected names,
+    // so this colour must be bright.
     theme::with_bright_selection(ctx, |ctx| match purpose {
         DialogPurpose::Save(_) => {
             open_dialog.dialog.update(ctx);

@@ -58,10 +58,10 @@ fn groups(rows: &[KeyTableRow]) -> Vec<&[KeyTableRow]> {
     rows.chunk_by(|a, b| a.group == b.group).collect()
 }
 
-/// Returns the number of groups of shortcuts in the first of two columns for which the taller
-/// column is as short as possible.
+/// Returns the number of groups that go into the first of two columns, so that the taller column is
+/// as short as possible.
 fn column_split(groups: &[&[KeyTableRow]]) -> usize {
-    // The heading of a group and the gap below it are together as tall as two rows.
+    // The heading of a group and the gap below the group are together as tall as two rows.
     let height =
         |groups: &[&[KeyTableRow]]| groups.iter().map(|rows| rows.len() + 2).sum::<usize>();
     let taller = |&k: &usize| height(&groups[..k]).max(height(&groups[k..]));

@@ -95,7 +95,7 @@ fn file_buttons(ui: &mut Ui, file: &Path) {
         if ui.button("Show folder").on_hover_text(tip).clicked()
             && let Some(folder) = folder
         {
-            // If there is no file manager, this does nothing; the notice shows the path anyway.
+            // If there is no file manager, nothing happens. The notice shows the path in any case.
             open::that_detached(folder).ok();
         }
         let tip = "Copies the path to the clipboard.";

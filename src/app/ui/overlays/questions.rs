@@ -23,8 +23,8 @@ pub fn show(ctx: &Context, state: &UiState, intents: &mut Intents) {
     }
 }
 
-/// Heading of the question, label of the button that keeps the work, and label of the button that
-/// discards it.
+/// Returns the heading of the question, the label of the button that keeps the work, and the label
+/// of the button that discards it.
 fn labels(kind: UnsavedKind) -> [&'static str; 3] {
     match kind {
         UnsavedKind::Changes => ["Unsaved changes", "Save", "Don't save"],

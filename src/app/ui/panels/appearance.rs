@@ -57,8 +57,8 @@ fn paint_layers(ui: &mut Ui, layers: &mut PaintLayerOptions) {
 
 const CONTOURS_TIP: &str = "Lines of equal distance in the blended field.";
 
-/// Toggle of one element of the stage ("layer" in the window): whether the element is visible, its
-/// name and tooltip, and whether the transition can show it.
+/// Toggle of one element of the stage ("layer" in the window). Fields: whether the element is
+/// visible, its name, its tooltip, and whether the transition can show it.
 type LayerToggle<'a> = (&'a mut bool, &'static str, &'static str, bool);
 
 fn layer_toggles<'a>(

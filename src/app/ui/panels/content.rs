@@ -17,7 +17,7 @@ pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
     section(ui, "Colours", |ui| {
         let tip = "How fast one picture fades into the other.";
         choice_list(ui, "Curve", tip, &mut mix.curve);
-        // The limits keep the two ends of the range apart.
+        // The limits keep the two ends of the range at least `MIN_RANGE` apart.
         let from = drag_value(&mut mix.from, 0.0..=mix.to - MIN_RANGE, 0.005, 2);
         number(
             ui,
@@ -41,7 +41,8 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
         blending(ui, &mut field.blend);
         let tip = "How distance is measured. The difference shows at corners.";
         choice_list(ui, "Distance", tip, &mut field.metric);
-        // Other metrics count whole cells, so the outline has no position within a cell.
+        // Other metrics count whole cells, so the option (the outline's position within a cell)
+        // applies only to the Euclidean metric.
         let is_euclidean = field.metric == Metric::Euclidean;
         let tip = "Position of the outline within a cell. Metrics other than Euclidean place it \
                    between cells.";

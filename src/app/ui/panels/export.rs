@@ -18,7 +18,7 @@ use crate::export::{FilmKind, LayoutPreset, has_ffmpeg};
 use crate::io::sanitize::SanitizedLine;
 use crate::settings::Choice;
 
-/// Standard sizes of films, in pixels along the shorter side, with label and tooltip.
+/// Standard sizes of films: pixels along the shorter side, label, and tooltip.
 const STANDARD_SIZES: [(u32, &str, &str); 4] = [
     (480, "480", "480 pixels along the shorter side"),
     (720, "720", "720 pixels along the shorter side: HD"),
@@ -242,8 +242,9 @@ fn range(ui: &mut Ui, state: &UiState, options: &mut FilmExportOptions) {
     });
 }
 
-/// Draws a drop-down list for an end of the film: all stops and ends, or `None` for the project's
-/// own end, which is called `default_name`.
+/// Draws a drop-down list in which the user chooses where the film starts or ends. It lists the
+/// start and the end of the project's film, all stops, and `default_name`, which stands for `None`:
+/// the project's own start or end.
 fn end_list(
     ui: &mut Ui,
     state: &UiState,
@@ -335,7 +336,7 @@ fn time_of(secs: f64) -> String {
     }
 }
 
-/// Choices for the background of a film or image: whether it is transparent, with label and
+/// Choices for the background of a film or image: whether the background is transparent, label, and
 /// tooltip.
 const BACKGROUNDS: [(bool, &str, &str); 2] = [
     (false, "Coloured", "Background colour of the project"),

@@ -81,7 +81,8 @@ fn stagger(ui: &mut Ui, sheet: &MatchSheet, times: &mut Vec<PartTime>) {
     });
 }
 
-/// Draws the row of the part with the index `piece`. Returns its new clock if the user changed it.
+/// Draws the row of the part with the index `piece`. Returns the new clock (time window and easing)
+/// of the part if the user changed it.
 fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Option<PartClock> {
     let mut clock = before;
     ui.horizontal(|ui| {

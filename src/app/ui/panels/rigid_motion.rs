@@ -69,7 +69,7 @@ fn path(ui: &mut Ui, path: &mut ArapPath) {
                rotates about a fixed point.";
     row(ui, "Path", tip, |ui| {
         let (anchor, width) = match *path {
-            // The choices are narrower, which leaves room for the vertex number.
+            // The choices are narrower than the row, which leaves room for the vertex number.
             ArapPath::Anchor(vertex) => (vertex, 128.0),
             ArapPath::Centroid | ArapPath::Pole => (0, ui.available_width()),
         };

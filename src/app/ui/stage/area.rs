@@ -40,7 +40,7 @@ pub fn show(root: &mut Ui, rect: Rect, name: &str, intents: &mut Intents) {
     }
 }
 
-/// Draws a hint if the stage shows nothing.
+/// Draws a hint in the middle of `rect` if the stage shows nothing.
 pub fn empty_hint(root: &Ui, state: &UiState, rect: Rect) {
     if let Some(text) = empty_words(state) {
         let ink = ink_on(state.session.style().ground);
@@ -71,11 +71,11 @@ fn empty_words(state: &UiState) -> Option<&'static str> {
     appearance::is_blank(state).then_some("All layers are hidden. Turn on Fill under Appearance.")
 }
 
-/// Returns whether a background is light: whether its relative luminance is above 0.18, that of a
+/// Returns whether a background is light. The limit is a relative luminance of 0.18, that of the
 /// grey that the eye sees as halfway between black and white.
 pub fn is_light(ground: Rgb) -> bool {
     let [r, g, b] = ground.to_linear();
-    // Relative luminance (WCAG 2.2).
+    // The weighted sum is the relative luminance (WCAG 2.2).
     0.2126 * r + 0.7152 * g + 0.0722 * b > 0.18
 }
 

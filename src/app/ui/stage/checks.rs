@@ -17,8 +17,8 @@ use crate::measure::{Finding, Verdict};
 /// Height of one line of the strip, in points.
 const ROW_HEIGHT: f32 = 24.0;
 
-/// Maximum difference between the current t and that of a finding at which the finding is marked on
-/// the stage (tolerance: more than the step of 1/64 at which the film is measured).
+/// Maximum difference between the current t and the t of a finding at which the finding is marked
+/// on the stage (tolerance: more than 1/64, the step of t in which the film is measured).
 const NEAR_T: f64 = 0.02;
 
 /// Draws the strip with the results of the check below the stage, so that it does not cover the
@@ -45,7 +45,7 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         });
 }
 
-/// Draws the strip while the check is running or after it was stopped.
+/// Draws the row that replaces the results while the check is running or after it was stopped.
 fn pending_row(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     ui.horizontal(|ui| {
         ui.label(secondary_text(ui, unmeasured_reason(state)));
@@ -56,7 +56,8 @@ fn pending_row(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     });
 }
 
-/// Returns the reason why there are no results of the check.
+/// Returns a text that says why the automatic check has no results: there is no transition, or the
+/// check is running or was stopped.
 pub fn unmeasured_reason(state: &UiState) -> String {
     match state.measures.visible_progress() {
         _ if state.session.transition().is_none() => "Nothing to check yet.".to_owned(),
@@ -66,8 +67,8 @@ pub fn unmeasured_reason(state: &UiState) -> String {
     }
 }
 
-/// Draws a line for each finding, then the fixes, or a line that there are no findings; then a line
-/// for each note.
+/// Draws a line for each finding and a line with the fixes; without findings, draws one line that
+/// says so. Below, draws a line for each note.
 fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Intents) {
     let verdict = &measures.verdict;
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -92,8 +93,8 @@ fn show(ui: &mut Ui, state: &UiState, measures: &FilmMeasures, intents: &mut Int
     }
 }
 
-/// Draws the result of a check without findings. It holds for the sampled moments or, if that is
-/// proved, for every moment.
+/// Draws the result of a check without findings. The text says whether the result holds only for
+/// the sampled moments, or is proved for every moment.
 fn clear(ui: &mut Ui, state: &UiState, verdict: &Verdict, intents: &mut Intents) {
     let sampled = format!("Checked {} moments from source to target.", verdict.steps);
     let clear_text = capitalised(verdict.clear);
@@ -187,7 +188,7 @@ fn fixes(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
             ([], true, _) => "Looking for fixes: flipping, rotating, other methods …",
             ([], _, true) => "No fix found: tried flipping, rotating and other methods.",
             ([], ..) => "",
-            // The text is short, because the buttons follow it.
+            // The text is short, because the buttons follow it in the same line.
             _ => "Try:",
         };
         ui.label(secondary_text(ui, text));

@@ -16,7 +16,8 @@ use crate::app::ui::ui_state::{Intents, UiState};
 /// Width of the space for the name of a method, in points.
 const NAME_WIDTH: f32 = 168.0;
 
-/// Handles the pointer in both halves and draws their overlays. Returns the rectangle of the stage.
+/// Handles the pointer in both halves and draws their overlays. Returns the left half, which is the
+/// rectangle of the stage.
 pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) -> Rect {
     // The width is in whole points, so that both halves begin on a pixel boundary.
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
@@ -30,7 +31,9 @@ pub fn show(root: &mut Ui, state: &UiState, stage: Rect, intents: &mut Intents) 
     left
 }
 
-/// Draws hints and marks of the check over the halves, and the line between them.
+/// Draws over the left half (the stage) a hint if the stage is empty, and marks at the findings of
+/// the automatic check. Draws over the right half the reason why it is empty, if it is. Draws the
+/// line between the halves.
 fn overlays(root: &mut Ui, state: &UiState, [left, right]: [Rect; 2]) {
     area::empty_hint(root, state, left);
     checks::mark(root, state, left);
@@ -56,14 +59,15 @@ pub fn strip(root: &mut Ui, state: &UiState, intents: &mut Intents) {
         });
 }
 
-/// Draws the reason why the right half is empty.
+/// Draws in the right half (`rect`) why it is empty: the second transition is being built or could
+/// not be built. Draws nothing if the right half shows a transition.
 fn comparison_status(ui: &Ui, state: &UiState, rect: Rect) {
     let comparison = &state.comparison;
     let text = match (comparison.transition(), comparison.problem()) {
         (Some(_), _) => return,
         (None, Some(problem)) => problem.to_string(),
         (None, None) if comparison.is_busy() => "Building …".to_owned(),
-        // The build has not started yet; the next frame shows its state.
+        // The build of the second transition has not started yet; the next frame shows its state.
         (None, None) => return,
     };
     let ink = ink_on(state.session.style().ground);

@@ -1,5 +1,5 @@
-//! Rectangle over the stage that shows the part of the plane in the exported film, while the export
-//! settings are open.
+//! Rectangle over the stage that marks which part of the plane an exported film shows. It is drawn
+//! while the export settings are open.
 
 use bevy_egui::egui::{Color32, Rect, Stroke, StrokeKind, Ui, vec2};
 

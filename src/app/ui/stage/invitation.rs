@@ -191,7 +191,7 @@ impl CardPlan {
         let inner = width - 2.0 * PADDING;
         let columns = ((inner + GRID) / (MIN_EXAMPLE_WIDTH + GRID)) as usize;
         let columns = columns.clamp(1, example_count.max(1));
-        // Only rows that are full are shown.
+        // Incomplete rows are not shown.
         let max_rows = (example_count / columns).min(MAX_ROWS);
         let plan = |rows: usize, has_formats: bool| Self {
             width,

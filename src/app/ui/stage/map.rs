@@ -132,7 +132,7 @@ fn handle_drag(
     }
     match drag.design {
         Some(design) => intents.push(Intent::MoveMapDesign(design, place)),
-        // The position at which the button is pressed becomes the first point.
+        // Each new pointer position extends the line, from the position of the button press on.
         None if state.map.is_drawing_path && drag.line.last() != Some(&place) => {
             drag.line.push(place)
         }
@@ -315,8 +315,8 @@ impl WeightLegend {
             .collect()
     }
 
-    /// Returns the height that the legend has if it lists all designs with a weight of 100 %, so
-    /// that the height does not change while the marker moves.
+    /// Returns the height that the legend would have if it listed every design with a weight of
+    /// 100 %. This height is reserved for it, so that nothing moves when the weights change.
     fn height(root: &Ui, pictures: &MapPictures, width: f32) -> f32 {
         let mut layout = Self::new(width);
         for (_, words) in Self::labels(pictures, &vec![1.0; pictures.weights().len()]) {

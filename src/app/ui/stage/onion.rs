@@ -9,7 +9,7 @@ use crate::transition::colour_fraction;
 /// Opacity of an onion skin, from 0 to 1 (heuristic).
 const OPACITY: f32 = 0.55;
 
-/// Draws the onion skins, each in the fill colour at its t.
+/// Draws the onion skins. Each has the fill colour that the film has at the t of its stop.
 pub fn show(ui: &Ui, state: &UiState, stage: Rect) {
     let painter = ui.painter().with_clip_rect(stage);
     let style = state.session.style();

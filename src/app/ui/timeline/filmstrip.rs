@@ -10,7 +10,7 @@ use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::view::filmstrip;
 use crate::app::view::filmstrip::THUMBNAIL_PX;
 
-/// Height by which the film strip makes the timeline higher, in points.
+/// Height that the film strip adds to the timeline, in points.
 pub const HEIGHT: f32 = 40.0;
 
 /// Maximum width and height of a thumbnail, in points: half its size in pixels, so that it is sharp
@@ -37,8 +37,8 @@ pub fn show(ui: &Ui, state: &UiState, ruler: TimelineRuler, top: f32, intents: &
     let last = count - 1;
     let t = |index: usize| segments as f64 * index as f64 / last as f64;
     let spacing = ruler.x(t(1)) - ruler.x(t(0));
-    // Every `step`-th thumbnail is shown. A step that divides `last` includes both ends; for two
-    // designs it is 1, 2, 5 or 10.
+    // Every `step`-th thumbnail is shown. The step divides `last`, so that the first and the last
+    // thumbnail are shown.
     let Some(step) = (1..=last)
         .filter(|step| last.is_multiple_of(*step))
         .find(|step| spacing * *step as f32 >= MIN_THUMBNAIL_WIDTH + GAP)

@@ -43,8 +43,8 @@ fn graphs_row(ui: &mut Ui, state: &UiState, film: &FilmReport, intents: &mut Int
         .filter(|(_, series)| !series.is_empty())
         .collect();
     let gap = 2.0 * GRID;
-    // The graphs are as wide as possible so that only whole graphs are visible; the user scrolls to
-    // the others.
+    // The visible graphs fill the width of the panel, so that none is cut off. The user scrolls to
+    // the other graphs.
     let width = ui.available_width();
     let max_count = ((width + gap) / (MIN_WIDTH + gap)).floor().max(1.0);
     let count = max_count.min(graphs.len().max(1) as f32);
@@ -167,8 +167,8 @@ fn t_axis(colour: Color32) -> AxisHints<'static> {
         .formatter(|mark, _| format!("{}", (mark.value * 100.0).round() / 100.0))
 }
 
-/// Returns three to six marks of an axis from `min` to `max`, at round steps. (The steps of egui
-/// are powers of ten, of which none suits an axis up to 9,000.)
+/// Returns three to six marks of an axis from `min` to `max`, at round steps. The default steps of
+/// egui are not used: they are powers of ten, and none suits an axis up to 9,000.
 fn marks(min: f64, max: f64) -> Vec<GridMark> {
     let min_step = (max - min) / 5.0;
     let power_of_ten = 10_f64.powf(min_step.log10().floor());

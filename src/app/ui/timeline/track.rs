@@ -70,7 +70,7 @@ fn scrub(
     stops: &[TransitionStop],
     intents: &mut Intents,
 ) {
-    // A press of the button already moves t, before the pointer moves.
+    // A press of the mouse button moves t at once, even if the pointer does not move.
     let is_pressed = response.dragged() || response.is_pointer_button_down_on();
     let Some(pointer) = response.interact_pointer_pos().filter(|_| is_pressed) else {
         return;
@@ -213,7 +213,8 @@ fn stops(
     let places: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
     for (index, stop) in stops.iter_mut().enumerate() {
         let at = pos2(ruler.x(stop.t), ruler.y - 14.0);
-        // The id is the index, because the name can be edited while the menu is open.
+        // The id contains the index and not the name, because the name can be edited while the menu
+        // is open.
         let id = ui.id().with(("stop", index));
         let name = label(stop, &places);
         let response = marker(ui, at, id, &name);

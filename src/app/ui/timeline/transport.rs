@@ -83,7 +83,7 @@ fn time_field(ui: &mut Ui, state: &UiState, intents: &mut Intents) {
     if response.changed() {
         intents.push(Intent::Seek(t));
     }
-    // Words say that t is outside the film, because colour alone must not carry this meaning.
+    // A text says that t is outside the film, because a change of the colour alone is not enough.
     let range_text = match state.playback.t() {
         t if t < 0.0 => "before the source",
         t if t > state.session.segment_count() as f64 => "beyond the target",

@@ -28,7 +28,7 @@ fn circle(centre: DVec2, radius: f64, n: usize, turn: f64) -> Vec<DVec2> {
     (0..n).map(at).collect()
 }
 
-/// Builds the guaranteed base mesh alone.
+/// Builds the guaranteed base mesh of a piece, without trying a transfer first.
 fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
     let base = from_base(
         &BoundaryRings::of(source),
