@@ -49,7 +49,11 @@ pub(super) struct PathSolution {
 }
 
 impl CurveMatchProblem {
-    /// Returns the best path over the poses selected by a search with fewer samples.
+    /// Returns the best path found from any likely rotation; if the designs stay upright, the best
+    /// path for rotation 0.
+    ///
+    /// A search with fewer samples selects the likely rotations. The best path is then refined by
+    /// further searches, each of which starts from the rotation of the last match.
     pub(super) fn posed_solution(&self) -> PathSolution {
         let invariant = self.invariant_dissimilarities();
         if self.keep_up {

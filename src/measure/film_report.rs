@@ -29,7 +29,8 @@ pub struct FilmSample {
     pub t: f64,
     /// Filled area, in squared design units.
     pub area: f64,
-    /// Length of all boundaries, in design units. A bar counts as twice its length.
+    /// Length of all boundaries, in design units. A truss bar counts as twice its length, once for
+    /// each of its long sides.
     pub perimeter: f64,
     /// Total absolute turning of all boundaries, in radians; 2π for each convex ring. A ring that
     /// is absent at this t counts as 2π.

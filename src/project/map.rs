@@ -181,7 +181,7 @@ mod tests {
     fn errors_name_the_invalid_part_of_a_map() {
         for (map, expected) in [
             ("[map]\nsites = [[0.0, 0.0]]", "1 sites"),
-            ("[map]\nsites = [[0.0, 0.0], [0.0, 0.0]]", "one place"),
+            ("[map]\nsites = [[0.0, 0.0], [0.0, 0.0]]", "coincide"),
             ("[map]\nsites = [[0.0, 0.0], [nan, 0.0]]", "finite"),
             ("[map]\nsites = [[0.0, 0.0], [1e300, 0.0]]", "finite"),
             ("[map]\nlayout = \"circle\"", "line 7"),

@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecordingOptions {
     /// Maximum distance between a vertex in the recording and the same vertex in the warp, as a
-    /// fraction of the diameter of all moving positions at both ends.
+    /// fraction of the diameter of the bounding box of all moving vertices at t = 0 and t = 1.
     pub tolerance: f64,
     /// Maximum size of the recording in bytes (resource limit). The memory that is used while an
     /// interval is recorded counts too.

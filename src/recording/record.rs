@@ -123,8 +123,9 @@ struct WarpRecorder<'a> {
 }
 
 impl<'a> WarpRecorder<'a> {
-    /// Prepares a recording: detects the moving channels and measures the diameter. `breaks`
-    /// contains the break times in ascending order, followed by 1.
+    /// Prepares a recording: detects which channels (position lists of a placement) the warp moves,
+    /// and measures the diameter of all moving positions at both ends. `breaks` contains the
+    /// break times of the warp in ascending order, followed by 1.
     fn new(
         warp: &dyn Warp,
         breaks: &[f64],

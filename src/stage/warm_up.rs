@@ -42,7 +42,7 @@ fn with_colours(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0_f32; 4]; 3])
 }
 
-/// Adds the attribute in which lines store the offsets of their corners to the mesh.
+/// Adds to the mesh the attribute in which lines store the offsets of their corners.
 fn with_offsets(mesh: Mesh) -> Mesh {
     mesh.with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, vec![[0.0_f32; 3]; 3])
 }

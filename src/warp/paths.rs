@@ -97,7 +97,8 @@ impl BoundaryPaths {
         })))
     }
 
-    /// Returns each ring as a list of vertex indices of the placement, in input order.
+    /// Returns the rings in input order, each as the indices of its vertices in a
+    /// [`Placement`](crate::warp::Placement).
     #[must_use]
     pub fn loops(&self) -> Vec<Vec<u32>> {
         self.0

@@ -1,5 +1,5 @@
-//! Method search: tries all methods that suit the designs in the background and uses the one whose
-//! film has the fewest defects.
+//! Method search: builds rigid parts, fields carried by rigid parts, and the plain field blend in
+//! the background, and uses the method whose film has the fewest defects.
 
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 

@@ -52,7 +52,8 @@ impl MapContours {
         self.picture.as_ref()
     }
 
-    /// Samples of all measures, the finest taken so far; `None` until the first are complete.
+    /// Values of all measures on the finest grid sampled so far; `None` until the coarse grid is
+    /// complete.
     #[must_use]
     pub fn landscape(&self) -> Option<&MapLandscape> {
         self.landscape.as_ref()

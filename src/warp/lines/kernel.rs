@@ -51,7 +51,7 @@ type PlaceLanes = [f64; BLOCK];
 /// Two vectors of points are processed together, and one division gives both weights:
 /// 1/q₁ = q₂ / (q₁ q₂) and 1/q₂ = q₁ / (q₁ q₂).
 trait WeightFalloff: Copy {
-    /// Returns `strength` / qᵇ for both vectors of q.
+    /// Returns `strength` / qᵇ for each number q in the two SIMD vectors.
     fn weights<S: Simd>(self, simd: S, strength: S::f64s, q: VectorGroup<S>) -> VectorGroup<S>;
 }
 
