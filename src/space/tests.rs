@@ -203,15 +203,15 @@ fn too_few_designs_and_cancellation_are_errors() {
     let too_few = build(vec![star("a", 5, 1.0)], &Silent);
     assert!(matches!(too_few, Err(SpaceError::TooFew(1))));
     #[derive(Debug)]
-    struct AlwaysCancelled;
-    impl Progress for AlwaysCancelled {
+    struct CancelledSpaceProgress;
+    impl Progress for CancelledSpaceProgress {
         fn report(&self, _: &'static str, _: f64) {}
         fn is_cancelled(&self) -> bool {
             true
         }
     }
     let designs = vec![star("a", 5, 1.0), star("b", 6, 1.0), frame("c", 1.0)];
-    let cancelled = build(designs, &AlwaysCancelled);
+    let cancelled = build(designs, &CancelledSpaceProgress);
     let is_cancelled = matches!(
         cancelled,
         Err(SpaceError::Cancelled(Cancelled) | SpaceError::Build(BuildError::Cancelled(Cancelled)))
