@@ -2,6 +2,7 @@
 //! code, numeric constants, repeated type names, import cycles between folders, length of the
 //! README, and words that plain language avoids. `cargo test --test budget -- --nocapture` prints
 //! every figure.
+#![expect(clippy::print_stdout, reason = "every figure is printed")]
 
 #[path = "source/files.rs"]
 mod files;

@@ -268,8 +268,8 @@ fn pair(
     let target_only = unpaired(&pairs, target.len(), 1);
     Ok(Pairing {
         pairs,
-        source_only: source_only,
-        target_only: target_only,
+        source_only,
+        target_only,
     })
 }
 

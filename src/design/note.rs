@@ -138,6 +138,10 @@ impl fmt::Display for OtherKinds {
 }
 
 impl fmt::Display for ImportNote {
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one list; longer names wrap its lines"
+    )]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Crossings {

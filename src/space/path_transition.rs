@@ -50,6 +50,10 @@ impl DesignSpace {
     /// # Errors
     /// [`SpaceError`] if there is no such segment, if the map does not have one site per design, if
     /// the distance fields of all segments need too much memory, or if the work was cancelled.
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one list; longer names wrap its lines"
+    )]
     pub fn segment(
         &self,
         map: &WeightMap,

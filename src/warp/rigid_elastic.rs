@@ -43,14 +43,14 @@ impl<W> RigidElasticPlaneWarp<W> {
         let points: Vec<PointPair> = points
             .iter()
             .map(|pair| {
-                let [source, target] = rigid.to_rest(pair.source, pair.target);
+                let [source, target] = rigid.rest_positions(pair.source, pair.target);
                 PointPair { source, target }
             })
             .collect();
         let lines: Vec<LinePair> = lines
             .iter()
             .map(|line| {
-                let [a, b] = [0, 1].map(|k| rigid.to_rest(line.source[k], line.target[k]));
+                let [a, b] = [0, 1].map(|k| rigid.rest_positions(line.source[k], line.target[k]));
                 LinePair {
                     source: [a[0], b[0]],
                     target: [a[1], b[1]],

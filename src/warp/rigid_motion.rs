@@ -130,7 +130,7 @@ impl CommonRigidMotion {
         let mut matched = matched.clone();
         for ring in matched.pieces.iter_mut().flat_map(|piece| &mut piece.rings) {
             for (p, q) in ring.source.iter_mut().zip(&mut ring.target) {
-                [*p, *q] = self.to_rest(*p, *q);
+                [*p, *q] = self.rest_positions(*p, *q);
             }
         }
         matched
@@ -143,7 +143,7 @@ impl CommonRigidMotion {
     /// The size is unchanged because options are relative to the frame's size.
     #[must_use]
     pub fn frame_to_rest(&self, frame: &Bounds) -> Bounds {
-        let [a, b] = self.to_rest(frame.centre(), frame.centre());
+        let [a, b] = self.rest_positions(frame.centre(), frame.centre());
         let half = 0.5 * frame.size();
         Bounds {
             min: a.midpoint(b) - half,
@@ -162,7 +162,7 @@ impl CommonRigidMotion {
             let t = f64::from(k) / f64::from(SWEEP_STEPS);
             let (back, centre) = self.at(t);
             for corner in frame.corners() {
-                for rest in self.to_rest(corner, corner) {
+                for rest in self.rest_positions(corner, corner) {
                     swept = swept.union(&Bounds::at(conjugate(back).rotate(rest) + centre));
                 }
             }
@@ -182,7 +182,7 @@ impl CommonRigidMotion {
     ///
     /// Both are centred on the origin; the source is rotated forwards by half the turn and the
     /// target backwards by half.
-    pub(super) fn to_rest(&self, source: DVec2, target: DVec2) -> [DVec2; 2] {
+    pub(super) fn rest_positions(&self, source: DVec2, target: DVec2) -> [DVec2; 2] {
         let half = DVec2::from_angle(0.5 * self.turn);
         [
             half.rotate(source - self.centres[0]),

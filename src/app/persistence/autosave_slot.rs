@@ -73,7 +73,7 @@ impl AutosaveSlot {
             match UnsavedProject::read(&slot.path) {
                 Ok(project) => abandoned.push(AbandonedProject {
                     written_at: fs::metadata(&slot.path).and_then(|m| m.modified()).ok(),
-                    project: project,
+                    project,
                     slot,
                 }),
                 // A file that is no valid autosave is overwritten.

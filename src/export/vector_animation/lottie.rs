@@ -111,6 +111,10 @@ fn scene(layer: &SceneLayer, number: usize, [from, to]: [f64; 2]) -> Value {
 }
 
 /// Returns the group of one shape: its paths, its fill or stroke, and its transform.
+#[expect(
+    clippy::too_many_lines,
+    reason = "one list; longer names wrap its lines"
+)]
 fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
     let Some(first) = poses.first() else {
         return json!({"ty": "gr", "it": []});

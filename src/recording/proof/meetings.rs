@@ -294,6 +294,10 @@ impl<'a> MeetingSearch<'a> {
     /// Returns the smallest s in `[from, to]` at which the third curve is not proved to be off the
     /// edge between the first two, by bisection. The result is `None` if the third curve is off the
     /// edge throughout, or if a failure before `from` is already known.
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one list; longer names wrap its lines"
+    )]
     fn first_contact(
         &self,
         curves: [VertexCurve; 3],
