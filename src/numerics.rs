@@ -1,5 +1,5 @@
-//! Numerical methods: linear algebra, L-BFGS minimisation ([`lbfgs`]) and the assignment problem
-//! ([`assignment`]). No other module uses `faer`.
+//! Numerical methods: linear algebra, L-BFGS minimisation (`lbfgs`) and the assignment problem
+//! (`assignment`). No other module uses `faer`.
 //!
 //! [`Cholesky`] factors a sparse symmetric positive definite matrix once and then solves with it in
 //! every frame. [`PatternCholesky`] is for sparse matrices whose values change while the pattern of

@@ -204,7 +204,7 @@ impl Playback {
         next_landmark(self.heading(), false, timing, stops)
     }
 
-    /// Selects the next higher speed of [`SPEEDS`] or, if not `faster`, the next lower one.
+    /// Selects the next higher speed of `SPEEDS` or, if not `faster`, the next lower one.
     pub fn change_speed(&mut self, faster: bool) {
         let next = if faster {
             // A speed between two entries moves to the next entry.
@@ -215,7 +215,7 @@ impl Playback {
         self.speed = next.copied().unwrap_or(self.speed);
     }
 
-    /// Sets the speed, clamped to the range of [`SPEEDS`]; ignores non-finite values.
+    /// Sets the speed, clamped to the range of `SPEEDS`; ignores non-finite values.
     pub fn set_speed(&mut self, speed: f64) {
         if speed.is_finite() {
             self.speed = speed.clamp(SPEEDS[0], SPEEDS[SPEEDS.len() - 1]);
