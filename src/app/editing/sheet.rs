@@ -22,6 +22,7 @@ const CUT_SHIFT: f64 = 0.25;
 
 /// Both designs and their match, placed in the common frame.
 #[derive(Resource, Clone, Debug, Default)]
+#[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "read by tests"))]
 pub struct MatchSheet {
     /// Source and target; `None` if they are not both outlines.
     pub sides: Option<[SheetSide; 2]>,

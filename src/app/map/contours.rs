@@ -45,6 +45,7 @@ pub struct MapContours {
 /// The measure whose contours are shown, if any.
 type ShownMeasure = Option<MapMeasure>;
 
+#[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "read by tests"))]
 impl MapContours {
     /// Image of the contours and hatching; `None` until it is drawn.
     #[must_use]

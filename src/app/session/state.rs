@@ -72,6 +72,7 @@ const IMPROVING_FILM: &str = "Improving film";
 static DEFAULT_TIMING: LazyLock<Timing> = LazyLock::new(Timing::default);
 
 /// Queries about the open project.
+#[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "read by tests"))]
 impl Session {
     /// Current settings of the current segment: two designs, out of a project that may have more.
     #[must_use]
